@@ -1,0 +1,60 @@
+"""tandemlift: an open laboratory for carrying a load with quadrotors that a person steers by pushing it.
+
+import tandemlift as tl
+
+flight = tl.fly(tl.load_mission("paper"))
+flight.metrics()["final_position_m"]
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tandemlift.errors import FlightWarning, InputError
+    from tandemlift.flight import Flight
+    from tandemlift.laws.controllers import load_controller
+    from tandemlift.missions import load_mission
+    from tandemlift.onboard import Pilot
+    from tandemlift.settings import Mission
+    from tandemlift.simulate import fly, fly_many
+    from tandemlift.vehicle import Vehicle
+
+__version__ = "0.1.0"
+
+_HOMES = {  # loaded when first used, so that `import tandemlift` is quick
+    "Flight": "flight",
+    "FlightWarning": "errors",
+    "InputError": "errors",
+    "Mission": "settings",
+    "Pilot": "onboard",
+    "Vehicle": "vehicle",
+    "fly": "simulate",
+    "fly_many": "simulate",
+    "load_controller": "laws.controllers",
+    "load_mission": "missions",
+}
+
+__all__ = [
+    "Flight",
+    "FlightWarning",
+    "InputError",
+    "Mission",
+    "Pilot",
+    "Vehicle",
+    "fly",
+    "fly_many",
+    "load_controller",
+    "load_mission",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOMES:
+        return getattr(importlib.import_module(f"tandemlift.{_HOMES[name]}"), name)
+    raise AttributeError(f"module 'tandemlift' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_HOMES])

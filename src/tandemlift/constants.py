@@ -1,0 +1,3 @@
+"""Physical constants."""
+
+GRAVITY = 9.81  # m/s², paper Table II

@@ -1,0 +1,170 @@
+"""The record of a flight: named channels with unit and frame, the resolved mission, and the metrics.
+
+Frames: `world` is inertial with z up; `body` is fixed to the vehicle; `zxy` are Euler angles roll, pitch, yaw.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.errors import InputError, suggestion
+
+Array = NDArray[np.float64]
+FORMAT = 1
+
+
+class Channel(NamedTuple):
+    """What a channel holds: its unit, its frame, and a sentence."""
+
+    unit: str
+    frame: str
+    meaning: str
+
+
+CHANNELS: dict[str, Channel] = {
+    "position": Channel("m", "world", "centre of mass of the vehicle"),
+    "velocity": Channel("m/s", "world", "of the centre of mass"),
+    "attitude": Channel("1", "body to world", "unit quaternion w, x, y, z"),
+    "euler": Channel("rad", "zxy", "roll, pitch, yaw"),
+    "rates": Channel("rad/s", "body", "angular velocity p, q, r"),
+    "reference_position": Channel("m", "world", "what the position law tracks"),
+    "reference_velocity": Channel("m/s", "world", "its rate"),
+    "reference_acceleration": Channel("m/s^2", "world", "the rate of that"),
+    "reference_euler": Channel("rad", "zxy", "what the attitude law tracks (filtered, if filtered)"),
+    "admittance_position": Channel("m", "world", "T_r, the answer of the admittance to the push"),
+    "admittance_velocity": Channel("m/s", "world", "its rate"),
+    "admittance_acceleration": Channel("m/s^2", "world", "the rate of that, held over a step"),
+    "admittance_force": Channel("N", "world", "the push behind the gate, 0 where the gate is closed"),
+    "push_force": Channel("N", "world", "force of the person on the vehicle"),
+    "push_moment": Channel("N m", "body", "moment of the person about the centre of mass"),
+    "thrust": Channel("N", "body z", "commanded total thrust U1"),
+    "moment": Channel("N m", "body", "commanded moments U2, U3, U4"),
+    "rotor_thrusts": Channel("N", "body z", "of each rotor, quadrotor by quadrotor"),
+}
+
+DERIVED: dict[str, tuple[str, str, Channel]] = {
+    "position_error": ("reference_position", "position", Channel("m", "world", "desired minus actual")),
+    "velocity_error": ("reference_velocity", "velocity", Channel("m/s", "world", "desired minus actual")),
+    "attitude_error": ("reference_euler", "euler", Channel("rad", "zxy", "desired minus actual")),
+}
+
+
+class Divergence(NamedTuple):
+    """Why a flight was stopped: which quantity, at what time [s], its value, and the limit it broke."""
+
+    quantity: str
+    time: float
+    value: float
+    limit: str
+
+    def __str__(self) -> str:
+        return f"diverged at {self.time:.6g} s: {self.quantity} = {self.value:.6g}, {self.limit}"
+
+
+@dataclass(frozen=True)
+class Flight(Mapping[str, Array]):
+    """A flight's channels by name, each an array (T,) or (T, n) over the logged times.
+
+    Attributes:
+        time: logged times (T,) [s].
+        channels: the recorded arrays by name; `flight[name]` also gives the differences in `DERIVED`.
+        mission: the resolved mission as nested tables.
+        results: the metrics, formed from every step and not from the log.
+        divergence: why the flight was stopped before its end, or None.
+        version: of tandemlift and of what it flew with.
+    """
+
+    time: Array
+    channels: dict[str, Array]
+    mission: dict[str, Any]
+    results: dict[str, Any]
+    divergence: Divergence | None = None
+    version: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """The mission's name."""
+        return self.mission["mission"]["name"]
+
+    def __getitem__(self, name: str) -> Array:
+        if name in self.channels:
+            return self.channels[name]
+        if name in DERIVED:
+            desired, actual, _ = DERIVED[name]
+            return self.channels[desired] - self.channels[actual]
+        if name == "time":
+            return self.time
+        known = [*self.channels, *DERIVED]
+        raise KeyError(f"no channel {name!r}; there are {', '.join(known)}.{suggestion(name, known)}")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.channels)
+
+    def __len__(self) -> int:
+        return len(self.channels)
+
+    def __repr__(self) -> str:
+        last = f"{self.time[-1]:g} s" if len(self.time) else "nothing logged"
+        return f"<Flight {self.name}: {len(self.time)} samples to {last}, {len(self.channels)} channels>"
+
+    def info(self, name: str) -> Channel:
+        """Unit, frame and meaning of a channel."""
+        self[name]
+        return DERIVED[name][2] if name in DERIVED else CHANNELS.get(name, Channel("s", "", "time"))
+
+    def metrics(self) -> dict[str, Any]:
+        """The flight's metrics: flat, SI, the unit at the end of each name; None where it could not be formed."""
+        return dict(self.results)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the flight to an .npz file, exactly; the file appears whole or not at all. Returns its path."""
+        path = Path(path)
+        header = {
+            "format": FORMAT,
+            "mission": self.mission,
+            "metrics": self.results,
+            "divergence": list(self.divergence) if self.divergence else None,
+            "version": self.version,
+            "channels": {name: self.info(name)._asdict() for name in self.channels},
+        }
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+        try:
+            with partial.open("wb") as file:
+                np.savez(file, header=np.array(json.dumps(header)), time=self.time, **self.channels)  # type: ignore
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)
+        return path
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Flight:
+        """Read a flight that `save` wrote.
+
+        Raises:
+            InputError: the file is missing, is no flight, or is of a newer format.
+        """
+        path = Path(path)
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                header = json.loads(str(file["header"]))
+                arrays = {name: file[name] for name in file.files if name != "header"}
+            if header["format"] > FORMAT:
+                raise InputError(f"{path}: written by a newer tandemlift (flight format {header['format']} > {FORMAT})")
+            missing = set(header["channels"]) - set(arrays)
+            if missing:
+                raise InputError(f"{path}: incomplete flight, without {', '.join(sorted(missing))}")
+            divergence = Divergence(*header["divergence"]) if header["divergence"] else None
+            return cls(arrays.pop("time"), arrays, header["mission"], header["metrics"], divergence, header["version"])
+        except InputError:
+            raise
+        except Exception as error:
+            raise InputError(f"{path}: not a readable flight ({type(error).__name__}: {error})") from error

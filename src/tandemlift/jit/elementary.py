@@ -1,0 +1,179 @@
+"""Compiled elementary functions: branch-free, so that a block of flights evaluates them in vector registers.
+
+Cody-Waite argument reduction and minimax polynomials; accuracies against correctly rounded values are held by
+`tests/test_elementary.py` (exp 1 ulp, tanh 3, sin, cos, atan2 and log 2). Method: Muller, Elementary
+Functions, 3rd ed., chapters 3 and 11.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numba import types
+from numba.extending import intrinsic, overload
+
+from tandemlift import ops
+from tandemlift.jit.fuse import INLINE, fused
+
+SHIFT = 6755399441055744.0  # 1.5 · 2⁵²: adding it rounds to an integer, which is left in the low bits
+PI = 3.141592653589793
+HALF_PI = 1.5707963267948966
+QUARTER_PI = 0.7853981633974483
+TAN_EIGHTH = 0.41421356237309503  # tan(π/8)
+
+
+@intrinsic
+def _as_float(typing_context, i):
+    def generate(context, builder, signature, arguments):
+        return builder.bitcast(arguments[0], context.get_value_type(types.float64))
+
+    return types.float64(types.int64), generate
+
+
+@intrinsic
+def _as_bits(typing_context, x):
+    def generate(context, builder, signature, arguments):
+        return builder.bitcast(arguments[0], context.get_value_type(types.int64))
+
+    return types.int64(types.float64), generate
+
+
+def _pick(condition, a, b):
+    return a if condition else b
+
+
+def _round(x):
+    return (x + SHIFT) - SHIFT
+
+
+def _two_to(k):
+    """2ᵏ for an integer-valued k in [−1022, 1023]."""
+    return _as_float((_as_bits(k + SHIFT) - 0x4338000000000000 + 1023) << 52)
+
+
+def _exp_parts(x):
+    """(p, q) with eˣ = p (1 + q), |x| ≤ 709."""
+    k = _round(x * 1.4426950408889634)
+    r = x - k * 6.93147180369123816490e-01
+    r = r - k * 1.90821492927058770002e-10
+    c = 2.510038319586702e-08
+    c = 2.7620085455018414e-07 + r * c
+    c = 2.7557268464831627e-06 + r * c
+    c = 2.4801521302241082e-05 + r * c
+    c = 0.00019841269863050506 + r * c
+    c = 0.001388888891720967 + r * c
+    c = 0.008333333333330063 + r * c
+    c = 0.041666666666624136 + r * c
+    c = 0.16666666666666669 + r * c
+    c = 0.5 + r * c
+    return _two_to(k), r + r * r * c
+
+
+def _exp(x):
+    p, q = _exp_parts(_pick(x < -708.0, -708.0, _pick(x > 709.0, 709.0, x)))
+    return p + p * q
+
+
+def _tanh(x):
+    """E / (E + 2) with E = e²ˣ − 1: odd, of slope 1 at 0."""
+    p, q = _exp_parts(2.0 * _pick(x < -20.0, -20.0, _pick(x > 20.0, 20.0, x)))
+    e = (p - 1.0) + p * q
+    return e / (e + 2.0)
+
+
+def _log(x):
+    """x = 2ᵏ m, √½ ≤ m < √2, then 2 artanh((m − 1)/(m + 1))."""
+    k = np.float64((_as_bits(x) - 0x3FE6A09E667F3BCD) >> 52)
+    m = _as_float(_as_bits(x) - (np.int64(k) << 52))
+    s = (m - 1.0) / (m + 1.0)
+    z = s * s
+    p = 0.15313837699209373 + z * 0.14798198605116586
+    p = 0.22222198432149784 + z * (0.18183572161618050 + z * p)
+    p = 0.6666666666666735 + z * (0.3999999999940942 + z * (0.2857142874366239 + z * p))
+    f = m - 1.0
+    half = 0.5 * f * f
+    r = s * (half + z * p) + k * 1.90821492927058770002e-10
+    return k * 6.93147180369123816490e-01 + (f - (half - r))
+
+
+def _sin_cos(x):
+    k = _round(x * 0.6366197723675814)
+    r = x - k * 1.57079632673412561417e00
+    r = r - k * 6.07710050630396597660e-11
+    r = r - k * 2.02226624879595063154e-21
+    z = r * r
+    s = -2.5052106231802837e-08 + z * (1.6058531516797758e-10 + z * -7.586691094197958e-13)
+    s = 0.008333333333333331 + z * (-0.00019841269841265063 + z * (2.7557319219337312e-06 + z * s))
+    s = r + r * z * (-0.16666666666666666 + z * s)
+    c = 2.0876755790721963e-09 + z * (-1.1470460830795304e-11 + z * 4.7458685530816113e-14)
+    c = 2.4801587301584645e-05 + z * (-2.755731922140179e-07 + z * c)
+    c = 0.041666666666666664 + z * (-0.0013888888888888887 + z * c)
+    c = (1.0 - 0.5 * z) + z * z * c
+    half = k * 0.5
+    odd = half != _round(half)
+    quadrant = k - 4.0 * math.floor(k * 0.25)
+    sine, cosine = _pick(odd, c, s), _pick(odd, s, c)
+    sine = _pick(quadrant > 1.5, -sine, sine)
+    cosine = _pick((quadrant - 1.5) * (quadrant - 1.5) < 1.0, -cosine, cosine)
+    return sine, cosine
+
+
+def _sin(x):
+    sine, _ = _sin_cos(x)
+    return sine
+
+
+def _cos(x):
+    _, cosine = _sin_cos(x)
+    return cosine
+
+
+def _atan_small(t):
+    """|t| ≤ tan(π/8)."""
+    z = t * t
+    p = 0.03923044778479309 + z * -0.019175404711104932
+    p = 0.07692183125376892 + z * (
+        -0.06664510525508936 + z * (0.05858140904866328 + z * (-0.050854078345894844 + z * p))
+    )
+    p = -0.14285714284665682 + z * (0.11111111015187018 + z * (-0.0909090457530649 + z * p))
+    p = -0.3333333333333333 + z * (0.19999999999995516 + z * p)
+    return t + t * z * p
+
+
+def _atan2(y, x):
+    steep = abs(y) > abs(x)
+    n, d = _pick(steep, -x, y), _pick(steep, y, x)
+    side = _pick((n < 0.0) != (d < 0.0), -1.0, 1.0)
+    far = abs(n) > TAN_EIGHTH * abs(d)
+    small = _atan_small(_pick(far, n - side * d, n) / _pick(far, d + side * n, _pick(d == 0.0, 1.0, d)))
+    turn = _pick(steep, HALF_PI, _pick(x < 0.0, PI, 0.0))
+    return small + _pick(far, side * QUARTER_PI, 0.0) + _pick(y < 0.0, -turn, turn)
+
+
+def install_elementary() -> None:
+    """Register the functions of this file as the compiled forms of the elementary operations."""
+    for helper in (_pick, _round, _two_to, _exp_parts, _sin_cos, _atan_small):
+        _register(helper, helper)
+    compiled: dict[str, Callable[..., Any]] = {
+        "_sqrt": lambda x: math.sqrt(x),
+        "_sin": _sin,
+        "_cos": _cos,
+        "_atan2": _atan2,
+        "_tanh": _tanh,
+        "_exp": _exp,
+        "_log": _log,
+        "_absolute": lambda x: abs(x),
+        "_minimum": lambda a, b: a if a < b else b,
+        "_maximum": lambda a, b: a if a > b else b,
+        "_where": lambda condition, a, b: a if condition else b,
+    }
+    for operation in ops.PRIMITIVES:
+        _register(operation, compiled[operation.__name__])
+
+
+def _register(function: Callable[..., Any], implementation: Callable[..., Any]) -> None:
+    body = implementation if implementation.__name__ == "<lambda>" else fused(implementation)
+    overload(function, jit_options=INLINE, strict=False)(lambda *types: body)

@@ -1,0 +1,81 @@
+"""The vehicle as one rigid body: state, wrench, equations of motion, one Runge-Kutta step.
+
+Position p and velocity v are the system centre of mass's, in world axes; rates ω = (p, q, r) and moments are in body
+axes, moments about the centre of mass.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.constants import GRAVITY
+from tandemlift.law import law
+from tandemlift.laws.inertia import gyroscopic, turn_by
+from tandemlift.laws.push import Hand, Push, moment_of
+from tandemlift.laws.rotation import body_z_axis, quaternion_rate
+from tandemlift.ops import sqrt
+from tandemlift.vector import Quat, Vec3, dot, linear, plus, times
+
+UP = Vec3(0.0, 0.0, 1.0)
+
+
+@linear
+class State(NamedTuple):
+    """Position [m] and velocity [m/s] in world axes, attitude (body to world), rates [rad/s] in body axes."""
+
+    position: Vec3
+    velocity: Vec3
+    attitude: Quat
+    rates: Vec3
+
+    def __add__(self, other: "State") -> "State":  # type: ignore[override]
+        return plus(self, other)
+
+    def __mul__(self, k: Any) -> "State":
+        return times(self, k)
+
+
+class Wrench(NamedTuple):
+    """What the rotors give: thrust [N] along body z and moments [N·m] in body axes; (F_t, U_t) or U₁…U₄."""
+
+    thrust: Any
+    moment: Vec3
+
+
+class Body(NamedTuple):
+    """What the equations of motion need to know of a body.
+
+    `inverse_mass` [1/kg]; `inertia` [kg·m²] and `inverse_inertia`, both a Vec3 or both a Mat3; drag coefficients on
+    world velocity [N·s/m] and on body rates [N·m·s]; a constant disturbing force [N, world] and moment [N·m, body].
+    """
+
+    inverse_mass: Any
+    inertia: Any
+    inverse_inertia: Any
+    drag_force: Vec3
+    drag_moment: Vec3
+    force: Vec3
+    moment: Vec3
+
+
+@law
+def motion(s: State, u: Wrench, push: Push, body: Body) -> State:
+    """The rate of change of the state under a wrench and a person's push."""
+    # paper: trans_rot_sys_equ
+    force = body_z_axis(s.attitude) * u.thrust - body.drag_force * s.velocity + body.force + push.force
+    moment = u.moment + gyroscopic(body.inertia, s.rates) - body.drag_moment * s.rates + body.moment
+    return State(
+        s.velocity,
+        force * body.inverse_mass - UP * GRAVITY,
+        quaternion_rate(s.attitude, s.rates),
+        turn_by(body.inverse_inertia, moment + moment_of(push, s.attitude)),
+    )
+
+
+@law
+def rk4(s: State, u: Wrench, hand: Hand, body: Body, dt: Any) -> State:
+    """One classical Runge-Kutta step of `dt` [s] with the wrench held and the push continuous; unit quaternion."""
+    k1 = motion(s, u, hand.start, body)
+    k2 = motion(s + k1 * (0.5 * dt), u, hand.middle, body)
+    k3 = motion(s + k2 * (0.5 * dt), u, hand.middle, body)
+    k4 = motion(s + k3 * dt, u, hand.end, body)
+    s = s + k1 * (dt / 6.0) + k2 * (dt / 3.0) + k3 * (dt / 3.0) + k4 * (dt / 6.0)
+    return State(s.position, s.velocity, s.attitude * (1.0 / sqrt(dot(s.attitude, s.attitude))), s.rates)

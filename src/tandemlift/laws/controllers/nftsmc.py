@@ -1,0 +1,232 @@
+"""The paper's controller: nonsingular fast terminal sliding mode control of position and attitude.
+
+Guarantee, per axis under virtual actuation, with switching by `sign` and λ₂ > ‖δ − δ̂‖: V̇ ≤ −λ₁S² − (λ₂ − |δ|)|S|, so
+S = 0 is reached within `laws.sliding.reaching_time`; with a boundary layer, |S| ≤ Φ is. It does not cover the
+attitude cascade. The switching must be sampled fast enough: (λ₁ + λ₂/Φ) · step < 2.
+
+Tune first: the boundary layer Φ against the step, then ξ (the bandwidth on the surface), then λ₁ and λ₂.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import Annotated, Any, Literal, NamedTuple
+
+from pydantic import Field
+
+from tandemlift.constants import GRAVITY
+from tandemlift.errors import FlightWarning
+from tandemlift.law import choice, law
+from tandemlift.laws.body import UP, Wrench
+from tandemlift.laws.controllers import Command, NoMemory, control, register
+from tandemlift.laws.inertia import gyroscopic, inertia_value, turn_by
+from tandemlift.laws.rotation import Euler, euler_from_quaternion, euler_rates_from_rates
+from tandemlift.laws.sliding import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration
+from tandemlift.laws.virtual import TiltPrinted, TiltZXY, desired_orientation, total_thrust
+from tandemlift.settings import ControllerTable, NonNegative6, Positive6, Table
+from tandemlift.vector import ZERO, Vec3, vec3
+from tandemlift.vehicle import Vehicle
+
+
+class Gains(Table):
+    """`[controller.gains]`, per axis x, y, z, φ, θ, ψ; paper Table III."""
+
+    xi: Positive6  # 1/s
+    eta: NonNegative6  # 1/(s mᵃ⁻¹), 1/(s radᵃ⁻¹)
+    lambda_1: NonNegative6  # 1/s
+    lambda_2: NonNegative6  # m/s², rad/s²
+    a: Annotated[float, Field(ge=1.0)]
+
+
+class NFTSMCSettings(ControllerTable):
+    """`[controller]` of the paper's controller."""
+
+    name: Literal["nftsmc"] = "nftsmc"
+    gains: Gains
+    switching: Literal["sign", "saturation", "tanh"] = "tanh"
+    boundary_layer: Positive6 = (0.1, 0.1, 0.1, 0.1, 0.1, 0.1)  # m/s, rad/s: Φ
+    attitude_reference_derivatives: Literal["zero", "filtered"] = "zero"
+    filter_bandwidth: Annotated[float, Field(gt=0.0)] = 60.0  # rad/s
+    euler_rates: Literal["exact", "body"] = "exact"
+    tilt_inverse: Literal["zxy", "printed"] = "zxy"
+    human_force_feedforward: bool = False
+
+
+class ExactRates(NamedTuple):
+    """Euler rates from body rates by the exact relation."""
+
+
+class BodyRates(NamedTuple):
+    """Euler rates taken to be the body rates (the paper's Assumption 4)."""
+
+
+class Unfiltered(NamedTuple):
+    """The attitude law tracks the desired orientation with derivatives taken as zero."""
+
+
+class CommandFilter(NamedTuple):
+    """Critically damped second-order filter ẍ = ω_f²(Θ_d − x) − 2ω_f ẋ, exact for Θ_d held over a step.
+
+    `bandwidth` ω_f [rad/s]; the rest is the transition of (x − Θ_d, ẋ) over one step.
+    """
+
+    bandwidth: Any
+    position_from_position: Any
+    position_from_velocity: Any
+    velocity_from_position: Any
+    velocity_from_velocity: Any
+
+
+class Filtered(NamedTuple):
+    """Memory of the command filter: angles [rad] and rates [rad/s]."""
+
+    angles: Vec3
+    rates: Vec3
+
+
+class AttitudeReference(NamedTuple):
+    """What the attitude law tracks: angles [rad], rates [rad/s], accelerations [rad/s²] of φ, θ, ψ."""
+
+    angles: Vec3
+    rates: Vec3
+    accelerations: Vec3
+
+
+class NFTSMC(NamedTuple):
+    """Gains: the vehicle as the controller believes it to be, the two surfaces, and the variants by type.
+
+    `feedforward` is 1 to feed the measured push forward as δ̂ in the position law, else 0.
+    """
+
+    mass: Any
+    inertia: Any
+    drag_force: Vec3
+    drag_moment: Vec3
+    position: Surface
+    attitude: Surface
+    derivatives: Any
+    rates: Any
+    inverse: Any
+    feedforward: Any
+
+
+@choice
+def euler_rates(kind: Any, e: Any, rates: Any) -> Any:
+    """(φ̇, θ̇, ψ̇) as the attitude law takes them, from body rates [rad/s]."""
+
+
+@euler_rates.register(ExactRates)
+def _exact(kind, e, rates):
+    return euler_rates_from_rates(e, rates)
+
+
+@euler_rates.register(BodyRates)
+def _body(kind, e, rates):
+    return rates
+
+
+@choice
+def shape(kind: Any, memory: Any, desired: Any) -> Any:
+    """(what the attitude law tracks, the new memory), from the desired orientation [rad]."""
+
+
+@shape.register(Unfiltered)
+def _unfiltered(kind, memory, desired):
+    return AttitudeReference(desired, ZERO, ZERO), memory
+
+
+@shape.register(CommandFilter)
+def _filtered(kind, memory, desired):
+    x = memory.angles - desired
+    acceleration = -(x * (kind.bandwidth * kind.bandwidth) + memory.rates * (2.0 * kind.bandwidth))
+    after = Filtered(
+        desired + x * kind.position_from_position + memory.rates * kind.position_from_velocity,
+        x * kind.velocity_from_position + memory.rates * kind.velocity_from_velocity,
+    )
+    return AttitudeReference(memory.angles, memory.rates, acceleration), after
+
+
+@law
+def position_law(k: NFTSMC, state: Any, desired: Any, push: Vec3) -> Vec3:
+    """The force (u_x, u_y, u_z) [N, world axes] that the position surface wants.
+
+    Erratum: the paper leaves m_t out on ÿ_d and on the last line of u_z; it multiplies both.
+    """
+    # paper: pos_cont_equ
+    e, de = desired.position - state.position, desired.velocity - state.velocity
+    acceleration = desired.acceleration + wanted_acceleration(k.position, e, de) + UP * GRAVITY
+    return acceleration * k.mass + k.drag_force * state.velocity - push * k.feedforward
+
+
+@law
+def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -> Vec3:
+    """The moments (U₂, U₃, U₄) [N·m] that the attitude surface wants; `rates` are Euler rates [rad/s].
+
+    Errata: J is the whole vehicle's; sat(S_ψ/Φ), not sat(S_ψ)/Φ.
+    """
+    # paper: orient_cont_equ, control_final_equ
+    error, error_rate = desired.angles - e.angles, desired.rates - rates
+    acceleration = desired.accelerations + wanted_acceleration(k.attitude, error, error_rate)
+    return turn_by(k.inertia, acceleration) - gyroscopic(k.inertia, rates) + k.drag_moment * rates
+
+
+@control.register(NFTSMC)
+def nftsmc(k, memory, measured, reference):
+    """The whole controller at one sample."""
+    e = euler_from_quaternion(measured.state.attitude)
+    u = position_law(k, measured.state, reference.trajectory, measured.push)
+    desired, memory = shape(k.derivatives, memory, desired_orientation(k.inverse, u, e, reference.yaw))
+    rates = euler_rates(k.rates, e, measured.state.rates)
+    moment = attitude_law(k, e, rates, desired)
+    return Command(Wrench(total_thrust(e, u), moment), desired.angles), memory
+
+
+def command_filter(bandwidth: float, step: float) -> CommandFilter:
+    """The command filter of bandwidth ω_f [rad/s], sampled every `step` [s]."""
+    wh = bandwidth * step
+    decay = math.exp(-wh)
+    return CommandFilter(bandwidth, (1.0 + wh) * decay, step * decay, -bandwidth * wh * decay, (1.0 - wh) * decay)
+
+
+def _surface(s: NFTSMCSettings, axes: slice) -> Surface:
+    g = s.gains
+    per_width = vec3(1.0 / w for w in s.boundary_layer[axes])
+    kind = {"sign": Sign(), "saturation": Saturation(per_width), "tanh": Tanh(per_width)}[s.switching]
+    exponent = Cubic() if g.a == 3.0 else Power(Vec3(g.a, g.a, g.a))
+    return Surface(vec3(g.xi[axes]), vec3(g.eta[axes]), exponent, vec3(g.lambda_1[axes]), vec3(g.lambda_2[axes]), kind)
+
+
+def _warn_of_chatter(s: NFTSMCSettings, step: float) -> None:
+    if s.switching == "sign":
+        return
+    loop = [l1 + l2 / w for l1, l2, w in zip(s.gains.lambda_1, s.gains.lambda_2, s.boundary_layer, strict=True)]
+    worst = max(range(6), key=loop.__getitem__)
+    if loop[worst] * step >= 2.0:
+        axis = ("x", "y", "z", "roll", "pitch", "yaw")[worst]
+        warnings.warn(
+            f"(lambda_1 + lambda_2/boundary_layer) * step = {loop[worst] * step:.3g} on {axis} is not below 2: "
+            f"the switching may chatter; widen controller.boundary_layer or shorten mission.step",
+            FlightWarning,
+            stacklevel=2,
+        )
+
+
+@register("nftsmc", NFTSMCSettings)
+def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, Any]:
+    """Nonsingular fast terminal sliding mode control of position and attitude (the paper's)."""
+    _warn_of_chatter(s, step)
+    filtered = s.attitude_reference_derivatives == "filtered"
+    gains = NFTSMC(
+        mass=vehicle.mass,
+        inertia=inertia_value(vehicle.inertia),
+        drag_force=vec3(vehicle.drag.force),
+        drag_moment=vec3(vehicle.drag.moment),
+        position=_surface(s, slice(0, 3)),
+        attitude=_surface(s, slice(3, 6)),
+        derivatives=command_filter(s.filter_bandwidth, step) if filtered else Unfiltered(),
+        rates=ExactRates() if s.euler_rates == "exact" else BodyRates(),
+        inverse=TiltZXY() if s.tilt_inverse == "zxy" else TiltPrinted(),
+        feedforward=1.0 if s.human_force_feedforward else 0.0,
+    )
+    return gains, Filtered(ZERO, ZERO) if filtered else NoMemory()

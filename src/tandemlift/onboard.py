@@ -1,0 +1,95 @@
+"""The pilot as an object, for a loop of one's own: a measurement in, rotor thrusts out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.errors import InputError
+from tandemlift.jit import cached_for, flat, install, leaves, load, store, zeroed
+from tandemlift.kernels import COMPILE
+from tandemlift.laws.body import State
+from tandemlift.laws.controllers import Measured, control
+from tandemlift.pilot import PilotMemory, PilotParameters, decide, start_pilot
+from tandemlift.settings import Mission
+from tandemlift.vector import ZERO, Quat
+from tandemlift.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+MEASURED = Measured(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO)
+
+
+class Onboard(NamedTuple):
+    """The pilot's numbers in one array: the samples taken so far, what it remembers, and its parameters."""
+
+    samples: Any
+    memory: PilotMemory
+    parameters: PilotParameters
+
+
+class Pilot:
+    """A mission's pilot, to be sampled every `mission.step` seconds.
+
+    Args:
+        mission: from `load_mission`.
+
+    Attributes:
+        thrusts: thrust of every rotor [N] (4N,), the answer to the last measurement; overwritten by the next.
+
+    Raises:
+        InputError: the mission's controller is plain Python; only a law can be compiled into the pilot.
+    """
+
+    def __init__(self, mission: Mission) -> None:
+        install()
+        vehicle = Vehicle.from_settings(mission.vehicle)
+        parameters, memory = start_pilot(mission, vehicle)
+        if type(parameters.controller) in control.interpreted:
+            raise InputError(f"controller {mission.controller.name!r} is plain Python; write it as a law to use Pilot")
+        self._start = Onboard(0.0, memory, parameters)
+        self._dt = mission.mission.step
+        self._numbers = np.array(flat(self._start))
+        self.thrusts: Array = np.zeros(vehicle.rotor_count)
+
+    @cached_property
+    def _sample(self) -> Callable[..., None]:
+        like, dt, size = zeroed(self._start), self._dt, 1 + leaves(self._start.memory)
+
+        def sample(a, x, thrusts):
+            pilot = load(a, like)
+            decision, memory = decide(pilot.parameters, pilot.memory, load(x, MEASURED), pilot.samples * dt, dt)
+            store(thrusts, decision.thrusts)
+            store(a, Remembered(pilot.samples + 1.0, memory))
+
+        with cached_for((like, size)):
+            return numba.njit(cache=True, **COMPILE)(sample)
+
+    def step(self, measurement: Array) -> Array:
+        """Take one sample.
+
+        Args:
+            measurement: float64 (16,): position [m] and velocity [m/s] of the centre of mass in world axes, attitude
+                quaternion w, x, y, z (body to world), rates [rad/s] in body axes, force of the person [N] in world
+                axes.
+
+        Returns:
+            Thrust of every rotor [N] (4N,), the same array each time.
+        """
+        self._sample(self._numbers, measurement, self.thrusts)
+        return self.thrusts
+
+    def reset(self) -> None:
+        """Start anew at t = 0."""
+        self._numbers[:] = flat(self._start)
+
+
+class Remembered(NamedTuple):
+    """The part of an `Onboard` that changes."""
+
+    samples: Any
+    memory: PilotMemory

@@ -1,0 +1,346 @@
+"""Flying missions: one, or many at once, in the compiled loop."""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cached_property
+from importlib import metadata
+from typing import Any, Literal
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.engines import engine_named
+from tandemlift.errors import InputError
+from tandemlift.flight import Divergence, Flight
+from tandemlift.jit import flat, leaves, unflat, zeroed
+from tandemlift.kernels import COMMAND, GAUSSIAN, HALVES, LANES, Given, Kernels
+from tandemlift.laws.admittance import Trajectory
+from tandemlift.laws.body import State
+from tandemlift.laws.controllers import Measured, NoMemory, Reference, control
+from tandemlift.laws.rotation import sine_of_roll
+from tandemlift.loop import FAR, SIN_ROLL_LIMIT, Flying, Moving, blank_sample, pushes_of, start
+from tandemlift.missions import tables_of
+from tandemlift.settings import Mission
+from tandemlift.tally import EMPTY, LATE, Tally, summary
+from tandemlift.vector import ZERO
+
+Array = NDArray[np.float64]
+STRETCH = 2_000_000  # steps between looks at the keyboard and at the progress bar
+HAND = 3  # pushes in a Hand
+
+Progress = Callable[[int, int], None]
+
+_kernels: dict[Any, Kernels] = {}
+
+
+class Prepared:
+    """A mission ready to fly: its loop at t = 0, its pushes, and its grid of steps."""
+
+    def __init__(self, mission: Mission) -> None:
+        self.mission = mission
+        self.steps = mission.mission.steps
+        self.every = mission.mission.log_every
+        self.dt = mission.mission.step
+        self.flying = start(mission)
+        self.interpreted: tuple[Any, Any] | None = None
+        if type(self.flying.pilot.controller) in control.interpreted:
+            self._set_controller_aside()
+        pushes, self.push = pushes_of(mission)
+        self.pushes = np.array([flat(p) for p in pushes]).reshape(len(pushes), leaves(GAUSSIAN))
+
+    def _set_controller_aside(self) -> None:
+        moving, pilot, plant = self.flying
+        self.interpreted = pilot.controller, moving.memory.controller
+        memory = moving.memory._replace(controller=NoMemory())
+        self.flying = Flying(moving._replace(memory=memory), pilot._replace(controller=NoMemory()), plant)
+
+    @cached_property
+    def variant(self) -> Any:
+        """What decides the compiled loop: the types, not the values, of the flight's members."""
+        return numba.typeof((zeroed(self.flying), zeroed(self.push)))
+
+    @cached_property
+    def sample(self) -> Any:
+        """The layout of a row of the log."""
+        return blank_sample(len(self.flying.plant.effect.thrust))
+
+    @property
+    def late_step(self) -> int:
+        """The first step that starts at `LATE` or after."""
+        return math.ceil(LATE / self.dt - 1e-9)
+
+    @property
+    def stops(self) -> list[int]:
+        """Where the stretches that the flight is flown in end; the last one with the closing sample."""
+        inner = {*range(STRETCH, self.steps, STRETCH), self.late_step}
+        return sorted({s for s in inner if s < self.steps} | {self.steps + 1})
+
+    @property
+    def kernels(self) -> Kernels:
+        """The compiled loops of this variant."""
+        if self.variant not in _kernels:
+            _kernels[self.variant] = Kernels(self.flying, self.push)
+        return _kernels[self.variant]
+
+
+@dataclass
+class Flown:
+    """The raw outcome of a flight: what moved, the tally before 10 s, the step reached, the log, the last sample."""
+
+    moving: Moving
+    early: Tally
+    step: int
+    log: Array
+    last: Array
+    wall: float
+
+    @property
+    def lost(self) -> bool:
+        """Whether the state became unsound."""
+        return self.moving.lost != 0.0
+
+
+def _empty(numbers: Array, like: Flying, lanes: int) -> list[Tally]:
+    """Take the tallies out of a flight or a block of flights, and start them anew."""
+    before = leaves(like.moving.state) + leaves(like.moving.memory)
+    rows = numbers[before * lanes : (before + leaves(EMPTY)) * lanes].reshape(-1, lanes)
+    tallies = [unflat(rows[:, lane], EMPTY) for lane in range(lanes)]
+    rows[:] = np.array(flat(EMPTY))[:, None]
+    return tallies
+
+
+def _fly_single(p: Prepared, rows: int, every: int, progress: Progress | None = None) -> Flown:
+    a, size = np.array(flat(p.flying)), leaves(p.flying.moving)
+    hands = np.zeros(HALVES * leaves(p.push))
+    log, last = np.zeros((rows, leaves(p.sample))), np.full(leaves(p.sample), math.nan)
+    single = p.kernels.single
+    single(a, p.pushes, hands, log, last, 0, 0, p.steps, every, p.dt)  # compiles, flies nothing
+    began, k, early = time.perf_counter(), 0, EMPTY
+    for stop in p.stops:
+        k = single(a, p.pushes, hands, log, last, k, stop, p.steps, every, p.dt)
+        if k < min(stop, p.steps):
+            break
+        if stop == p.late_step:
+            (early,) = _empty(a, p.flying, 1)
+        if progress:
+            progress(k, p.steps)
+    return Flown(unflat(a[:size], p.flying.moving), early, k, log, last, time.perf_counter() - began)
+
+
+def _fly_interpreted(p: Prepared, rows: int, every: int, progress: Progress | None = None) -> Flown:
+    """Fly with the controller in plain Python between two compiled halves of the step."""
+    assert p.interpreted
+    gains, memory = p.interpreted
+    a, size = np.array(flat(p.flying)), leaves(p.flying.moving)
+    given = Given(Measured(p.flying.moving.state, ZERO), Reference(Trajectory(ZERO, ZERO, ZERO), 0.0))
+    x, y = np.zeros(leaves(given)), np.zeros(leaves(COMMAND))
+    hands = np.zeros(HALVES * leaves(p.push))
+    log, row, last = np.zeros((rows, leaves(p.sample))), np.zeros(leaves(p.sample)), np.full(leaves(p.sample), math.nan)
+    before, after = p.kernels.before, p.kernels.after
+    began, early, k = time.perf_counter(), EMPTY, 0
+    while k <= p.steps and a[size - 1] == 0.0:
+        if k == p.late_step:
+            (early,) = _empty(a, p.flying, 1)
+        before(a, p.pushes, hands, x, k, p.dt)
+        measured, reference = unflat(x, given)
+        command, memory = control(gains, memory, measured, reference)
+        y[:] = flat(command)
+        after(a, hands, y, row, k, p.dt, k == p.steps)
+        if k % every == 0:
+            log[k // every] = row
+        if k == p.steps:
+            last[:] = row
+            break
+        k += 1
+        if progress and k % 1000 == 0:
+            progress(k, p.steps)
+    return Flown(unflat(a[:size], p.flying.moving), early, k, log, last, time.perf_counter() - began)
+
+
+def _fly_block(flights: Sequence[Prepared], rows: int, every: int) -> list[Flown]:
+    """Fly up to LANES flights of one variant and one grid together; lost ones again, alone, to stop where they must."""
+    p, count = flights[0], len(flights)
+    lanes = [*flights, *[flights[-1]] * (LANES - count)]
+    columns, size = leaves(p.sample), leaves(p.flying.moving)
+    numbers = np.array([flat(f.flying) for f in lanes]).T
+    a = np.concatenate([numbers.ravel(), np.zeros((HAND * leaves(p.push) + columns) * LANES)])
+    pushes = _interleaved([f.pushes for f in lanes])
+    hands = np.zeros((HALVES * leaves(p.push) + leaves(GAUSSIAN)) * LANES)
+    log = np.zeros((LANES, rows, columns))
+    block = p.kernels.block
+    block(a, pushes, hands, log, 0, 0, p.steps, every, p.dt)
+    began, k, early = time.perf_counter(), 0, [EMPTY] * LANES
+    for stop in p.stops:
+        block(a, pushes, hands, log, k, stop, p.steps, every, p.dt)
+        k = min(stop, p.steps)
+        if stop == p.late_step:
+            early = _empty(a, p.flying, LANES)
+    wall = (time.perf_counter() - began) / count
+    moving = a[: size * LANES].reshape(-1, LANES)
+    last = a[-columns * LANES :].reshape(-1, LANES)
+    flown = [
+        Flown(unflat(moving[:, i], p.flying.moving), early[i], k, log[i], last[:, i].copy(), wall) for i in range(count)
+    ]
+    return [_fly_single(f, rows, every) if x.lost else x for f, x in zip(flights, flown, strict=True)]
+
+
+def _interleaved(pushes: Sequence[Array]) -> Array:
+    """The pushes of a block: row i holds push i of every lane, one of no force where a lane has fewer."""
+    table = np.zeros((max(map(len, pushes)), leaves(GAUSSIAN), LANES))
+    table[:, flat(GAUSSIAN._replace(per_sigma=1.0)).index(1.0)] = 1.0
+    for lane, own in enumerate(pushes):
+        table[: len(own), :, lane] = own
+    return table.reshape(len(table), -1)
+
+
+def _divergence(p: Prepared, flown: Flown) -> Divergence | None:
+    if not flown.lost:
+        return None
+    at, state = flown.step * p.dt, flown.moving.state
+    for quantity, values in zip(State._fields, state, strict=True):
+        bad = [v for v in values if not math.isfinite(v)]
+        if bad:
+            return Divergence(quantity, at, bad[0], "must be finite")
+    roll = sine_of_roll(state.attitude)
+    if not abs(roll) < SIN_ROLL_LIMIT:
+        angle = math.degrees(math.asin(max(-1.0, min(1.0, roll))))
+        return Divergence("roll [deg]", at, angle, "must stay within 89 degrees")
+    return Divergence("distance from the origin [m]", at, math.dist(state.position, ZERO), f"must stay below {FAR:g} m")
+
+
+def _formed(value: Any) -> Any:
+    """A metric, or None if it or any part of it is not a finite number."""
+    parts = value if isinstance(value, list) else [value]
+    return value if all(v is not None and math.isfinite(v) for v in parts) else None
+
+
+def _metrics(p: Prepared, flown: Flown) -> dict[str, Any]:
+    first, last = unflat(flown.log[0], p.sample), unflat(flown.last, p.sample)
+    late_reached = p.late_step < p.steps and flown.step >= p.late_step
+    early, late = (flown.early, flown.moving.tally) if late_reached else (flown.moving.tally, EMPTY)
+    formed = summary(early, late, p.dt)
+    formed["final_position_m"] = list(flown.moving.state.position)
+    formed["final_reference_m"] = list(last.reference_position)
+    formed["command_at_start"] = [first.thrust, *first.moment]
+    formed = {name: _formed(value) for name, value in formed.items()}
+    return {**formed, "steps": flown.step, "wall_s": flown.wall}
+
+
+def versions() -> dict[str, str]:
+    """Versions of what a flight was flown with."""
+    return {name: metadata.version(name) for name in ("tandemlift", "numba", "numpy")}
+
+
+def _flight(p: Prepared, flown: Flown) -> Flight:
+    logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
+    channels, at = {}, 0
+    for name, like in zip(p.sample._fields, p.sample, strict=True):
+        width = leaves(like)
+        part = np.ascontiguousarray(flown.log[:logged, at : at + width])
+        channels[name] = part if isinstance(like, tuple) else part[:, 0]
+        at += width
+    return Flight(
+        time=np.arange(logged) * float(p.every) * p.dt,
+        channels=channels,
+        mission=tables_of(p.mission),
+        results=_metrics(p, flown),
+        divergence=_divergence(p, flown),
+        version=versions(),
+    )
+
+
+def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None = None) -> Flight:
+    """Fly a mission.
+
+    Args:
+        mission: from `load_mission`.
+        engine: name of the body's engine.
+        progress: called now and then with (steps flown, steps in all).
+
+    Returns:
+        The flight. If it diverged it holds what was flown until then, and `divergence` says why.
+
+    Raises:
+        InputError: the engine is not known, or the mission cannot be built.
+    """
+    engine_named(engine)
+    p = Prepared(mission)
+    pick = _fly_interpreted if p.interpreted else _fly_single
+    return _flight(p, pick(p, p.steps // p.every + 1, p.every, progress))
+
+
+def fly_many(
+    missions: Iterable[Mission],
+    keep: Literal["flights", "metrics"] = "flights",
+    threads: int | None = None,
+    *,
+    progress: Progress | None = None,
+) -> list[Any]:
+    """Fly many missions, whatever mixture of variants, in blocks that share each instruction, on several threads.
+
+    Args:
+        missions: from `load_mission`.
+        keep: "flights" for a list of `Flight`; "metrics" for a list of metrics only, in memory that does not grow
+            with the number of steps.
+        threads: how many to use, by default one a processor.
+        progress: called with (flights flown, flights in all).
+
+    Returns:
+        One entry a mission, in the order given, the same to the last bit as from flying it alone.
+
+    Raises:
+        InputError: `keep` or `threads` is not one of the above, or a mission cannot be built.
+    """
+    if keep not in ("flights", "metrics"):
+        raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
+    if threads is not None and (not isinstance(threads, int) or threads < 1):
+        raise InputError(f"threads = {threads!r}: must be a whole number of at least 1")
+    prepared = [Prepared(m) for m in missions]
+    results: list[Any] = [None] * len(prepared)
+    finished = _Counter(len(prepared), progress)
+
+    def run(places: list[int]) -> None:
+        flights = [prepared[i] for i in places]
+        p = flights[0]
+        rows, every = (p.steps // p.every + 1, p.every) if keep == "flights" else (1, p.steps + 1)
+        if len(flights) == 1:
+            flown = [(_fly_interpreted if p.interpreted else _fly_single)(p, rows, every)]
+        else:
+            flown = _fly_block(flights, rows, every)
+        for i, f, x in zip(places, flights, flown, strict=True):
+            results[i] = _flight(f, x) if keep == "flights" else _metrics(f, x)
+        finished.add(len(places))
+
+    jobs = _jobs(prepared)
+    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+        for future in [pool.submit(run, places) for places in jobs]:
+            future.result()
+    return results
+
+
+class _Counter:
+    """Flights flown so far, over all threads."""
+
+    def __init__(self, total: int, progress: Progress | None) -> None:
+        self.flown, self.total, self.progress = 0, total, progress
+
+    def add(self, count: int) -> None:
+        self.flown += count
+        if self.progress:
+            self.progress(self.flown, self.total)
+
+
+def _jobs(prepared: Sequence[Prepared]) -> list[list[int]]:
+    """Places of the flights that go together: same variant and grid, at most LANES; interpreted ones alone."""
+    groups: defaultdict[Any, list[int]] = defaultdict(list)
+    for i, p in enumerate(prepared):
+        groups[(i,) if p.interpreted else (p.variant, p.steps, p.every, p.dt)].append(i)
+    return [g[i : i + LANES] for g in groups.values() for i in range(0, len(g), LANES)]

@@ -1,0 +1,165 @@
+"""A vehicle from its parts: mass, centre of mass, inertia, and the matrices between wrench and rotor thrusts.
+
+Body axes are parallel to the payload's; the beam lies along y. Rotors of a "+" quadrotor stand at +x, +y, −x, −y, of
+an "x" at 45° further; rotors 1 and 3 push the body to turn about +z, 2 and 4 about −z. Thrust is along body z, so
+heights do not enter the allocation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.constants import GRAVITY
+from tandemlift.errors import InputError
+from tandemlift.settings import Drag, Payload, Quadrotor, VehicleTable
+
+Array = NDArray[np.float64]
+
+
+def mixer(quadrotor: Quadrotor) -> Array:
+    """A (4 × 4) of one quadrotor: (thrust, roll, pitch, yaw moment about its centre) = A (rotor thrusts)."""
+    # paper: total_i_thrust_moments_equ, input_vector_equ
+    angles = np.arange(4) * (np.pi / 2) + (np.pi / 4 if quadrotor.layout == "x" else 0.0)
+    x, y = quadrotor.arm * np.cos(angles), quadrotor.arm * np.sin(angles)
+    if quadrotor.layout == "+":
+        x, y = quadrotor.arm * np.array([1.0, 0.0, -1.0, 0.0]), quadrotor.arm * np.array([0.0, 1.0, 0.0, -1.0])
+    spin = quadrotor.torque_per_thrust * np.array([1.0, -1.0, 1.0, -1.0])
+    return np.array([np.ones(4), y, -x, spin])
+
+
+def mixer_inverse(quadrotor: Quadrotor) -> Array:
+    """A⁻¹ (4 × 4): rotor thrusts from one quadrotor's thrust and moments; its columns are orthogonal."""
+    A = mixer(quadrotor)
+    return A.T / np.sum(A * A, axis=1)
+
+
+def shift(mass: float, d: Array) -> Array:
+    """Parallel-axis term of a mass at d: m (dᵀd I − d dᵀ) [kg m²]."""
+    return mass * (d @ d * np.eye(3) - np.outer(d, d))
+
+
+NO_DRAG = Drag()
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """N ≥ 1 quadrotors rigidly fixed to a payload.
+
+    Args:
+        payload: the carried body.
+        quadrotors: the quadrotors, number 1 first.
+        drag: linear drag of the whole vehicle.
+
+    Raises:
+        InputError: no quadrotor is given.
+    """
+
+    payload: Payload
+    quadrotors: Sequence[Quadrotor]
+    drag: Drag = NO_DRAG
+
+    def __post_init__(self) -> None:
+        if not self.quadrotors:
+            raise InputError("vehicle.quadrotors is empty; a vehicle needs at least one quadrotor")
+
+    @classmethod
+    def from_settings(cls, table: VehicleTable) -> Vehicle:
+        """The vehicle that a mission describes."""
+        return cls(table.payload, table.quadrotors, table.drag)
+
+    @property
+    def count(self) -> int:
+        """N, the number of quadrotors."""
+        return len(self.quadrotors)
+
+    @property
+    def rotor_count(self) -> int:
+        """4 N."""
+        return 4 * self.count
+
+    @property
+    def mass(self) -> float:
+        """m_t [kg]."""
+        return self.payload.mass + sum(q.mass for q in self.quadrotors)
+
+    @cached_property
+    def center_of_mass(self) -> Array:
+        """Of the system, from the payload's centre of mass [m], body axes (3)."""
+        masses, positions = [q.mass for q in self.quadrotors], [q.position for q in self.quadrotors]
+        return np.array(masses) @ np.array(positions) / self.mass
+
+    @cached_property
+    def lever_arms(self) -> Array:
+        """Quadrotors' centres of mass from the system's [m], body axes (N × 3)."""
+        return np.array([q.position for q in self.quadrotors]) - self.center_of_mass
+
+    @cached_property
+    def inertia(self) -> Array:
+        """J_t [kg m²] about the system's centre of mass, body axes (3 × 3)."""
+        total = np.diag(self.payload.moments) + shift(self.payload.mass, self.center_of_mass)
+        for q, d in zip(self.quadrotors, self.lever_arms, strict=True):
+            total = total + np.diag(q.inertia) + shift(q.mass, d)
+        return total
+
+    @cached_property
+    def B(self) -> Array:
+        """B (4 × 4N): (F_t, U_t) = B u_q, u_q the quadrotors' (thrust, roll, pitch, yaw moment) one after another.
+
+        Erratum: the paper prints the sum of the two 4 × 4 blocks; they stand side by side.
+        """
+        # paper: b_matrix_equ, u_inputs
+        blocks = []
+        for x, y, _ in self.lever_arms:
+            block = np.eye(4)
+            block[1, 0], block[2, 0] = y, -x
+            blocks.append(block)
+        return np.hstack(blocks)
+
+    @cached_property
+    def effect(self) -> Array:
+        """(4 × 4N): (F_t, U_t) from the thrusts of all rotors."""
+        blocks = np.split(self.B, self.count, axis=1)
+        return np.hstack([B_i @ mixer(q) for B_i, q in zip(blocks, self.quadrotors, strict=True)])
+
+    def H(self, weights: Sequence[Sequence[float]]) -> Array:
+        """H (4N × 4N) with ‖H u_q‖² = Σ c u_q², c four weights for all quadrotors or four for each.
+
+        Erratum: the paper prints a cost that is linear in u, which has no minimum.
+
+        Raises:
+            InputError: the number of rows is neither 1 nor N.
+        """
+        # paper: h_matrix_equ, cost_fun_equ
+        rows = np.array(weights, dtype=float)
+        if rows.shape not in ((1, 4), (self.count, 4)):
+            raise InputError(
+                f"allocation.weights = {[list(r) for r in weights]} does not fit {self.count} quadrotors: "
+                "give one number, four, or four for each quadrotor"
+            )
+        return np.diag(np.sqrt(np.broadcast_to(rows, (self.count, 4)).ravel()))
+
+    def pseudo_inverse(self, weights: Sequence[Sequence[float]] = ((1.0, 1.0, 1.0, 1.0),)) -> Array:
+        """(4N × 4): the u_q of least ‖H u_q‖ that gives a wrench: H⁻²Bᵀ(BH⁻²Bᵀ)⁻¹."""
+        # paper: optim_fun_equ, optim_cont_final_equ
+        scaled = np.linalg.inv(self.H(weights) ** 2) @ self.B.T
+        return scaled @ np.linalg.inv(self.B @ scaled)
+
+    def allocation(self, weights: Sequence[Sequence[float]] = ((1.0, 1.0, 1.0, 1.0),)) -> Array:
+        """(4N × 4): thrusts of all rotors from a wrench, by `pseudo_inverse` and each quadrotor's mixer inverse."""
+        parts = np.split(self.pseudo_inverse(weights), self.count, axis=0)
+        return np.vstack([mixer_inverse(q) @ u for q, u in zip(self.quadrotors, parts, strict=True)])
+
+    @property
+    def max_thrust(self) -> float:
+        """Of all rotors together [N]."""
+        return sum(4.0 * q.max_thrust for q in self.quadrotors)
+
+    @property
+    def weight(self) -> float:
+        """m_t g [N]."""
+        return self.mass * GRAVITY
