@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numba
 from numba.extending import register_jitable
 
-from tandemlift.jit import cached_for, install, leaves, load, load_lane, store, store_lane, zeroed
+from tandemlift.jit import cached_in, folder, install, leaves, load, load_lane, store, store_lane, zeroed
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.controllers import Command, Measured, Reference
 from tandemlift.laws.push import SUPPORT, Gaussian, Hand, push_of
@@ -104,8 +105,13 @@ class Kernels:
         self.like = zeroed(flying)
         self.push = zeroed(push)
 
+    @property
+    def folder(self) -> Path:
+        """Where these loops are kept once compiled."""
+        return folder((self.like, self.push))
+
     def _compile(self, function: Callable[..., Any]) -> Callable[..., Any]:
-        with cached_for(self.like):
+        with cached_in(self.folder):
             return numba.njit(cache=True, nogil=True, **COMPILE)(function)
 
     @cached_property

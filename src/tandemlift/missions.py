@@ -37,6 +37,11 @@ def built_in() -> dict[str, str]:
     return {f.name[:-5]: f.read_text("utf-8").partition("\n")[0].lstrip("# ") for f in files}
 
 
+def template_text() -> str:
+    """A commented mission file with every key, its unit and its meaning."""
+    return (resources.files("tandemlift") / "data" / "template.toml").read_text("utf-8")
+
+
 def _path_of(name: str | Path, beside: Path | None = None) -> Path:
     """The file of a built-in mission, or the path given (relative to the file that names it)."""
     text = str(name)

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.law import law
-from tandemlift.laws.admittance import STILL, Admittance, HardGate, SoftGate, Trajectory, Yielding, gate, hold, yield_to
+from tandemlift.laws.admittance import Admittance, HardGate, SoftGate, Trajectory, Yielding, gate, hold, yield_to
 from tandemlift.laws.allocation import Mixer, allocate
 from tandemlift.laws.controllers import Command, Measured, Reference, control, controller
 from tandemlift.laws.reference import Phases, reference
@@ -87,8 +87,7 @@ def mixer_value(rows: np.ndarray) -> Mixer:
 def _admittance(a: AdmittanceTable) -> Admittance:
     kind = HardGate if a.gate == "hard" else SoftGate
     inverse_mass = vec3(1.0 / m for m in a.mass)
-    still = STILL if a.reanchor else 0.0
-    return Admittance(kind(vec3(a.threshold)), inverse_mass, vec3(a.damping), vec3(a.stiffness), still)
+    return Admittance(kind(vec3(a.threshold)), inverse_mass, vec3(a.damping), vec3(a.stiffness), float(a.reanchor))
 
 
 def _phases(p: PhasesTable) -> Phases:

@@ -257,6 +257,12 @@ def _flight(p: Prepared, flown: Flown) -> Flight:
     )
 
 
+def needs_compiling(mission: Mission) -> bool:
+    """Whether flying this mission alone will first compile its loop, which takes seconds."""
+    p = Prepared(mission)
+    return p.variant not in _kernels and not p.kernels.folder.exists()
+
+
 def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None = None) -> Flight:
     """Fly a mission.
 

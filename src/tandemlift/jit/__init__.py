@@ -7,13 +7,14 @@ arrays, `cache` keeps compiled loops on disk.
 Only the loop and the compiled pilot import this package, so that Numba is loaded when something first flies.
 """
 
-from tandemlift.jit.cache import cached_for
+from tandemlift.jit.cache import cached_in, folder
 from tandemlift.jit.layout import flat, leaves, load, load_lane, store, store_lane, unflat, zeroed
 from tandemlift.jit.overloads import install
 
 __all__ = [
-    "cached_for",
+    "cached_in",
     "flat",
+    "folder",
     "install",
     "leaves",
     "load",

@@ -31,8 +31,11 @@ def root() -> Path:
 
 
 def classes(value: Any) -> set[type]:
-    """The classes of a nested value."""
-    return {type(value)}.union(*map(classes, value)) if is_value(value) else set()
+    """The classes of nested values."""
+    if not isinstance(value, tuple):
+        return set()
+    own = {type(value)} if is_value(value) else set()
+    return own.union(*map(classes, value))
 
 
 def sources(value: Any) -> list[Path]:
@@ -51,10 +54,10 @@ def folder(value: Any) -> Path:
 
 
 @contextlib.contextmanager
-def cached_for(value: Any) -> Iterator[None]:
-    """Within this context, functions decorated for caching keep their machine code in this loop's folder."""
+def cached_in(path: Path) -> Iterator[None]:
+    """Within this context, functions decorated for caching keep their machine code in this folder."""
     before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(folder(value))
+    numba.config.CACHE_DIR = str(path)
     try:
         yield
     finally:

@@ -11,8 +11,6 @@ from tandemlift.law import choice, elementwise, law
 from tandemlift.ops import absolute, clip, where
 from tandemlift.vector import Vec3
 
-STILL = 0.01  # m/s: slower than this, the motion of T_r has died and T_d may be re-anchored
-
 
 class HardGate(NamedTuple):
     """Lets a force through whole where it exceeds the threshold [N]."""
@@ -27,13 +25,13 @@ class SoftGate(NamedTuple):
 
 
 class Admittance(NamedTuple):
-    """Gate, 1/M [1/kg], C [N·s/m], K [N/m] per world axis; `still` [m/s] is the re-anchoring speed, 0 for never."""
+    """Gate, 1/M [1/kg], C [N·s/m], K [N/m] per world axis; `reanchor` is 1 if T_d moves where a push left T_r."""
 
     gate: Any
     inverse_mass: Vec3
     damping: Vec3
     stiffness: Vec3
-    still: Any
+    reanchor: Any
 
 
 class Yielding(NamedTuple):
@@ -80,10 +78,13 @@ def _soft(kind, F):
 
 
 @elementwise
-def anchored(anchor, position, velocity, force, still):
-    """T_d of one axis: moved to T_r where no force comes through and the motion has died, else kept."""
-    resting = where(absolute(velocity) < still, position, anchor)
-    return where(absolute(force) > 0.0, anchor, resting)
+def anchored(anchor, position, velocity, force, reanchor):
+    """T_d of one axis, moved to T_r once no force comes through and the motion away from T_d has died.
+
+    From then on no spring pulls: T_r coasts to rest under its damping, and stays.
+    """
+    died = where(velocity * (position - anchor) > 0.0, anchor, position)
+    return where(absolute(force) * reanchor + (1.0 - reanchor) > 0.0, anchor, died)
 
 
 @law
@@ -99,4 +100,4 @@ def hold(a: Admittance, m: Yielding, F: Vec3, now: Trajectory, dt: Any) -> Yield
     """The memory after a step of `dt` [s] with T̈_r held."""
     position = m.position + m.velocity * dt + now.acceleration * (0.5 * dt * dt)
     velocity = m.velocity + now.acceleration * dt
-    return Yielding(position, velocity, anchored(m.anchor, position, velocity, F, a.still))
+    return Yielding(position, velocity, anchored(m.anchor, position, velocity, F, a.reanchor))

@@ -1,0 +1,46 @@
+# Every target sets up what it needs, in .venv; nothing needs root.
+PYTHON ?= python3
+BIN := .venv/bin
+
+.PHONY: run test lint types imports tests bench bench-peers lock clean help
+
+help:            ## say what there is
+	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
+
+run: .venv/run   ## fly the paper's mission and write out/paper
+	$(BIN)/tandemlift run paper
+
+test: lint types imports tests   ## lint, types, import directions, all tests
+
+lint: .venv/dev  ## format and lint
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+
+types: .venv/dev ## type checker
+	$(BIN)/mypy
+
+imports: .venv/dev  ## imports go downward only
+	$(BIN)/lint-imports
+
+tests: .venv/dev ## all tests
+	$(BIN)/pytest
+
+bench: .venv/run ## speed of everything, printed
+	$(BIN)/python benchmarks/bench.py
+
+.venv/run: lock/run.txt pyproject.toml
+	@$(PYTHON) -c 'import sys; v = sys.version_info[:2]; sys.exit(0 if (3, 11) <= v <= (3, 13) else f"tandemlift needs Python 3.11 to 3.13; $(PYTHON) is {v[0]}.{v[1]} (try: make PYTHON=python3.12)")'
+	$(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --disable-pip-version-check -r lock/run.txt
+	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	touch $@
+
+.venv/dev: .venv/run lock/dev.txt
+	$(BIN)/pip install --quiet --disable-pip-version-check -r lock/dev.txt
+	touch $@
+
+lock:            ## pin the newest versions of everything
+	tools/lock
+
+clean:           ## remove the environments and the outputs
+	rm -rf .venv .venv-peers out build dist

@@ -1,0 +1,5 @@
+"""`python -m tandemlift`."""
+
+from tandemlift.cli import main
+
+main()

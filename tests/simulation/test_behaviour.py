@@ -1,0 +1,106 @@
+"""What is known of the paper's loop: gates, boundary layers, feedforward, divergence."""
+
+import contextlib
+import math
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+
+LOW = [0.0, 0.0, -0.0642857142857]  # m: the payload's centre
+
+
+def late(mission, changes=None):
+    return tl.fly(tl.load_mission(mission, changes)).metrics()
+
+
+def test_a_hard_gate_makes_roll_spikes_that_a_soft_one_does_not():
+    hard = late("paper")["moment_max_abs_after_10s_n_m"][0]
+    soft = late("paper", {"admittance.gate": "soft"})["moment_max_abs_after_10s_n_m"][0]
+    assert hard == pytest.approx(200.0, rel=0.02)
+    assert soft == pytest.approx(7.3, rel=0.02)
+
+
+def test_the_disturbed_start_asks_for_more_than_a_thousand_newton_metres():
+    assert late("paper")["command_at_start"][1] == pytest.approx(-1066.3, abs=0.1)
+
+
+@pytest.mark.parametrize(("width", "chatters"), [(0.06, False), (0.05, True)])
+def test_one_kilohertz_bears_a_boundary_layer_of_006_and_chatters_at_005(width, chatters):
+    changes = {"controller.boundary_layer": width}
+    mission = tl.load_mission("paper", changes)
+    warned = pytest.warns(tl.FlightWarning, match=r"lambda_1 \+ lambda_2/boundary_layer")
+    with warned if chatters else contextlib.nullcontext():
+        flight = tl.fly(mission)
+    assert (flight.metrics()["moment_max_abs_after_10s_n_m"][0] > 1000.0) == chatters
+
+
+@pytest.mark.parametrize(("feedforward", "x", "y"), [(False, 49.0, 60.0), (True, 25.0, 8.0)])
+def test_feeding_the_push_forward_shrinks_the_error_of_the_flight_ready_set(feedforward, x, y):
+    changes = {f"pushes.{i}.point": LOW for i in range(8)}
+    changes["controller.human_force_feedforward"] = feedforward
+    rmse = late("flight-ready", changes)["position_rmse_after_10s_m"]
+    np.testing.assert_allclose(np.array(rmse[:2]) * 1e3, [x, y], atol=0.6)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"controller.euler_rates": "body"},
+        {"controller.tilt_inverse": "printed"},
+        {"allocation.weights": [1.0, 100.0, 1.0, 1.0]},
+    ],
+)
+def test_open_choices_that_hardly_matter_on_the_mission_hardly_matter(changes):
+    base, changed = late("paper"), late("paper", changes)
+    np.testing.assert_allclose(changed["final_position_m"], base["final_position_m"], atol=1e-6)
+    np.testing.assert_allclose(
+        changed["position_rmse_after_10s_m"], base["position_rmse_after_10s_m"], rtol=0.01, atol=1e-6
+    )
+
+
+def test_weights_move_the_thrusts_between_rotors_and_leave_the_motion():
+    base = tl.fly(tl.load_mission("paper"))
+    weighted = tl.fly(tl.load_mission("paper", {"allocation.weights": [1.0, 100.0, 1.0, 1.0]}))
+    assert np.abs(base["rotor_thrusts"] - weighted["rotor_thrusts"]).max() > 1.0
+    np.testing.assert_allclose(weighted["position"], base["position"], atol=1e-9)
+
+
+def test_stiffness_springs_back_and_reanchoring_stays():
+    spring = {"admittance.stiffness": 2.0, "mission.duration": 30.0}
+    back = tl.fly(tl.load_mission("one-push", spring))["admittance_position"][:, 0]
+    stay = tl.fly(tl.load_mission("one-push", {**spring, "admittance.reanchor": True}))["admittance_position"][:, 0]
+    assert back.max() > 0.3
+    assert abs(back[-1]) < 1e-6
+    assert stay[-1] > 0.2
+    assert abs(stay[-1] - stay[-500]) < 1e-6
+
+
+def test_a_diverging_flight_stops_at_once_and_says_which_quantity_when():
+    weak = {"controller.gains.lambda_1": 0.0, "controller.gains.lambda_2": 0.0}
+    flight = tl.fly(tl.load_mission("paper", {**weak, "controller.gains.xi": [4, 2, 11, 0.1, 0.1, 0.1]}))
+    metrics = flight.metrics()
+    assert flight.divergence.quantity.startswith("distance")
+    assert metrics["steps"] == round(flight.divergence.time / 0.001)
+    assert flight.time[-1] == pytest.approx(math.floor(flight.divergence.time * 100.0) / 100.0, abs=0.011)
+    assert math.hypot(*metrics["final_position_m"]) == pytest.approx(flight.divergence.value)
+    assert np.linalg.norm(flight["position"], axis=1).max() < 1000.0
+    assert metrics["final_reference_m"] is None
+
+
+def test_a_vehicle_that_rolls_over_stops_at_89_degrees():
+    changes = {"initial.rates": [20.0, 0.0, 0.0], "controller.gains.xi": 0.1, "controller.gains.lambda_1": 0.0}
+    changes |= {"controller.gains.lambda_2": 0.0, "pushes": []}
+    flight = tl.fly(tl.load_mission("paper", changes))
+    assert flight.divergence.quantity == "roll [deg]"
+    assert 89.0 <= abs(flight.divergence.value) <= 90.0
+    assert np.degrees(np.abs(flight["euler"][:, 0])).max() < 89.0
+
+
+def test_a_command_that_is_not_finite_stops_the_flight():
+    changes = {"controller.gains.lambda_1": 1e308, "controller.gains.xi": 1e200}
+    flight = tl.fly(tl.load_mission("paper", changes))
+    assert flight.divergence.limit == "must be finite"
+    assert flight.metrics()["steps"] <= 2
+    assert flight.metrics()["final_position_m"] is None

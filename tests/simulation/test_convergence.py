@@ -1,0 +1,72 @@
+"""The sampled loop against the continuous-time loop that it samples, integrated by SciPy's DOP853."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import tandemlift as tl
+from tandemlift.laws.allocation import wrench
+from tandemlift.laws.body import State, motion
+from tandemlift.laws.controllers import Measured
+from tandemlift.laws.push import CentralPush
+from tandemlift.loop import start
+from tandemlift.pilot import decide
+from tandemlift.vector import ZERO, Quat, Vec3, hamilton
+
+DURATION = 6.0  # s: the lift of `paper`, from 2 to 8 s
+
+
+def lifting(step):
+    return tl.load_mission(
+        "paper",
+        {
+            "mission.step": step,
+            "mission.duration": DURATION,
+            "mission.log_interval": 0.5,
+            "phases.lift_start": 0.0,
+            "pushes": [],
+            "initial.position": [0.02, -0.02, 0.0],
+            "initial.velocity": [0.01, 0.01, 0.0],
+            "initial.euler": [0.002, -0.001, 0.003],
+        },
+    )
+
+
+@pytest.fixture(scope="module")
+def continuous():
+    """Positions and attitudes of the loop whose pilot is never held, at the logged times."""
+    flying = start(lifting(0.001))
+    begin = flying.moving.state
+
+    def rate(t, y):
+        state = State(Vec3(*y[0:3]), Vec3(*y[3:6]), Quat(*y[6:10]), Vec3(*y[10:13]))
+        decision, _ = decide(flying.pilot, flying.moving.memory, Measured(state, ZERO), t, 1.0)
+        u = wrench(flying.plant.effect, decision.thrusts)
+        return np.concatenate(motion(state, u, CentralPush(ZERO), flying.plant.body))
+
+    times = np.arange(0.0, DURATION + 0.25, 0.5)
+    solution = solve_ivp(
+        rate, (0.0, DURATION), np.concatenate(begin), method="DOP853", rtol=1e-10, atol=1e-13, t_eval=times
+    )
+    assert solution.success
+    return solution.y.T
+
+
+def test_halving_the_step_halves_the_distance_to_the_continuous_loop(continuous):
+    steps = [1e-3, 5e-4, 2.5e-4, 1.25e-4]
+    distances = []
+    for flight in tl.fly_many([lifting(step) for step in steps]):
+        assert len(flight.time) == len(continuous)
+        distances.append(np.abs(flight["position"] - continuous[:, 0:3]).max())
+    ratios = np.array(distances[:-1]) / np.array(distances[1:])
+    np.testing.assert_allclose(ratios, 2.0, atol=0.1)
+    assert distances[0] < 1e-3
+
+
+def test_the_attitude_converges_too(continuous):
+    distances = []
+    for flight in tl.fly_many([lifting(step) for step in (5e-4, 2.5e-4)]):
+        q, p = flight["attitude"][-1], continuous[-1, 6:10]
+        difference = hamilton(Quat(q[0], -q[1], -q[2], -q[3]), Quat(*p))
+        distances.append(np.linalg.norm(difference[1:]))
+    assert distances[0] / distances[1] == pytest.approx(2.0, abs=0.2)

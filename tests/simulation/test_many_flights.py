@@ -1,0 +1,164 @@
+"""Flights in blocks and on threads are the flights flown alone, to the last bit."""
+
+import threading
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.errors import InputError
+
+SHORT = {"mission.duration": 20.0}
+FOUR_IDEAL = {"controller.attitude_reference_derivatives": "zero", "admittance.gate": "hard"}
+
+
+def quadrotors(count):
+    """So many quadrotors along the beam, on the paper's payload."""
+    one = tl.load_mission("paper").vehicle.quadrotors[0].model_dump(mode="json")
+    places = np.linspace(1.0, -1.0, count) if count > 1 else [0.0]
+    return [{**one, "position": [0.0, float(y), 0.075]} for y in places]
+
+
+def spread(mission, count, **changes):
+    """Missions that differ in start, gains, pushes and what the body really weighs."""
+    return [
+        tl.load_mission(
+            mission,
+            {
+                **SHORT,
+                "initial.position": [0.05 * i, -0.3, 0.01 * i],
+                "controller.gains.xi": [4.0 + 0.1 * i, 2.0, 11.0, 25.0, 80.0, 25.0],
+                "plant.mass_scale": 1.0 + 0.01 * i,
+                "pushes": [{"force": [1.0 + 0.2 * j, 0.0, 0.5], "time": 12.0 + j, "sigma": 0.4} for j in range(i % 4)],
+                **changes,
+            },
+        )
+        for i in range(count)
+    ]
+
+
+def same(a, b):
+    """Whether two flights are the same in everything but the time they took."""
+    metrics = [{k: v for k, v in f.metrics().items() if k != "wall_s"} for f in (a, b)]
+    return (
+        metrics[0] == metrics[1]
+        and a.divergence == b.divergence
+        and np.array_equal(a.time, b.time)
+        and all(np.array_equal(a[name], b[name]) for name in a)
+    )
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        pytest.param({}, id="tanh"),
+        pytest.param({"controller.switching": "saturation", "admittance.gate": "soft"}, id="saturation, soft"),
+        pytest.param(
+            {
+                "controller.switching": "sign",
+                "controller.gains.a": 1.5,
+                "controller.attitude_reference_derivatives": "filtered",
+                "controller.euler_rates": "body",
+                "controller.tilt_inverse": "printed",
+                "controller.human_force_feedforward": True,
+            },
+            id="sign, a = 1.5, filtered, body rates, printed",
+        ),
+        pytest.param({"vehicle.quadrotors": quadrotors(1)}, id="one quadrotor"),
+        pytest.param({"vehicle.quadrotors": quadrotors(4)}, id="four quadrotors"),
+    ],
+)
+def test_a_flight_in_a_block_is_the_flight_alone_to_the_last_bit(changes):
+    missions = spread("paper", 8, **changes)
+    together = tl.fly_many(missions)
+    for i in (0, 3, 7):
+        assert same(together[i], tl.fly(missions[i]))
+
+
+def test_a_mixture_of_variants_and_lengths_comes_back_in_the_order_given():
+    missions = []
+    for i in range(6):
+        missions.append(spread("paper", 8)[i])
+        missions.append(tl.load_mission("one-push", {"mission.duration": 12.0 + i}))
+        missions.append(tl.load_mission("one-push", {"pushes.0.point": [0.0, 0.1 * i + 0.1, 0.0]}))
+    together = tl.fly_many(missions, threads=2)
+    for mission, flight in zip(missions, together, strict=True):
+        assert flight.mission["mission"]["duration"] == mission.mission.duration
+    for i in (0, 4, 5, 16, 17):
+        assert same(together[i], tl.fly(missions[i]))
+
+
+def test_the_number_of_threads_changes_nothing():
+    missions = spread("paper", 19)
+    for one, two in zip(tl.fly_many(missions, threads=1), tl.fly_many(missions, threads=3), strict=True):
+        assert same(one, two)
+
+
+def test_keeping_metrics_only_gives_the_same_metrics():
+    missions = [*spread("paper", 9), tl.load_mission("hover")]
+    kept = tl.fly_many(missions, keep="metrics")
+    for flight, metrics in zip(tl.fly_many(missions), kept, strict=True):
+        del metrics["wall_s"]
+        assert {k: v for k, v in flight.metrics().items() if k != "wall_s"} == metrics
+
+
+def test_a_lane_that_diverges_stops_where_it_does_alone_and_leaves_the_others_be():
+    weak = {"controller.gains.lambda_1": 0.0, "controller.gains.lambda_2": 0.0, "mission.duration": 40.0}
+    missions = spread("paper", 8, **{"mission.duration": 40.0})
+    missions[3] = tl.load_mission("paper", {**weak, "controller.gains.xi": [4, 2, 11, 0.1, 0.1, 0.1]})
+    together = tl.fly_many(missions)
+    assert [f.divergence is not None for f in together] == [i == 3 for i in range(8)]
+    for i in (2, 3, 4):
+        assert same(together[i], tl.fly(missions[i]))
+
+
+def test_no_missions_make_no_flights():
+    assert tl.fly_many([]) == []
+
+
+@pytest.mark.parametrize("count", [0, 1, 3, 8, 9, 40])
+def test_the_number_of_pushes_is_data(count):
+    pushes = [{"force": [0.5, 0.0, 0.0], "time": 5.0 + 0.3 * i, "sigma": 0.4} for i in range(count)]
+    metrics = tl.fly(tl.load_mission("one-push", {"pushes": pushes, "mission.duration": 30.0})).metrics()
+    assert metrics["human_impulse_n_s"][0] == pytest.approx(count * 0.5 * 0.4 * np.sqrt(2 * np.pi), rel=1e-9, abs=1e-12)
+
+
+def test_overlapping_pushes_at_several_points_add_up():
+    pushes = [
+        {"force": [1.0, 0.5, 0.2], "time": 3.0, "sigma": 0.5, "point": [0.0, 0.8, 0.0]},
+        {"force": [-0.5, 0.5, 0.1], "time": 3.2, "sigma": 0.6, "point": [0.0, -0.6, -0.06]},
+    ]
+    flight = tl.fly(tl.load_mission("flight-ready", {"pushes": pushes, "mission.duration": 6.0}))
+    from scipy.spatial.transform import Rotation
+
+    R = Rotation.from_quat(np.roll(flight["attitude"], -1, axis=1))
+    force, moment = 0.0, 0.0
+    for p in pushes:
+        g = np.exp(-((flight.time - p["time"]) ** 2) / (2 * p["sigma"] ** 2))[:, None]
+        F = g * np.array(p["force"])
+        force = force + F
+        moment = moment + np.cross(p["point"], R.inv().apply(F))
+    np.testing.assert_allclose(flight["push_force"], force, atol=1e-14)
+    np.testing.assert_allclose(flight["push_moment"], moment, atol=1e-14)
+
+
+@pytest.mark.parametrize(("keyword", "value"), [("keep", "all"), ("threads", 0), ("threads", 1.5)])
+def test_what_is_not_a_choice_is_refused_by_name(keyword, value):
+    with pytest.raises(InputError, match=keyword):
+        tl.fly_many([], **{keyword: value})
+
+
+def test_threads_of_the_users_own_may_fly_at_once():
+    missions = spread("paper", 4)
+    alone = [tl.fly(m) for m in missions]
+    results = [None] * 4
+
+    def work(i):
+        results[i] = tl.fly(missions[i])
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(same(a, b) for a, b in zip(alone, results, strict=True))
