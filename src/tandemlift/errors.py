@@ -14,13 +14,21 @@ class FlightWarning(UserWarning):
     """A mission that will be flown but may fly badly, with the numbers that say why."""
 
 
+def nearest(given: str, known: Iterable[str]) -> str | None:
+    """The known name that the given one is probably meant to be."""
+    names = {name.lower(): name for name in known}
+    close = difflib.get_close_matches(given.lower(), list(names), n=1, cutoff=0.6)
+    return names[close[0]] if close else None
+
+
 def suggestion(given: str, known: Iterable[str]) -> str:
     """' Did you mean …?' for a name close to a known one, else ''."""
-    close = difflib.get_close_matches(given, list(known), n=1, cutoff=0.6)
-    return f" Did you mean {close[0]!r}?" if close else ""
+    near = nearest(given, known)
+    return f" Did you mean {near!r}?" if near else ""
 
 
 def unknown(what: str, given: object, known: Iterable[str]) -> InputError:
     """The error for a name that is not registered: what it is, what there is, and the likely fix."""
-    names = list(known)
-    return InputError(f"unknown {what} {given!r}; there are {', '.join(names)}.{suggestion(str(given), names)}")
+    names, text = list(known), str(given)
+    shown = repr(text if len(text) <= 80 else f"{text[:79]}…")
+    return InputError(f"unknown {what} {shown}; there are {', '.join(names)}.{suggestion(text, names)}")

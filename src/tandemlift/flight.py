@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import json
 import os
+import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,7 +70,7 @@ class Divergence(NamedTuple):
         return f"diverged at {self.time:.6g} s: {self.quantity} = {self.value:.6g}, {self.limit}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Flight(Mapping[str, Array]):
     """A flight's channels by name, each an array (T,) or (T, n) over the logged times.
 
@@ -115,6 +116,17 @@ class Flight(Mapping[str, Array]):
         last = f"{self.time[-1]:g} s" if len(self.time) else "nothing logged"
         return f"<Flight {self.name}: {len(self.time)} samples to {last}, {len(self.channels)} channels>"
 
+    def __eq__(self, other: object) -> bool:
+        """Whether two flights are the same to the last bit, records and all."""
+        return isinstance(other, Flight) and self._parts() == other._parts()
+
+    def __hash__(self) -> int:
+        return hash(self.time.tobytes())
+
+    def _parts(self) -> tuple[Any, ...]:
+        arrays = {name: (a.shape, a.tobytes()) for name, a in {"time": self.time, **self.channels}.items()}
+        return arrays, self.mission, self.results, str(self.divergence), self.version
+
     def info(self, name: str) -> Channel:
         """Unit, frame and meaning of a channel."""
         self[name]
@@ -131,15 +143,16 @@ class Flight(Mapping[str, Array]):
             "format": FORMAT,
             "mission": self.mission,
             "metrics": self.results,
-            "divergence": list(self.divergence) if self.divergence else None,
+            "divergence": _written(self.divergence),
             "version": self.version,
             "channels": {name: self.info(name)._asdict() for name in self.channels},
         }
+        text = np.array(json.dumps(header, allow_nan=False))
         path.parent.mkdir(parents=True, exist_ok=True)
         partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
         try:
             with partial.open("wb") as file:
-                np.savez(file, header=np.array(json.dumps(header)), time=self.time, **self.channels)  # type: ignore
+                np.savez(file, header=text, time=self.time, **self.channels)  # type: ignore
             partial.replace(path)
         finally:
             partial.unlink(missing_ok=True)
@@ -150,21 +163,50 @@ class Flight(Mapping[str, Array]):
         """Read a flight that `save` wrote.
 
         Raises:
-            InputError: the file is missing, is no flight, or is of a newer format.
+            InputError: the file is missing, damaged, no flight, or of a newer format.
         """
         path = Path(path)
         try:
-            with np.load(path, allow_pickle=False) as file:
-                header = json.loads(str(file["header"]))
-                arrays = {name: file[name] for name in file.files if name != "header"}
-            if header["format"] > FORMAT:
-                raise InputError(f"{path}: written by a newer tandemlift (flight format {header['format']} > {FORMAT})")
-            missing = set(header["channels"]) - set(arrays)
-            if missing:
-                raise InputError(f"{path}: incomplete flight, without {', '.join(sorted(missing))}")
-            divergence = Divergence(*header["divergence"]) if header["divergence"] else None
-            return cls(arrays.pop("time"), arrays, header["mission"], header["metrics"], divergence, header["version"])
-        except InputError:
-            raise
-        except Exception as error:
-            raise InputError(f"{path}: not a readable flight ({type(error).__name__}: {error})") from error
+            with path.open("rb") as file:
+                header, arrays = _read(file)
+            return _flight(header, arrays)
+        except InputError as error:
+            raise InputError(f"{path}: {error}") from None
+        except OSError as error:
+            raise InputError(f"{path}: {error.strerror or error}") from None
+        except Exception as error:  # whatever a file of any content can do to the readers of ZIP, NPY and JSON
+            raise InputError(f"{path} is damaged or no flight that tandemlift saved ({error})") from error
+
+
+def _written(divergence: Divergence | None) -> list[Any] | None:
+    """A divergence for a strict JSON text: its value, which may be nan, as text."""
+    return divergence and [divergence.quantity, divergence.time, repr(divergence.value), divergence.limit]
+
+
+def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:
+    """The header and the arrays of a flight's file."""
+    if not zipfile.is_zipfile(file):
+        raise InputError("no flight that tandemlift saved, or only a part of one")
+    file.seek(0)
+    with np.load(file, allow_pickle=False) as content:
+        if "header" not in content.files:
+            raise InputError("no flight that tandemlift saved: it has no header")
+        header = json.loads(str(content["header"]))
+        number = header["format"]
+        if number > FORMAT:
+            raise InputError(f"written by a newer tandemlift: its format is {number}, this one reads up to {FORMAT}")
+        return header, {name: content[name] for name in ("time", *header["channels"])}
+
+
+def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
+    """The flight of a header and its arrays, if they fit each other."""
+    time = arrays.pop("time")
+    for name, array in {"time": time, **arrays}.items():
+        if array.dtype != np.float64 or array.ndim not in (1, 2) or len(array) != len(time):
+            raise InputError(f"damaged: channel {name} is {array.dtype} {array.shape}, beside {len(time)} times")
+    divergence = header["divergence"]
+    if divergence is not None:
+        quantity, at, value, limit = divergence
+        divergence = Divergence(quantity, at, float(value), limit)
+    mission, metrics, version = (dict(header[key]) for key in ("mission", "metrics", "version"))
+    return Flight(time, arrays, mission, metrics, divergence, version)

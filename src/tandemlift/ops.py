@@ -97,7 +97,7 @@ def cos(x):
 
 @elementwise
 def atan2(y, x):
-    """The angle of the point (x, y) in [−π, π]; odd in y."""
+    """The angle of the point (x, y) in [−π, π]; odd in y (compiled: −0 is taken as 0)."""
     return _atan2(y, x)
 
 
@@ -115,13 +115,13 @@ def tanh(x):
 
 @elementwise
 def exp(x):
-    """eˣ, with x held below 709."""
+    """eˣ, with x held below 709 (compiled: and above −708)."""
     return _exp(x)
 
 
 @elementwise
 def log(x):
-    """Natural logarithm of x > 0."""
+    """Natural logarithm of x > 0 (compiled: of normal numbers)."""
     return _log(x)
 
 
@@ -157,5 +157,5 @@ def clip(x, low, high):
 
 @elementwise
 def power(x, p):
-    """xᵖ for x ≥ 0, p ≥ 0, with 0⁰ = 1 (0 for p > 0 to within 1e-300ᵖ)."""
+    """xᵖ for x ≥ 0, p ≥ 0, with 0⁰ = 1 (0ᵖ is 1e-300ᵖ; compiled, at least 3e-308)."""
     return _exp(p * _log(_maximum(x, 1e-300)))

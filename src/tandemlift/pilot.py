@@ -7,6 +7,7 @@ It is sampled every `mission.step`; everything that it computes is held until th
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +17,7 @@ from tandemlift.laws.admittance import Admittance, HardGate, SoftGate, Trajector
 from tandemlift.laws.allocation import Mixer, allocate
 from tandemlift.laws.controllers import Command, Measured, Reference, control, controller
 from tandemlift.laws.reference import Phases, reference
-from tandemlift.settings import AdmittanceTable, Mission, PhasesTable
+from tandemlift.settings import AdmittanceTable, Mission, PhasesTable, VehicleTable
 from tandemlift.vector import ZERO, Vec3, rotors, vec3
 from tandemlift.vehicle import Vehicle
 
@@ -84,6 +85,11 @@ def mixer_value(rows: np.ndarray) -> Mixer:
     return Mixer(thrust, roll, pitch, yaw)
 
 
+@lru_cache(maxsize=64)
+def _allocation(vehicle: VehicleTable, weights: tuple[tuple[float, ...], ...]) -> Mixer:
+    return mixer_value(Vehicle.from_settings(vehicle).allocation(weights).T)
+
+
 def _admittance(a: AdmittanceTable) -> Admittance:
     kind = HardGate if a.gate == "hard" else SoftGate
     inverse_mass = vec3(1.0 / m for m in a.mass)
@@ -113,6 +119,6 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
         phases=_phases(mission.phases),
         yaw=0.0,
         controller=gains,
-        allocation=mixer_value(vehicle.allocation(mission.allocation.weights).T),
+        allocation=_allocation(mission.vehicle, mission.allocation.weights),
     )
     return parameters, PilotMemory(Yielding(ZERO, ZERO, ZERO), memory)

@@ -6,60 +6,91 @@ takes one number for all axes or one number each. The built-in missions in `data
 
 from __future__ import annotations
 
+import math
+import re
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, SerializeAsAny, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, SerializeAsAny, model_validator
+from pydantic_core import PydanticCustomError, core_schema
 
-Positive = Annotated[float, Field(gt=0.0)]
+MOST_QUADROTORS = 64
+COINCIDING = 1e-3  # m
+SMALLEST = 1e-300  # of a divisor: its inverse is finite
+
+
+def _must(kind: str, words: str) -> PydanticCustomError:
+    return PydanticCustomError(kind, "must {words}", {"words": words})
+
+
+def _divisor(value: float) -> float:
+    if value < SMALLEST:
+        raise _must("size", f"be at least {SMALLEST}")
+    return value
+
+
+Positive = Annotated[float, Field(gt=0.0), AfterValidator(_divisor)]
 NonNegative = Annotated[float, Field(ge=0.0)]
+AtLeastOne = Annotated[float, Field(ge=1.0)]
+Scale = Annotated[float, Field(ge=1e-6, le=1e6)]
 
 
 class Table(BaseModel):
     """A strict, frozen table of a mission."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False, validate_default=True)
 
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _spread(*counts: int, single: bool = True) -> BeforeValidator:
-    """Accept one number for all axes (if `single`), or a list of exactly one of `counts` numbers."""
-    lists = " or ".join(str(n) for n in counts)
-    allowed = f"one number or a list of {lists} numbers" if single else f"a list of {lists} numbers"
+class Axes:
+    """Mark of a leaf given per axis: one number for all `count` axes (unless `single` is False), or one number each."""
 
-    def spread(value: Any) -> Any:
-        if single and _is_number(value):
-            return (value,) * counts[0]
-        if isinstance(value, (list, tuple)) and len(value) in counts and all(map(_is_number, value)):
+    def __init__(self, count: int, *, single: bool = True) -> None:
+        self.count, self.single = count, single
+
+    def describe(self, limits: str) -> str:
+        """What is allowed, in words; `limits` is what each number must keep to."""
+        return f"{'one number or ' if self.single else ''}a list of {self.count} numbers{limits and ', each ' + limits}"
+
+    def spread(self, value: Any) -> Any:
+        """The numbers of all axes."""
+        if self.single and _is_number(value):
+            return (value,) * self.count
+        if isinstance(value, (list, tuple)) and len(value) == self.count and all(map(_is_number, value)):
             return tuple(value)
-        raise PydanticCustomError("axes", "{allowed}", {"allowed": allowed})
+        raise _must("axes", f"be {self.describe('')}")
 
-    return BeforeValidator(spread)
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.no_info_before_validator_function(self.spread, handler(source))
 
 
 Triple = tuple[float, float, float]
-Axes3 = Annotated[Triple, _spread(3)]
-Positive3 = Annotated[tuple[Positive, Positive, Positive], _spread(3)]
-NonNegative3 = Annotated[tuple[NonNegative, NonNegative, NonNegative], _spread(3)]
-Exactly3 = Annotated[Triple, _spread(3, single=False)]
-Sextuple = tuple[float, float, float, float, float, float]
-Positive6 = Annotated[tuple[Positive, Positive, Positive, Positive, Positive, Positive], _spread(6)]
-NonNegative6 = Annotated[
-    tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative], _spread(6)
-]
+Axes3 = Annotated[Triple, Axes(3)]
+Positive3 = Annotated[tuple[Positive, Positive, Positive], Axes(3)]
+NonNegative3 = Annotated[tuple[NonNegative, NonNegative, NonNegative], Axes(3)]
+Exactly3 = Annotated[Triple, Axes(3, single=False)]
+Positive6 = Annotated[tuple[Positive, Positive, Positive, Positive, Positive, Positive], Axes(6)]
+NonNegative6 = Annotated[tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative], Axes(6)]
+AtLeastOne6 = Annotated[tuple[AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne], Axes(6)]
+as_tuple = BeforeValidator(lambda value: tuple(value) if isinstance(value, list) else value)
+
+
+def _name(name: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}", name):
+        raise _must("name", "be 1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit")
+    return name
 
 
 class MissionTable(Table):
     """`[mission]`: name, duration and times of the run."""
 
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$")]
-    duration: Positive  # s
-    step: Annotated[float, Field(gt=0.0, le=0.02)] = 0.001  # s, of the pilot and of the body
+    name: Annotated[str, AfterValidator(_name)]
+    duration: Positive  # s, rounded to whole steps
+    step: Annotated[float, Field(gt=0.0, le=0.02), AfterValidator(_divisor)] = 0.001  # s, of the pilot and of the body
     log_interval: Positive = 0.01  # s, rounded to whole steps
-    seed: Annotated[int, Field(ge=0, lt=2**63)] = 0
+    seed: Annotated[int, Field(ge=0, le=10**18)] = 0
 
     @property
     def steps(self) -> int:
@@ -68,18 +99,18 @@ class MissionTable(Table):
 
     @property
     def log_every(self) -> int:
-        """Steps from one logged sample to the next, at least one."""
-        return max(1, round(self.log_interval / self.step))
+        """Steps from one logged sample to the next, at least one and at most one more than there are."""
+        return max(1, round(min(self.log_interval / self.step, self.steps + 1)))
 
 
-def _check_inertia(name: str, inertia: Triple) -> None:
+def _principal(inertia: Triple) -> Triple:
     x, y, z = sorted(inertia)
     if z > (x + y) * (1.0 + 1e-9):
-        raise PydanticCustomError(
-            "inertia",
-            "principal moments with none above the sum of the other two (no rigid body has {name} = {given})",
-            {"name": name, "given": str(list(inertia))},
-        )
+        raise _must("inertia", "be principal moments of a body, none greater than the sum of the other two")
+    return inertia
+
+
+Inertia = Annotated[Positive3, AfterValidator(_principal)]
 
 
 class Payload(Table):
@@ -88,14 +119,12 @@ class Payload(Table):
     mass: Positive  # kg
     length: Positive | None = None  # m, along body y
     radius: Positive | None = None  # m
-    inertia: Positive3 | None = None  # kg m², about its centre of mass; a beam's if not given
+    inertia: Inertia | None = None  # kg m², about its centre of mass; a beam's if not given
 
     @model_validator(mode="after")
     def _complete(self) -> Payload:
         if self.inertia is None and (self.length is None or self.radius is None):
-            raise PydanticCustomError("payload", "either `inertia`, or `length` and `radius` of a beam", {})
-        if self.inertia is not None:
-            _check_inertia("inertia", self.inertia)
+            raise _must("payload", "have either inertia, or length and radius (of a beam)")
         return self
 
     @property
@@ -112,7 +141,7 @@ class Quadrotor(Table):
     """One of `[[vehicle.quadrotors]]`: axes parallel to the vehicle's, rigidly fixed to the payload."""
 
     mass: Positive  # kg
-    inertia: Positive3  # kg m², about its centre of mass
+    inertia: Inertia  # kg m², about its centre of mass
     position: Exactly3  # m, of its centre of mass from the payload's, body axes
     layout: Literal["+", "x"]
     arm: Positive  # m, from the centre of mass to each rotor
@@ -121,11 +150,6 @@ class Quadrotor(Table):
     torque_per_thrust: Positive  # m
     lag_up: NonNegative  # s, time constant of spinning up
     lag_down: NonNegative  # s
-
-    @model_validator(mode="after")
-    def _physical(self) -> Quadrotor:
-        _check_inertia("inertia", self.inertia)
-        return self
 
     @property
     def max_thrust(self) -> float:
@@ -140,21 +164,22 @@ class Drag(Table):
     moment: NonNegative3 = (0.0, 0.0, 0.0)  # N m s
 
 
+def _fleet(quadrotors: tuple[Quadrotor, ...]) -> tuple[Quadrotor, ...]:
+    if not 1 <= len(quadrotors) <= MOST_QUADROTORS:
+        raise _must("count", f"be 1 to {MOST_QUADROTORS} tables, here are {len(quadrotors)}")
+    for i, q in enumerate(quadrotors):
+        for j in range(i):
+            if math.dist(q.position, quadrotors[j].position) < COINCIDING:
+                raise _must("count", f"differ in position, but numbers {j} and {i} are both at {list(q.position)}")
+    return quadrotors
+
+
 class VehicleTable(Table):
     """`[vehicle]`: the parts."""
 
     payload: Payload
-    quadrotors: Annotated[tuple[Quadrotor, ...], BeforeValidator(lambda v: tuple(v) if isinstance(v, list) else v)]
+    quadrotors: Annotated[tuple[Quadrotor, ...], as_tuple, AfterValidator(_fleet)]
     drag: Drag = Drag()
-
-    @model_validator(mode="after")
-    def _distinct(self) -> VehicleTable:
-        if not 1 <= len(self.quadrotors) <= 64:
-            raise PydanticCustomError("quadrotors", "1 to 64 quadrotors", {})
-        positions = [q.position for q in self.quadrotors]
-        if len(set(positions)) < len(positions):
-            raise PydanticCustomError("quadrotors", "quadrotors at different positions (two are at the same)", {})
-        return self
 
 
 class ControllerTable(Table):
@@ -174,23 +199,38 @@ class AdmittanceTable(Table):
     reanchor: bool = False
 
 
-def _weights(value: Any) -> Any:
-    allowed = PydanticCustomError("weights", "one number > 0, four numbers > 0, or four for each quadrotor", {})
-    if _is_number(value):
-        value = [value] * 4
-    if not isinstance(value, (list, tuple)) or not value:
-        raise allowed
-    rows = value if all(isinstance(row, (list, tuple)) for row in value) else [value]
-    if any(len(row) != 4 or not all(_is_number(c) and c > 0 for c in row) for row in rows):
-        raise allowed
-    return tuple(tuple(float(c) for c in row) for row in rows)
+class Weights:
+    """Mark of the allocation weights: one number, four, or four for each quadrotor."""
+
+    def describe(self, limits: str) -> str:
+        """What is allowed, in words; `limits` is what each number must keep to."""
+        return f"one number {limits}, four numbers {limits}, or a list of four for each quadrotor"
+
+    def rows(self, value: Any) -> Any:
+        """Rows of four: one for all quadrotors, or one each."""
+        if _is_number(value):
+            value = [value] * 4
+        if isinstance(value, (list, tuple)) and value:
+            rows = value if all(isinstance(row, (list, tuple)) for row in value) else [value]
+            if all(len(row) == 4 and all(map(_is_number, row)) for row in rows):
+                return tuple(map(tuple, rows))
+        raise _must("axes", f"be {self.describe('> 0')}")
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.no_info_before_validator_function(self.rows, handler(source))
 
 
 class AllocationTable(Table):
     """`[allocation]`: how the wrench is split over the quadrotors."""
 
     method: Literal["pseudo-inverse"] = "pseudo-inverse"
-    weights: Annotated[tuple[tuple[Positive, ...], ...], BeforeValidator(_weights)] = ((1.0, 1.0, 1.0, 1.0),)
+    weights: Annotated[tuple[tuple[Positive, Positive, Positive, Positive], ...], Weights()] = ((1.0, 1.0, 1.0, 1.0),)
+
+
+def _upright(euler: Triple) -> Triple:
+    if abs(euler[0]) >= math.radians(85.0):
+        raise _must("roll", "have a roll (the first angle) within ±85° (±1.4835 rad), where the angles are regular")
+    return euler
 
 
 class Initial(Table):
@@ -198,14 +238,8 @@ class Initial(Table):
 
     position: Axes3 = (0.0, 0.0, 0.0)  # m, of the system's centre of mass, world axes
     velocity: Axes3 = (0.0, 0.0, 0.0)  # m/s, world axes
-    euler: Axes3 = (0.0, 0.0, 0.0)  # rad: roll, pitch, yaw (Z-X-Y)
+    euler: Annotated[Axes3, AfterValidator(_upright)] = (0.0, 0.0, 0.0)  # rad: roll, pitch, yaw (Z-X-Y)
     rates: Axes3 = (0.0, 0.0, 0.0)  # rad/s, body axes
-
-    @model_validator(mode="after")
-    def _upright(self) -> Initial:
-        if abs(self.euler[0]) >= 1.4835298641951802:  # 85°
-            raise PydanticCustomError("roll", "a roll within ±85° (±1.4835 rad), where Z-X-Y angles are regular", {})
-        return self
 
 
 class PhasesTable(Table):
@@ -237,8 +271,8 @@ class Disturbance(Table):
 class Plant(Table):
     """`[plant]`: how the body differs from what the pilot believes."""
 
-    mass_scale: Positive = 1.0
-    inertia_scale: Positive3 = (1.0, 1.0, 1.0)
+    mass_scale: Scale = 1.0
+    inertia_scale: Annotated[tuple[Scale, Scale, Scale], Axes(3)] = (1.0, 1.0, 1.0)
 
 
 class Actuators(Table):
@@ -257,7 +291,7 @@ class Mission(Table):
     allocation: AllocationTable = AllocationTable()
     initial: Initial = Initial()
     phases: PhasesTable = PhasesTable()
-    pushes: Annotated[tuple[PushTable, ...], BeforeValidator(lambda v: tuple(v) if isinstance(v, list) else v)] = ()
+    pushes: Annotated[tuple[PushTable, ...], as_tuple] = ()
     disturbance: Disturbance = Disturbance()
     plant: Plant = Plant()
     actuators: Actuators = Actuators()

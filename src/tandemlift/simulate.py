@@ -8,104 +8,29 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
-from functools import cached_property
-from importlib import metadata
 from typing import Any, Literal
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.engines import engine_named
 from tandemlift.errors import InputError
-from tandemlift.flight import Divergence, Flight
-from tandemlift.jit import flat, leaves, unflat, zeroed
-from tandemlift.kernels import COMMAND, GAUSSIAN, HALVES, LANES, Given, Kernels
+from tandemlift.flight import Flight
+from tandemlift.flown import Flown, flight_of, metrics_of
+from tandemlift.jit import flat, leaves, unflat
+from tandemlift.kernels import COMMAND, GAUSSIAN, HALVES, LANES, Given
 from tandemlift.laws.admittance import Trajectory
-from tandemlift.laws.body import State
-from tandemlift.laws.controllers import Measured, NoMemory, Reference, control
-from tandemlift.laws.rotation import sine_of_roll
-from tandemlift.loop import FAR, SIN_ROLL_LIMIT, Flying, Moving, blank_sample, pushes_of, start
-from tandemlift.missions import tables_of
+from tandemlift.laws.controllers import Measured, Reference, control
+from tandemlift.loop import Flying
+from tandemlift.prepared import Prepared
 from tandemlift.settings import Mission
-from tandemlift.tally import EMPTY, LATE, Tally, summary
+from tandemlift.tally import EMPTY, Tally
 from tandemlift.vector import ZERO
 
 Array = NDArray[np.float64]
-STRETCH = 2_000_000  # steps between looks at the keyboard and at the progress bar
 HAND = 3  # pushes in a Hand
 
 Progress = Callable[[int, int], None]
-
-_kernels: dict[Any, Kernels] = {}
-
-
-class Prepared:
-    """A mission ready to fly: its loop at t = 0, its pushes, and its grid of steps."""
-
-    def __init__(self, mission: Mission) -> None:
-        self.mission = mission
-        self.steps = mission.mission.steps
-        self.every = mission.mission.log_every
-        self.dt = mission.mission.step
-        self.flying = start(mission)
-        self.interpreted: tuple[Any, Any] | None = None
-        if type(self.flying.pilot.controller) in control.interpreted:
-            self._set_controller_aside()
-        pushes, self.push = pushes_of(mission)
-        self.pushes = np.array([flat(p) for p in pushes]).reshape(len(pushes), leaves(GAUSSIAN))
-
-    def _set_controller_aside(self) -> None:
-        moving, pilot, plant = self.flying
-        self.interpreted = pilot.controller, moving.memory.controller
-        memory = moving.memory._replace(controller=NoMemory())
-        self.flying = Flying(moving._replace(memory=memory), pilot._replace(controller=NoMemory()), plant)
-
-    @cached_property
-    def variant(self) -> Any:
-        """What decides the compiled loop: the types, not the values, of the flight's members."""
-        return numba.typeof((zeroed(self.flying), zeroed(self.push)))
-
-    @cached_property
-    def sample(self) -> Any:
-        """The layout of a row of the log."""
-        return blank_sample(len(self.flying.plant.effect.thrust))
-
-    @property
-    def late_step(self) -> int:
-        """The first step that starts at `LATE` or after."""
-        return math.ceil(LATE / self.dt - 1e-9)
-
-    @property
-    def stops(self) -> list[int]:
-        """Where the stretches that the flight is flown in end; the last one with the closing sample."""
-        inner = {*range(STRETCH, self.steps, STRETCH), self.late_step}
-        return sorted({s for s in inner if s < self.steps} | {self.steps + 1})
-
-    @property
-    def kernels(self) -> Kernels:
-        """The compiled loops of this variant."""
-        if self.variant not in _kernels:
-            _kernels[self.variant] = Kernels(self.flying, self.push)
-        return _kernels[self.variant]
-
-
-@dataclass
-class Flown:
-    """The raw outcome of a flight: what moved, the tally before 10 s, the step reached, the log, the last sample."""
-
-    moving: Moving
-    early: Tally
-    step: int
-    log: Array
-    last: Array
-    wall: float
-
-    @property
-    def lost(self) -> bool:
-        """Whether the state became unsound."""
-        return self.moving.lost != 0.0
 
 
 def _empty(numbers: Array, like: Flying, lanes: int) -> list[Tally]:
@@ -145,6 +70,8 @@ def _fly_interpreted(p: Prepared, rows: int, every: int, progress: Progress | No
     hands = np.zeros(HALVES * leaves(p.push))
     log, row, last = np.zeros((rows, leaves(p.sample))), np.zeros(leaves(p.sample)), np.full(leaves(p.sample), math.nan)
     before, after = p.kernels.before, p.kernels.after
+    before(a, p.pushes, hands, x, 0, p.dt)  # both compile, and fly nothing
+    after(a, hands, y, row, 0, p.dt, True)
     began, early, k = time.perf_counter(), EMPTY, 0
     while k <= p.steps and a[size - 1] == 0.0:
         if k == p.late_step:
@@ -201,68 +128,6 @@ def _interleaved(pushes: Sequence[Array]) -> Array:
     return table.reshape(len(table), -1)
 
 
-def _divergence(p: Prepared, flown: Flown) -> Divergence | None:
-    if not flown.lost:
-        return None
-    at, state = flown.step * p.dt, flown.moving.state
-    for quantity, values in zip(State._fields, state, strict=True):
-        bad = [v for v in values if not math.isfinite(v)]
-        if bad:
-            return Divergence(quantity, at, bad[0], "must be finite")
-    roll = sine_of_roll(state.attitude)
-    if not abs(roll) < SIN_ROLL_LIMIT:
-        angle = math.degrees(math.asin(max(-1.0, min(1.0, roll))))
-        return Divergence("roll [deg]", at, angle, "must stay within 89 degrees")
-    return Divergence("distance from the origin [m]", at, math.dist(state.position, ZERO), f"must stay below {FAR:g} m")
-
-
-def _formed(value: Any) -> Any:
-    """A metric, or None if it or any part of it is not a finite number."""
-    parts = value if isinstance(value, list) else [value]
-    return value if all(v is not None and math.isfinite(v) for v in parts) else None
-
-
-def _metrics(p: Prepared, flown: Flown) -> dict[str, Any]:
-    first, last = unflat(flown.log[0], p.sample), unflat(flown.last, p.sample)
-    late_reached = p.late_step < p.steps and flown.step >= p.late_step
-    early, late = (flown.early, flown.moving.tally) if late_reached else (flown.moving.tally, EMPTY)
-    formed = summary(early, late, p.dt)
-    formed["final_position_m"] = list(flown.moving.state.position)
-    formed["final_reference_m"] = list(last.reference_position)
-    formed["command_at_start"] = [first.thrust, *first.moment]
-    formed = {name: _formed(value) for name, value in formed.items()}
-    return {**formed, "steps": flown.step, "wall_s": flown.wall}
-
-
-def versions() -> dict[str, str]:
-    """Versions of what a flight was flown with."""
-    return {name: metadata.version(name) for name in ("tandemlift", "numba", "numpy")}
-
-
-def _flight(p: Prepared, flown: Flown) -> Flight:
-    logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
-    channels, at = {}, 0
-    for name, like in zip(p.sample._fields, p.sample, strict=True):
-        width = leaves(like)
-        part = np.ascontiguousarray(flown.log[:logged, at : at + width])
-        channels[name] = part if isinstance(like, tuple) else part[:, 0]
-        at += width
-    return Flight(
-        time=np.arange(logged) * float(p.every) * p.dt,
-        channels=channels,
-        mission=tables_of(p.mission),
-        results=_metrics(p, flown),
-        divergence=_divergence(p, flown),
-        version=versions(),
-    )
-
-
-def needs_compiling(mission: Mission) -> bool:
-    """Whether flying this mission alone will first compile its loop, which takes seconds."""
-    p = Prepared(mission)
-    return p.variant not in _kernels and not p.kernels.folder.exists()
-
-
 def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None = None) -> Flight:
     """Fly a mission.
 
@@ -280,7 +145,7 @@ def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None
     engine_named(engine)
     p = Prepared(mission)
     pick = _fly_interpreted if p.interpreted else _fly_single
-    return _flight(p, pick(p, p.steps // p.every + 1, p.every, progress))
+    return flight_of(p, pick(p, p.steps // p.every + 1, p.every, progress))
 
 
 def fly_many(
@@ -322,7 +187,7 @@ def fly_many(
         else:
             flown = _fly_block(flights, rows, every)
         for i, f, x in zip(places, flights, flown, strict=True):
-            results[i] = _flight(f, x) if keep == "flights" else _metrics(f, x)
+            results[i] = flight_of(f, x) if keep == "flights" else metrics_of(f, x)
         finished.add(len(places))
 
     jobs = _jobs(prepared)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +44,7 @@ def shift(mass: float, d: Array) -> Array:
 
 
 NO_DRAG = Drag()
+EQUAL = ((1.0, 1.0, 1.0, 1.0),)  # weights of the allocation
 
 
 @dataclass(frozen=True)
@@ -67,10 +68,11 @@ class Vehicle:
         if not self.quadrotors:
             raise InputError("vehicle.quadrotors is empty; a vehicle needs at least one quadrotor")
 
-    @classmethod
-    def from_settings(cls, table: VehicleTable) -> Vehicle:
-        """The vehicle that a mission describes."""
-        return cls(table.payload, table.quadrotors, table.drag)
+    @staticmethod
+    @lru_cache(maxsize=64)
+    def from_settings(table: VehicleTable) -> Vehicle:
+        """The vehicle that a mission describes; the same object for the same table, as many missions share one."""
+        return Vehicle(table.payload, table.quadrotors, table.drag)
 
     @property
     def count(self) -> int:
@@ -143,13 +145,13 @@ class Vehicle:
             )
         return np.diag(np.sqrt(np.broadcast_to(rows, (self.count, 4)).ravel()))
 
-    def pseudo_inverse(self, weights: Sequence[Sequence[float]] = ((1.0, 1.0, 1.0, 1.0),)) -> Array:
+    def pseudo_inverse(self, weights: Sequence[Sequence[float]] = EQUAL) -> Array:
         """(4N × 4): the u_q of least ‖H u_q‖ that gives a wrench: H⁻²Bᵀ(BH⁻²Bᵀ)⁻¹."""
         # paper: optim_fun_equ, optim_cont_final_equ
         scaled = np.linalg.inv(self.H(weights) ** 2) @ self.B.T
         return scaled @ np.linalg.inv(self.B @ scaled)
 
-    def allocation(self, weights: Sequence[Sequence[float]] = ((1.0, 1.0, 1.0, 1.0),)) -> Array:
+    def allocation(self, weights: Sequence[Sequence[float]] = EQUAL) -> Array:
         """(4N × 4): thrusts of all rotors from a wrench, by `pseudo_inverse` and each quadrotor's mixer inverse."""
         parts = np.split(self.pseudo_inverse(weights), self.count, axis=0)
         return np.vstack([mixer_inverse(q) @ u for q, u in zip(self.quadrotors, parts, strict=True)])

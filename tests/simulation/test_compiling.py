@@ -11,7 +11,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.kernels import LANES
-from tandemlift.simulate import Prepared
+from tandemlift.prepared import Prepared
 
 PACKAGE = Path(tl.__file__).parent
 
@@ -46,7 +46,7 @@ def test_a_second_process_finds_the_loop_and_an_edit_of_any_law_loses_it(tmp_pat
     environment = {"PYTHONPATH": str(copy), "TANDEMLIFT_CACHE": str(tmp_path / "cache"), "PYTHONSAFEPATH": "1"}
     code = """
 import tandemlift as tl
-from tandemlift.simulate import Prepared, needs_compiling
+from tandemlift.prepared import Prepared, needs_compiling
 mission = tl.load_mission("one-push", {"mission.duration": 1.0})
 print(needs_compiling(mission))
 tl.fly(mission)
@@ -74,13 +74,13 @@ def block_code(tmp_path_factory):
     before = os.environ.get("TANDEMLIFT_CACHE")
     os.environ["TANDEMLIFT_CACHE"] = str(tmp_path_factory.mktemp("cache"))
     try:
-        from tandemlift import simulate
+        from tandemlift import prepared
         from tandemlift.kernels import Kernels
 
         p = Prepared(tl.load_mission("one-push", {"mission.duration": 0.1}))
-        simulate._kernels[p.variant] = Kernels(p.flying, p.push)
+        prepared.KERNELS[p.variant] = Kernels(p.flying, p.push)
         tl.fly_many([p.mission] * 2)
-        block = simulate._kernels.pop(p.variant).block
+        block = prepared.KERNELS.pop(p.variant).block
         return block, next(iter(block.inspect_llvm().values()))
     finally:
         os.environ.pop("TANDEMLIFT_CACHE")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from tandemlift.laws.inertia import inertia_value
 from tandemlift.laws.push import Hand
 from tandemlift.laws.rotation import quaternion_from_euler
 from tandemlift.pilot import mixer_value
-from tandemlift.settings import Mission
+from tandemlift.settings import Mission, VehicleTable
 from tandemlift.vector import vec3
 from tandemlift.vehicle import Vehicle
 
@@ -29,6 +30,11 @@ class Plant(NamedTuple):
 def advance(plant: Plant, state: State, thrusts: Any, hand: Hand, dt: Any) -> State:
     """The state [SI] after dt [s] with the rotor thrusts [N] held and the push continuous."""
     return rk4(state, wrench(plant.effect, thrusts), hand, plant.body, dt)
+
+
+@lru_cache(maxsize=64)
+def _effect(vehicle: VehicleTable) -> Mixer:
+    return mixer_value(Vehicle.from_settings(vehicle).effect)
 
 
 def start_plant(mission: Mission, vehicle: Vehicle) -> tuple[Plant, State]:
@@ -47,4 +53,4 @@ def start_plant(mission: Mission, vehicle: Vehicle) -> tuple[Plant, State]:
     initial = mission.initial
     attitude = quaternion_from_euler(vec3(initial.euler))
     state = State(vec3(initial.position), vec3(initial.velocity), attitude, vec3(initial.rates))
-    return Plant(mixer_value(vehicle.effect), body), state
+    return Plant(_effect(mission.vehicle), body), state

@@ -22,6 +22,8 @@ import platformdirs
 from tandemlift.jit.layout import is_value
 
 PACKAGE = Path(__file__).resolve().parent.parent
+GROUND = ("vector", "ops", "law", "constants")
+LOOP = ("laws/", "jit/", "engines/", "pilot", "onboard", "tally", "loop", "kernels")
 
 
 def root() -> Path:
@@ -40,7 +42,7 @@ def classes(value: Any) -> set[type]:
 
 def sources(value: Any) -> list[Path]:
     """Every file that a loop over values like this one is compiled from."""
-    own = {p for p in PACKAGE.rglob("*.py") if not {"figures", "data"} & set(p.relative_to(PACKAGE).parts)}
+    own = {p for p in PACKAGE.rglob("*.py") if str(p.relative_to(PACKAGE).with_suffix("")).startswith(GROUND + LOOP)}
     theirs = {Path(inspect.getfile(c)) for c in classes(value) if not c.__module__.startswith("tandemlift.")}
     return sorted(own | theirs)
 

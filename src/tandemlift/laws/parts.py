@@ -50,12 +50,14 @@ def point_on_body(origin: Point, R: Mat3, rates: Vec3, angular: Vec3, d: Vec3) -
 
 
 @law
-def quadrotor_acceleration(mass: Any, J: Any, z_axis: Vec3, thrust: Any, torque: Vec3, rates: Vec3, joint: Joint):
+def quadrotor_acceleration(
+    mass: Any, J: Vec3, z_axis: Vec3, thrust: Any, torque: Vec3, rates: Vec3, joint: Joint
+) -> Acceleration:
     """Acceleration of one quadrotor that bears the reaction of its joint. `z_axis`: R (0, 0, 1)."""
     # paper: trans_rot_quad_equ
     linear = (z_axis * thrust - joint.force) / mass - UP * GRAVITY
     angular = torque + gyroscopic(J, rates) - joint.couple
-    return linear, angular / J
+    return Acceleration(linear, angular / J)
 
 
 @law
@@ -77,7 +79,7 @@ def joint_on_payload(R: Mat3, d: Vec3, joint: Joint) -> Joint:
 
 
 @law
-def payload_acceleration(mass: Any, J: Any, rates: Vec3, total: Joint) -> Acceleration:
+def payload_acceleration(mass: Any, J: Vec3, rates: Vec3, total: Joint) -> Acceleration:
     """Acceleration of the payload under the sum of `joint_on_payload` over its quadrotors."""
     # paper: trans_rot_payload_equ
     return Acceleration(total.force / mass - UP * GRAVITY, (total.couple + gyroscopic(J, rates)) / J)

@@ -139,7 +139,7 @@ def surface_slope(k: Surface, e: Any) -> Any:
 @law
 def surface_rate(k: Surface, e: Any, de: Any, dde: Any) -> Any:
     """Ṡ = ë + (ξ + ηa|e|ᵃ⁻¹) ė."""
-    # paper: sliding_surface_dot_equ
+    # paper: sliding_surface_dot_equ, and sdot_equ with ë = χ̈_d − Ϝ − δ − b u
     return dde + surface_slope(k, e) * de
 
 
@@ -174,7 +174,7 @@ def lyapunov(S: Any) -> Any:
 @law
 def lyapunov_rate(S: Any, dS: Any) -> Any:
     """V̇ = S Ṡ per axis."""
-    # paper: vdot_equ
+    # paper: vdot_equ, and vsdot_equ with the Ṡ of sdot_equ
     return S * dS
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import Field
@@ -24,7 +25,7 @@ from tandemlift.laws.inertia import gyroscopic, inertia_value, turn_by
 from tandemlift.laws.rotation import Euler, euler_from_quaternion, euler_rates_from_rates
 from tandemlift.laws.sliding import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration
 from tandemlift.laws.virtual import TiltPrinted, TiltZXY, desired_orientation, total_thrust
-from tandemlift.settings import ControllerTable, NonNegative6, Positive6, Table
+from tandemlift.settings import AtLeastOne6, ControllerTable, NonNegative6, Positive6, Table
 from tandemlift.vector import ZERO, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
@@ -36,7 +37,7 @@ class Gains(Table):
     eta: NonNegative6  # 1/(s mᵃ⁻¹), 1/(s radᵃ⁻¹)
     lambda_1: NonNegative6  # 1/s
     lambda_2: NonNegative6  # m/s², rad/s²
-    a: Annotated[float, Field(ge=1.0)]
+    a: AtLeastOne6
 
 
 class NFTSMCSettings(ControllerTable):
@@ -153,7 +154,7 @@ def position_law(k: NFTSMC, state: Any, desired: Any, push: Vec3) -> Vec3:
 
     Erratum: the paper leaves m_t out on ÿ_d and on the last line of u_z; it multiplies both.
     """
-    # paper: pos_cont_equ
+    # paper: pos_cont_equ, error_equ
     e, de = desired.position - state.position, desired.velocity - state.velocity
     acceleration = desired.acceleration + wanted_acceleration(k.position, e, de) + UP * GRAVITY
     return acceleration * k.mass + k.drag_force * state.velocity - push * k.feedforward
@@ -165,7 +166,7 @@ def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -
 
     Errata: J is the whole vehicle's; sat(S_ψ/Φ), not sat(S_ψ)/Φ.
     """
-    # paper: orient_cont_equ, control_final_equ
+    # paper: orient_cont_equ, control_final_equ, error_equ
     error, error_rate = desired.angles - e.angles, desired.rates - rates
     acceleration = desired.accelerations + wanted_acceleration(k.attitude, error, error_rate)
     return turn_by(k.inertia, acceleration) - gyroscopic(k.inertia, rates) + k.drag_moment * rates
@@ -189,12 +190,17 @@ def command_filter(bandwidth: float, step: float) -> CommandFilter:
     return CommandFilter(bandwidth, (1.0 + wh) * decay, step * decay, -bandwidth * wh * decay, (1.0 - wh) * decay)
 
 
-def _surface(s: NFTSMCSettings, axes: slice) -> Surface:
-    g = s.gains
-    per_width = vec3(1.0 / w for w in s.boundary_layer[axes])
+def _surface(s: NFTSMCSettings, first: int) -> Surface:
+    """The surface of the three axes from number `first` on."""
+
+    def pick(values: Sequence[float]) -> Vec3:
+        return vec3(values[first : first + 3])
+
+    g, widths = s.gains, pick(s.boundary_layer)
+    per_width = Vec3(1.0 / widths.x, 1.0 / widths.y, 1.0 / widths.z)
     kind = {"sign": Sign(), "saturation": Saturation(per_width), "tanh": Tanh(per_width)}[s.switching]
-    exponent = Cubic() if g.a == 3.0 else Power(Vec3(g.a, g.a, g.a))
-    return Surface(vec3(g.xi[axes]), vec3(g.eta[axes]), exponent, vec3(g.lambda_1[axes]), vec3(g.lambda_2[axes]), kind)
+    exponent = Cubic() if set(pick(g.a)) == {3.0} else Power(pick(g.a))
+    return Surface(pick(g.xi), pick(g.eta), exponent, pick(g.lambda_1), pick(g.lambda_2), kind)
 
 
 def _warn_of_chatter(s: NFTSMCSettings, step: float) -> None:
@@ -222,8 +228,8 @@ def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, Any
         inertia=inertia_value(vehicle.inertia),
         drag_force=vec3(vehicle.drag.force),
         drag_moment=vec3(vehicle.drag.moment),
-        position=_surface(s, slice(0, 3)),
-        attitude=_surface(s, slice(3, 6)),
+        position=_surface(s, 0),
+        attitude=_surface(s, 3),
         derivatives=command_filter(s.filter_bandwidth, step) if filtered else Unfiltered(),
         rates=ExactRates() if s.euler_rates == "exact" else BodyRates(),
         inverse=TiltZXY() if s.tilt_inverse == "zxy" else TiltPrinted(),

@@ -1,0 +1,103 @@
+"""The folder of a flight's results: made before the flight, and only our own files in it replaced."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tandemlift.errors import InputError
+
+if TYPE_CHECKING:
+    from tandemlift.flight import Flight
+    from tandemlift.settings import Mission
+
+FILES = ("mission.toml", "flight.npz", "metrics.json", "report.html")
+
+
+@contextmanager
+def results_in(out: str | None, default: Path) -> Iterator[Path]:
+    """The folder for the results, made before the flight; unmade if nothing comes of it.
+
+    Raises:
+        InputError: it cannot be made or written to.
+    """
+    folder = default if out is None else Path(out)
+    made: list[Path] = []
+    try:
+        _make(folder, made)
+        _check_room(folder)
+        yield folder
+    except BaseException:
+        for path in reversed(made):
+            with suppress(OSError):
+                path.rmdir()
+        raise
+
+
+def _make(folder: Path, made: list[Path]) -> None:
+    """Make a folder and its parents; `made` receives those that are new."""
+    try:
+        for path in reversed((folder, *folder.parents)):
+            if not path.is_dir():
+                path.mkdir()
+                made.append(path)
+    except (FileExistsError, NotADirectoryError):
+        raise InputError(f"--out {folder}: {path} is a file, not a folder") from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"--out {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
+
+
+def _check_room(folder: Path) -> None:
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise InputError(f"--out {folder}: the folder cannot be written to")
+    figures = folder / "figures"
+    in_the_way = [path for path in (folder / name for name in FILES) if path.is_dir()]
+    if figures.exists() and not figures.is_dir():
+        in_the_way.append(figures)
+    if in_the_way:
+        raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
+
+
+def write_results(flight: Flight, mission: Mission, folder: Path, *, figures: bool) -> None:
+    """Write everything that `tandemlift run` leaves behind, replacing what an earlier run left."""
+    from tandemlift.figures import FIGURES, save_figures
+    from tandemlift.missions import to_toml
+    from tandemlift.report import write_report
+
+    _replace(folder / "mission.toml", to_toml(mission))
+    flight.save(folder / "flight.npz")
+    _replace(folder / "metrics.json", json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n")
+    for name in FIGURES:
+        for kind in ("png", "pdf"):
+            (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
+    if figures:
+        with bar("Drawing", len(FIGURES), shown=sys.stderr.isatty()) as progress:
+            save_figures(flight, folder / "figures", progress)
+    write_report(flight, folder / "figures", folder / "report.html")
+
+
+def _replace(path: Path, text: str) -> None:
+    """Write a file whole or not at all."""
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        partial.write_text(text, "utf-8")
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+@contextmanager
+def bar(label: str, length: int, *, shown: bool = True) -> Iterator[Callable[[int, int], None] | None]:
+    """A progress bar on standard error as a callback of (done, total), or None."""
+    if not shown:
+        yield None
+        return
+    with click.progressbar(length=length, label=label, file=sys.stderr) as bar:
+        yield lambda done, total: bar.update(done - bar.pos)

@@ -1,0 +1,172 @@
+"""`tandemlift run`: fly a mission, print a summary, write the results."""
+
+from __future__ import annotations
+
+import inspect
+import os
+import re
+import sys
+import time
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tandemlift.cli.results import bar, results_in, write_results
+from tandemlift.errors import InputError
+
+if TYPE_CHECKING:
+    from tandemlift.flight import Flight
+    from tandemlift.laws.controllers import Controller
+    from tandemlift.settings import Mission
+
+DIVERGED = 3
+LONG_RUN = 5_000_000  # steps from which a progress bar is shown
+WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set takes without quotes
+
+
+@click.command()
+@click.argument("mission")
+@click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
+@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="Change one key of the mission: a dotted key, and a TOML value or a word. May be given many times.",
+)
+@click.option("--controller", metavar="NAME|FILE", help="Fly this controller: a registered one, or your .py file.")
+@click.option("--no-figures", is_flag=True, help="Leave the figures out.")
+def run(
+    mission: str, engine: str, out: str | None, settings: tuple[str, ...], controller: str | None, no_figures: bool
+) -> None:
+    """Fly MISSION, print a summary and write the results.
+
+    MISSION is the name of a built-in mission (see `tandemlift missions`) or the path of a .toml file.
+
+    \b
+    Examples:
+      tandemlift run paper
+      tandemlift run paper --set mission.duration=30 --set admittance.gate=soft
+      tandemlift run one-push --set 'pushes.0.force=[0, 2, 0]' --out out/sideways
+      tandemlift run hover --controller my_pd.py --set controller.stiffness=4
+
+    \b
+    Written to the folder, replacing only files of these names:
+      mission.toml   the mission with every key resolved; it flies again
+      flight.npz     all channels, readable with NumPy or tl.Flight.load
+      metrics.json   the metrics, SI units, formed from every step
+      figures/       reference, path, tracking, inputs, interaction (PNG, PDF)
+      report.html    everything on one page, needs no network
+
+    \b
+    Exit code:
+      0   flown
+      2   bad input: one message, nothing is written
+      3   diverged: the flight until then is written
+    """
+    from tandemlift.engines import engine_named
+
+    began = time.perf_counter()
+    engine_named(engine)
+    chosen = _controller(controller)
+    loaded = _load(mission, settings, chosen)
+    with results_in(out, Path("out") / loaded.mission.name) as folder:
+        flight = _fly(loaded, engine, chosen)
+        _print_summary(flight, time.perf_counter() - began)
+        write_results(flight, loaded, folder, figures=not no_figures)
+        say(f"  report: {folder / 'report.html'}")
+    if flight.divergence:
+        click.echo(f"{flight.name}: {flight.divergence}", err=True)
+        sys.exit(DIVERGED)
+
+
+def _controller(given: str | None) -> Controller | None:
+    from tandemlift.laws.controllers import controller, load_controller
+
+    if given is None:
+        return None
+    return load_controller(given) if given.endswith(".py") or "/" in given else controller(given)
+
+
+def _load(mission: str, settings: tuple[str, ...], controller: Controller | None) -> Mission:
+    from tandemlift.missions import load_mission
+
+    return load_mission(mission, dict(map(parse_setting, settings)), controller=controller)
+
+
+def parse_setting(text: str) -> tuple[str, Any]:
+    """The dotted key and the value of KEY=VALUE; VALUE is a TOML literal, or an unquoted word for a string.
+
+    Raises:
+        InputError: the text has no such form.
+    """
+    key, equals, literal = (part.strip() for part in text.partition("="))
+    if not equals or not re.fullmatch(r"[A-Za-z0-9_]+(\.[A-Za-z0-9_]+)*", key):
+        raise InputError(f"--set {text}: must be KEY=VALUE with a dotted key, such as mission.duration=5.0")
+    try:
+        parsed = tomllib.loads(f"value = {literal}")
+    except (ValueError, RecursionError):
+        if re.fullmatch(WORD, literal):
+            return key, literal
+        parsed = {}
+    if list(parsed) != ["value"]:
+        shown = repr(literal if len(literal) <= 80 else f"{literal[:79]}…")
+        allowed = "a number such as 0.5, true, false, a list such as [1, 2, 3], a word, or '\"text in quotes\"'"
+        raise InputError(f"--set {key}={shown}: the value must be {allowed}")
+    return key, parsed["value"]
+
+
+def _fly(mission: Mission, engine: str, controller: Controller | None) -> Flight:
+    from tandemlift.laws.controllers import told
+    from tandemlift.prepared import needs_compiling
+    from tandemlift.simulate import fly
+
+    try:
+        if needs_compiling(mission):
+            click.echo("Compiling the flight loop for this machine (once, a few seconds) …", err=True)
+        with bar("Flying", mission.mission.steps, shown=mission.mission.steps >= LONG_RUN) as progress:
+            return fly(mission, engine, progress=progress)
+    except InputError:
+        raise
+    except Exception as error:
+        if controller is None or controller.start.__module__.startswith("tandemlift."):
+            raise
+        file = inspect.unwrap(controller.start).__code__.co_filename
+        raise InputError(f"controller {controller.name!r} fails: {told(error, file)}") from error
+
+
+def _print_summary(flight: Flight, seconds: float) -> None:
+    m = flight.metrics()
+    late = "_after_10s" if m["position_rmse_after_10s_m"] else ""
+    when = "after 10 s" if late else "whole flight"
+    rows = [
+        ("final position", _list(m["final_position_m"], 3), "m"),
+        ("final reference", _list(m["final_reference_m"], 3), "m"),
+        (f"position RMSE, {when}", _list(m[f"position_rmse{late}_m"], 2, 1e3), "mm"),
+        (f"position error at most, {when}", _list(m[f"position_max_error{late}_m"], 2, 1e3), "mm"),
+        ("attitude RMSE", _list(m["attitude_rmse_rad"], 2, 57.29577951308232), "deg"),
+        ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (least, most)"),
+        ("human work", _list([m["human_work_j"]], 2), "J"),
+    ]
+    say(f"{flight.name}: {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms ({seconds:.2f} s in all)")
+    for label, value, unit in rows:
+        if value:
+            say(f"  {label:36}{value} {unit}")
+
+
+def _list(values: list[float | None] | None, digits: int, scale: float = 1.0) -> str:
+    """Numbers side by side, '' where there are none."""
+    if not values or any(v is None for v in values):
+        return ""
+    return "  ".join(f"{round(v * scale, digits) + 0.0:8.{digits}f}" for v in values if v is not None)
+
+
+def say(text: str, *, nl: bool = True) -> None:
+    """Print to standard output, and go on without one if it is closed (`| head`)."""
+    try:
+        click.echo(text, nl=nl)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,0 +1,83 @@
+"""The commanded inputs: thrust U1 [N] and the moments U2, U3, U4 [N m] about the body axes.
+
+A disturbed start can ask for more than the rest of the flight by orders of magnitude. Where it does, a column of its
+own shows the start in full, and the column of the whole flight is scaled to what follows.
+"""
+# paper: fig7
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from tandemlift.figures.panels import extent, fit, line, time_axis
+from tandemlift.figures.style import BLACK, BLUE, GREY, PAGE, journal
+from tandemlift.flight import Flight
+from tandemlift.settings import VehicleTable
+from tandemlift.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+
+START = 1.0  # s, how long a start may be
+LONG = 5.0  # s, flights shorter than this are all start
+DISTURBED = 1.5  # times the span of what follows, from where the start gets a column
+LEAST = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
+LABELS = ("$U_1$ (N)", "$U_2$ (N m)", "$U_3$ (N m)", "$U_4$ (N m)")
+
+
+def _span(values: Array) -> float:
+    low, high = extent(values)
+    return high - low
+
+
+def start_is_disturbed(time: Array, inputs: Array) -> bool:
+    """Whether any input (T, 4) spans far more in the first second than afterwards."""
+    if not len(time) or time[-1] < LONG:
+        return False
+    late = time > START
+    return any(_span(inputs[:, i]) > DISTURBED * max(_span(inputs[late, i]), LEAST[i]) for i in range(inputs.shape[1]))
+
+
+def _panel(ax: Any, flight: Flight, i: int, part: NDArray[np.bool_], shown: NDArray[np.bool_]) -> None:
+    """Draw input i over the samples `shown`, on a value axis that is scaled to the samples `part`."""
+    values = flight["thrust"] if i == 0 else flight["moment"][:, i - 1]
+    line(ax, flight.time[shown], values[shown], color=BLUE, lw=1.0)
+    fit(ax, values[part], least=LEAST[i])
+    if i:
+        ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
+
+
+def weight_of(flight: Flight) -> float:
+    """Weight [N] of the vehicle that flew, which need not be the one that the pilot believed in."""
+    believed = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"])).weight
+    return believed * flight.mission.get("plant", {}).get("mass_scale", 1.0)
+
+
+@journal
+def draw(flight: Flight) -> Figure:
+    """Draw U1 [N] with the vehicle's weight, and U2, U3, U4 [N m]; the start apart if it is disturbed."""
+    time = flight.time
+    disturbed = start_is_disturbed(time, np.column_stack([flight["thrust"], flight["moment"]]))
+    every, early = np.ones(len(time), dtype=bool), time <= START
+    figure = Figure(figsize=(PAGE, 4.4), layout="constrained")
+    widths = (1.0, 2.6) if disturbed else (1.0,)
+    axes = figure.subplots(4, len(widths), squeeze=False, gridspec_kw={"width_ratios": widths})
+    weight = weight_of(flight)
+    for i, row in enumerate(axes):
+        _panel(row[-1], flight, i, ~early if disturbed else every, every)
+        time_axis(row[-1], flight, label=i == 3)
+        if disturbed:
+            _panel(row[0], flight, i, early, early)
+            time_axis(row[0], flight, label=i == 3)
+            row[0].set_xlim(-0.02 * START, START)
+        row[0].set_ylabel(LABELS[i])
+    hover = [ax.axhline(weight, color=BLACK, lw=0.7, ls=(0, (5, 3)), zorder=0) for ax in axes[0]]
+    axes[0, -1].legend(hover[-1:], [f"weight, {weight:.4g} N"], loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    if disturbed:
+        axes[0, 0].set_title("first second")
+        axes[0, 1].set_title("whole flight, scaled to what follows")
+    figure.align_ylabels(axes[:, 0])
+    return figure

@@ -1,0 +1,133 @@
+"""The path in space, with arrows where the person pushed, and the vehicle at a few instants.
+
+An arrow starts where the push acted at the time of its peak, points along it and is as long, over the longest one, as
+it was strong. The path's shadow straight below it lies on the floor.
+"""
+# paper: fig5, b
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import FancyArrowPatch
+from numpy.typing import NDArray
+
+from tandemlift.figures.scene import NEAR, Scene, on_paper
+from tandemlift.figures.series import drawable, telling
+from tandemlift.figures.skeleton import Skeleton, skeleton
+from tandemlift.figures.style import BLACK, BLUE, GREY, VERMILLION, journal
+from tandemlift.flight import Flight
+from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.vector import Quat
+
+Array = NDArray[np.float64]
+
+MOST = 6  # vehicles drawn
+SPACING = 1.2  # vehicle spans of path from one vehicle drawn to the next, at least
+VISIBLE = 0.02  # of the longest side of the scene: a smaller vehicle would be a blot
+LONGEST = 0.13  # of the longest side of the scene: the longest arrow
+FAINT = "#6e6e6e"
+
+
+class Push(NamedTuple):
+    """A push at the time of its peak: where it acted (3) [m] and its force (3) [N], world axes."""
+
+    point: Array
+    force: Array
+
+
+def pushes(flight: Flight) -> list[Push]:
+    """The pushes whose peak lies within the time flown."""
+    found = []
+    for push in flight.mission.get("pushes", []):
+        if not len(flight.time) or not flight.time[0] <= push["time"] <= flight.time[-1]:
+            continue
+        k = int(np.argmin(np.abs(flight.time - push["time"])))
+        R = np.array(rotation_from_quaternion(Quat(*map(float, flight["attitude"][k]))))
+        found.append(Push(flight["position"][k] + R @ push["point"], np.array(push["force"])))
+    return [p for p in found if np.isfinite(p.point).all() and p.force.any()]
+
+
+def instants(path: Array, span: float) -> list[int]:
+    """Samples at which to draw a vehicle of a span [m]: the first, the last, and some at even steps along the path."""
+    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    count = min(MOST, 1 + int(way[-1] / (SPACING * span)))
+    if count == 1:
+        return [len(path) - 1] if way[-1] < span / 4.0 else [0, len(path) - 1]
+    between = np.searchsorted(way, np.linspace(0.0, way[-1], count)[1:-1])
+    return [0, *map(int, between), len(path) - 1]
+
+
+def _draw_vehicle(scene: Scene, body: Skeleton, color: str, order: float) -> None:
+    """Draw one vehicle: rotor discs, arms, struts and payload."""
+    common: dict[str, Any] = {"zorder": order, "clip_on": False}
+    discs = PolyCollection(
+        list(on_paper(body.rotors)), facecolor="white", edgecolor=color, lw=0.5, alpha=0.85, **common
+    )
+    bars = LineCollection(list(on_paper([*body.arms, *body.struts])), colors=color, lw=0.7, **common)
+    scene.axes.add_collection(discs)
+    scene.axes.add_collection(bars)
+    look: Any = {"lw": 2.4, "solid_capstyle": "round"} if len(body.beam) == 2 else {"marker": "s", "ms": 4.0}
+    scene.line(body.beam, color=color, zorder=order, gid="payload", **look)
+
+
+def _draw_pushes(scene: Scene, found: list[Push], tips: Array) -> None:
+    """Draw the arrows, each with a thin line down to the floor that shows where above it the push acted."""
+    floor = scene.box[2, 0]
+    look: Any = {"arrowstyle": "-|>,head_length=4,head_width=2", "mutation_scale": 1.0, "shrinkA": 0, "shrinkB": 0}
+    for push, tip in zip(found, tips, strict=True):
+        scene.line(np.array([push.point, [*push.point[:2], floor]]), color=GREY, lw=0.5, ls=(0, (1, 2)), zorder=1)
+        ends = on_paper([push.point, tip])
+        arrow = FancyArrowPatch(*ends, color=VERMILLION, lw=1.6, zorder=40, clip_on=False, gid="push", **look)
+        scene.axes.add_patch(arrow)
+
+
+def _legend(scene: Scene, found: list[Push], handles: list[Any]) -> None:
+    labels = ["path", "its shadow on the floor", "start", "end"]
+    if found:
+        strongest = max(float(np.linalg.norm(p.force)) for p in found)
+        handles = [*handles, Line2D([], [], color=VERMILLION, lw=1.6, marker=">", ms=4)]
+        labels.append(f"push (longest arrow: {strongest:.3g} N)")
+    scene.figure.legend(handles, labels, loc="upper left", ncols=len(labels), columnspacing=1.2)
+
+
+def _draw_path(scene: Scene, path: Array) -> list[Any]:
+    """Draw the path (T, 3) [m], its shadow, start and end; returns the handles for the legend."""
+    thin = path[np.unique(np.concatenate([telling(coordinate) for coordinate in path.T]))]
+    shadow = np.column_stack([thin[:, :2], np.full(len(thin), scene.box[2, 0])])
+    ends: Any = {"color": BLUE, "mfc": "white", "ms": 4, "ls": "none", "zorder": 41}
+    return [
+        scene.line(thin, color=BLUE, lw=1.3, zorder=3, gid="path"),
+        scene.line(shadow, color=GREY, lw=0.8, zorder=1),
+        scene.line(path[:1], marker="o", **ends),
+        scene.line(path[-1:], marker="s", **ends),
+    ]
+
+
+@journal
+def draw(flight: Flight) -> Figure:
+    """Draw the path [m, world axes] with the pushes and the vehicle."""
+    rotations = np.abs(np.linalg.norm(flight["attitude"], axis=1) - 1.0) < 0.01  # false for NaN
+    sound = np.isfinite(drawable(flight["position"])).all(axis=1) & rotations
+    path, attitudes = flight["position"][sound], flight["attitude"][sound]
+    body = skeleton(flight.mission["vehicle"])
+    span = float(np.ptp(body.points, axis=0).max())
+    visible = len(path) and span > VISIBLE * np.ptp(path, axis=0).max()
+    shown = instants(path, span) if visible else []
+    vehicles = [body.placed(path[k], attitudes[k]) for k in shown]
+    around = np.concatenate([path, *(v.points for v in vehicles)]) if len(path) else body.points
+    found = pushes(flight)
+    per_newton = LONGEST * np.ptp(around, axis=0).max() / max([np.linalg.norm(p.force) for p in found], default=1.0)
+    tips = np.array([p.point + per_newton * p.force for p in found]).reshape(-1, 3)
+
+    scene = Scene(np.concatenate([around, tips]))
+    handles = _draw_path(scene, path)
+    for order, k in enumerate(sorted(range(len(shown)), key=lambda k: float(path[shown[k]] @ NEAR))):
+        _draw_vehicle(scene, vehicles[k], BLACK if shown[k] in (0, len(path) - 1) else FAINT, 4.0 + order)
+    _draw_pushes(scene, found, tips)
+    _legend(scene, found, handles)
+    return scene.figure

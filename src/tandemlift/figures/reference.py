@@ -1,0 +1,45 @@
+"""The reference trajectories that the admittance makes of the push, per world axis.
+
+The push is drawn over its largest absolute value on that axis, above the position T_r [m] and velocity [m/s] that it
+brings about.
+"""
+# paper: fig4
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from tandemlift.figures.panels import fit, line, time_axis
+from tandemlift.figures.series import drawable, normalised
+from tandemlift.figures.style import ACTUAL, GREY, PAGE, VERMILLION, journal
+from tandemlift.flight import Flight
+
+ROWS = (
+    ("admittance_position", "$T_r$ (m)", 0.02),
+    ("admittance_velocity", r"$\dot{T}_r$ (m/s)", 0.02),
+)
+
+
+@journal
+def draw(flight: Flight) -> Figure:
+    """Draw the push (normalised, world axes) and T_r with its rate; columns are x, y and z."""
+    figure = Figure(figsize=(PAGE, 3.5), layout="constrained")
+    axes = figure.subplots(3, 3, sharex=True, squeeze=False)
+    for axis, name in enumerate("xyz"):
+        push, _ = normalised(drawable(flight["push_force"][:, axis]))
+        top = axes[0, axis]
+        top.set_title(f"${name}$")
+        line(top, flight.time, push, **ACTUAL)
+        top.set_ylim(-1.12, 1.12)
+        top.set_yticks([-1, 0, 1])
+        for ax, (channel, _, least) in zip(axes[1:, axis], ROWS, strict=True):
+            values = flight[channel][:, axis]
+            line(ax, flight.time, values, color=VERMILLION, lw=1.2)
+            fit(ax, values, least=least)
+        for row, ax in enumerate(axes[:, axis]):
+            ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
+            time_axis(ax, flight, label=row == 2)
+    for ax, label in zip(axes[:, 0], (r"push / max|push|", *(label for _, label, _ in ROWS)), strict=True):
+        ax.set_ylabel(label)
+    figure.align_ylabels(axes[:, 0])
+    return figure

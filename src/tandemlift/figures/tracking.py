@@ -1,0 +1,107 @@
+"""How the vehicle tracks: desired and actual orientation, position and velocity, and the normalised errors.
+
+Orientation is against what the attitude law tracks, in degrees; position and velocity are in world axes. Each error is
+divided by its own largest absolute value, which the legend gives.
+"""
+# paper: fig6
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import EngFormatter
+
+from tandemlift.figures.panels import fit, line, time_axis
+from tandemlift.figures.series import drawable, normalised
+from tandemlift.figures.style import ACTUAL, COMPONENTS, DESIRED, GREY, PAGE, journal
+from tandemlift.flight import Flight
+
+
+class Column(NamedTuple):
+    """A column of the figure: its channels, its components' symbols, unit and scale, and the least span of an axis."""
+
+    title: str
+    desired: str
+    actual: str
+    error: str
+    symbols: tuple[str, str, str]
+    unit: str
+    scale: float
+    least: float
+
+
+COLUMNS = (
+    Column(
+        "Orientation",
+        "reference_euler",
+        "euler",
+        "attitude_error",
+        (r"\phi", r"\theta", r"\psi"),
+        "°",
+        float(np.degrees(1.0)),
+        0.2,
+    ),
+    Column("Position", "reference_position", "position", "position_error", ("x", "y", "z"), "m", 1.0, 0.02),
+    Column(
+        "Velocity",
+        "reference_velocity",
+        "velocity",
+        "velocity_error",
+        (r"\dot{x}", r"\dot{y}", r"\dot{z}"),
+        "m/s",
+        1.0,
+        0.02,
+    ),
+)
+
+
+def size_of(value: float, unit: str) -> str:
+    """A value in three digits, with an SI prefix, or as a power of ten where degrees are small."""
+    if unit != "°":
+        return EngFormatter(unit)(float(f"{value:.3g}"))
+    digits, _, power = f"{value:.3g}".partition("e")
+    return rf"${digits}\times10^{{{int(power)}}}$°" if power else f"{digits}°"
+
+
+def _trajectories(axes: Any, flight: Flight, column: Column) -> list[Any]:
+    """Fill the three upper panels of a column; returns the handles of the actual and the desired line."""
+    handles = []
+    for i, ax in enumerate(axes):
+        actual, desired = (flight[name][:, i] * column.scale for name in (column.actual, column.desired))
+        handles = [line(ax, flight.time, actual, **ACTUAL), line(ax, flight.time, desired, **DESIRED)]
+        fit(ax, actual, desired, least=column.least)
+        ax.set_ylabel(f"${column.symbols[i]}$ ({column.unit})", labelpad=1)
+        time_axis(ax, flight, label=False)
+    return handles
+
+
+def _errors(ax: Any, flight: Flight, column: Column) -> None:
+    """Fill the bottom panel of a column with the errors over their largest absolute values."""
+    for i, look in enumerate(COMPONENTS):
+        error, peak = normalised(drawable(flight[column.error][:, i]))
+        size = f" / {size_of(peak * column.scale, column.unit)}" if peak else ": 0"
+        line(ax, flight.time, error, label=f"${column.symbols[i]}${size}", **look)
+    ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
+    ax.set_ylim(-1.1, 1.1)
+    ax.set_yticks([-1, 0, 1])
+    ax.set_ylabel("error / max|error|", labelpad=1)
+    above = {"loc": "lower center", "bbox_to_anchor": (0.46, 1.0), "borderaxespad": 0.0}
+    ax.legend(ncols=3, fontsize=7, handlelength=1.5, handletextpad=0.4, columnspacing=0.7, **above)
+    time_axis(ax, flight)
+
+
+@journal
+def draw(flight: Flight) -> Figure:
+    """Draw orientation [°], position [m] and velocity [m/s], desired and actual, and the normalised errors."""
+    figure = Figure(figsize=(PAGE, 5.8), layout="constrained")
+    axes = figure.subplots(4, 3, squeeze=False, gridspec_kw={"height_ratios": (1, 1, 1, 1.25)})
+    handles: list[Any] = []
+    for ax, column in zip(axes.T, COLUMNS, strict=True):
+        ax[0].set_title(column.title)
+        handles = _trajectories(ax[:3], flight, column)
+        _errors(ax[3], flight, column)
+        figure.align_ylabels(ax)
+    figure.legend(handles, ("actual", "desired"), loc="outside upper left", ncols=2)
+    return figure

@@ -1,0 +1,98 @@
+"""What a flight has left behind when it is over, and the record that is made of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from importlib import metadata
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.flight import Divergence, Flight
+from tandemlift.jit import leaves, unflat
+from tandemlift.laws.body import State
+from tandemlift.laws.rotation import sine_of_roll
+from tandemlift.loop import FAR, SIN_ROLL_LIMIT, Moving
+from tandemlift.missions import tables_of
+from tandemlift.prepared import Prepared
+from tandemlift.tally import EMPTY, Tally, summary
+from tandemlift.vector import ZERO
+
+Array = NDArray[np.float64]
+
+
+@dataclass
+class Flown:
+    """The raw outcome of a flight: what moved, the tally before 10 s, the step reached, the log, the last sample."""
+
+    moving: Moving
+    early: Tally
+    step: int
+    log: Array
+    last: Array
+    wall: float
+
+    @property
+    def lost(self) -> bool:
+        """Whether the state became unsound."""
+        return self.moving.lost != 0.0
+
+
+def _divergence(p: Prepared, flown: Flown) -> Divergence | None:
+    if not flown.lost:
+        return None
+    at, state = flown.step * p.dt, flown.moving.state
+    for quantity, values in zip(State._fields, state, strict=True):
+        bad = [v for v in values if not math.isfinite(v)]
+        if bad:
+            return Divergence(quantity, at, bad[0], "must be finite")
+    roll = sine_of_roll(state.attitude)
+    if not abs(roll) < SIN_ROLL_LIMIT:
+        angle = math.degrees(math.asin(max(-1.0, min(1.0, roll))))
+        return Divergence("roll [deg]", at, angle, "must stay within 89 degrees")
+    return Divergence("distance from the origin [m]", at, math.dist(state.position, ZERO), f"must stay below {FAR:g} m")
+
+
+def _formed(value: Any) -> Any:
+    """A metric, or None if it or any part of it is not a finite number."""
+    parts = value if isinstance(value, list) else [value]
+    return value if all(v is not None and math.isfinite(v) for v in parts) else None
+
+
+def metrics_of(p: Prepared, flown: Flown) -> dict[str, Any]:
+    """The metrics of a flight by their names in metrics.json; None where one could not be formed."""
+    first, last = unflat(flown.log[0], p.sample), unflat(flown.last, p.sample)
+    late_reached = p.late_step < p.steps and flown.step >= p.late_step
+    early, late = (flown.early, flown.moving.tally) if late_reached else (flown.moving.tally, EMPTY)
+    formed = summary(early, late, p.dt)
+    formed["final_position_m"] = list(flown.moving.state.position)
+    formed["final_reference_m"] = list(last.reference_position)
+    formed["command_at_start"] = [first.thrust, *first.moment]
+    formed = {name: _formed(value) for name, value in formed.items()}
+    return {**formed, "steps": flown.step, "wall_s": flown.wall}
+
+
+def versions() -> dict[str, str]:
+    """Versions of what a flight was flown with."""
+    return {name: metadata.version(name) for name in ("tandemlift", "numba", "numpy")}
+
+
+def flight_of(p: Prepared, flown: Flown) -> Flight:
+    """The record of a flight."""
+    logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
+    channels, at = {}, 0
+    for name, like in zip(p.sample._fields, p.sample, strict=True):
+        width = leaves(like)
+        part = np.ascontiguousarray(flown.log[:logged, at : at + width])
+        channels[name] = part if isinstance(like, tuple) else part[:, 0]
+        at += width
+    return Flight(
+        time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
+        channels=channels,
+        mission=tables_of(p.mission),
+        results=metrics_of(p, flown),
+        divergence=_divergence(p, flown),
+        version=versions(),
+    )

@@ -1,0 +1,76 @@
+"""A mission made ready for the compiled loop, which is chosen by the types of its members and kept for the next."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from tandemlift.jit import flat, form, leaves
+from tandemlift.kernels import GAUSSIAN, Kernels
+from tandemlift.laws.controllers import NoMemory, control
+from tandemlift.loop import Flying, blank_sample, pushes_of, start
+from tandemlift.settings import Mission
+from tandemlift.tally import LATE
+
+STRETCH = 2_000_000  # steps between looks at the keyboard and at the progress bar
+
+KERNELS: dict[Any, Kernels] = {}
+
+
+class Prepared:
+    """A mission ready to fly: its loop at t = 0, its pushes, and its grid of steps."""
+
+    def __init__(self, mission: Mission) -> None:
+        self.mission = mission
+        self.steps = mission.mission.steps
+        self.every = mission.mission.log_every
+        self.dt = mission.mission.step
+        self.flying = start(mission)
+        self.interpreted: tuple[Any, Any] | None = None
+        if type(self.flying.pilot.controller) in control.interpreted:
+            self._set_controller_aside()
+        pushes, self.push = pushes_of(mission)
+        self.pushes = np.array([flat(p) for p in pushes]).reshape(len(pushes), leaves(GAUSSIAN))
+
+    def _set_controller_aside(self) -> None:
+        moving, pilot, plant = self.flying
+        self.interpreted = pilot.controller, moving.memory.controller
+        memory = moving.memory._replace(controller=NoMemory())
+        self.flying = Flying(moving._replace(memory=memory), pilot._replace(controller=NoMemory()), plant)
+
+    @cached_property
+    def variant(self) -> Any:
+        """What decides the compiled loop: the types, not the values, of the flight's members."""
+        return form(self.flying), form(self.push)
+
+    @cached_property
+    def sample(self) -> Any:
+        """The layout of a row of the log."""
+        return blank_sample(len(self.flying.plant.effect.thrust))
+
+    @property
+    def late_step(self) -> int:
+        """The first step that starts at `LATE` or after."""
+        return math.ceil(LATE / self.dt - 1e-9)
+
+    @property
+    def stops(self) -> list[int]:
+        """Where the stretches that the flight is flown in end; the last one with the closing sample."""
+        inner = {*range(STRETCH, self.steps, STRETCH), self.late_step}
+        return sorted({s for s in inner if s < self.steps} | {self.steps + 1})
+
+    @property
+    def kernels(self) -> Kernels:
+        """The compiled loops of this variant."""
+        if self.variant not in KERNELS:
+            KERNELS[self.variant] = Kernels(self.flying, self.push)
+        return KERNELS[self.variant]
+
+
+def needs_compiling(mission: Mission) -> bool:
+    """Whether flying this mission alone will first compile its loop, which takes seconds."""
+    p = Prepared(mission)
+    return p.variant not in KERNELS and not p.kernels.folder.exists()

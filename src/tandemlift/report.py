@@ -1,0 +1,260 @@
+"""The report of a flight: one HTML file that needs nothing else, with the verdict, the figures and the metrics."""
+
+from __future__ import annotations
+
+import base64
+import math
+import os
+import re
+import struct
+from collections.abc import Iterable, Mapping
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from tandemlift.figures import FIGURES
+from tandemlift.figures.captions import CAPTIONS
+from tandemlift.flight import Flight
+from tandemlift.missions import built_in, format_toml, load_mission, tables_of
+
+UNITS = {  # by the end of a metric's name; longer ends first
+    "n_m": "N m",
+    "m_s": "m/s",
+    "n_s": "N s",
+    "rad": "rad",
+    "n": "N",
+    "m": "m",
+    "j": "J",
+    "s": "s",
+}
+DASH = "–"  # what could not be formed
+NO_BREAK = "\u00a0"
+SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
+WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
+
+STYLE = """
+:root { color-scheme: light dark; --ink: #1b1f24; --soft: #5b6470; --line: #d7dce1; --page: #fff; --card: #f5f7f9;
+  --good: #00664b; --bad: #a83e00; }
+@media (prefers-color-scheme: dark) { :root { --ink: #e4e7eb; --soft: #9aa4af; --line: #3a424b; --page: #15191e;
+  --card: #1e242b; --good: #4fd3ab; --bad: #ff9d5c; } }
+* { box-sizing: border-box; }
+body { margin: 0; background: var(--page); color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; }
+main { max-width: 64rem; margin: 0 auto; padding: 1.5rem 1rem 3rem; }
+h1 { margin: 0; font-size: 2rem; line-height: 1.2; overflow-wrap: anywhere; }
+h2 { margin: 2.5rem 0 1rem; font-size: 1.3rem; }
+.kind, .soft, figcaption { color: var(--soft); }
+.kind { margin: 0; }
+.verdict { margin: 1rem 0 .5rem; padding: .6rem .9rem; border-left: .3rem solid var(--good); background: var(--card); }
+.verdict.diverged { border-color: var(--bad); }
+.verdict strong { color: var(--good); }
+.verdict.diverged strong { color: var(--bad); }
+figure { margin: 0 0 2rem; }
+figcaption { max-width: 44rem; margin-top: .5rem; font-size: .9rem; }
+figcaption b { color: var(--ink); }
+.sheet { overflow-x: auto; padding: .75rem; border: 1px solid var(--line); border-radius: .4rem; background: #fff; }
+.sheet img { display: block; max-width: 100%; height: auto; margin: 0 auto; }
+.sheet img.wide { min-width: 38rem; }
+.table { overflow-x: auto; }
+table { width: 100%; border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .35rem .75rem; border-bottom: 1px solid var(--line); text-align: right; vertical-align: top;
+  white-space: nowrap; }
+th:first-child { padding-left: 0; text-align: left; font-weight: 500; white-space: normal; }
+thead th, thead th:first-child { font-weight: 600; }
+td:last-child, thead th:last-child { text-align: left; }
+td.one { text-align: center; white-space: normal; }
+td small { color: var(--soft); }
+sup { line-height: 0; }
+code, pre { font: .85em/1.45 ui-monospace, monospace; }
+th code { color: var(--soft); font-size: .75rem; overflow-wrap: anywhere; }
+pre { overflow-x: auto; padding: .75rem 1rem; border-radius: .4rem; background: var(--card); }
+summary { cursor: pointer; }
+footer { margin-top: 2.5rem; padding-top: .75rem; border-top: 1px solid var(--line); font-size: .85rem; }
+@media (max-width: 40rem) { table { font-size: .78rem; }
+  th code { display: none; } th, td { padding: .35rem .25rem; } }
+@media print { :root { color-scheme: light; --ink: #000; --soft: #444; --line: #bbb; --page: #fff; --card: #f4f4f4;
+  --good: #00664b; --bad: #a83e00; }
+  main { max-width: none; padding: 0; } figure, tr { break-inside: avoid; } .sheet { border: 0; padding: 0; }
+  .sheet, .table { overflow: visible; } .sheet img.wide { min-width: 0; } h2 { break-after: avoid; } }
+"""
+
+PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{name}: flight report</title>
+<style>{style}</style>
+</head>
+<body>
+<main>
+<header>
+<p class="kind">Flight report</p>
+<h1>{name}</h1>
+{verdict}
+</header>
+{figures}
+<section>
+<h2>Metrics</h2>
+{metrics}
+</section>
+<section>
+<h2>Mission</h2>
+<details>
+<summary>The mission as it was flown, with every key</summary>
+<pre><code>{mission}</code></pre>
+</details>
+</section>
+<section>
+<h2>How to fly it again</h2>
+{again}
+</section>
+<footer class="soft">Flown with {versions}.</footer>
+</main>
+</body>
+</html>
+"""
+
+
+def number(value: Any) -> str:
+    """A metric's value as HTML: four significant digits, or a power of ten; a dash for None."""
+    if value is None:
+        return DASH
+    if not isinstance(value, (int, float)) or isinstance(value, bool) or not math.isfinite(value):
+        return escape(str(value))
+    if isinstance(value, int) or 1e4 <= abs(value) < 1e7:
+        text = f"{value:,.0f}".replace(",", "\u202f")
+    elif value == 0 or 1e-3 <= abs(value) < 1e4:
+        text = f"{value:#.4g}".rstrip(".") if value else "0"
+    else:
+        digits, power = f"{value:.2e}".split("e")
+        text = f"{digits} × 10<sup>{int(power)}</sup>"
+    return text.replace("-", "−")
+
+
+def split_unit(name: str) -> tuple[str, str]:
+    """A metric's name in words, and its unit ('' if the name ends in none)."""
+    end = next((end for end in UNITS if name.endswith(f"_{end}")), "")
+    words = (
+        (name.removesuffix(f"_{end}") if end else name)
+        .replace("_", " ")
+        .replace("rmse", "RMSE")
+        .replace("wall", "wall time")
+    )
+    words = re.sub(r"(\d)s\b", r"\1 s", words)
+    return words[:1].upper() + words[1:], UNITS.get(end, "")
+
+
+def _cells(name: str, value: Any, unit: str) -> str:
+    """The table cells of a metric's value: one per axis, or one over all three columns."""
+    if name == "command_at_start" and isinstance(value, (list, tuple)):
+        parts = (
+            f"U{'₁₂₃₄'[i]} = {number(v)} {'N m' if i else 'N'}".replace(" ", NO_BREAK) for i, v in enumerate(value)
+        )
+        return f'<td class="one" colspan="3">{", ".join(parts)}</td>'
+    single = not isinstance(value, (list, tuple)) or len(value) != 3
+    values = [value] if single else value
+    texts = [", ".join(map(number, v)) if isinstance(v, (list, tuple)) else number(v) for v in values]
+    if unit == "rad":
+        degrees = [math.degrees(v) if isinstance(v, (int, float)) else None for v in values]
+        texts = [
+            f"{t}<br><small>{number(d)}°</small>" if d is not None else t for t, d in zip(texts, degrees, strict=True)
+        ]
+    return "".join(f'<td class="one" colspan="3">{t}</td>' if single else f"<td>{t}</td>" for t in texts)
+
+
+def _metrics(metrics: Mapping[str, Any]) -> str:
+    """The metrics as a table, a row each."""
+    rows = []
+    for name, value in metrics.items():
+        words, unit = split_unit(name)
+        head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'
+        rows.append(f"<tr>{head}{_cells(name, value, unit)}<td>{unit}</td></tr>")
+    columns = "".join(f'<th scope="col">{c}</th>' for c in ("Metric", "x or φ", "y or θ", "z or ψ", "Unit"))
+    note = f"From every step, not from the log. Errors are desired minus actual. A dash ({DASH}): could not be formed."
+    table = f"<table>\n<thead><tr>{columns}</tr></thead>\n<tbody>\n"
+    return f'<p class="soft">{note}</p>\n<div class="table">\n{table}{chr(10).join(rows)}\n</tbody>\n</table>\n</div>'
+
+
+def _verdict(flight: Flight) -> str:
+    """Where the flight ended against where it should have, or why it was stopped."""
+    if flight.divergence:
+        what, _, why = str(flight.divergence).partition(": ")
+        return f'<p class="verdict diverged"><strong>{escape(what).capitalize()}</strong>: {escape(why)}.</p>'
+    metrics = flight.metrics()
+    end, reference = metrics.get("final_position_m"), metrics.get("final_reference_m")
+    if end is None or reference is None:
+        return '<p class="verdict"><strong>Flown to the end</strong>.</p>'
+    away = math.dist(end, reference) * 1e3
+    distance = f"{number(away)} mm" if away >= 0.001 else "less than a micrometre"
+    text = f"at {_place(end)}, {distance} from its reference {_place(reference)}"
+    return f'<p class="verdict"><strong>Arrived</strong> {text}.</p>'
+
+
+def _place(point: Iterable[float]) -> str:
+    """A point of space in metres, to the millimetre."""
+    return f"({', '.join(f'{round(v, 3) + 0.0:.3f}'.replace('-', '−') for v in point)}) m"
+
+
+def _pngs(figures: Any) -> dict[str, Path]:
+    """The figures' PNG files by name, of those that there are."""
+    if isinstance(figures, (str, os.PathLike)):
+        found = {name: Path(figures) / f"{name}.png" for name in FIGURES}
+    else:
+        found = {Path(p).stem: Path(p) for p in figures if Path(p).suffix == ".png"}
+    return {name: found[name] for name in FIGURES if name in found and found[name].is_file()}
+
+
+def _figure(place: int, name: str, png: Path) -> str:
+    data, caption = png.read_bytes(), CAPTIONS[name]
+    width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
+    source = f"data:image/png;base64,{base64.b64encode(data).decode()}"
+    look = ' class="wide"' if width > WIDE else ""
+    image = f'<img{look} width="{width}" height="{height}" alt="{escape(caption.alt)}" src="{source}">'
+    text = f"<b>Figure {place}. {escape(caption.title)}.</b> {escape(caption.text)}"
+    return f'<figure id="{name}">\n<div class="sheet">{image}</div>\n<figcaption>{text}</figcaption>\n</figure>'
+
+
+def _again(flight: Flight) -> str:
+    """The command that flies the same mission."""
+    name = flight.name
+    if name in built_in() and tables_of(load_mission(name)) == flight.mission:
+        return f"<pre><code>tandemlift run {escape(name)}</code></pre>"
+    save = "<p>Save the mission above as <code>mission.toml</code> (a run writes it beside this report), and</p>"
+    return f"{save}\n<pre><code>tandemlift run mission.toml</code></pre>"
+
+
+def write_report(
+    flight: Flight,
+    figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
+    path: str | os.PathLike[str],
+) -> Path:
+    """Write the report of a flight as one HTML file without references; it appears whole or not at all.
+
+    Args:
+        flight: a flight, also one that diverged.
+        figures: the folder that `save_figures` wrote to, or the files; figures that are not there are left out.
+        path: of the HTML file; its folder is made if it does not exist.
+
+    Returns:
+        The path.
+    """
+    path = Path(path)
+    shown = [_figure(i, name, png) for i, (name, png) in enumerate(_pngs(figures).items(), 1)]
+    text = PAGE.format(
+        name=escape(flight.name),
+        style=STYLE,
+        verdict=_verdict(flight),
+        figures=f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>" if shown else "",
+        metrics=_metrics(flight.metrics()),
+        mission=escape(format_toml(flight.mission)),
+        again=_again(flight),
+        versions=escape(", ".join(f"{name} {version}" for name, version in flight.version.items())),
+    )
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        partial.write_text(text, "utf-8")
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)
+    return path

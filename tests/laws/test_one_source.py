@@ -1,0 +1,134 @@
+"""One source everywhere: the whole step in plain Python, NumPy, Numba, JAX and CasADi, for several variants."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.jit import install, leaves, load, store, zeroed
+from tandemlift.laws.push import Hand
+from tandemlift.loop import Flying, move, pushes_of, start
+
+from .helpers import flat, rebuilt
+
+VARIANTS: dict[str, dict[str, Any]] = {
+    "tanh, hard gate, zero derivatives, exact rates, exact tilt, cubic, diagonal inertia, central pushes": {},
+    "saturation, soft gate, filtered, body rates, printed tilt, power, diagonal inertia, pushes at points": {
+        "controller.switching": "saturation",
+        "controller.attitude_reference_derivatives": "filtered",
+        "controller.euler_rates": "body",
+        "controller.tilt_inverse": "printed",
+        "controller.gains.a": 2.5,
+        "admittance.gate": "soft",
+        "pushes.0.point": [0.1, 0.8, -0.06],
+    },
+    "sign, soft gate, filtered, exact rates, exact tilt, power, full inertia, pushes at points, re-anchoring": {
+        "controller.switching": "sign",
+        "controller.attitude_reference_derivatives": "filtered",
+        "controller.gains.a": 1.5,
+        "admittance.gate": "soft",
+        "admittance.stiffness": 2.0,
+        "admittance.reanchor": True,
+        "vehicle.quadrotors.0.position": [0.3, 1.0, 0.2],
+        "pushes.0.point": [0.1, 0.8, -0.06],
+    },
+    "tanh, hard gate, zero derivatives, body rates, printed tilt, cubic, full inertia, feed-forward": {
+        "controller.euler_rates": "body",
+        "controller.tilt_inverse": "printed",
+        "controller.human_force_feedforward": True,
+        "vehicle.quadrotors.1.position": [-0.2, -1.0, 0.3],
+        "vehicle.quadrotors.1.layout": "x",
+    },
+}
+BATCH = 16
+T, DT = 5.0, 0.001
+
+
+class Inputs(NamedTuple):
+    """What a step depends on, apart from its time."""
+
+    flying: Flying
+    hand: Hand
+
+
+class Case:
+    """A variant, a batch of excited inputs (numbers × BATCH), and what plain Python makes of them."""
+
+    def __init__(self, changes: dict[str, Any]) -> None:
+        mission = tl.load_mission("paper", changes)
+        flying, (_, push) = start(mission), pushes_of(mission)
+        self.like = Inputs(flying, Hand(push, push, push))
+        rng = np.random.default_rng(8)
+        moving, hand = len(flat(flying.moving)), len(flat(self.like.hand))
+        numbers = np.repeat(np.array(flat(self.like), dtype=float)[:, None], BATCH, axis=1)
+        numbers[:moving] = 0.3 * rng.standard_normal((moving, BATCH))
+        numbers[-hand:] = rng.standard_normal((hand, BATCH))
+        attitude = slice(6, 10)
+        numbers[attitude] += [[1.0], [0.0], [0.0], [0.0]]
+        numbers[attitude] /= np.linalg.norm(numbers[attitude], axis=0)
+        self.numbers = numbers
+        self.expected = np.array([self.step(map(float, column)) for column in numbers.T]).T
+
+    def step(self, numbers: Any) -> list[Any]:
+        """The numbers of (Moving, Sample) after a step."""
+        given = rebuilt(numbers, self.like)
+        return flat(move(given.flying, given.hand, T, DT))
+
+    def agrees(self, found: Any) -> None:
+        """Every number is that of plain Python to 1e-12 of the largest in its row."""
+        difference = np.abs(np.broadcast_to(found, self.expected.shape) - self.expected)
+        size = 1.0 + np.abs(self.expected).max(axis=1, keepdims=True)
+        assert np.all(np.isfinite(self.expected))
+        assert (difference / size).max() < 1e-12
+
+
+@pytest.fixture(scope="module", params=VARIANTS.values(), ids=VARIANTS)
+def case(request):
+    return Case(request.param)
+
+
+def test_variants_differ_in_type():
+    """So that the tests below fly four different loops."""
+    from tandemlift.prepared import Prepared
+
+    assert len({Prepared(tl.load_mission("paper", changes)).variant for changes in VARIANTS.values()}) == len(VARIANTS)
+
+
+def test_numpy_broadcasts_the_step(case):
+    rows = case.step(case.numbers)
+    case.agrees(np.array([np.broadcast_to(row, BATCH) for row in rows]))
+
+
+def test_jax_traces_the_step(case, jax):
+    def step(numbers):
+        return jax.numpy.stack([jax.numpy.broadcast_to(row, BATCH) for row in case.step(list(numbers))])
+
+    case.agrees(np.asarray(jax.jit(step)(case.numbers)))
+
+
+def test_casadi_traces_the_step(case, casadi):
+    symbols = casadi.SX.sym("numbers", len(case.numbers))
+    outputs = casadi.vertcat(*case.step(casadi.vertsplit(symbols)))
+    case.agrees(np.array(casadi.Function("step", [symbols], [outputs])(case.numbers)))
+
+
+def test_numba_compiles_the_step(case):
+    install()
+    like = zeroed(case.like)
+
+    @numba.njit(error_model="numpy")
+    def step(a, y):
+        x = load(a, like)
+        store(y, move(x.flying, x.hand, T, DT))
+
+    found = np.zeros_like(case.expected)
+    assert len(case.numbers) == leaves(case.like)
+    for column, y in zip(case.numbers.T.copy(), found.T, strict=True):
+        out = np.zeros(len(y))
+        step(column, out)
+        y[:] = out
+    case.agrees(found)
