@@ -23,7 +23,7 @@ imports: .venv/dev  ## imports go downward only
 	$(BIN)/lint-imports
 
 tests: .venv/dev ## all tests
-	$(BIN)/pytest
+	$(BIN)/pytest -n auto
 
 bench: .venv/run ## speed of everything, printed
 	$(BIN)/python benchmarks/bench.py

@@ -96,6 +96,14 @@ def test_the_sampled_answer_tends_to_the_differential_equations_at_first_order()
     assert errors[-1] < 0.02
 
 
+def test_a_free_mass_under_a_steady_push_moves_on_an_exact_parabola():
+    """T̈_r is held over a step, so that nothing is lost where it is constant."""
+    a = admittance(HardGate(ZERO), ZERO)._replace(damping=ZERO)
+    m = answered(a, lambda t: Vec3(1.0, -2.0, 3.0), 2.0, 0.02)
+    assert array(m.velocity) == pytest.approx([2.0, -2.0, 12.0], rel=1e-13)
+    assert array(m.position) == pytest.approx([2.0, -2.0, 12.0], rel=1e-13)
+
+
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_a_steady_push_is_answered_as_by_a_mass_with_damper_and_spring(axis):
     F = Vec3(1.0, -1.5, 2.0)

@@ -73,7 +73,7 @@ def test_a_constant_force_leaves_the_offset_at_which_the_surface_carries_it(axis
     gains = mission.controller.gains
 
     def unbalanced(e):
-        S = gains.xi[axis] * e + gains.eta[axis] * abs(e) ** gains.a * np.sign(e)
+        S = gains.xi[axis] * e + gains.eta[axis] * abs(e) ** gains.a[axis] * np.sign(e)
         held = gains.lambda_1[axis] * S + gains.lambda_2[axis] * math.tanh(S / mission.controller.boundary_layer[axis])
         return 3.5 * held + 3.0
 

@@ -24,7 +24,7 @@ UP = np.array([-np.sin(ELEVATION) * np.cos(AZIMUTH), -np.sin(ELEVATION) * np.sin
 NEAR = np.cross(RIGHT, UP)
 
 CELLS = 14  # at most, along the longest side
-TOUCHING = 0.3  # of a cell: what stands out of the box by less does not lengthen it
+TOUCHING = np.array([0.05, 0.3, 0.3])  # of a cell: what stands out of the box by less does not lengthen it
 TALLEST = 5.2  # in
 ROOM = np.array([0.4, 0.3, 0.5, 0.36])  # in, for labels: left, bottom, right, top
 LIGHT, LIGHTER = "#d0d0d0", "#e8e8e8"

@@ -226,8 +226,9 @@ def load_controller(path: str | Path) -> Controller:
     if not path.is_file():
         raise InputError(f"controller file {path} does not exist")
     source = path.read_bytes()
-    if path in _loaded and _loaded[path][0] == source:
-        return _loaded[path][1]
+    held = _loaded.get(path)
+    if held and held[0] == source and CONTROLLERS.get(held[1].name) is held[1]:
+        return held[1]
     digest = hashlib.sha256(str(path).encode()).hexdigest()[:8]
     module = ModuleType(f"tandemlift_user_{re.sub(r'[^A-Za-z0-9_]', '_', path.stem)}_{digest}")
     module.__file__ = str(path)

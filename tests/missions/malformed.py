@@ -1,0 +1,158 @@
+"""Malformed missions: each with what its refusal must say."""
+
+from typing import NamedTuple
+
+QUADROTOR = (
+    "{mass = 1.5, inertia = [0.03, 0.03, 0.05], position = [%s], layout = 'x', arm = 0.25, thrust_constant = 6e-6, "
+    "max_speed = 1100, torque_per_thrust = 0.06, lag_up = 0, lag_down = 0}"
+)
+
+
+def fleet(*positions: str) -> str:
+    return f"vehicle.quadrotors = [{', '.join(QUADROTOR % p for p in positions)}]"
+
+
+class Case(NamedTuple):
+    """A line or more of TOML on top of the paper's mission, and pieces that the one message must have."""
+
+    name: str
+    toml: str
+    pieces: tuple[str, ...]
+
+
+def case(name: str, toml: str, *pieces: str) -> Case:
+    return Case(name, toml, pieces)
+
+
+WRONG_TYPES = [
+    case("text for a number", "mission.duration = '5'", "mission.duration", '"5"', "a number > 0", "without quotes"),
+    case("bool for a number", "mission.duration = true", "mission.duration = true", "a number > 0"),
+    case("number for a bool", "admittance.reanchor = 1", "admittance.reanchor = 1", "true or false"),
+    case("text for a bool", "admittance.reanchor = 'yes'", "admittance.reanchor", '"yes"', "true or false"),
+    case("number for a name", "mission.name = 7", "mission.name = 7", "text in quotes"),
+    case("number for a choice", "admittance.gate = 1", "admittance.gate = 1", '"hard" or "soft"'),
+    case("list for a choice", "admittance.gate = ['soft']", 'admittance.gate = ["soft"]', '"hard" or "soft"'),
+    case("float for a whole number", "mission.seed = 1.0", "mission.seed = 1.0", "a whole number ≥ 0"),
+    case("bool for a whole number", "mission.seed = false", "mission.seed = false", "a whole number ≥ 0"),
+    case("table for a number", "mission.step = {a = 1}", "mission.step = {a = 1}", "> 0 and ≤ 0.02"),
+    case("table for a list", "vehicle.payload.inertia = {x = 1}", "{x = 1}", "a list of 3 numbers, each > 0"),
+    case("list for a number", "mission.step = [0.001]", "mission.step = [0.001]", "> 0 and ≤ 0.02"),
+    case("list for a table", "mission = [1, 2]", "mission = [1, 2]", "a table with name, duration"),
+    case("number for a table", "controller = 5", "controller = 5", "a table"),
+    case("text for a table", "phases = 'none'", 'phases = "none"', "a table with lift_start"),
+    case("table for a list of tables", "pushes = {force = 1}", "pushes", "a list of tables", "double brackets"),
+    case("numbers for tables", "pushes = [1, 2]", "pushes.0 = 1", "a table with force"),
+    case("text among numbers", "admittance.mass = [1, 'x', 1]", 'admittance.mass = [1, "x", 1]', "a list of 3 numbers"),
+    case("bool among numbers", "admittance.mass = [1, true, 1]", "[1, true, 1]", "a list of 3 numbers"),
+    case("nested list", "initial.position = [[1, 2, 3]]", "initial.position = [[1, 2, 3]]", "a list of 3 numbers"),
+    case("date", "mission.duration = 2024-01-01", "mission.duration = 2024-01-01", "a number > 0"),
+    case("date and time", "initial.position = 2024-01-01T10:00:00Z", "2024-01-01", "one number or a list of 3"),
+    case("time of day", "mission.name = 10:00:00", "mission.name = 10:00:00", "text in quotes"),
+]
+
+WRONG_NUMBERS = [
+    case("nan", "mission.duration = nan", "mission.duration = nan", "a number > 0"),
+    case("infinity", "phases.height = inf", "phases.height = inf", "a number"),
+    case("infinity among numbers", "initial.velocity = [0, -inf, 0]", "initial.velocity.1 = -inf", "a number"),
+    case("a float too large to write", "phases.height = 1e400", "phases.height = inf", "a number"),
+    case("a whole number too large", f"phases.height = 1{'0' * 400}", "phases.height = 1000", "a number"),
+    case("a seed too large", f"mission.seed = 1{'0' * 400}", "mission.seed = 1000", "a whole number ≥ 0"),
+    case("a weight too large", f"allocation.weights = 1{'0' * 400}", "allocation.weights = 1000", "one number > 0"),
+    case("a list of numbers too large", f"initial.rates = 1{'0' * 400}", "initial.rates = 1000", "one number"),
+    case("an enormous length", "vehicle.payload.length = 1e200", "vehicle", "too large or too far apart"),
+    case("an enormous rotor speed", fleet("0, 1, 0").replace("1100", "1e200"), "vehicle", "too large or too far apart"),
+    case("a vanishing mass", "vehicle.payload.mass = 1e-320", "vehicle.payload.mass = 1e-320", "at least 1e-300"),
+    case("no mass", "vehicle.payload.mass = 0", "vehicle.payload.mass = 0", "a number > 0"),
+    case("negative mass", "vehicle.payload.mass = -0.5", "vehicle.payload.mass = -0.5", "a number > 0"),
+    case("no virtual mass", "admittance.mass = 0.0", "admittance.mass = 0.0", "a list of 3 numbers, each > 0"),
+    case("negative virtual mass", "admittance.mass = [1, 1, -1]", "admittance.mass.2 = -1", "a number > 0"),
+    case("no inertia", "vehicle.payload.inertia = [1, 0, 1]", "vehicle.payload.inertia.1 = 0", "a number > 0"),
+    case("negative duration", "mission.duration = -1", "mission.duration = -1", "a number > 0"),
+    case("no duration", "mission.duration = 0.0", "mission.duration = 0.0", "a number > 0"),
+    case("no step", "mission.step = 0", "mission.step = 0", "> 0 and ≤ 0.02"),
+    case("negative step", "mission.step = -0.001", "mission.step = -0.001", "> 0 and ≤ 0.02"),
+    case("long step", "mission.step = 0.0201", "mission.step = 0.0201", "> 0 and ≤ 0.02"),
+    case("negative threshold", "admittance.threshold = -0.3", "admittance.threshold = -0.3", "each ≥ 0"),
+    case("negative damping", "admittance.damping = [1, -1, 1]", "admittance.damping.1 = -1", "a number ≥ 0"),
+    case("negative seed", "mission.seed = -1", "mission.seed = -1", "a whole number ≥ 0"),
+    case("negative drag", "vehicle.drag.force = -1", "vehicle.drag.force = -1", "each ≥ 0"),
+    case("push of no width", "pushes = [{force = [1, 0, 0], time = 1, sigma = 0}]", "pushes.0.sigma = 0", "> 0"),
+    case("exponent below one", "controller.gains.a = 0.5", "controller.gains.a = 0.5", "each ≥ 1"),
+    case("no boundary layer", "controller.boundary_layer = 0", "controller.boundary_layer = 0", "6 numbers, each > 0"),
+    case("negative gain", "controller.gains.eta = -0.1", "controller.gains.eta = -0.1", "6 numbers, each ≥ 0"),
+    case("steep roll", "initial.euler = [1.49, 0, 0]", "initial.euler = [1.49, 0, 0]", "within ±85°"),
+    case("roll of 85 degrees", "initial.euler = -1.4835298641951802", "initial.euler = -1.4835", "within ±85°"),
+    case("no scale", "plant.mass_scale = 0", "plant.mass_scale = 0", "≥ 1e-06 and ≤ 1e+06"),
+    case("negative scale", "plant.inertia_scale = [1, -1, 1]", "plant.inertia_scale.1 = -1", "≥ 1e-06 and ≤ 1e+06"),
+]
+
+WRONG_SHAPES = [
+    case("two numbers", "admittance.mass = [1, 1]", "admittance.mass = [1, 1]", "one number or a list of 3 numbers"),
+    case("four numbers", "initial.euler = [0, 0, 0, 1]", "initial.euler = [0, 0, 0, 1]", "a list of 3 numbers"),
+    case("seven gains", "controller.gains.xi = [1, 2, 3, 4, 5, 6, 7]", "controller.gains.xi", "a list of 6 numbers"),
+    case("three gains", "controller.gains.xi = [1, 2, 3]", "controller.gains.xi = [1, 2, 3]", "a list of 6 numbers"),
+    case("no numbers", "initial.rates = []", "initial.rates = []", "one number or a list of 3 numbers"),
+    case("one number for a force", "pushes = [{force = 1, time = 1, sigma = 1}]", "pushes.0.force = 1", "a list of 3"),
+    case("three weights", "allocation.weights = [1, 2, 3]", "allocation.weights = [1, 2, 3]", "four numbers > 0"),
+    case("a negative weight", "allocation.weights = [1, -1, 1, 1]", "allocation.weights", "-1", "four numbers > 0"),
+    case("no weight", "allocation.weights = 0", "allocation.weights = 0", "one number > 0"),
+    case("infinite weight", "allocation.weights = [1, inf, 1, 1]", "allocation.weights", "inf", "four numbers > 0"),
+    case("ragged weights", "allocation.weights = [[1, 1, 1, 1], [1]]", "allocation.weights", "[1]", "four numbers > 0"),
+    case("three rows of weights", f"allocation.weights = {[[1] * 4] * 3}", "allocation.weights", "2 quadrotors"),
+    case("no quadrotor", "vehicle.quadrotors = []", "vehicle.quadrotors", "1 to 64", "here are 0"),
+    case("too many quadrotors", fleet(*(f"{i}, 0, 0" for i in range(65))), "vehicle.quadrotors", "1 to 64", "65"),
+    case("coinciding quadrotors", fleet("0, 1, 0", "0, 1, 0"), "vehicle.quadrotors", "0 and 1", "[0.0, 1.0, 0.0]"),
+    case("impossible inertia", "vehicle.payload.inertia = [1, 1, 2.5]", "vehicle.payload.inertia", "none greater"),
+    case("moments far apart", fleet("1e9, 0, 0"), "vehicle", "positions are too large or too far apart"),
+]
+
+UNKNOWN_KEYS = [
+    case("unknown table", "admitance.mass = 1", "admitance", "unknown key", "Did you mean admittance?"),
+    case(
+        "unknown key", "mission.duratoin = 5", "mission.duratoin = 5", "log_interval", "Did you mean mission.duration?"
+    ),
+    case("key of another table", "duration = 5", "duration = 5", "unknown key", "Did you mean mission.duration?"),
+    case("unknown gain", "controller.gains.lamda_1 = 5", "lamda_1 = 5", "Did you mean controller.gains.lambda_1?"),
+    case("gain in the wrong table", "controller.xi = 5", "controller.xi = 5", "Did you mean controller.gains.xi?"),
+    case(
+        "unknown setting", "controller.swiching = 'sign'", "controller.swiching", "Did you mean controller.switching?"
+    ),
+    case("unknown part", "vehicle.payload.lenght = 2", "lenght = 2", "Did you mean vehicle.payload.length?"),
+    case("unknown key of a push", "pushes = [{force = [1, 0, 0], time = 1, sigma = 1, sgima = 2}]", "pushes.0.sgima"),
+    case("empty key", "'' = 1", '"" = 1', "unknown key"),
+    case("key of odd characters", r'"a\nb\u001b[31m" = 1', r"a\nb\u001b[31m", "unknown key"),
+    case("unknown key without a near one", "wind.speed = 5", "wind = {speed = 5}", "has the tables mission, vehicle"),
+]
+
+WRONG_NAMES = [
+    case("controller", "controller.name = 'nftmsc'", 'controller.name = "nftmsc"', "Did you mean 'nftsmc'?"),
+    case("controller that is a number", "controller.name = 3", "controller.name = 3", "in quotes"),
+    case("switching", "controller.switching = 'satuation'", '"satuation"', 'Did you mean "saturation"?'),
+    case("gate", "admittance.gate = 'sotf'", 'admittance.gate = "sotf"', 'Did you mean "soft"?'),
+    case("inverse", "controller.tilt_inverse = 'zyx'", 'controller.tilt_inverse = "zyx"', '"zxy" or "printed"'),
+    case("layout", fleet("0, 1, 0").replace("'x'", "'H'"), 'vehicle.quadrotors.0.layout = "H"', '"+" or "x"'),
+    case("actuators", "actuators.model = 'rotor'", 'actuators.model = "rotor"', '"ideal"'),
+    case("name with a slash", "mission.name = 'a/b'", 'mission.name = "a/b"', "letters, digits"),
+    case("name that climbs", "mission.name = '../../etc'", '"../../etc"', "letters, digits"),
+    case("name of dots", "mission.name = '..'", '".."', "letters, digits"),
+    case("empty name", "mission.name = ''", 'mission.name = ""', "1 to 64 letters"),
+    case("name with a line end", r'mission.name = "a\n"', r'"a\n"', "1 to 64 letters"),
+    case("very long name", f"mission.name = '{'n' * 5000}'", 'mission.name = "nnn', "1 to 64 letters"),
+]
+
+WRONG_TOGETHER = [
+    case("step beyond the end", "mission.duration = 0.01\nmission.step = 0.02", "mission.step = 0.02", "0.01"),
+    case("too many steps", "mission.duration = 1e9", "mission.duration = 1000000000.0", "1e+12 steps", "1e+09"),
+    case("too much to log", "mission.duration = 1e5\nmission.log_interval = 0.001", "mission.log_interval", "4 GB"),
+    case("landing before the lift", "phases.land_start = 1", "phases.land_start = 1.0", "phases.lift_start = 2.0"),
+    case(
+        "too little damping",
+        "admittance.stiffness = 4000",
+        "admittance.damping = 1.6 along x",
+        "= 2 ",
+        "stiffness 4000",
+    ),
+    case("too much damping", "admittance.damping = [1, 1, 2100]", "admittance.damping = 2100.0 along z", "2000"),
+]
+
+CASES = WRONG_TYPES + WRONG_NUMBERS + WRONG_SHAPES + UNKNOWN_KEYS + WRONG_NAMES + WRONG_TOGETHER

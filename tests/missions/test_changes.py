@@ -1,0 +1,141 @@
+"""Changes by dotted key: `--set KEY=VALUE` and the second argument of `load_mission`."""
+
+import datetime
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.cli.run import parse_setting
+from tandemlift.missions import load_mission, tables_of
+
+LITERALS = {
+    "5": 5,
+    "-5.5e-3": -5.5e-3,
+    "1_000": 1000,
+    "0x10": 16,
+    "true": True,
+    "false": False,
+    "inf": float("inf"),
+    '"two words"': "two words",
+    "'single'": "single",
+    "word": "word",
+    "flight-ready": "flight-ready",
+    "+": "+",
+    "[1, 2.5, 3]": [1, 2.5, 3],
+    "[[1, 2], [3]]": [[1, 2], [3]],
+    "{height = 2, lift_start = 1.5}": {"height": 2, "lift_start": 1.5},
+    "2024-01-01": datetime.date(2024, 1, 1),
+    "[1, # with a comment\n 2]": [1, 2],
+    "a = b": None,
+}
+
+
+@pytest.mark.parametrize("literal", [k for k, v in LITERALS.items() if v is not None])
+def test_a_setting_takes_toml_literals_and_unquoted_words(literal):
+    assert parse_setting(f"some.key={literal}") == ("some.key", LITERALS[literal])
+    assert parse_setting(f" some.key = {literal} ")[1] == LITERALS[literal]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "mission.duration",
+        "",
+        "=5",
+        "=",
+        " = 5",
+        ".=5",
+        "mission.=5",
+        ".duration=5",
+        "mission..duration=5",
+        "mission duration=5",
+        "mission.duration=",
+        "mission.duration=two words",
+        "mission.duration=[1, 2",
+        "mission.duration=5\nmission.step=0.02",
+        "mission.duration=5\n[mission]\nstep=0.02",
+        "mission.name=a\nb",
+        "mission.duration=.5",
+        "mission.duration=٥",
+        "m\N{LATIN SMALL LETTER I WITH ACUTE}ssion.duration=5",
+        '"mission".duration=5',
+        "mission[0]=5",
+        f"mission.duration={'[' * 10_000}",
+        f"mission.seed={'9' * 5000}",
+        "mission.duration=$(reboot)",
+    ],
+)
+def test_a_setting_of_no_such_form_is_refused(text):
+    with pytest.raises(tl.InputError, match="--set"):
+        parse_setting(text)
+
+
+REFUSED = {
+    "into a value": ({"mission.step.size": 1}, "mission.step = 0.001 has no keys of its own"),
+    "into one number for all axes": ({"admittance.mass.1": 2.0}, "admittance.mass = 1.0 has no keys of its own"),
+    "index out of range": ({"pushes.8.sigma": 1.0}, "'8' must be a number from 0 to 7"),
+    "negative index": ({"pushes.-1.sigma": 1.0}, "'-1' must be a number from 0 to 7"),
+    "enormous index": ({f"pushes.{'9' * 5000}.sigma": 1.0}, "must be a number from 0 to 7"),
+    "index of another script": ({"pushes.٣.sigma": 1.0}, "'٣' must be a number from 0 to 7"),
+    "index that is no digit": ({"pushes.².sigma": 1.0}, "'²' must be a number from 0 to 7"),
+    "word for an index": ({"pushes.first.sigma": 1.0}, "'first' must be a number from 0 to 7"),
+    "entry of an empty list": ({"pushes": [], "pushes.0.sigma": 1.0}, "the list is empty"),
+    "empty key": ({"": 1}, "'' is not a dotted key"),
+    "empty part": ({"mission..step": 1}, "'mission..step' is not a dotted key"),
+    "a key that is no text": ({5: 1}, "5 is not a dotted key"),
+    "unknown key": ({"mission.stepp": 0.01}, "mission.stepp = 0.01: unknown key"),
+    "unknown table": ({"misson.step": 0.01}, "Did you mean mission?"),
+    "table of the wrong kind": ({"phases": 3}, "phases = 3: must be a table"),
+    "unknown key in a table": ({"phases": {"hight": 3}}, "Did you mean phases.height?"),
+    "extends": ({"extends": "hover"}, 'extends = "hover": unknown key'),
+    "nothing for a key that is required": ({"mission.duration": None}, "mission.duration = None"),
+    "an object": ({"mission.duration": object()}, "mission.duration"),
+    "10,000 levels": ({"a." * 10_000 + "b": 1}, "nested too deeply"),
+    "nan of NumPy": ({"controller.gains.xi": np.full(6, np.nan)}, "controller.gains.xi.0 = nan"),
+    "list of the wrong length of NumPy": ({"controller.gains.xi": np.ones(5)}, "a list of 6 numbers"),
+}
+
+
+@pytest.mark.parametrize("wrong", REFUSED.values(), ids=REFUSED)
+def test_a_wrong_change_is_refused(wrong):
+    changes, piece = wrong
+    with pytest.raises(tl.InputError) as refused:
+        load_mission("paper", changes)
+    assert piece in str(refused.value)
+
+
+def test_a_change_reaches_its_key_and_no_other():
+    before, after = tables_of(load_mission("paper")), tables_of(load_mission("paper", {"pushes.1.force": [0, 1, 0]}))
+    assert after["pushes"][1].pop("force") == [0.0, 1.0, 0.0]
+    assert before["pushes"][1].pop("force") == [3.0, 0.0, 0.0]
+    assert before == after
+
+
+def test_changes_apply_in_their_order():
+    changes = {"controller.gains.xi": [1.0] * 6, "controller.gains.xi.2": 5.0, "pushes": []}
+    mission = load_mission("paper", changes)
+    assert mission.controller.gains.xi == (1.0, 1.0, 5.0, 1.0, 1.0, 1.0)
+    assert mission.pushes == ()
+
+
+def test_a_table_merges_and_a_list_replaces():
+    mission = load_mission(
+        "paper", {"phases": {"height": 2.0}, "pushes": [{"force": [1, 0, 0], "time": 3, "sigma": 1}]}
+    )
+    assert (mission.phases.height, mission.phases.lift_start, len(mission.pushes)) == (2.0, 2.0, 1)
+
+
+def test_values_of_numpy_and_none_for_an_optional_key_are_taken():
+    changes = {"admittance.mass": np.array([1, 2, 3]), "mission.seed": np.int64(7), "phases.land_start": None}
+    mission = load_mission("paper", changes)
+    assert mission.admittance.mass == (1.0, 2.0, 3.0)
+    assert (mission.mission.seed, mission.phases.land_start) == (7, None)
+
+
+def test_the_value_of_a_change_may_be_changed_afterwards():
+    force = [1.0, 0.0, 0.0]
+    mission = load_mission("paper", {"pushes.0.force": force})
+    force[0] = 9.0
+    assert mission.pushes[0].force == (1.0, 0.0, 0.0)
+    assert load_mission("paper").pushes[0].force == (0.0, 0.0, 1.5)

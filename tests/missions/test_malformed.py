@@ -1,0 +1,211 @@
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+import tomli_w
+from malformed import CASES, QUADROTOR
+
+import tandemlift as tl
+from tandemlift.missions import load_mission, tables_of
+from tandemlift.missions.explain import keys_of, table_in, value_at
+from tandemlift.settings import Mission
+
+JARGON = (
+    "Input should",
+    "Value error",
+    "validation error",
+    "tuple",
+    "NoneType",
+    "function-",
+    "pydantic",
+    "dict",
+    "float_",
+)
+THROUGH_THE_COMMAND_LINE = [
+    "bool for a number",
+    "date",
+    "nan",
+    "no step",
+    "a whole number too large",
+    "steep roll",
+    "seven gains",
+    "too many quadrotors",
+    "unknown key",
+    "key of odd characters",
+    "controller",
+    "name that climbs",
+    "too many steps",
+    "too little damping",
+]
+
+
+def refusal(name, changes=None) -> str:
+    with pytest.raises(tl.InputError) as refused:
+        load_mission(name, changes)
+    return str(refused.value)
+
+
+@pytest.fixture
+def mine(tmp_path, monkeypatch):
+    """Write a mission file beside which the test runs, and name it."""
+    monkeypatch.chdir(tmp_path)
+
+    def write(text: str | bytes, name: str = "mine.toml") -> str:
+        (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+        return name
+
+    return write
+
+
+@pytest.mark.parametrize("case", CASES, ids=[c.name for c in CASES])
+def test_a_malformed_mission_is_refused_with_file_key_value_and_what_is_allowed(case, mine):
+    message = refusal(mine(f'extends = "paper"\n{case.toml}\n'))
+    assert [piece for piece in ("mine.toml: ", *case.pieces) if piece not in message] == []
+
+
+@pytest.mark.parametrize("case", CASES, ids=[c.name for c in CASES])
+def test_a_refusal_is_short_and_in_plain_words(case, mine):
+    lines = refusal(mine(f'extends = "paper"\n{case.toml}\n')).splitlines()
+    assert len(lines) == len(set(lines)) <= 9
+    assert all(len(line) < 420 and line.isprintable() for line in lines)
+    assert [word for word in JARGON if any(word in line for line in lines)] == []
+
+
+def test_the_command_line_refuses_with_exit_code_2_and_writes_nothing(mine, tmp_path):
+    cases = [c for c in CASES if c.name in THROUGH_THE_COMMAND_LINE]
+    assert len(cases) == len(THROUGH_THE_COMMAND_LINE)
+
+    def run(number):
+        name = f"case{number}.toml"
+        mine(f'extends = "paper"\n{cases[number].toml}\n', name)
+        command = [sys.executable, "-m", "tandemlift", "run", name, "--out", f"out{number}/deep"]
+        return subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
+
+    with ThreadPoolExecutor(2 if (os.cpu_count() or 1) < 4 else 4) as pool:
+        runs = list(pool.map(run, range(len(cases))))
+    for case, done in zip(cases, runs, strict=True):
+        assert (done.returncode, done.stdout) == (2, ""), case.name
+        assert done.stderr.startswith("error: ")
+        assert "Traceback" not in done.stderr
+        assert [piece for piece in case.pieces if piece not in done.stderr] == []
+    assert not list(tmp_path.glob("out*"))
+
+
+def required_keys():
+    """The places of all keys without a default, in tables and lists of tables that the paper's mission has."""
+    for place in keys_of(Mission):
+        *above, name = place
+        table = Mission
+        for part in above:
+            table = table_in(table.model_fields[part].annotation) if part != 0 else table
+        if table.model_fields[name].is_required():
+            yield place
+
+
+@pytest.mark.parametrize("place", list(required_keys()), ids=lambda place: ".".join(map(str, place)))
+def test_a_missing_key_is_named(place, mine):
+    tables = tables_of(load_mission("paper"))
+    del value_at(tables, place[:-1])[place[-1]]
+    message = refusal(mine(tomli_w.dumps(tables)))
+    assert f"mine.toml: {'.'.join(map(str, place))} is missing: it must be" in message
+    assert len(message.splitlines()) == 1
+
+
+def test_a_payload_without_dimensions_or_inertia_is_refused(mine):
+    tables = tables_of(load_mission("paper"))
+    del tables["vehicle"]["payload"]["radius"]
+    assert "vehicle.payload: must have either inertia, or length and radius" in refusal(mine(tomli_w.dumps(tables)))
+
+
+def test_all_that_is_wrong_is_told_at_once_but_not_without_end(mine):
+    message = refusal(
+        mine("extends = 'paper'\nmission.duration = -1\nphases.height = 'high'\ncontroller.gains.xi = 0\n")
+    )
+    assert [key for key in ("mission.duration", "phases.height", "controller.gains.xi") if key not in message] == []
+    wrong = ", ".join([QUADROTOR.replace("arm", "amr") % "0, 0, 0"] * 64)
+    lines = refusal(mine(f"extends = 'paper'\nvehicle.quadrotors = [{wrong}]\n")).splitlines()
+    assert len(lines) == 9
+    assert lines[-1] == "mine.toml: and 120 more"
+
+
+FILES = {
+    "an empty file": (
+        b"",
+        ["mission is missing", "vehicle is missing", "controller is missing", "admittance is missing"],
+    ),
+    "a comment only": (b"# nothing\n", ["mission is missing"]),
+    "binary garbage": (bytes(range(256)) * 8, ["mine.toml is not text in UTF-8", "byte 128"]),
+    "invalid UTF-8": (b'extends = "paper"\n[mission]\nname = "\xff\xfe"\n', ["mine.toml is not text in UTF-8", "0xff"]),
+    "UTF-16": ('extends = "paper"'.encode("utf-16"), ["mine.toml is not text in UTF-8"]),
+    "no TOML": (b"mission = {", ["mine.toml is not valid TOML", "end of document"]),
+    "a NUL": (b'extends = "paper"\n\x00', ["mine.toml is not valid TOML", "line 2"]),
+    "YAML": (b"mission:\n  name: mine\n", ["mine.toml is not valid TOML", "line 1"]),
+    "a key given twice": (b"mission.step = 1\nmission.step = 2\n", ["mine.toml is not valid TOML"]),
+    "a table given twice": (b"[mission]\n[mission]\n", ["mine.toml is not valid TOML", "line 2"]),
+    "digits of other scripts": ("mission.duration = ٥".encode(), ["mine.toml is not valid TOML"]),
+    "a number of 5000 digits": (b"mission.seed = " + b"9" * 5000, ["mine.toml is not valid TOML"]),
+    "a hexadecimal of 5000 digits": (b"mission.seed = 0x" + b"f" * 5000, ["mission.seed = 0xfff", "a whole number"]),
+    "10,000 brackets": (b"a = " + b"[" * 10_000, ["mine.toml is not a mission: nested too deeply"]),
+    "10,000 closed brackets": (
+        b"a = " + b"[" * 10_000 + b"]" * 10_000,
+        ["mine.toml is not a mission: nested too deeply"],
+    ),
+    "10,000 nested tables": (b"extends = 'paper'\nmission" + b".a" * 10_000 + b" = 1", ["unknown key"]),
+    "more than a megabyte": (b"# " + b"x" * 1_000_000, ["mine.toml is larger than 1000000 bytes"]),
+}
+
+
+@pytest.mark.parametrize("content", FILES.values(), ids=FILES)
+def test_a_file_that_is_no_mission_is_refused(content, mine):
+    text, pieces = content
+    message = refusal(mine(text))
+    assert "mine.toml" in message
+    assert [piece for piece in pieces if piece not in message] == []
+
+
+def test_a_missing_file_a_folder_and_a_misspelt_name_are_told_apart(mine, tmp_path):
+    (tmp_path / "folder.toml").mkdir()
+    assert refusal("absent.toml") == "mission file absent.toml does not exist."
+    assert "Did you mean 'paper'?" in refusal("papr.toml")
+    assert refusal("folder.toml") == "folder.toml is a folder, not a mission file"
+    assert "unknown mission 'papper'; there are flight-ready, four, hover, one-push, paper." in refusal("papper")
+    assert "Did you mean 'paper'?" in refusal("PAPER")
+    assert "ends in .toml" in refusal("mine")
+    assert "does not exist" in refusal(tmp_path / "paper")
+    assert "too long" in refusal(f"{'n' * 5000}.toml")
+    assert refusal("a\0b.toml")
+
+
+EXTENDS = {
+    "itself": ("mine.toml", 'extends = "mine.toml": comes back to a file that extends it'),
+    "a cycle": ("round.toml", "comes back to a file that extends it"),
+    "a missing file": ("absent.toml", "mission file absent.toml does not exist"),
+    "a misspelt name": ("papr", "Did you mean 'paper'?"),
+    "a folder": ("folder/", "is a folder"),
+}
+
+
+@pytest.mark.parametrize("parent", EXTENDS.values(), ids=EXTENDS)
+def test_what_cannot_be_extended_is_refused_by_name(parent, mine, tmp_path):
+    (tmp_path / "folder").mkdir()
+    mine('extends = "mine.toml"\n', "round.toml")
+    name, piece = parent
+    message = refusal(mine(f'extends = "{name}"\n'))
+    assert "extends = " in message
+    assert piece in message
+
+
+@pytest.mark.parametrize("value", ["5", "true", "['paper']", "{name = 'paper'}", "2024-01-01"])
+def test_extends_must_be_text(value, mine):
+    assert "must be the name of a built-in mission or a path, in quotes" in refusal(mine(f"extends = {value}\n"))
+
+
+def test_a_refusal_names_the_file_of_the_wrong_key(mine):
+    mine("extends = 'paper'\nmission.step = 1.0\n", "base.toml")
+    message = refusal(mine("extends = 'base.toml'\nmission.duration = -1\n"))
+    assert message.splitlines() == [
+        "mine.toml: mission.duration = -1: must be a number > 0",
+        "base.toml: mission.step = 1.0: must be a number > 0 and ≤ 0.02",
+    ]

@@ -1,0 +1,326 @@
+import re
+import tomllib
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tomli_w
+
+import tandemlift as tl
+from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.missions import built_in, check, format_toml, load_mission, merge, tables_of, to_toml
+from tandemlift.missions.explain import allowed, keys_of, table_in, value_at
+from tandemlift.settings import Mission
+
+BUILT_IN = ["flight-ready", "four", "hover", "one-push", "paper"]
+
+
+def test_the_built_in_missions_are_these_with_a_summary_each():
+    assert set(BUILT_IN) <= set(built_in())
+    assert all(len(summary) > 20 and "#" not in summary for summary in built_in().values())
+
+
+@pytest.mark.parametrize("name", list(built_in()))
+def test_a_resolved_mission_loads_back_to_the_same(name, tmp_path):
+    mission = load_mission(name)
+    file = tmp_path / "resolved.toml"
+    file.write_text(to_toml(mission), "utf-8")
+    assert load_mission(file) == mission
+    assert to_toml(load_mission(file)) == to_toml(mission)
+
+
+@pytest.mark.parametrize("name", list(built_in()))
+def test_a_built_in_mission_is_named_as_its_file_and_warns_of_nothing(name):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert load_mission(name).mission.name == name
+
+
+def test_the_paper_mission_has_the_paper_s_numbers():
+    quadrotor = {
+        "mass": 1.5,
+        "inertia": [0.029125, 0.029125, 0.055225],
+        "layout": "+",
+        "arm": 0.25,
+        "thrust_constant": 5.84e-6,
+        "max_speed": 1100.0,
+        "torque_per_thrust": 0.06,
+        "lag_up": 0.0125,
+        "lag_down": 0.025,
+    }
+    pushes = [
+        ("z", 14, 1.5, 0.5),
+        ("x", 22, 3, 0.6),
+        ("y", 28, 2, 0.6),
+        ("x", 34, 3, 0.6),
+        ("y", 40, -3, 0.8),
+        ("x", 46, 3, 0.6),
+        ("y", 52, 2, 0.6),
+        ("x", 58, 3, 0.6),
+    ]
+    assert tables_of(load_mission("paper")) == {
+        "mission": {"name": "paper", "duration": 90.0, "step": 0.001, "log_interval": 0.01, "seed": 0},
+        "vehicle": {
+            "payload": {"mass": 0.5, "length": 2.0, "radius": 0.05},
+            "quadrotors": [quadrotor | {"position": [0.0, y, 0.075]} for y in (1.0, -1.0)],
+            "drag": {"force": [0.006] * 3, "moment": [0.006] * 3},
+        },
+        "controller": {
+            "name": "nftsmc",
+            "gains": {
+                "xi": [4.0, 2.0, 11.0, 25.0, 80.0, 25.0],
+                "eta": [0.2, 0.1, 0.2, 0.2, 0.2, 0.2],
+                "lambda_1": [0.2, 0.1, 200.0, 40.0, 40.0, 40.0],
+                "lambda_2": [2.0, 1.0, 100.0, 30.0, 30.0, 30.0],
+                "a": [3.0] * 6,
+            },
+            "switching": "tanh",
+            "boundary_layer": [0.1] * 6,
+            "attitude_reference_derivatives": "zero",
+            "filter_bandwidth": 60.0,
+            "euler_rates": "exact",
+            "tilt_inverse": "zxy",
+            "human_force_feedforward": False,
+        },
+        "admittance": {
+            "mass": [1.0] * 3,
+            "damping": [1.6] * 3,
+            "stiffness": [0.0] * 3,
+            "threshold": [0.3] * 3,
+            "gate": "hard",
+            "reanchor": False,
+        },
+        "allocation": {"method": "pseudo-inverse", "weights": [[1.0] * 4]},
+        "initial": {
+            "position": [0.3, -0.3, 0.0],
+            "velocity": [0.0] * 3,
+            "euler": [0.15, -0.15, 0.2],
+            "rates": [0.0] * 3,
+        },
+        "phases": {"lift_start": 2.0, "lift_duration": 6.0, "height": 1.0, "land_start": 70.0, "land_duration": 12.0},
+        "pushes": [
+            {"force": [A * (axis == other) for other in "xyz"], "time": t, "sigma": sigma, "point": [0.0] * 3}
+            for axis, t, A, sigma in pushes
+        ],
+        "disturbance": {"force": [0.0] * 3, "moment": [0.0] * 3},
+        "plant": {"mass_scale": 1.0, "inertia_scale": [1.0] * 3},
+        "actuators": {"model": "ideal"},
+    }
+
+
+def schema_keys():
+    """Dotted key and field of every key of a mission, with the settings of every registered controller."""
+    models = [(Mission, ()), *((c.settings, ("controller",)) for c in CONTROLLERS.values() if c.name == "nftsmc")]
+    for model, above in models:
+        for place in keys_of(model, above):
+            table = model
+            for part in place[len(above) : -1]:
+                table = next_table(table, part)
+            field = table.model_fields[place[-1]]
+            if next_table(table, place[-1]) is None:
+                yield ".".join(map(str, place)), field
+
+
+def next_table(table, part):
+    return table if part == 0 else table_in(table.model_fields[part].annotation)
+
+
+SCHEMA = dict(reversed(list(schema_keys())))  # of `controller.name`, what every mission asks for
+
+
+AXES = {
+    key: int(found[1])
+    for key, field in SCHEMA.items()
+    if (found := re.match(r"one number or a list of (\d) numbers", allowed(field.annotation, field.metadata)))
+}
+
+
+def test_every_leaf_that_the_design_gives_per_axis_is_one():
+    assert sorted(AXES) == sorted(
+        [
+            "vehicle.payload.inertia",
+            "vehicle.quadrotors.0.inertia",
+            "vehicle.drag.force",
+            "vehicle.drag.moment",
+            *(f"controller.gains.{gain}" for gain in ("xi", "eta", "lambda_1", "lambda_2", "a")),
+            "controller.boundary_layer",
+            *(f"admittance.{key}" for key in ("mass", "damping", "stiffness", "threshold")),
+            *(f"initial.{key}" for key in ("position", "velocity", "euler", "rates")),
+            "disturbance.force",
+            "disturbance.moment",
+            "plant.inertia_scale",
+        ]
+    )
+
+
+@pytest.mark.parametrize(("key", "count"), AXES.items(), ids=AXES)
+def test_one_number_serves_all_axes_and_whole_numbers_are_numbers(key, count):
+    place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
+    one = tables_of(load_mission("paper", {key: 1}))
+    each = tables_of(load_mission("paper", {key: [1.0] * count}))
+    assert value_at(one, place) == [1.0] * count
+    assert all(type(number) is float for number in value_at(one, place))
+    assert one == each
+
+
+def test_weights_may_be_one_four_or_four_for_each_quadrotor():
+    def rows(weights):
+        return load_mission("paper", {"allocation.weights": weights}).allocation.weights
+
+    assert rows(2) == ((2.0,) * 4,)
+    assert rows([1, 100, 1, 1]) == ((1.0, 100.0, 1.0, 1.0),)
+    assert rows([[1, 2, 3, 4], [5, 6, 7, 8]]) == ((1.0, 2.0, 3.0, 4.0), (5.0, 6.0, 7.0, 8.0))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"mission.step": 0.02},
+        {"mission.duration": 0.001},
+        {"mission.duration": 1e6, "mission.log_interval": 1},
+        {"mission.log_interval": 1e300},
+        {"mission.seed": 10**18},
+        {"initial.euler": [1.48, 3.0, -3.0]},
+        {"admittance.threshold": 0, "admittance.damping": 0},
+        {"admittance.stiffness": 8, "admittance.damping": 0.004},
+        {"admittance.damping": 2000},
+        {"vehicle.quadrotors.0.lag_up": 0},
+        {"controller.gains.a": 1},
+        {"phases.land_start": 2},
+        {"pushes": []},
+    ],
+    ids=str,
+)
+def test_what_is_at_the_edge_of_the_allowed_is_taken(changes):
+    assert isinstance(load_mission("paper", changes), Mission)
+
+
+def test_a_file_extends_a_built_in_mission_and_files_by_relative_path(tmp_path):
+    (tmp_path / "deep").mkdir()
+    (tmp_path / "base.toml").write_text('extends = "hover"\n[phases]\nheight = 2\n[vehicle.drag]\nforce = 1\n')
+    (tmp_path / "deep" / "mine.toml").write_text('extends = "../base.toml"\n[vehicle.drag]\nmoment = 2\n')
+    mine, hover = load_mission(tmp_path / "deep" / "mine.toml"), load_mission("hover")
+    changed = {"phases": {"height": 2.0}, "vehicle": {"drag": {"force": [1.0] * 3, "moment": [2.0] * 3}}}
+    assert tables_of(mine) == merge(tables_of(hover), changed)
+
+
+def test_files_with_other_line_ends_or_a_byte_order_mark_load(tmp_path):
+    text = to_toml(load_mission("paper"))
+    for name, content in {
+        "crlf.toml": text.replace("\n", "\r\n").encode(),
+        "mark.toml": text.encode("utf-8-sig"),
+    }.items():
+        (tmp_path / name).write_bytes(content)
+        assert load_mission(tmp_path / name) == load_mission("paper")
+
+
+def test_another_controller_starts_from_its_own_defaults_and_the_same_one_keeps_its_settings(tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text('extends = "paper"\n[controller]\nname = "nftsmc"\nswitching = "sign"\n')
+    assert load_mission(file, controller="nftsmc").controller.switching == "sign"
+    assert load_mission("paper", {"controller.name": "nftsmc"}) == load_mission("paper")
+    file.write_text('extends = "paper"\n[controller]\nname = "other"\n')
+    with pytest.raises(tl.InputError, match=r'controller\.name = "other": unknown controller'):
+        load_mission(file)
+
+
+def test_a_lift_that_the_landing_cuts_short_is_warned_of():
+    with pytest.warns(tl.FlightWarning, match=r"paper: phases.land_start = 5.0 is before the lift ends at 8 s"):
+        load_mission("paper", {"phases.land_start": 5})
+
+
+def test_a_vehicle_that_its_rotors_cannot_lift_is_warned_of():
+    with pytest.warns(tl.FlightWarning, match=r"weighs 59\.84 N and its rotors lift 56\.53 N"):
+        load_mission("paper", {"vehicle.payload.mass": 3.1})
+
+
+def test_toml_keeps_every_bit_of_a_float_and_lists_of_numbers_on_one_line():
+    numbers = [0.1, 1e-300, 1.7976931348623157e308, 5e-324, -0.0, 1 / 3, np.nextafter(1.0, 2.0).item(), 123456789.0]
+    tables = {
+        "one": 1 / 3,
+        "many": numbers,
+        "rows": [[1.0, 2.0], [3.0, 4.0]],
+        "row": [numbers],
+        "words": ["a, b", "[1.0,\n 2.0]"],
+        "none": [],
+        "table": {"text": 'a "b" \\ \n[\n    1.0,\n]', "flag": True, "whole": 7},
+        "list": [{"a": [1.0, 2.0]}, {"a": [3.0, 4.0]}],
+    }
+    text = format_toml(tables)
+    assert repr(tomllib.loads(text)) == repr(tomllib.loads(tomli_w.dumps(tables)))
+    assert tomllib.loads(text)["many"] == numbers
+    assert f"many = [{', '.join(map(repr, numbers))}]\n" in text
+    assert "rows = [\n    [1.0, 2.0],\n    [3.0, 4.0],\n]\n" in text
+    assert f"row = [[{', '.join(map(repr, numbers))}]]\n" in text
+    assert "\n".join(["[[list]]", "a = [1.0, 2.0]"]) in text
+
+
+def template_lines():
+    """The template's keys with their values and comments, by dotted key; a commented-out key as well."""
+    place, lines = "", {}
+    text = (Path(tl.__file__).parent / "data" / "template.toml").read_text("utf-8")
+    for line in text.splitlines():
+        if line.startswith("["):
+            place = line.split("#")[0].strip().replace("[[", "").replace("]]", ".0").strip("[]") + "."
+        elif " = " in line:
+            statement, _, comment = line.removeprefix("# ").partition("#")
+            key, _, value = statement.partition(" = ")
+            lines.setdefault(place + key.strip(), (tomllib.loads(f"v = {value}")["v"], comment.strip()))
+    return lines
+
+
+def test_the_template_has_every_key_of_a_mission_and_no_other():
+    assert set(template_lines()) - {"extends"} == set(SCHEMA)
+
+
+@pytest.mark.parametrize("key", SCHEMA)
+def test_the_template_tells_what_a_key_is_and_its_default(key):
+    _, comment = template_lines()[key]
+    assert len(comment) > 1, "a unit or a sentence"
+    field, (_, _, default) = SCHEMA[key], comment.partition("[default: ")
+    if field.is_required():
+        assert not default, "a required key has none"
+    elif field.default is None:
+        assert "left out" in comment
+    else:
+        shown = {key: tomllib.loads(f"v = {default.removesuffix(']')}")["v"]}
+        place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
+        resolved = value_at(tables_of(load_mission("paper", shown)), place)
+        assert resolved == (np.array(field.default).tolist() if isinstance(field.default, tuple) else field.default)
+
+
+def test_the_template_is_a_mission_as_it_stands():
+    template = tomllib.loads((Path(tl.__file__).parent / "data" / "template.toml").read_text("utf-8"))
+    mission = check(template, "template")
+    assert load_mission("paper").vehicle == mission.vehicle
+    assert load_mission("paper").controller == mission.controller
+
+
+def test_the_reference_of_missions_has_every_key_with_its_default():
+    text = (Path(tl.__file__).parents[2] / "docs" / "missions.md").read_text("utf-8")
+    rows = {row.split("`")[1]: row for row in text.splitlines() if row.startswith("| `")}
+    assert set(rows) == set(SCHEMA)
+    for key, field in SCHEMA.items():
+        default = rows[key].split("|")[3].strip()
+        if field.is_required():
+            assert default == "required", key
+        elif field.default is not None:
+            shown = tomllib.loads(f"v = {default.strip('`')}")["v"]
+            expected = np.array(field.default).tolist() if isinstance(field.default, tuple) else field.default
+            assert np.array_equal(np.broadcast_to(shown, np.shape(expected)), expected), key
+
+
+def test_the_refusals_in_the_reference_of_missions_are_real(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = (Path(tl.__file__).parents[2] / "docs" / "missions.md").read_text("utf-8")
+    written = [line.removeprefix("error: ") for line in text.splitlines() if line.startswith("error: ")]
+    example = text.partition("```toml\n")[2].partition("```")[0]
+    wrong = [example.replace("duration", "duratoin"), example + "[admittance]\nmass = [1, -1, 1]\n"]
+    for line, content in zip(written, wrong, strict=True):
+        Path("sideways.toml").write_text(content, "utf-8")
+        with pytest.raises(tl.InputError) as refused:
+            load_mission("sideways.toml")
+        assert line in str(refused.value).splitlines()
+    Path("sideways.toml").write_text(example, "utf-8")
+    exec(compile(text.partition("```python\n")[2].partition("```")[0], "missions.md", "exec"), {})
