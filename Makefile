@@ -28,6 +28,15 @@ tests: .venv/dev ## all tests
 bench: .venv/run ## speed of everything, printed
 	$(BIN)/python benchmarks/bench.py
 
+bench-peers: .venv-peers/ready  ## speed beside other simulators, printed
+	.venv-peers/bin/python benchmarks/peers.py
+
+.venv-peers/ready: benchmarks/requirements-peers.txt pyproject.toml
+	$(PYTHON) -m venv .venv-peers
+	.venv-peers/bin/pip install --quiet --disable-pip-version-check -r benchmarks/requirements-peers.txt
+	.venv-peers/bin/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	touch $@
+
 .venv/run: lock/run.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; v = sys.version_info[:2]; sys.exit(0 if (3, 11) <= v <= (3, 13) else f"tandemlift needs Python 3.11 to 3.13; $(PYTHON) is {v[0]}.{v[1]} (try: make PYTHON=python3.12)")'
 	$(PYTHON) -m venv .venv

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from importlib import metadata
 from typing import Any
 
@@ -74,7 +76,8 @@ def metrics_of(p: Prepared, flown: Flown) -> dict[str, Any]:
     return {**formed, "steps": flown.step, "wall_s": flown.wall}
 
 
-def versions() -> dict[str, str]:
+@cache
+def versions() -> Mapping[str, str]:
     """Versions of what a flight was flown with."""
     return {name: metadata.version(name) for name in ("tandemlift", "numba", "numpy")}
 
@@ -85,7 +88,7 @@ def flight_of(p: Prepared, flown: Flown) -> Flight:
     channels, at = {}, 0
     for name, like in zip(p.sample._fields, p.sample, strict=True):
         width = leaves(like)
-        part = np.ascontiguousarray(flown.log[:logged, at : at + width])
+        part = flown.log[:logged, at : at + width]
         channels[name] = part if isinstance(like, tuple) else part[:, 0]
         at += width
     return Flight(
@@ -94,5 +97,5 @@ def flight_of(p: Prepared, flown: Flown) -> Flight:
         mission=tables_of(p.mission),
         results=metrics_of(p, flown),
         divergence=_divergence(p, flown),
-        version=versions(),
+        version=dict(versions()),
     )

@@ -21,7 +21,7 @@ from tandemlift.jit import cached_in, folder, install, leaves, load, load_lane, 
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.controllers import Command, Measured, Reference
 from tandemlift.laws.push import SUPPORT, Gaussian, Hand, push_of
-from tandemlift.loop import Flying, commit, move
+from tandemlift.loop import Flying, blank_sample, commit, move
 from tandemlift.pilot import conclude, guide
 from tandemlift.vector import ZERO
 
@@ -50,60 +50,54 @@ def active(p, opens, closes):
 
 @register_jitable(forceinline=True, **COMPILE)
 def feel(hands, pushes, k, dt, push_like):
-    """Fill `hands` with the sum of one flight's pushes at the half steps of the SPAN steps that hold step k."""
-    first = k - k % SPAN
+    """Fill the table of pushes with the sum of one flight's at the half steps of the SPAN steps that hold step k."""
+    first, width = k - k % SPAN, hands.size // HALVES
     hands[:] = 0.0
     for i in range(pushes.shape[0]):
         p = load(pushes[i], GAUSSIAN)
         if active(p, first * dt, (first + SPAN) * dt):
             for j in range(HALVES):
                 push = push_of(push_like, p, (2 * first + j) * (0.5 * dt))
-                store_lane(hands, j, HALVES, load_lane(hands, j, HALVES, push_like) + push)
+                store_lane(hands, j * width, 1, load_lane(hands, j * width, 1, push_like) + push)
 
 
 @register_jitable(forceinline=True, **COMPILE)
-def feel_block(hands, pushes, k, dt, push_like, at_push):
-    """`feel` for LANES flights; from `at_push` on `hands` has room for a push of each: a lane loop wants one array."""
+def feel_block(a, at_hands, width, pushes, k, dt, push_like):
+    """`feel` for LANES flights, whose table stands in `a` from `at_hands` on, with room for one push of each behind.
+
+    A lane loop is vectorised only if no two arrays may overlap: so all that it reads and writes is in `a`.
+    """
     first = k - k % SPAN
-    hands[:] = 0.0
+    at_push = at_hands + HALVES * width * LANES
+    a[at_hands:at_push] = 0.0
     for i in range(pushes.shape[0]):
         pressed = False
         for lane in range(LANES):
             p = load_lane(pushes[i], lane, LANES, GAUSSIAN)
             pressed |= active(p, first * dt, (first + SPAN) * dt)
         if pressed:
-            hands[at_push:] = pushes[i]
+            a[at_push : at_push + pushes.shape[1]] = pushes[i]
             for j in range(HALVES):
                 t = (2 * first + j) * (0.5 * dt)
+                at = at_hands + j * width * LANES
                 for lane in range(LANES):
-                    at = j * LANES + lane
-                    push = push_of(push_like, load_lane(hands, at_push + lane, LANES, GAUSSIAN), t)
-                    before = load_lane(hands, at, HALVES * LANES, push_like)
-                    store_lane(hands, at, HALVES * LANES, before + push)
-
-
-@register_jitable(forceinline=True, **COMPILE)
-def reach(hands, k, lane, lanes, push_like):
-    """The Hand of step k, from the table of pushes."""
-    at = 2 * (k % SPAN) * lanes + lane
-    return Hand(
-        load_lane(hands, at, HALVES * lanes, push_like),
-        load_lane(hands, at + lanes, HALVES * lanes, push_like),
-        load_lane(hands, at + 2 * lanes, HALVES * lanes, push_like),
-    )
+                    push = push_of(push_like, load_lane(a, at_push + lane, LANES, GAUSSIAN), t)
+                    store_lane(a, at + lane, LANES, load_lane(a, at + lane, LANES, push_like) + push)
 
 
 class Kernels:
     """The compiled loops for flights like `flying` under pushes like `push`; each compiles when first asked for.
 
-    Arrays that the loops share: `pushes` (count × 8·lanes) holds the numbers of each `Gaussian`, `hands`
-    (HALVES·lanes·numbers of a push) is scratch for the table of pushes, `last` receives the sample at the end.
+    Arrays that the loops share: `pushes` (count × 8·lanes) holds the numbers of each `Gaussian`; `hands` is scratch for
+    the table of pushes, HALVES rows of the numbers of a push, of which any three in a row are a `Hand`; `last` receives
+    the sample at the end.
     """
 
     def __init__(self, flying: Flying, push: Any) -> None:
         install()
         self.like = zeroed(flying)
         self.push = zeroed(push)
+        self.hand = Hand(self.push, self.push, self.push)
 
     @property
     def folder(self) -> Path:
@@ -121,7 +115,8 @@ class Kernels:
         Flies steps k to stop − 1 of `steps`, in `a`; log[k // every] is a logged sample. Step number `steps` only
         takes the sample `last`. Returns early when the state is no longer sound.
         """
-        like, push_like = self.like, self.push
+        like, push_like, hand_like = self.like, self.push, self.hand
+        width = leaves(push_like)
 
         def single(a, pushes, hands, log, last, k, stop, steps, every, dt):
             flying = load(a, like)
@@ -129,7 +124,7 @@ class Kernels:
             while k < stop and flying.moving.lost == 0.0:
                 if k % SPAN == 0:
                     feel(hands, pushes, k, dt, push_like)
-                moving, sample = move(flying, reach(hands, k, 0, 1, push_like), k * dt, dt)
+                moving, sample = move(flying, load_lane(hands, 2 * (k % SPAN) * width, 1, hand_like), k * dt, dt)
                 if k % every == 0:
                     store(log[k // every], sample)
                 if k == steps:
@@ -142,30 +137,32 @@ class Kernels:
 
         return self._compile(single)
 
+    @property
+    def block_parts(self) -> tuple[int, int, int]:
+        """Where in a block's array the table of pushes and the sample begin, and its size."""
+        at_hands = leaves(self.like) * LANES
+        at_sample = at_hands + (HALVES * leaves(self.push) + leaves(GAUSSIAN)) * LANES
+        return at_hands, at_sample, at_sample + leaves(blank_sample(len(self.like.plant.effect.thrust))) * LANES
+
     @cached_property
     def block(self) -> Callable[..., Any]:
-        """block(a, pushes, hands, log, k, stop, steps, every, dt): LANES flights, else as `single`.
+        """block(a, pushes, log, k, stop, steps, every, dt): LANES flights, else as `single`.
 
-        `a` holds, interleaved by lanes, the numbers of a `Flying`, of a Hand and of a Sample: one array, because the
-        lane loop is vectorised only if no two arrays may overlap. Step number `steps` takes the last sample and
-        leaves the rest of `a` as it was; log[lane] receives the logged samples. The numbers of a lane with `lost` = 1
-        are void.
+        `a` holds, interleaved by lanes, the numbers of a `Flying`, the table of pushes, one push and a Sample. Step
+        number `steps` takes the last sample and leaves the flights as they were; log[lane] receives the logged
+        samples. The numbers of a lane with `lost` = 1 are void.
         """
-        like, push_like = self.like, self.push
-        hand_like = Hand(push_like, push_like, push_like)
-        at_hand = leaves(like) * LANES
-        at_sample = at_hand + leaves(hand_like) * LANES
-        at_push = HALVES * leaves(push_like) * LANES
-        moving_size = leaves(like.moving) * LANES
+        like, push_like, hand_like = self.like, self.push, self.hand
+        at_hands, at_sample, _ = self.block_parts
+        width, moving_size = leaves(push_like), leaves(like.moving) * LANES
 
-        def block(a, pushes, hands, log, k, stop, steps, every, dt):
-            feel_block(hands, pushes, k, dt, push_like, at_push)
+        def block(a, pushes, log, k, stop, steps, every, dt):
+            feel_block(a, at_hands, width, pushes, k, dt, push_like)
             kept = a[:moving_size]
             while k < stop:
                 if k % SPAN == 0:
-                    feel_block(hands, pushes, k, dt, push_like, at_push)
-                for lane in range(LANES):
-                    store_lane(a, at_hand + lane, LANES, reach(hands, k, lane, LANES, push_like))
+                    feel_block(a, at_hands, width, pushes, k, dt, push_like)
+                at_hand = at_hands + 2 * (k % SPAN) * width * LANES
                 if k == steps:
                     kept = a[:moving_size].copy()
                 logged = k % every == 0
@@ -193,13 +190,14 @@ class Kernels:
     @cached_property
     def before(self) -> Callable[..., Any]:
         """before(a, pushes, hands, x, k, dt): write to x what an interpreted controller is given at step k."""
-        like, push_like = self.like, self.push
+        like, push_like, hand_like = self.like, self.push, self.hand
+        width = leaves(push_like)
 
         def before(a, pushes, hands, x, k, dt):
             flying = load(a, like)
             if k % SPAN == 0:
                 feel(hands, pushes, k, dt, push_like)
-            push = reach(hands, k, 0, 1, push_like).start.force
+            push = load_lane(hands, 2 * (k % SPAN) * width, 1, hand_like).start.force
             guidance = guide(flying.pilot, flying.moving.memory.yielding, push, k * dt)
             store(x, Given(Measured(flying.moving.state, push), guidance.reference))
 
@@ -211,12 +209,12 @@ class Kernels:
 
         If `final`, only the sample is taken.
         """
-        like, push_like = self.like, self.push
+        like, hand_like, width = self.like, self.hand, leaves(self.push)
 
         def after(a, hands, y, row, k, dt, final):
             flying = load(a, like)
             memory = flying.moving.memory
-            hand = reach(hands, k, 0, 1, push_like)
+            hand = load_lane(hands, 2 * (k % SPAN) * width, 1, hand_like)
             guidance = guide(flying.pilot, memory.yielding, hand.start.force, k * dt)
             command = load(y, COMMAND)
             decision, memory = conclude(flying.pilot, memory.yielding, guidance, command, memory.controller, dt)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import os
+import threading
 import time
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Literal
 
@@ -28,7 +29,6 @@ from tandemlift.tally import EMPTY, Tally
 from tandemlift.vector import ZERO
 
 Array = NDArray[np.float64]
-HAND = 3  # pushes in a Hand
 
 Progress = Callable[[int, int], None]
 
@@ -96,27 +96,34 @@ def _fly_block(flights: Sequence[Prepared], rows: int, every: int) -> list[Flown
     """Fly up to LANES flights of one variant and one grid together; lost ones again, alone, to stop where they must."""
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)]
-    columns, size = leaves(p.sample), leaves(p.flying.moving)
+    moving_size, columns = leaves(p.flying.moving), leaves(p.sample)
+    _, at_sample, size = p.kernels.block_parts
+    a = _aligned(size)
     numbers = np.array([flat(f.flying) for f in lanes]).T
-    a = np.concatenate([numbers.ravel(), np.zeros((HAND * leaves(p.push) + columns) * LANES)])
-    pushes = _interleaved([f.pushes for f in lanes])
-    hands = np.zeros((HALVES * leaves(p.push) + leaves(GAUSSIAN)) * LANES)
-    log = np.zeros((LANES, rows, columns))
+    a[: numbers.size] = numbers.ravel()
+    pushes, log = _interleaved([f.pushes for f in lanes]), np.zeros((LANES, rows, columns))
     block = p.kernels.block
-    block(a, pushes, hands, log, 0, 0, p.steps, every, p.dt)
+    block(a, pushes, log, 0, 0, p.steps, every, p.dt)  # compiles, flies nothing
     began, k, early = time.perf_counter(), 0, [EMPTY] * LANES
     for stop in p.stops:
-        block(a, pushes, hands, log, k, stop, p.steps, every, p.dt)
+        block(a, pushes, log, k, stop, p.steps, every, p.dt)
         k = min(stop, p.steps)
         if stop == p.late_step:
             early = _empty(a, p.flying, LANES)
     wall = (time.perf_counter() - began) / count
-    moving = a[: size * LANES].reshape(-1, LANES)
-    last = a[-columns * LANES :].reshape(-1, LANES)
+    moving, last = a[: moving_size * LANES].reshape(-1, LANES), a[at_sample:].reshape(-1, LANES)
     flown = [
-        Flown(unflat(moving[:, i], p.flying.moving), early[i], k, log[i], last[:, i].copy(), wall) for i in range(count)
+        Flown(unflat(moving[:, i], p.flying.moving), early[i], k, log[i].copy(), last[:, i].copy(), wall)
+        for i in range(count)
     ]
     return [_fly_single(f, rows, every) if x.lost else x for f, x in zip(flights, flown, strict=True)]
+
+
+def _aligned(size: int) -> Array:
+    """Zeros that begin at a multiple of 64 bytes: a vector of eight never crosses a line of the processor's cache."""
+    room = np.zeros(size + LANES)
+    first = -room.ctypes.data % 64 // room.itemsize
+    return room[first : first + size]
 
 
 def _interleaved(pushes: Sequence[Array]) -> Array:
@@ -174,25 +181,20 @@ def fly_many(
         raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
     if threads is not None and (not isinstance(threads, int) or threads < 1):
         raise InputError(f"threads = {threads!r}: must be a whole number of at least 1")
-    prepared = [Prepared(m) for m in missions]
-    results: list[Any] = [None] * len(prepared)
-    finished = _Counter(len(prepared), progress)
+    missions = list(missions)
+    results: list[Any] = [None] * len(missions)
+    finished = _Counter(len(missions), progress)
 
-    def run(places: list[int]) -> None:
-        flights = [prepared[i] for i in places]
+    def run(places: list[int], flights: list[Prepared]) -> None:
         p = flights[0]
         rows, every = (p.steps // p.every + 1, p.every) if keep == "flights" else (1, p.steps + 1)
-        if len(flights) == 1:
-            flown = [(_fly_interpreted if p.interpreted else _fly_single)(p, rows, every)]
-        else:
-            flown = _fly_block(flights, rows, every)
-        for i, f, x in zip(places, flights, flown, strict=True):
+        for i, f, x in zip(places, flights, _fly_together(flights, rows, every), strict=True):
             results[i] = flight_of(f, x) if keep == "flights" else metrics_of(f, x)
         finished.add(len(places))
 
-    jobs = _jobs(prepared)
     with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
-        for future in [pool.submit(run, places) for places in jobs]:
+        futures = [pool.submit(run, places, flights) for places, flights in _jobs(missions)]
+        for future in futures:
             future.result()
     return results
 
@@ -202,16 +204,38 @@ class _Counter:
 
     def __init__(self, total: int, progress: Progress | None) -> None:
         self.flown, self.total, self.progress = 0, total, progress
+        self.lock = threading.Lock()
 
     def add(self, count: int) -> None:
-        self.flown += count
-        if self.progress:
-            self.progress(self.flown, self.total)
+        with self.lock:
+            self.flown += count
+            if self.progress:
+                self.progress(self.flown, self.total)
 
 
-def _jobs(prepared: Sequence[Prepared]) -> list[list[int]]:
-    """Places of the flights that go together: same variant and grid, at most LANES; interpreted ones alone."""
-    groups: defaultdict[Any, list[int]] = defaultdict(list)
-    for i, p in enumerate(prepared):
-        groups[(i,) if p.interpreted else (p.variant, p.steps, p.every, p.dt)].append(i)
-    return [g[i : i + LANES] for g in groups.values() for i in range(0, len(g), LANES)]
+def _fly_together(flights: Sequence[Prepared], rows: int, every: int) -> list[Flown]:
+    """Fly what goes together, as a block unless it is one flight alone."""
+    if len(flights) > 1:
+        return _fly_block(flights, rows, every)
+    alone = _fly_interpreted if flights[0].interpreted else _fly_single
+    return [alone(flights[0], rows, every)]
+
+
+def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[Prepared]]]:
+    """What goes together, with its places: same variant and grid, at most LANES; interpreted ones alone.
+
+    A block is given out as soon as it is full, so that the first fly while others are being prepared.
+    """
+    groups: defaultdict[Any, list[tuple[int, Prepared]]] = defaultdict(list)
+    for i, mission in enumerate(missions):
+        p = Prepared(mission)
+        key = (p.variant, p.steps, p.every, p.dt)
+        groups[key].append((i, p))
+        if p.interpreted or len(groups[key]) == LANES:
+            yield _unzipped(groups.pop(key))
+    for group in groups.values():
+        yield _unzipped(group)
+
+
+def _unzipped(pairs: list[tuple[int, Prepared]]) -> tuple[list[int], list[Prepared]]:
+    return [i for i, _ in pairs], [p for _, p in pairs]
