@@ -124,7 +124,9 @@ def rewritten(path: Path, **changes):
         ({"divergence": [1]}, "damaged or no flight"),
         ({"channels": {"absent": {}}}, "damaged or no flight"),
     ],
-    ids=str,
+    ids=lambda value: (
+        ", ".join(f"{k} {getattr(v, 'shape', v)}" for k, v in value.items()) if value.__class__ is dict else ""
+    ),
 )
 def test_a_flight_of_a_wrong_form_is_refused(changes, piece, short, tmp_path):
     path = short.save(tmp_path / "flight.npz")

@@ -51,6 +51,9 @@ CHANNELS: dict[str, Channel] = {
     "rotor_thrusts": Channel("N", "body z", "of each rotor, quadrotor by quadrotor"),
 }
 
+TIME = Channel("s", "", "time")
+OTHER = Channel("", "", "not one of tandemlift's own")
+
 DERIVED: dict[str, tuple[str, str, Channel]] = {
     "position_error": ("reference_position", "position", Channel("m", "world", "desired minus actual")),
     "velocity_error": ("reference_velocity", "velocity", Channel("m/s", "world", "desired minus actual")),
@@ -130,7 +133,7 @@ class Flight(Mapping[str, Array]):
     def info(self, name: str) -> Channel:
         """Unit, frame and meaning of a channel."""
         self[name]
-        return DERIVED[name][2] if name in DERIVED else CHANNELS.get(name, Channel("s", "", "time"))
+        return DERIVED[name][2] if name in DERIVED else CHANNELS.get(name, TIME if name == "time" else OTHER)
 
     def metrics(self) -> dict[str, Any]:
         """The flight's metrics: flat, SI, the unit at the end of each name; None where it could not be formed."""

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_origin
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, SerializeAsAny, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, SerializeAsAny, model_validator
 from pydantic_core import PydanticCustomError, core_schema
 
-MOST_QUADROTORS = 64
 COINCIDING = 1e-3  # m
 SMALLEST = 1e-300  # of a divisor: its inverse is finite
 
@@ -38,6 +37,13 @@ class Table(BaseModel):
     """A strict, frozen table of a mission."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False, validate_default=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _lists_as_tuples(cls, data: Any) -> Any:
+        tuples = {name for name, field in cls.model_fields.items() if get_origin(field.annotation) is tuple}
+        items = data.items() if isinstance(data, dict) else ()
+        return {k: tuple(v) if k in tuples and isinstance(v, list) else v for k, v in items} or data
 
 
 def _is_number(value: Any) -> bool:
@@ -74,7 +80,6 @@ Exactly3 = Annotated[Triple, Axes(3, single=False)]
 Positive6 = Annotated[tuple[Positive, Positive, Positive, Positive, Positive, Positive], Axes(6)]
 NonNegative6 = Annotated[tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative], Axes(6)]
 AtLeastOne6 = Annotated[tuple[AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne], Axes(6)]
-as_tuple = BeforeValidator(lambda value: tuple(value) if isinstance(value, list) else value)
 
 
 def _name(name: str) -> str:
@@ -165,8 +170,8 @@ class Drag(Table):
 
 
 def _fleet(quadrotors: tuple[Quadrotor, ...]) -> tuple[Quadrotor, ...]:
-    if not 1 <= len(quadrotors) <= MOST_QUADROTORS:
-        raise _must("count", f"be 1 to {MOST_QUADROTORS} tables, here are {len(quadrotors)}")
+    if not 1 <= len(quadrotors) <= 64:
+        raise _must("count", f"be 1 to 64 tables, here are {len(quadrotors)}")
     for i, q in enumerate(quadrotors):
         for j in range(i):
             if math.dist(q.position, quadrotors[j].position) < COINCIDING:
@@ -178,7 +183,7 @@ class VehicleTable(Table):
     """`[vehicle]`: the parts."""
 
     payload: Payload
-    quadrotors: Annotated[tuple[Quadrotor, ...], as_tuple, AfterValidator(_fleet)]
+    quadrotors: Annotated[tuple[Quadrotor, ...], AfterValidator(_fleet)]
     drag: Drag = Drag()
 
 
@@ -291,7 +296,7 @@ class Mission(Table):
     allocation: AllocationTable = AllocationTable()
     initial: Initial = Initial()
     phases: PhasesTable = PhasesTable()
-    pushes: Annotated[tuple[PushTable, ...], as_tuple] = ()
+    pushes: tuple[PushTable, ...] = ()
     disturbance: Disturbance = Disturbance()
     plant: Plant = Plant()
     actuators: Actuators = Actuators()

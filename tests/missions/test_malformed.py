@@ -209,3 +209,9 @@ def test_a_refusal_names_the_file_of_the_wrong_key(mine):
         "mine.toml: mission.duration = -1: must be a number > 0",
         "base.toml: mission.step = 1.0: must be a number > 0 and ≤ 0.02",
     ]
+
+
+def test_a_refusal_of_a_change_names_the_mission_that_it_changes(mine):
+    mine("extends = 'paper'\nmission.step = 0.002\n", "base.toml")
+    message = refusal(mine("extends = 'base.toml'\n"), {"mission.step": 1.0})
+    assert message == "mine.toml: mission.step = 1.0: must be a number > 0 and ≤ 0.02"

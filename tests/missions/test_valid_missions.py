@@ -1,16 +1,15 @@
 import re
 import tomllib
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
 import tomli_w
+from schema import SCHEMA
 
 import tandemlift as tl
-from tandemlift.laws.controllers import CONTROLLERS
-from tandemlift.missions import built_in, check, format_toml, load_mission, merge, tables_of, to_toml
-from tandemlift.missions.explain import allowed, keys_of, table_in, value_at
+from tandemlift.missions import built_in, format_toml, load_mission, merge, tables_of, to_toml
+from tandemlift.missions.explain import allowed, value_at
 from tandemlift.settings import Mission
 
 BUILT_IN = ["flight-ready", "four", "hover", "one-push", "paper"]
@@ -107,26 +106,6 @@ def test_the_paper_mission_has_the_paper_s_numbers():
         "plant": {"mass_scale": 1.0, "inertia_scale": [1.0] * 3},
         "actuators": {"model": "ideal"},
     }
-
-
-def schema_keys():
-    """Dotted key and field of every key of a mission, with the settings of every registered controller."""
-    models = [(Mission, ()), *((c.settings, ("controller",)) for c in CONTROLLERS.values() if c.name == "nftsmc")]
-    for model, above in models:
-        for place in keys_of(model, above):
-            table = model
-            for part in place[len(above) : -1]:
-                table = next_table(table, part)
-            field = table.model_fields[place[-1]]
-            if next_table(table, place[-1]) is None:
-                yield ".".join(map(str, place)), field
-
-
-def next_table(table, part):
-    return table if part == 0 else table_in(table.model_fields[part].annotation)
-
-
-SCHEMA = dict(reversed(list(schema_keys())))  # of `controller.name`, what every mission asks for
 
 
 AXES = {
@@ -254,73 +233,3 @@ def test_toml_keeps_every_bit_of_a_float_and_lists_of_numbers_on_one_line():
     assert "rows = [\n    [1.0, 2.0],\n    [3.0, 4.0],\n]\n" in text
     assert f"row = [[{', '.join(map(repr, numbers))}]]\n" in text
     assert "\n".join(["[[list]]", "a = [1.0, 2.0]"]) in text
-
-
-def template_lines():
-    """The template's keys with their values and comments, by dotted key; a commented-out key as well."""
-    place, lines = "", {}
-    text = (Path(tl.__file__).parent / "data" / "template.toml").read_text("utf-8")
-    for line in text.splitlines():
-        if line.startswith("["):
-            place = line.split("#")[0].strip().replace("[[", "").replace("]]", ".0").strip("[]") + "."
-        elif " = " in line:
-            statement, _, comment = line.removeprefix("# ").partition("#")
-            key, _, value = statement.partition(" = ")
-            lines.setdefault(place + key.strip(), (tomllib.loads(f"v = {value}")["v"], comment.strip()))
-    return lines
-
-
-def test_the_template_has_every_key_of_a_mission_and_no_other():
-    assert set(template_lines()) - {"extends"} == set(SCHEMA)
-
-
-@pytest.mark.parametrize("key", SCHEMA)
-def test_the_template_tells_what_a_key_is_and_its_default(key):
-    _, comment = template_lines()[key]
-    assert len(comment) > 1, "a unit or a sentence"
-    field, (_, _, default) = SCHEMA[key], comment.partition("[default: ")
-    if field.is_required():
-        assert not default, "a required key has none"
-    elif field.default is None:
-        assert "left out" in comment
-    else:
-        shown = {key: tomllib.loads(f"v = {default.removesuffix(']')}")["v"]}
-        place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
-        resolved = value_at(tables_of(load_mission("paper", shown)), place)
-        assert resolved == (np.array(field.default).tolist() if isinstance(field.default, tuple) else field.default)
-
-
-def test_the_template_is_a_mission_as_it_stands():
-    template = tomllib.loads((Path(tl.__file__).parent / "data" / "template.toml").read_text("utf-8"))
-    mission = check(template, "template")
-    assert load_mission("paper").vehicle == mission.vehicle
-    assert load_mission("paper").controller == mission.controller
-
-
-def test_the_reference_of_missions_has_every_key_with_its_default():
-    text = (Path(tl.__file__).parents[2] / "docs" / "missions.md").read_text("utf-8")
-    rows = {row.split("`")[1]: row for row in text.splitlines() if row.startswith("| `")}
-    assert set(rows) == set(SCHEMA)
-    for key, field in SCHEMA.items():
-        default = rows[key].split("|")[3].strip()
-        if field.is_required():
-            assert default == "required", key
-        elif field.default is not None:
-            shown = tomllib.loads(f"v = {default.strip('`')}")["v"]
-            expected = np.array(field.default).tolist() if isinstance(field.default, tuple) else field.default
-            assert np.array_equal(np.broadcast_to(shown, np.shape(expected)), expected), key
-
-
-def test_the_refusals_in_the_reference_of_missions_are_real(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    text = (Path(tl.__file__).parents[2] / "docs" / "missions.md").read_text("utf-8")
-    written = [line.removeprefix("error: ") for line in text.splitlines() if line.startswith("error: ")]
-    example = text.partition("```toml\n")[2].partition("```")[0]
-    wrong = [example.replace("duration", "duratoin"), example + "[admittance]\nmass = [1, -1, 1]\n"]
-    for line, content in zip(written, wrong, strict=True):
-        Path("sideways.toml").write_text(content, "utf-8")
-        with pytest.raises(tl.InputError) as refused:
-            load_mission("sideways.toml")
-        assert line in str(refused.value).splitlines()
-    Path("sideways.toml").write_text(example, "utf-8")
-    exec(compile(text.partition("```python\n")[2].partition("```")[0], "missions.md", "exec"), {})

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import os
 import re
 import sys
@@ -120,7 +119,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
 
 
 def _fly(mission: Mission, engine: str, controller: Controller | None) -> Flight:
-    from tandemlift.laws.controllers import told
+    from tandemlift.laws.controllers import file_of, told
     from tandemlift.prepared import needs_compiling
     from tandemlift.simulate import fly
 
@@ -134,8 +133,7 @@ def _fly(mission: Mission, engine: str, controller: Controller | None) -> Flight
     except Exception as error:
         if controller is None or controller.start.__module__.startswith("tandemlift."):
             raise
-        file = inspect.unwrap(controller.start).__code__.co_filename
-        raise InputError(f"controller {controller.name!r} fails: {told(error, file)}") from error
+        raise InputError(f"controller {controller.name!r} fails: {told(error, file_of(controller))}") from error
 
 
 def _print_summary(flight: Flight, seconds: float) -> None:

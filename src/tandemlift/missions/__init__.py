@@ -66,13 +66,19 @@ def _path_of(name: str | os.PathLike[str], folder: Path) -> Path:
     return path
 
 
+@functools.lru_cache(maxsize=32)
+def _parsed(text: str) -> Tables:
+    """The tables of a text, kept for sweeps that load one mission many times; nobody changes them."""
+    return tomllib.loads(text)
+
+
 def _read(path: Path) -> Tables:
     with path.open("rb") as file:
         content = file.read(MAX_FILE + 1)
     if len(content) > MAX_FILE:
         raise InputError(f"{path} is larger than {MAX_FILE} bytes, the most that a mission file may have")
     try:
-        return tomllib.loads(content.decode("utf-8-sig").replace("\r\n", "\n"))
+        return dict(_parsed(content.decode("utf-8-sig").replace("\r\n", "\n")))
     except UnicodeDecodeError as error:
         raise InputError(f"{path} is not text in UTF-8: byte {error.start} is {content[error.start]:#04x}") from None
     except RecursionError:
@@ -116,27 +122,28 @@ def _layers(path: Path, seen: tuple[Path, ...] = ()) -> Iterator[Layer]:
 
 
 def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:
-    """A table or list with the value at the path `parts` of it; `key` names the whole path in messages."""
+    """A table or list with the value at the path `parts` of it; `key` names the file and the whole path in messages."""
     part, *rest = parts
     if isinstance(at, list):
         if not re.fullmatch("[0-9]{1,9}", part) or int(part) >= len(at):
             entries = f"a number from 0 to {len(at) - 1}" if at else "left out, because the list is empty"
-            raise InputError(f"{key}: {part!r} must be {entries}")
+            raise InputError(f"{key} = {shown(value)}: {part!r} must be {entries}")
         i = int(part)
         return [*at[:i], _with(at[i], rest, value, key) if rest else value, *at[i + 1 :]]
     if not isinstance(at, dict):
-        raise InputError(f"{key}: {key.removesuffix('.'.join(parts)).rstrip('.')} = {shown(at)} has no keys of its own")
+        above = key.partition(": ")[2].removesuffix(".".join(parts)).rstrip(".")
+        raise InputError(f"{key} = {shown(value)}: {above} = {shown(at)} has no keys of its own")
     if rest:
         return {**at, part: _with(at.get(part, {}), rest, value, key)}
     return merge(at, {part: value})
 
 
-def _changed(tables: Tables, key: Any, value: Any) -> Tables:
+def _changed(tables: Tables, key: Any, value: Any, source: str) -> Tables:
     """Tables with a dotted key set; a number in it picks an entry of a list. NumPy's values become plain ones."""
     if not isinstance(key, str) or not all(key.split(".")):
-        raise InputError(f"{key!r} is not a dotted key such as controller.gains.xi")
+        raise InputError(f"{source}: {key!r} is not a dotted key such as controller.gains.xi")
     value = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else copy.deepcopy(value)
-    after = _with(tables, key.split("."), value, key)
+    after = _with(tables, key.split("."), value, f"{source}: {key}")
     names = [value_at(t, ("controller", "name")) for t in (tables, after)]
     if names[0] != names[1] and key in ("controller", "controller.name"):
         after["controller"] = value if isinstance(value, dict) else {"name": value}
@@ -165,9 +172,11 @@ def load_mission(
         tables: Tables = functools.reduce(_overlay, (layer.tables for layer in layers), {})
         if controller is not None:
             chosen = controller if isinstance(controller, str) else controller.name
+            if not isinstance(controller, str) and CONTROLLERS.get(chosen) is not controller:
+                raise InputError(f"controller {chosen!r} is not the one registered last by that name; load it again")
             tables = _overlay(tables, {"controller": {"name": chosen}})
         for key, value in (changes or {}).items():
-            tables = _changed(tables, key, value)
+            tables = _changed(tables, key, value, layers[-1].source)
         return check(tables, layers[-1].source, layers)
     except RecursionError:
         raise InputError(f"{name} is not a mission: nested too deeply") from None
@@ -187,7 +196,7 @@ def check(tables: Tables, source: str = "mission", layers: Sequence[Layer] = ())
         checked["controller"], problems = _controller(table, tables)
     mission, more = _validated(Mission, checked, tables, ())
     if problems := problems + more:
-        _refuse(problems, source, layers)
+        _refuse(problems, tables, source, layers)
     try:
         check_flyable(mission)
     except InputError as error:
@@ -196,12 +205,13 @@ def check(tables: Tables, source: str = "mission", layers: Sequence[Layer] = ())
     return mission
 
 
-def _refuse(problems: list[Problem], source: str, layers: Sequence[Layer]) -> None:
-    """Raise one message with a line for each problem, naming the last file that says so."""
+def _refuse(problems: list[Problem], tables: Tables, source: str, layers: Sequence[Layer]) -> None:
+    """Raise one message with a line for each problem, naming the last file that gives the value, else the source."""
     lines = []
     for place, sentence in problems[:MAX_PROBLEMS]:
-        says = (layer.source for layer in reversed(layers) if value_at(layer.tables, place) is not MISSING)
-        lines.append(f"{next(says, source)}: {sentence}")
+        given = value_at(tables, place)
+        says = (layer.source for layer in reversed(layers) if value_at(layer.tables, place) in (given,))
+        lines.append(f"{source if given is MISSING else next(says, source)}: {sentence}")
     if len(problems) > MAX_PROBLEMS:
         lines.append(f"{source}: and {len(problems) - MAX_PROBLEMS} more")
     raise InputError("\n".join(lines))

@@ -115,7 +115,9 @@ def allowed(annotation: Any, marks: Iterable[Any] = ()) -> str:
     axes = next((mark for mark in marks if hasattr(mark, "describe")), None)
     if axes is not None:
         return axes.describe(_limits(_innermost(annotation)))
-    return f"{WORDS.get(annotation, 'a list' if kind else 'another kind of value')} {_limits(marks)}".rstrip()
+    size = f" of {len(parts)}" if kind is tuple and Ellipsis not in get_args(annotation) else ""
+    otherwise = {None: "another kind of value", dict: "a table"}.get(kind, f"a list{size}")
+    return f"{WORDS.get(annotation, otherwise)} {_limits(marks)}".rstrip()
 
 
 def _innermost(annotation: Any) -> tuple[Any, ...]:
@@ -156,7 +158,8 @@ def _refusal(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[Plac
     rule = _rule(problem, field, bool(place) and isinstance(place[-1], int))
     if problem["type"] == "missing":
         return place, f"{key} is missing: it {rule}"
-    value = "" if problem["type"] in ("payload", "count") or given is MISSING else f" = {shown(given)}"
+    whole = problem["type"] == "count" or (not problem["type"].startswith(BY_ANNOTATION) and isinstance(given, Mapping))
+    value = "" if whole or given is MISSING else f" = {shown(given)}"
     return place, f"{key}{value}: {rule}{_hint(problem, field, given)}"
 
 

@@ -89,7 +89,7 @@ CONTROLLERS: dict[str, Controller] = {}
 def register(name: str, settings: type[ControllerTable]) -> Callable[[Start], Start]:
     """Register a controller by the function that starts it; the first line of its docstring is the summary.
 
-    Registering a name again replaces the controller if it comes from the same module.
+    Registering a name again replaces the controller if it comes from the same file or module.
 
     Raises:
         InputError: the name is not fit for one or taken by another module, or `settings` is no ControllerTable.
@@ -101,14 +101,19 @@ def register(name: str, settings: type[ControllerTable]) -> Callable[[Start], St
 
     def keep(start: Start) -> Start:
         held = CONTROLLERS.get(name)
-        if held is not None and held.start.__module__ != start.__module__:
-            file = Path(inspect.unwrap(held.start).__code__.co_filename).name
-            raise InputError(f"the name {name!r} is taken by the controller in {file}; choose another")
+        file = held and file_of(held)
+        if held and held.start.__module__ != start.__module__ and file != start.__code__.co_filename:
+            raise InputError(f"the name {name!r} is taken by the controller in {Path(str(file)).name}; choose another")
         summary = (inspect.getdoc(start) or "").partition("\n")[0]
         CONTROLLERS[name] = Controller(name, summary, settings, _checked(name, settings, start))
         return start
 
     return keep
+
+
+def file_of(controller: Controller) -> str:
+    """The file that registered a controller."""
+    return inspect.unwrap(controller.start).__code__.co_filename
 
 
 def _checked(name: str, settings: type[ControllerTable], start: Start) -> Start:
@@ -217,7 +222,7 @@ _loaded: dict[Path, tuple[bytes, Controller]] = {}
 def load_controller(path: str | Path) -> Controller:
     """Run a Python file that registers one controller, and return it. An unchanged file runs only once.
 
-    The file becomes a module of a stable name, so that its compiled loop is found again on disk.
+    The file becomes a module named by its content, so that its compiled loop is found again on disk, wherever it lies.
 
     Raises:
         InputError: the file is missing, fails, or registers no controller.
@@ -229,7 +234,7 @@ def load_controller(path: str | Path) -> Controller:
     held = _loaded.get(path)
     if held and held[0] == source and CONTROLLERS.get(held[1].name) is held[1]:
         return held[1]
-    digest = hashlib.sha256(str(path).encode()).hexdigest()[:8]
+    digest = hashlib.sha256(source).hexdigest()[:12]
     module = ModuleType(f"tandemlift_user_{re.sub(r'[^A-Za-z0-9_]', '_', path.stem)}_{digest}")
     module.__file__ = str(path)
     before = dict(CONTROLLERS), sys.modules.get(module.__name__)

@@ -1,0 +1,25 @@
+"""All keys of a mission, by walking its tables."""
+
+from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.missions.explain import keys_of, table_in
+from tandemlift.settings import Mission
+
+
+def schema_keys():
+    """Dotted key and field of every key of a mission, with the settings of every registered controller."""
+    models = [(Mission, ()), *((c.settings, ("controller",)) for c in CONTROLLERS.values() if c.name == "nftsmc")]
+    for model, above in models:
+        for place in keys_of(model, above):
+            table = model
+            for part in place[len(above) : -1]:
+                table = next_table(table, part)
+            field = table.model_fields[place[-1]]
+            if next_table(table, place[-1]) is None:
+                yield ".".join(map(str, place)), field
+
+
+def next_table(table, part):
+    return table if part == 0 else table_in(table.model_fields[part].annotation)
+
+
+SCHEMA = dict(reversed(list(schema_keys())))  # of `controller.name`, what every mission asks for

@@ -1,0 +1,77 @@
+"""Whatever stands in a mission, it is either taken, and flies again from its own TOML, or refused in plain words."""
+
+import math
+import tomllib
+import warnings
+
+import tomli_w
+from hypothesis import given
+from hypothesis import strategies as st
+from schema import SCHEMA
+
+import tandemlift as tl
+from tandemlift.cli.run import parse_setting
+from tandemlift.loop import start
+from tandemlift.missions import check, load_mission, to_toml
+
+EDGES = [0.0, -0.0, 5e-324, 1e-300, 1e-155, 1e-15, 0.02, 1.0, 90.0, 1e15, 1e155, 1e300, 1.7976931348623157e308]
+numbers = st.sampled_from([*EDGES, *(-edge for edge in EDGES), math.inf, math.nan]) | st.floats() | st.integers()
+scalars = numbers | st.booleans() | st.text(max_size=8) | st.dates() | st.sampled_from(["soft", "sign", "x", "body"])
+values = st.recursive(
+    scalars,
+    lambda inner: st.lists(inner, max_size=7) | st.dictionaries(st.text(max_size=6), inner, max_size=3),
+    max_leaves=8,
+)
+lists = st.sampled_from([3, 4, 6]).flatmap(lambda n: st.lists(numbers, min_size=n, max_size=n))
+keys = st.sampled_from(sorted(SCHEMA)) | st.text(max_size=12)
+
+
+def taken_or_refused(make):
+    """The mission that `make` gives, after a round trip through TOML and built as for a flight; None if refused."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.simplefilter("ignore", tl.FlightWarning)
+        mission, message = None, "refused"
+        try:
+            mission = make()
+        except tl.InputError as refused:
+            message = str(refused)
+        assert message
+        assert "Input should" not in message
+        if mission is None:
+            return None
+        assert check(tomllib.loads(to_toml(mission))) == mission
+        start(mission)
+        return mission
+
+
+@given(st.dictionaries(keys, values | lists, max_size=3))
+def test_any_change_is_taken_or_refused(changes):
+    taken_or_refused(lambda: load_mission("paper", changes))
+
+
+@given(st.dictionaries(st.sampled_from(sorted(SCHEMA)), numbers | lists, min_size=1, max_size=2))
+def test_any_numbers_are_taken_or_refused(changes):
+    taken_or_refused(lambda: load_mission("four", changes))
+
+
+@given(st.dictionaries(st.sampled_from(["mission", "vehicle", "pushes", "controller"]) | st.text(max_size=5), values))
+def test_any_tables_are_refused(tables):
+    assert taken_or_refused(lambda: check(tables)) is None
+
+
+@given(st.text(max_size=30))
+def test_any_setting_is_taken_or_refused(text):
+    try:
+        key, value = parse_setting(text)
+    except tl.InputError:
+        return
+    assert key
+    tomli_w.dumps({"value": value})
+
+
+@given(st.binary(max_size=60))
+def test_any_file_is_refused(tmp_path_factory, content):
+    file = tmp_path_factory.getbasetemp() / "any.toml"
+    file.write_bytes(content)
+    assert taken_or_refused(lambda: load_mission(file)) is None
