@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.errors import InputError, suggestion
+from tandemlift.files import whole
 
 Array = NDArray[np.float64]
 FORMAT = 1
@@ -151,14 +152,8 @@ class Flight(Mapping[str, Array]):
             "channels": {name: self.info(name)._asdict() for name in self.channels},
         }
         text = np.array(json.dumps(header, allow_nan=False))
-        path.parent.mkdir(parents=True, exist_ok=True)
-        partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-        try:
-            with partial.open("wb") as file:
-                np.savez(file, header=text, time=self.time, **self.channels)  # type: ignore
-            partial.replace(path)
-        finally:
-            partial.unlink(missing_ok=True)
+        with whole(path) as partial, partial.open("wb") as file:
+            np.savez(file, header=text, time=self.time, **self.channels)  # type: ignore
         return path
 
     @classmethod

@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.jit import flat, form, leaves
+from tandemlift.jit import flat, leaves
 from tandemlift.kernels import GAUSSIAN, Kernels
 from tandemlift.laws.controllers import NoMemory, control
 from tandemlift.loop import Flying, blank_sample, pushes_of, start
 from tandemlift.settings import Mission
 from tandemlift.tally import LATE
+from tandemlift.vector import layout
 
 STRETCH = 2_000_000  # steps between looks at the keyboard and at the progress bar
 
@@ -44,7 +45,7 @@ class Prepared:
     @cached_property
     def variant(self) -> Any:
         """What decides the compiled loop: the types, not the values, of the flight's members."""
-        return form(self.flying), form(self.push)
+        return layout(self.flying), layout(self.push)
 
     @cached_property
     def sample(self) -> Any:

@@ -14,6 +14,7 @@ from typing import Any
 
 from tandemlift.figures import FIGURES
 from tandemlift.figures.captions import CAPTIONS
+from tandemlift.files import whole
 from tandemlift.flight import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 
@@ -250,11 +251,6 @@ def write_report(
         again=_again(flight),
         versions=escape(", ".join(f"{name} {version}" for name, version in flight.version.items())),
     )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
+    with whole(path) as partial:
         partial.write_text(text, "utf-8")
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
     return path

@@ -149,6 +149,11 @@ class Mat3(NamedTuple):
 ZERO = Vec3(0.0, 0.0, 0.0)
 
 
+def layout(value: Any) -> Any:
+    """The classes of a nested value, without its numbers: equal for values that hold their numbers alike."""
+    return (type(value), *map(layout, value)) if hasattr(value, "_fields") else None
+
+
 def vec3(values: Any) -> Vec3:
     """A Vec3 of floats from any three numbers."""
     x, y, z = (float(v) for v in values)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.errors import InputError
+from tandemlift.files import whole
 
 if TYPE_CHECKING:
     from tandemlift.flight import Flight
@@ -71,9 +72,11 @@ def write_results(flight: Flight, mission: Mission, folder: Path, *, figures: bo
     from tandemlift.missions import to_toml
     from tandemlift.report import write_report
 
-    _replace(folder / "mission.toml", to_toml(mission))
+    with whole(folder / "mission.toml") as partial:
+        partial.write_text(to_toml(mission), "utf-8")
     flight.save(folder / "flight.npz")
-    _replace(folder / "metrics.json", json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n")
+    with whole(folder / "metrics.json") as partial:
+        partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
     for name in FIGURES:
         for kind in ("png", "pdf"):
             (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
@@ -81,16 +84,6 @@ def write_results(flight: Flight, mission: Mission, folder: Path, *, figures: bo
         with bar("Drawing", len(FIGURES), shown=sys.stderr.isatty()) as progress:
             save_figures(flight, folder / "figures", progress)
     write_report(flight, folder / "figures", folder / "report.html")
-
-
-def _replace(path: Path, text: str) -> None:
-    """Write a file whole or not at all."""
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        partial.write_text(text, "utf-8")
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 @contextmanager

@@ -6,7 +6,6 @@ under one fixed style, whatever the settings of the machine are; no figure is ev
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
@@ -16,6 +15,7 @@ import matplotlib.style
 import numpy as np
 from matplotlib.figure import Figure
 
+from tandemlift.files import whole
 from tandemlift.flight import Flight
 
 COLUMN = 3.5  # in, one column of a two-column journal
@@ -96,11 +96,6 @@ def save(figure: Figure, path: Path) -> Path:
     """
     kind = path.suffix[1:]
     date = {"CreationDate": None} if kind == "pdf" else None
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        with matplotlib.style.context(["default", SETTINGS]):
-            figure.savefig(partial, format=kind, dpi=DPI, metadata=date)
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
+    with whole(path) as partial, matplotlib.style.context(["default", SETTINGS]):
+        figure.savefig(partial, format=kind, dpi=DPI, metadata=date)
     return path

@@ -8,14 +8,13 @@ Only the loop and the compiled pilot import this package, so that Numba is loade
 """
 
 from tandemlift.jit.cache import cached_in, folder
-from tandemlift.jit.layout import flat, form, leaves, load, load_lane, store, store_lane, unflat, zeroed
+from tandemlift.jit.layout import flat, leaves, load, load_lane, store, store_lane, unflat, zeroed
 from tandemlift.jit.overloads import install
 
 __all__ = [
     "cached_in",
     "flat",
     "folder",
-    "form",
     "install",
     "leaves",
     "load",

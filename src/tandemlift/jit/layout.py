@@ -33,11 +33,6 @@ def zeroed(value: Any) -> Any:
     return type(value)(*map(zeroed, value)) if is_value(value) else 0.0
 
 
-def form(value: Any) -> Any:
-    """The types of a nested value, without its numbers: hashable, and equal for values that compile alike."""
-    return (type(value), *map(form, value)) if is_value(value) else None
-
-
 def unflat(numbers: Any, like: Any) -> Any:
     """The nested value laid out like `like` whose numbers are `numbers`, as Python floats."""
     return _unflat(map(float, numbers), like)
