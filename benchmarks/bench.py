@@ -92,11 +92,10 @@ def measure(rounds: int) -> dict[str, Any]:
 
 def report(results: dict[str, Any]) -> str:
     missions = results["missions"]
-    sizes = ", ".join(f"{s['flights']} × {s['steps']:,} of `{name}`" for name, s in missions.items())
     parts = [
         heading(results["machine"]),
-        f"Blocks in million steps a second: kernel (whole call), in calls of {sizes}. "
-        "Logged: at the mission's interval, flights kept.",
+        f"Each mission is flown for {flights.DURATION:g} s. Blocks in million steps a second: kernel (whole call), in "
+        f"calls of {flights.MANY} flights. Logged: at the mission's interval, flights kept.",
         mission_table(missions),
         ratio_lines(missions),
         table(["", "median"], other_rows(results)),

@@ -192,9 +192,9 @@ def fly_many(
             results[i] = flight_of(f, x) if keep == "flights" else metrics_of(f, x)
         finished.add(len(places))
 
+    jobs = list(_jobs(missions))  # all of them first: Python at work here would hold up the threads that fly
     with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
-        futures = [pool.submit(run, places, flights) for places, flights in _jobs(missions)]
-        for future in futures:
+        for future in [pool.submit(run, places, flights) for places, flights in jobs]:
             future.result()
     return results
 
@@ -222,10 +222,7 @@ def _fly_together(flights: Sequence[Prepared], rows: int, every: int) -> list[Fl
 
 
 def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[Prepared]]]:
-    """What goes together, with its places: same variant and grid, at most LANES; interpreted ones alone.
-
-    A block is given out as soon as it is full, so that the first fly while others are being prepared.
-    """
+    """What goes together, with its places: same variant and grid, at most LANES; interpreted ones alone."""
     groups: defaultdict[Any, list[tuple[int, Prepared]]] = defaultdict(list)
     for i, mission in enumerate(missions):
         p = Prepared(mission)
