@@ -77,6 +77,14 @@ def test_stiffness_springs_back_and_reanchoring_stays():
     assert abs(stay[-1] - stay[-500]) < 1e-6
 
 
+def test_a_motion_that_dies_does_not_linger_in_denormal_numbers():
+    flight = tl.fly(tl.load_mission("one-push", {"mission.duration": 600.0, "mission.log_interval": 10.0}))
+    speed = flight["admittance_velocity"][:, 0]
+    assert speed[1] > 0.0
+    assert speed[-1] < 1e-100
+    assert np.all((speed == 0.0) | (np.abs(speed) > 1e-300))
+
+
 def test_a_diverging_flight_stops_at_once_and_says_which_quantity_when():
     weak = {"controller.gains.lambda_1": 0.0, "controller.gains.lambda_2": 0.0}
     flight = tl.fly(tl.load_mission("paper", {**weak, "controller.gains.xi": [4, 2, 11, 0.1, 0.1, 0.1]}))

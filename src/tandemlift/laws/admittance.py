@@ -11,6 +11,10 @@ from tandemlift.law import choice, elementwise, law
 from tandemlift.ops import absolute, clip, where
 from tandemlift.vector import Vec3
 
+REST = Vec3(
+    1e-100, 1e-100, 1e-100
+)  # m/s, lost in any motion; one that dies ends near 1e-114, not in slow denormal numbers
+
 
 class HardGate(NamedTuple):
     """Lets a force through whole where it exceeds the threshold [N]."""
@@ -95,15 +99,9 @@ def yield_to(a: Admittance, m: Yielding, F: Vec3) -> Trajectory:
     return Trajectory(m.position, m.velocity, acceleration)
 
 
-@elementwise
-def settled(velocity):
-    """A velocity, or 0 below 1e-100 m/s: a motion that has died must not linger in denormal numbers, which are slow."""
-    return where(absolute(velocity) > 1e-100, velocity, 0.0)
-
-
 @law
 def hold(a: Admittance, m: Yielding, F: Vec3, now: Trajectory, dt: Any) -> Yielding:
     """The memory after a step of `dt` [s] with T̈_r held."""
     position = m.position + m.velocity * dt + now.acceleration * (0.5 * dt * dt)
-    velocity = settled(m.velocity + now.acceleration * dt)
+    velocity = (m.velocity + now.acceleration * dt + REST) - REST
     return Yielding(position, velocity, anchored(m.anchor, position, velocity, F, a.reanchor))
