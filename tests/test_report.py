@@ -143,6 +143,13 @@ def test_an_arrival_is_given_against_its_reference(page, paper, write):
     assert "at (1.000, 2.000, 2.000) m, 5.000 mm from its reference (1.003, 2.004, 2.000) m" in moved.text
 
 
+def test_a_flight_that_ends_far_from_its_reference_has_not_arrived(paper, write):
+    ends = {"final_position_m": [0.0, -16.0, 1.0], "final_reference_m": [0.0, 0.0, 1.0]}
+    text = write(dataclasses.replace(paper, results=paper.results | ends)).text
+    assert "Arrived" not in text
+    assert "<strong>Ended</strong> at (0.000, −16.000, 1.000) m, 16.00 m from its reference" in text
+
+
 def test_a_divergence_names_quantity_time_and_limit_and_missing_metrics_are_dashes(paper, write):
     divergence = Divergence("distance from the origin [m]", 31.231, 1000.02, "must stay below 1000 m")
     results = paper.results | {"final_reference_m": None, "position_rmse_after_10s_m": None}

@@ -33,6 +33,8 @@ NO_BREAK = "\u00a0"
 SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
 WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
 
+ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
+
 STYLE = """
 :root { color-scheme: light dark; --ink: #1b1f24; --soft: #5b6470; --line: #d7dce1; --page: #fff; --card: #f5f7f9;
   --good: #00664b; --bad: #a83e00; }
@@ -46,9 +48,9 @@ h2 { margin: 2.5rem 0 1rem; font-size: 1.3rem; }
 .kind, .soft, figcaption { color: var(--soft); }
 .kind { margin: 0; }
 .verdict { margin: 1rem 0 .5rem; padding: .6rem .9rem; border-left: .3rem solid var(--good); background: var(--card); }
-.verdict.diverged { border-color: var(--bad); }
+.verdict.diverged, .verdict.missed { border-color: var(--bad); }
 .verdict strong { color: var(--good); }
-.verdict.diverged strong { color: var(--bad); }
+.verdict.diverged strong, .verdict.missed strong { color: var(--bad); }
 figure { margin: 0 0 2rem; }
 figcaption { max-width: 44rem; margin-top: .5rem; font-size: .9rem; }
 figcaption b { color: var(--ink); }
@@ -185,10 +187,16 @@ def _verdict(flight: Flight) -> str:
     end, reference = metrics.get("final_position_m"), metrics.get("final_reference_m")
     if end is None or reference is None:
         return '<p class="verdict"><strong>Flown to the end</strong>.</p>'
-    away = math.dist(end, reference) * 1e3
-    distance = f"{number(away)} mm" if away >= 0.001 else "less than a micrometre"
+    away = math.dist(end, reference)
+    distance = "less than a micrometre" if away < 1e-6 else _length(away)
     text = f"at {_place(end)}, {distance} from its reference {_place(reference)}"
+    if away > ARRIVED:
+        return f'<p class="verdict missed"><strong>Ended</strong> {text}.</p>'
     return f'<p class="verdict"><strong>Arrived</strong> {text}.</p>'
+
+
+def _length(metres: float) -> str:
+    return f"{number(metres * 1e3)} mm" if metres < 1.0 else f"{number(metres)} m"
 
 
 def _place(point: Iterable[float]) -> str:
