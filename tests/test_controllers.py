@@ -120,3 +120,16 @@ def test_the_mission_file_of_the_guide_keeps_its_settings(law, folder):
 def test_the_controllers_of_the_repository_are_named_in_the_shell_lines_of_the_guide():
     shell = "\n".join(re.findall(r"```sh\n(.*?)```", GUIDE, re.DOTALL))
     assert "tandemlift run hover --controller my_pd.py" in shell
+
+
+@pytest.mark.parametrize("duration", [9.5, 10.0, 10.5])
+def test_metrics_around_ten_seconds_are_those_of_the_law_compiled(duration, law, plain):
+    compiled, interpreted = (
+        tl.fly(tl.load_mission("hover", {"mission.duration": duration}, controller=c)).metrics() for c in (law, plain)
+    )
+    assert (compiled["thrust_max_after_10s_n"] is None) == (duration <= 10.0)
+    for name, value in compiled.items():
+        if name == "wall_s" or value is None:
+            assert name == "wall_s" or interpreted[name] is None
+        else:
+            np.testing.assert_allclose(interpreted[name], value, rtol=1e-6, atol=1e-9, err_msg=name)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.errors import InputError
-from tandemlift.jit import cached_in, flat, folder, install, load, store, zeroed
+from tandemlift.jit import cached_in, flat, folder, install, leaves, load, store, zeroed
 from tandemlift.kernels import COMPILE
 from tandemlift.laws.body import State
 from tandemlift.laws.controllers import Measured, control
@@ -22,6 +22,7 @@ from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 MEASURED = Measured(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO)
+SHAPE, FLOAT64 = (leaves(MEASURED),), np.dtype(np.float64)
 
 
 class Onboard(NamedTuple):
@@ -79,7 +80,13 @@ class Pilot:
 
         Returns:
             Thrust of every rotor [N] (4N,), the same array each time.
+
+        Raises:
+            InputError: the measurement is not a float64 array of 16 numbers.
         """
+        if type(measurement) is not np.ndarray or measurement.shape != SHAPE or measurement.dtype != FLOAT64:
+            given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
+            raise InputError(f"measurement is {given}: must be a float64 array of shape {SHAPE}")
         self._sample(self._numbers, measurement, self.thrusts)
         return self.thrusts
 

@@ -17,6 +17,7 @@ from tandemlift.tally import LATE
 from tandemlift.vector import layout
 
 STRETCH = 2_000_000  # steps between looks at the keyboard and at the progress bar
+LONG_RUN, LONG_INTERPRETED = 5_000_000, 10_000  # steps that take more than a second
 
 KERNELS: dict[Any, Kernels] = {}
 
@@ -75,3 +76,8 @@ def needs_compiling(mission: Mission) -> bool:
     """Whether flying this mission alone will first compile its loop, which takes seconds."""
     p = Prepared(mission)
     return p.variant not in KERNELS and not p.kernels.folder.exists()
+
+
+def takes_long(mission: Mission) -> bool:
+    """Whether flying this mission, once compiled, takes more than a second or so."""
+    return mission.mission.steps >= (LONG_RUN if Prepared(mission).interpreted is None else LONG_INTERPRETED)

@@ -74,7 +74,7 @@ def _fly_interpreted(p: Prepared, rows: int, every: int, progress: Progress | No
     after(a, hands, y, row, 0, p.dt, True)
     began, early, k = time.perf_counter(), EMPTY, 0
     while k <= p.steps and a[size - 1] == 0.0:
-        if k == p.late_step:
+        if k == p.late_step < p.steps:
             (early,) = _empty(a, p.flying, 1)
         before(a, p.pushes, hands, x, k, p.dt)
         measured, reference = unflat(x, given)

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from tandemlift.settings import Mission
 
 DIVERGED = 3
-LONG_RUN = 5_000_000  # steps from which a progress bar is shown
 WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set takes without quotes
 
 
@@ -120,13 +119,13 @@ def parse_setting(text: str) -> tuple[str, Any]:
 
 def _fly(mission: Mission, engine: str, controller: Controller | None) -> Flight:
     from tandemlift.laws.controllers import file_of, told
-    from tandemlift.prepared import needs_compiling
+    from tandemlift.prepared import needs_compiling, takes_long
     from tandemlift.simulate import fly
 
     try:
         if needs_compiling(mission):
             click.echo("Compiling the flight loop for this machine (once, a few seconds) …", err=True)
-        with bar("Flying", mission.mission.steps, shown=mission.mission.steps >= LONG_RUN) as progress:
+        with bar("Flying", mission.mission.steps, shown=takes_long(mission)) as progress:
             return fly(mission, engine, progress=progress)
     except InputError:
         raise
