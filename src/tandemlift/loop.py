@@ -18,7 +18,7 @@ from tandemlift.ops import absolute, maximum, where
 from tandemlift.pilot import PilotMemory, PilotParameters, decide, start_pilot
 from tandemlift.settings import Mission
 from tandemlift.tally import EMPTY, Errors, Tally, count
-from tandemlift.vector import ZERO, Quat, Vec3, dot, mat3, rotors, vec3
+from tandemlift.vector import ZERO, Quat, Vec3, dot, each, mat3, vec3
 from tandemlift.vehicle import Vehicle
 
 SIN_ROLL_LIMIT = 0.9998476951563913  # sin 89°
@@ -147,7 +147,7 @@ def start(mission: Mission) -> Flying:
 
 def blank_sample(rotor_count: int) -> Sample:
     """A Sample of zeros for a vehicle with so many rotors: the layout of the log."""
-    rotor_thrusts = rotors(rotor_count)(*(0.0,) * rotor_count)
+    rotor_thrusts = each(rotor_count)(*(0.0,) * rotor_count)
     special = {"attitude": Quat(0.0, 0.0, 0.0, 0.0), "thrust": 0.0, "rotor_thrusts": rotor_thrusts}
     return Sample(*[special.get(name, ZERO) for name in Sample._fields])
 

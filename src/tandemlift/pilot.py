@@ -18,7 +18,7 @@ from tandemlift.laws.allocation import Mixer, allocate
 from tandemlift.laws.controllers import Command, Measured, Reference, control, controller
 from tandemlift.laws.reference import Phases, reference
 from tandemlift.settings import AdmittanceTable, Mission, PhasesTable, VehicleTable
-from tandemlift.vector import ZERO, Vec3, rotors, vec3
+from tandemlift.vector import ZERO, Vec3, each, vec3
 from tandemlift.vehicle import Vehicle
 
 
@@ -80,7 +80,7 @@ def decide(p: PilotParameters, m: PilotMemory, measured: Measured, t: Any, dt: A
 
 def mixer_value(rows: np.ndarray) -> Mixer:
     """A 4 × 4N matrix as a Mixer."""
-    cls = rotors(rows.shape[1])
+    cls = each(rows.shape[1])
     thrust, roll, pitch, yaw = (cls(*map(float, row)) for row in rows)
     return Mixer(thrust, roll, pitch, yaw)
 

@@ -1,4 +1,4 @@
-"""Value types: vectors, quaternions, matrices and sets of rotors, as tuples of numbers with operators.
+"""Value types: vectors, quaternions, matrices and sets of values, as tuples of numbers with operators.
 
 The numbers may be floats, NumPy arrays, JAX tracers or CasADi symbols; compiled, they are float64.
 Keep the vector on the left of a product with a scalar (`v * k`): some array libraries on the left swallow a tuple.
@@ -167,12 +167,13 @@ def mat3(rows: Any) -> Mat3:
 
 
 @functools.cache
-def rotors(count: int) -> Any:
-    """The class of a set of `count` values, one a rotor: thrusts, commands, or a row of an allocation matrix.
+def each(count: int) -> Any:
+    """The class of a set of `count` values, one for each rotor or each quadrotor of a vehicle.
 
-    Rotor j of quadrotor i (both from 0) is field 4 i + j.
+    Value j of quadrotor i (both from 0) of a set of four a quadrotor is field 4 i + j. A `Vec3` of three sets holds a
+    vector for each: the laws of vectors serve all of them at once.
     """
-    name = f"Rotors{count}"
+    name = f"Each{count}"
     cls = NamedTuple(name, [(f"r{i}", Any) for i in range(count)])  # type: ignore[misc]
     cls.__add__, cls.__sub__, cls.__mul__, cls.__rmul__ = plus, minus, times, times  # type: ignore
     cls.__truediv__, cls.__neg__ = over, negative  # type: ignore
@@ -181,10 +182,37 @@ def rotors(count: int) -> Any:
 
 
 def __getattr__(name: str) -> Any:
-    """Rotor sets by name (`vector.Rotors8`), so that a fresh process can unpickle a compiled loop that uses them."""
-    if name.startswith("Rotors") and name[6:].isdigit():
-        return rotors(int(name[6:]))
+    """Sets by name (`vector.Each8`), so that a fresh process can unpickle a compiled loop that uses them."""
+    if name.startswith("Each") and name[4:].isdigit():
+        return each(int(name[4:]))
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def spread(values: Any) -> Vec3:
+    """A `Vec3` of sets from any n × 3 array: a vector for each of n."""
+    rows = [[float(v) for v in row] for row in values]
+    return Vec3(*[each(len(rows))(*column) for column in zip(*rows, strict=True)])
+
+
+@linear
+class Quarters(NamedTuple):
+    """Values that every quadrotor has four of (rotors, feet), as four sets with one for each quadrotor."""
+
+    first: Any
+    second: Any
+    third: Any
+    fourth: Any
+
+
+def quarters(v: Any) -> Quarters:
+    """The four sets of a set of four a quadrotor."""
+    cls = each(len(v) // 4)
+    return Quarters(cls(*v[0::4]), cls(*v[1::4]), cls(*v[2::4]), cls(*v[3::4]))
+
+
+def total(v: Any) -> Any:
+    """The sum of the values of a set."""
+    return functools.reduce(operator.add, v)
 
 
 @law
@@ -194,7 +222,7 @@ def cross(a: Vec3, b: Vec3) -> Vec3:
 
 
 def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
-    """Sum of the products of corresponding fields (vectors, quaternions, rotor sets)."""
+    """Sum of the products of corresponding fields (vectors, quaternions, sets)."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
@@ -210,7 +238,11 @@ def apply(A: Mat3, v: Vec3) -> Vec3:
 @law
 def apply_transposed(A: Mat3, v: Vec3) -> Vec3:
     """Aᵀ v."""
-    return A.x * v.x + A.y * v.y + A.z * v.z
+    return Vec3(
+        A.x.x * v.x + A.y.x * v.y + A.z.x * v.z,
+        A.x.y * v.x + A.y.y * v.y + A.z.y * v.z,
+        A.x.z * v.x + A.y.z * v.y + A.z.z * v.z,
+    )
 
 
 @law

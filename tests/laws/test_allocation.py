@@ -13,7 +13,7 @@ from tandemlift.errors import InputError
 from tandemlift.laws.allocation import allocate, wrench
 from tandemlift.laws.body import Wrench
 from tandemlift.pilot import mixer_value
-from tandemlift.vector import rotors, vec3
+from tandemlift.vector import each, vec3
 from tandemlift.vehicle import Vehicle
 
 from .helpers import paper_vehicle, random_vehicle, seeds
@@ -92,7 +92,7 @@ def test_the_laws_are_the_matrices(count, seed):
     thrusts = allocate(mixer_value(inverse.T), Wrench(float(wanted[0]), vec3(wanted[1:])))
     assert np.array(thrusts) == pytest.approx(inverse @ wanted, abs=1e-11)
     given_thrusts = rng.uniform(0.0, 7.0, 4 * count)
-    made = wrench(mixer_value(effect), rotors(4 * count)(*map(float, given_thrusts)))
+    made = wrench(mixer_value(effect), each(4 * count)(*map(float, given_thrusts)))
     assert [made.thrust, *made.moment] == pytest.approx(effect @ given_thrusts, abs=1e-12)
 
 

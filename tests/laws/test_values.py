@@ -14,7 +14,7 @@ from tandemlift.law import choice, elementwise
 from tandemlift.laws.body import State
 from tandemlift.laws.sliding import Cubic, switching
 from tandemlift.ops import absolute, atan2, atan_ratio, clip, exp, log, maximum, minimum, power, sin, sqrt, tanh, where
-from tandemlift.vector import ZERO, Mat3, Quat, Vec3, dot, mat3, rotors, vec3
+from tandemlift.vector import ZERO, Mat3, Quat, Vec3, dot, each, mat3, vec3
 
 from .helpers import array, numbers, random_state, vectors
 
@@ -40,14 +40,14 @@ def test_vectors_divide_by_numbers_and_by_vectors():
 
 
 @pytest.mark.parametrize("compare", [operator.lt, operator.le, operator.gt, operator.ge])
-@pytest.mark.parametrize("value", [A, Q, mat3(np.eye(3)), rotors(8)(*range(8))])
+@pytest.mark.parametrize("value", [A, Q, mat3(np.eye(3)), each(8)(*range(8))])
 def test_values_have_no_order(compare, value):
     with pytest.raises(TypeError, match="no order"):
         compare(value, value)
 
 
 @pytest.mark.parametrize("combine", [operator.add, operator.sub, operator.mul, operator.truediv])
-@pytest.mark.parametrize("other", [Q, (1.0, 2.0, 3.0), rotors(4)(1.0, 2.0, 3.0, 4.0)])
+@pytest.mark.parametrize("other", [Q, (1.0, 2.0, 3.0), each(4)(1.0, 2.0, 3.0, 4.0)])
 def test_values_of_different_kinds_do_not_mix(combine, other):
     with pytest.raises(TypeError, match="Vec3"):
         combine(A, other)
@@ -63,7 +63,7 @@ def test_quaternions_are_multiplied_by_name_only():
 def test_a_scalar_of_any_kind_may_stand_on_the_left(k):
     assert k * A == Vec3(2.0, -4.0, 6.0)
     assert isinstance(k * A, Vec3)
-    assert k * rotors(4)(1.0, 2.0, 3.0, 4.0) == rotors(4)(2.0, 4.0, 6.0, 8.0)
+    assert k * each(4)(1.0, 2.0, 3.0, 4.0) == each(4)(2.0, 4.0, 6.0, 8.0)
 
 
 def test_an_array_on_the_left_broadcasts_into_the_components():
@@ -93,13 +93,13 @@ def test_matrices_add_and_scale_by_rows():
 
 
 def test_rotor_sets_are_one_class_for_each_number_of_rotors_and_survive_pickling():
-    eight = rotors(8)(*map(float, range(8)))
-    assert rotors(8) is rotors(8) is not rotors(4)
+    eight = each(8)(*map(float, range(8)))
+    assert each(8) is each(8) is not each(4)
     assert pickle.loads(pickle.dumps(eight)) == eight
     assert eight + eight == eight * 2.0
     assert dot(eight, eight) == 140.0
-    with pytest.raises(AttributeError, match="Rotors"):
-        __import__("tandemlift.vector", fromlist=["x"]).RotorsOfDoom  # noqa: B018
+    with pytest.raises(AttributeError, match="Each"):
+        __import__("tandemlift.vector", fromlist=["x"]).EachOfDoom  # noqa: B018
 
 
 def test_values_are_made_from_any_numbers_as_floats():

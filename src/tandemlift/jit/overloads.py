@@ -100,6 +100,17 @@ def _install_operators() -> None:
             source = f"fma(a[{i}], b[{i}], {source})"
         return define("a, b", source, fma=fma)
 
+    @overload(vector.total, jit_options=INLINE)
+    def _total(v):
+        return define("v", " + ".join(f"v[{i}]" for i in range(len(v))))
+
+    @overload(vector.quarters, jit_options=INLINE)
+    def _quarters(v):
+        sets = (", ".join(f"v[{i}]" for i in range(j, len(v), 4)) for j in range(4))
+        return define(
+            "v", f"cls({', '.join(f'own({s})' for s in sets)})", cls=vector.Quarters, own=vector.each(len(v) // 4)
+        )
+
 
 def _install_operator(function: Any, symbol: str) -> None:
     @overload(function, jit_options=INLINE)

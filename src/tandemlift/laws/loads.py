@@ -1,0 +1,126 @@
+"""What acts on the parts of the vehicle, and what the sensors at its joints and in its payload feel of it.
+
+A vector of every quadrotor is a `Vec3` of sets. Joints transmit what a quadrotor puts on the payload.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.constants import GRAVITY
+from tandemlift.law import elementwise, law
+from tandemlift.laws.body import UP, State, Wrench
+from tandemlift.laws.parts import Acceleration
+from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.vector import Quarters, Vec3, apply_transposed, cross, linear, plus, quarters, times, total
+
+
+@linear
+class Load(NamedTuple):
+    """Force [N, world axes] on a part, and moment [N·m, body axes] about its centre of mass."""
+
+    force: Vec3
+    moment: Vec3
+
+    def __add__(self, other: "Load") -> "Load":  # type: ignore[override]
+        return plus(self, other)
+
+    def __mul__(self, k: Any) -> "Load":
+        return times(self, k)
+
+
+@linear
+class Loads(NamedTuple):
+    """What the surroundings put on the payload, and on every quadrotor (vectors of sets)."""
+
+    payload: Load
+    quadrotors: Load
+
+    def __add__(self, other: "Loads") -> "Loads":  # type: ignore[override]
+        return plus(self, other)
+
+    def __mul__(self, k: Any) -> "Loads":
+        return times(self, k)
+
+
+class Frame(NamedTuple):
+    """Where the parts are and what they weigh: what joints transmit follows from it. Body axes.
+
+    `payload` and `quadrotors`: centres of mass from the system's [m]; `joints`: from each quadrotor's centre of mass to
+    its joint [m]; `mass` [kg] and `inertia` [kg·m², diagonal] of each quadrotor; of rotor j of every quadrotor, from
+    that quadrotor's centre of mass, `x` and `y` [m], and `torque` about z over thrust [m].
+    """
+
+    payload: Vec3
+    quadrotors: Vec3
+    joints: Vec3
+    mass: Any
+    inertia: Vec3
+    x: Quarters
+    y: Quarters
+    torque: Quarters
+
+
+class Felt(NamedTuple):
+    """What perfect sensors fixed to the parts would read; body axes.
+
+    Specific force at the payload's centre of mass [m/s²] (acceleration less gravity), and what each quadrotor puts on
+    the payload at its joint: force [N] and torque [N·m], vectors of sets.
+    """
+
+    specific_force: Vec3
+    joint_force: Vec3
+    joint_torque: Vec3
+
+
+@law
+def resultant(frame: Frame, attitude: Any, loads: Loads) -> Load:
+    """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of all loads together."""
+    R = rotation_from_quaternion(attitude)
+    beam, each = loads.payload, loads.quadrotors
+    moments = each.moment + cross(frame.quadrotors, apply_transposed(R, each.force))
+    return Load(
+        beam.force + Vec3(total(each.force.x), total(each.force.y), total(each.force.z)),
+        beam.moment
+        + cross(frame.payload, apply_transposed(R, beam.force))
+        + Vec3(total(moments.x), total(moments.y), total(moments.z)),
+    )
+
+
+@law
+def thrust_of_each(frame: Frame, thrusts: Any) -> Wrench:
+    """Thrust [N] of every quadrotor and its rotors' moment about its centre of mass [N·m], as sets."""
+    # paper: total_i_thrust_moments_equ
+    f, x, y, torque = quarters(thrusts), frame.x, frame.y, frame.torque
+    roll = y.first * f.first + y.second * f.second + y.third * f.third + y.fourth * f.fourth
+    pitch = x.first * f.first + x.second * f.second + x.third * f.third + x.fourth * f.fourth
+    yaw = torque.first * f.first + torque.second * f.second + torque.third * f.third + torque.fourth * f.fourth
+    return Wrench(f.first + f.second + f.third + f.fourth, Vec3(roll, -pitch, yaw))
+
+
+@elementwise
+def raised(x, k):
+    """x + k, where k serves every value of a set."""
+    return x + k
+
+
+@law
+def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
+    """Specific force [m/s², body axes] at the point r [m, body axes] from the system's centre of mass."""
+    # paper: kinematic_equ
+    g = apply_transposed(rotation_from_quaternion(s.attitude), a.linear + UP * GRAVITY)
+    turn = cross(a.angular, r) + cross(s.rates, cross(s.rates, r))
+    return Vec3(raised(turn.x, g.x), raised(turn.y, g.y), raised(turn.z, g.z))
+
+
+@law
+def feel(frame: Frame, s: State, a: Acceleration, thrusts: Any, loads: Loads) -> Felt:
+    """What the sensors feel in state `s` under the acceleration `a` that thrusts [N] and loads bring about."""
+    # paper: trans_rot_quad_equ, solved for the joint
+    R, made, outside = rotation_from_quaternion(s.attitude), thrust_of_each(frame, thrusts), loads.quadrotors
+    inertial = specific_force_at(s, a, frame.quadrotors) * Vec3(frame.mass, frame.mass, frame.mass)
+    pushed = apply_transposed(R, outside.force) - inertial
+    force = Vec3(pushed.x, pushed.y, pushed.z + made.thrust)
+    J, w = frame.inertia, s.rates
+    turning = Vec3(J.x * a.angular.x, J.y * a.angular.y, J.z * a.angular.z)
+    spinning = cross(w, Vec3(J.x * w.x, J.y * w.y, J.z * w.z))
+    couple = made.moment + outside.moment - turning - spinning
+    return Felt(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force))
