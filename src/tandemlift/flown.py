@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata
@@ -13,14 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.flight import Divergence, Flight
-from tandemlift.jit import leaves, unflat
+from tandemlift.jit import flat, leaves, unflat
+from tandemlift.kernels import place
 from tandemlift.laws.body import State
 from tandemlift.laws.rotation import sine_of_roll
-from tandemlift.loop import FAR, SIN_ROLL_LIMIT, Moving
+from tandemlift.loop import FAR, SIN_ROLL_LIMIT, Flying, Moving
 from tandemlift.missions import tables_of
 from tandemlift.prepared import Prepared
 from tandemlift.tally import EMPTY, Tally, summary
-from tandemlift.vector import ZERO
+from tandemlift.vector import ZERO, Vec3
 
 Array = NDArray[np.float64]
 
@@ -40,6 +41,15 @@ class Flown:
     def lost(self) -> bool:
         """Whether the state became unsound."""
         return self.moving.lost != 0.0
+
+
+def take_tallies(numbers: Array, like: Flying, lanes: int) -> list[Tally]:
+    """Take the tallies out of a flight or a block of flights, and start them anew."""
+    at, size = place(like, "moving", "tally")
+    rows = numbers[at * lanes : (at + size) * lanes].reshape(-1, lanes)
+    tallies = [unflat(rows[:, lane], EMPTY) for lane in range(lanes)]
+    rows[:] = np.array(flat(EMPTY))[:, None]
+    return tallies
 
 
 def _divergence(p: Prepared, flown: Flown) -> Divergence | None:
@@ -82,20 +92,31 @@ def versions() -> Mapping[str, str]:
     return {name: metadata.version(name) for name in ("tandemlift", "numba", "numpy")}
 
 
-def flight_of(p: Prepared, flown: Flown) -> Flight:
-    """The record of a flight."""
+def _channels(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
+    """The channels of samples laid out like `like`: those of a group one by one; vectors of sets part by part."""
+    at = 0
+    for name, part in zip(like._fields, like, strict=True):
+        columns = rows[:, at : at + leaves(part)]
+        if not isinstance(part, tuple):
+            yield name, columns[:, 0]
+        elif isinstance(part, Vec3) and isinstance(part.x, tuple):
+            yield name, columns.reshape(len(rows), 3, -1).swapaxes(1, 2).reshape(len(rows), -1)
+        elif getattr(part, "linear", False):
+            yield name, columns
+        else:
+            yield from _channels(part, columns)
+        at += leaves(part)
+
+
+def flight_of(p: Prepared, flown: Flown, engine: str = "compiled") -> Flight:
+    """The record of a flight in an engine."""
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
-    channels, at = {}, 0
-    for name, like in zip(p.sample._fields, p.sample, strict=True):
-        width = leaves(like)
-        part = flown.log[:logged, at : at + width]
-        channels[name] = part if isinstance(like, tuple) else part[:, 0]
-        at += width
+    channels = dict(_channels(p.sample, flown.log[:logged]))
     return Flight(
         time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
         channels=channels,
         mission=tables_of(p.mission),
         results=metrics_of(p, flown),
         divergence=_divergence(p, flown),
-        version=dict(versions()),
+        version={**versions(), "engine": engine},
     )

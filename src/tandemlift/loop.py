@@ -1,25 +1,29 @@
 """The closed loop, the only place where the pilot and a body meet: what one step is, and what it shows.
 
-At time t_k the pilot reads the state and the person's push and decides; the body then moves for one step with the
-pilot's thrusts held and the push continuous.
+At time t_k the pilot reads the state and the person's push, or what sensors and estimators make of them, and decides;
+the rotors answer; the body then moves for one step with their thrusts held and the push continuous. What sensors read
+during a step is known to the pilot at the next one, or later. What a mission does not have is `Nothing`, and costs
+nothing.
 """
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.engines.compiled import Plant, advance, start_plant
+from tandemlift.engines.compiled import Moved, Plant, advance
 from tandemlift.law import law
 from tandemlift.laws.body import State
 from tandemlift.laws.controllers import Measured
-from tandemlift.laws.push import CentralPush, Gaussian, Hand, PointPush, moment_of
-from tandemlift.laws.rotation import euler_from_quaternion, sine_of_roll
+from tandemlift.laws.push import Hand
+from tandemlift.laws.rotation import sine_of_roll
+from tandemlift.laws.rotors import drive
 from tandemlift.ops import absolute, maximum, where
-from tandemlift.pilot import PilotMemory, PilotParameters, decide, start_pilot
-from tandemlift.settings import Mission
-from tandemlift.tally import EMPTY, Errors, Tally, count
-from tandemlift.vector import ZERO, Quat, Vec3, dot, each, mat3, vec3
-from tandemlift.vehicle import Vehicle
+from tandemlift.perception import estimate_all, read_push, read_state, sensed
+from tandemlift.pilot import Decision, PilotMemory, PilotParameters, decide
+from tandemlift.sample import errors_of, show
+from tandemlift.tally import Tally, count
+from tandemlift.vector import Vec3, dot
+from tandemlift.weather import weather
 
 SIN_ROLL_LIMIT = 0.9998476951563913  # sin 89°
 FAR = 1000.0  # m
@@ -30,6 +34,12 @@ class Moving(NamedTuple):
 
     state: State
     memory: PilotMemory
+    rotors: Any
+    wind: Any
+    grip: Any
+    sensing: Any
+    readings: Any
+    estimator: Any
     tally: Tally
     lost: Any
 
@@ -40,72 +50,88 @@ class Flying(NamedTuple):
     moving: Moving
     pilot: PilotParameters
     plant: Plant
+    rotors: Any
+    weather: Any
+    sensors: Any
+    estimator: Any
+    reads: Any
+    delays: Any
 
 
-class Sample(NamedTuple):
-    """What one step shows. Each field is a channel of the flight; `flight.CHANNELS` gives units and frames."""
+class Noise(NamedTuple):
+    """Standard normals of one step: of the wind, of the sensors."""
 
-    position: Vec3
-    velocity: Vec3
-    attitude: Quat
-    euler: Vec3
-    rates: Vec3
-    reference_position: Vec3
-    reference_velocity: Vec3
-    reference_acceleration: Vec3
-    reference_euler: Vec3
-    admittance_position: Vec3
-    admittance_velocity: Vec3
-    admittance_acceleration: Vec3
-    admittance_force: Vec3
-    push_force: Vec3
-    push_moment: Vec3
-    thrust: Any
-    moment: Vec3
-    rotor_thrusts: Any
+    wind: Any
+    sensors: Any
+
+
+class Inputs(NamedTuple):
+    """What a step is given from outside: the push, gusts [m/s], standard normals, and the walls nearest to it."""
+
+    hand: Hand
+    gust: Any
+    noise: Any
+    near: Any
+
+
+class Thought(NamedTuple):
+    """The pilot's part of a step: what is estimated, what the pilot read, what it decided, and what it remembers."""
+
+    known: Any
+    measured: Measured
+    decision: Decision
+    memory: PilotMemory
+    estimator: Any
+
+
+class Acting(NamedTuple):
+    """What acts on the body over a step: rotor thrusts [N] and moving air; and what rotors and wind remember."""
+
+    thrusts: Any
+    rotors: Any
+    weather: Any
 
 
 @law
-def show(state: State, decision: Any, hand: Hand) -> Sample:
-    """The sample of a step that starts in `state`."""
-    g, command = decision.guidance, decision.command
-    target = g.reference.trajectory
-    return Sample(
-        state.position,
-        state.velocity,
-        state.attitude,
-        euler_from_quaternion(state.attitude).angles,
-        state.rates,
-        target.position,
-        target.velocity,
-        target.acceleration,
-        command.euler,
-        g.admittance.position,
-        g.admittance.velocity,
-        g.admittance.acceleration,
-        g.force,
-        hand.start.force,
-        moment_of(hand.start, state.attitude),
-        command.wrench.thrust,
-        command.wrench.moment,
-        decision.thrusts,
+def continued(flying: Flying, moving: Moving) -> Flying:
+    """A flight with what has changed."""
+    return Flying(
+        moving,
+        flying.pilot,
+        flying.plant,
+        flying.rotors,
+        flying.weather,
+        flying.sensors,
+        flying.estimator,
+        flying.reads,
+        flying.delays,
     )
 
 
 @law
-def errors_of(x: Sample) -> Errors:
-    """What a sample adds to the tally."""
-    return Errors(
-        x.reference_position - x.position,
-        x.reference_velocity - x.velocity,
-        x.reference_euler - x.euler,
-        x.euler,
-        x.thrust,
-        x.moment,
-        x.push_force,
-        dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
-        0.0,
-    )
+def perceive(flying: Flying, push: Vec3, t: Any, dt: Any) -> Any:
+    """(what is estimated, what the pilot reads, the estimators' memory) at time t [s]; `push`: the true one."""
+    before, reads = flying.moving, flying.reads
+    known, memory = estimate_all(flying.estimator, before.estimator, before.readings, t, dt)
+    state = read_state(reads.state, before.state, before.readings, known)
+    return known, Measured(state, read_push(reads.push, push, known)), memory
+
+
+@law
+def think(flying: Flying, push: Vec3, t: Any, dt: Any) -> Thought:
+    """The pilot's part of a step."""
+    known, measured, estimator = perceive(flying, push, t, dt)
+    decision, memory = decide(flying.pilot, flying.moving.memory, measured, t, dt)
+    return Thought(known, measured, decision, memory, estimator)
+
+
+@law
+def act(flying: Flying, thrusts: Any, given: Inputs, t: Any) -> Acting:
+    """What the rotors make of commanded thrusts [N] over the step from time t [s], and the wind over it."""
+    before = flying.moving
+    driven, rotors = drive(flying.rotors, before.rotors, thrusts, before.state, t)
+    blowing = weather(flying.weather, before.wind, flying.plant.frame, before.state, given.gust, given.noise.wind)
+    return Acting(driven, rotors, blowing)
 
 
 @law
@@ -116,44 +142,39 @@ def unsound(state: State) -> Any:
 
 
 @law
-def commit(flying: Flying, decision: Any, memory: PilotMemory, hand: Hand, dt: Any) -> Any:
-    """The body's part of a step, once the pilot has decided: (Moving after it, the Sample at its start)."""
-    before = flying.moving
-    state = advance(flying.plant, before.state, decision.thrusts, hand, dt)
-    sample = show(before.state, decision, hand)
-    lost = maximum(before.lost, unsound(state))
-    return Moving(state, memory, count(before.tally, errors_of(sample)), lost), sample
+def observe(flying: Flying, thought: Thought, acting: Acting, moved: Moved, given: Inputs) -> Any:
+    """What a step comes to once the body has moved: (Moving after it, the Sample at its start)."""
+    before, believed = flying.moving, thought.measured.state.attitude
+    readings, sensing = sensed(flying.sensors, before.sensing, before.state, moved.felt, believed, given.noise.sensors)
+    sample = show(flying, thought, acting, moved, given.hand)
+    tally = count(before.tally, errors_of(flying, thought, sample))
+    lost = maximum(before.lost, unsound(moved.state))
+    after = Moving(
+        moved.state,
+        thought.memory,
+        acting.rotors,
+        acting.weather.memory,
+        moved.grip,
+        sensing,
+        readings,
+        thought.estimator,
+        tally,
+        lost,
+    )
+    return after, sample
 
 
 @law
-def move(flying: Flying, hand: Hand, t: Any, dt: Any) -> Any:
+def finish(flying: Flying, thought: Thought, given: Inputs, t: Any, dt: Any) -> Any:
+    """The rest of a step once the pilot has decided: (Moving after it, the Sample at its start)."""
+    before, plant = flying.moving, flying.plant
+    acting = act(flying, thought.decision.thrusts, given, t)
+    air = acting.weather.loads
+    moved = advance(plant, before.state, before.grip, given.near, acting.thrusts, air, given.hand, dt)
+    return observe(flying, thought, acting, moved, given)
+
+
+@law
+def move(flying: Flying, given: Inputs, t: Any, dt: Any) -> Any:
     """One step of a flight from time t [s] by dt [s]: (Moving after it, the Sample at its start)."""
-    before = flying.moving
-    decision, memory = decide(flying.pilot, before.memory, Measured(before.state, hand.start.force), t, dt)
-    return commit(flying, decision, memory, hand, dt)
-
-
-def start(mission: Mission) -> Flying:
-    """A mission's loop at t = 0.
-
-    Raises:
-        InputError: something in the mission cannot be built.
-    """
-    vehicle = Vehicle.from_settings(mission.vehicle)
-    pilot, memory = start_pilot(mission, vehicle)
-    plant, state = start_plant(mission, vehicle)
-    return Flying(Moving(state, memory, EMPTY, 0.0), pilot, plant)
-
-
-def blank_sample(rotor_count: int) -> Sample:
-    """A Sample of zeros for a vehicle with so many rotors: the layout of the log."""
-    rotor_thrusts = each(rotor_count)(*(0.0,) * rotor_count)
-    special = {"attitude": Quat(0.0, 0.0, 0.0, 0.0), "thrust": 0.0, "rotor_thrusts": rotor_thrusts}
-    return Sample(*[special.get(name, ZERO) for name in Sample._fields])
-
-
-def pushes_of(mission: Mission) -> tuple[list[Gaussian], Any]:
-    """The pushes of a mission, and the zero push of the type that serves them (with a moment only if one has any)."""
-    pushes = [Gaussian(vec3(p.force), p.time, 1.0 / p.sigma, vec3(p.point)) for p in mission.pushes]
-    central = all(p.point == ZERO for p in pushes)
-    return pushes, CentralPush(ZERO) if central else PointPush(ZERO, mat3([[0.0] * 3] * 3))
+    return finish(flying, think(flying, given.hand.start.force, t, dt), given, t, dt)

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.jit import flat, leaves
-from tandemlift.kernels import GAUSSIAN, Kernels
+from tandemlift.assembly import assemble
+from tandemlift.jit import flat
+from tandemlift.kernels import Kernels
 from tandemlift.laws.controllers import NoMemory, control
-from tandemlift.loop import Flying, blank_sample, pushes_of, start
 from tandemlift.settings import Mission
 from tandemlift.tally import LATE
 from tandemlift.vector import layout
@@ -23,35 +23,35 @@ KERNELS: dict[Any, Kernels] = {}
 
 
 class Prepared:
-    """A mission ready to fly: its loop at t = 0, its pushes, and its grid of steps."""
+    """A mission ready to fly: its loop at t = 0, what it is given from outside, and its grid of steps."""
 
     def __init__(self, mission: Mission) -> None:
         self.mission = mission
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
         self.dt = mission.mission.step
-        self.flying = start(mission)
+        self.flying, self.given, self.tables, self.delays, self.seeds = assemble(mission)
         self.interpreted: tuple[Any, Any] | None = None
         if type(self.flying.pilot.controller) in control.interpreted:
             self._set_controller_aside()
-        pushes, self.push = pushes_of(mission)
-        self.pushes = np.array([flat(p) for p in pushes]).reshape(len(pushes), leaves(GAUSSIAN))
 
     def _set_controller_aside(self) -> None:
-        moving, pilot, plant = self.flying
+        moving, pilot = self.flying.moving, self.flying.pilot
         self.interpreted = pilot.controller, moving.memory.controller
         memory = moving.memory._replace(controller=NoMemory())
-        self.flying = Flying(moving._replace(memory=memory), pilot._replace(controller=NoMemory()), plant)
+        self.flying = self.flying._replace(
+            moving=moving._replace(memory=memory), pilot=pilot._replace(controller=NoMemory())
+        )
 
     @cached_property
     def variant(self) -> Any:
-        """What decides the compiled loop: the types, not the values, of the flight's members."""
-        return layout(self.flying), layout(self.push)
+        """What decides the compiled loop: the types, not the values, of the flight's members and inputs."""
+        return layout(self.flying), layout(self.given)
 
-    @cached_property
+    @property
     def sample(self) -> Any:
         """The layout of a row of the log."""
-        return blank_sample(len(self.flying.plant.effect.thrust))
+        return self.kernels.likes.sample
 
     @property
     def late_step(self) -> int:
@@ -68,8 +68,16 @@ class Prepared:
     def kernels(self) -> Kernels:
         """The compiled loops of this variant."""
         if self.variant not in KERNELS:
-            KERNELS[self.variant] = Kernels(self.flying, self.push)
+            KERNELS[self.variant] = Kernels(self.flying, self.given)
         return KERNELS[self.variant]
+
+    def ring(self, lanes: int = 1) -> np.ndarray:
+        """A delay line for so many flights like this one, filled with what they hold at t = 0."""
+        lines, numbers = self.kernels.lines, np.array(flat(self.flying))
+        if not self.delays.any():
+            return np.zeros((1, 3 * lanes))
+        row = np.concatenate([numbers[span.at : span.at + span.size] for span in lines])
+        return np.tile(np.repeat(row, lanes), (int(self.delays.max()) + 1, 1))
 
 
 def needs_compiling(mission: Mission) -> bool:

@@ -17,77 +17,35 @@ from numpy.typing import NDArray
 from tandemlift.engines import engine_named
 from tandemlift.errors import InputError
 from tandemlift.flight import Flight
-from tandemlift.flown import Flown, flight_of, metrics_of
+from tandemlift.flown import Flown, flight_of, metrics_of, take_tallies
 from tandemlift.jit import flat, leaves, unflat
-from tandemlift.kernels import COMMAND, GAUSSIAN, HALVES, LANES, Given
-from tandemlift.laws.admittance import Trajectory
-from tandemlift.laws.controllers import Measured, Reference, control
-from tandemlift.loop import Flying
+from tandemlift.kernels import GAUSSIAN, GUST, LANES, WALL, Tables
 from tandemlift.prepared import Prepared
 from tandemlift.settings import Mission
-from tandemlift.tally import EMPTY, Tally
-from tandemlift.vector import ZERO
+from tandemlift.stepwise import fly_stepwise
+from tandemlift.tally import EMPTY
+from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
 Progress = Callable[[int, int], None]
-
-
-def _empty(numbers: Array, like: Flying, lanes: int) -> list[Tally]:
-    """Take the tallies out of a flight or a block of flights, and start them anew."""
-    before = leaves(like.moving.state) + leaves(like.moving.memory)
-    rows = numbers[before * lanes : (before + leaves(EMPTY)) * lanes].reshape(-1, lanes)
-    tallies = [unflat(rows[:, lane], EMPTY) for lane in range(lanes)]
-    rows[:] = np.array(flat(EMPTY))[:, None]
-    return tallies
+IDLE = Tables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL)  # rows without effect
 
 
 def _fly_single(p: Prepared, rows: int, every: int, progress: Progress | None = None) -> Flown:
     a, size = np.array(flat(p.flying)), leaves(p.flying.moving)
-    hands = np.zeros(HALVES * leaves(p.push))
+    work, ring = np.zeros(p.kernels.work_size), p.ring()
     log, last = np.zeros((rows, leaves(p.sample))), np.full(leaves(p.sample), math.nan)
-    single = p.kernels.single
-    single(a, p.pushes, hands, log, last, 0, 0, p.steps, every, p.dt)  # compiles, flies nothing
+    single, data = p.kernels.single, (p.tables, work, ring, p.delays, p.seeds)
+    single(a, *data, log, last, 0, 0, p.steps, every, p.dt)  # compiles, flies nothing
     began, k, early = time.perf_counter(), 0, EMPTY
     for stop in p.stops:
-        k = single(a, p.pushes, hands, log, last, k, stop, p.steps, every, p.dt)
+        k = single(a, *data, log, last, k, stop, p.steps, every, p.dt)
         if k < min(stop, p.steps):
             break
         if stop == p.late_step:
-            (early,) = _empty(a, p.flying, 1)
+            (early,) = take_tallies(a, p.flying, 1)
         if progress:
-            progress(k, p.steps)
-    return Flown(unflat(a[:size], p.flying.moving), early, k, log, last, time.perf_counter() - began)
-
-
-def _fly_interpreted(p: Prepared, rows: int, every: int, progress: Progress | None = None) -> Flown:
-    """Fly with the controller in plain Python between two compiled halves of the step."""
-    assert p.interpreted
-    gains, memory = p.interpreted
-    a, size = np.array(flat(p.flying)), leaves(p.flying.moving)
-    given = Given(Measured(p.flying.moving.state, ZERO), Reference(Trajectory(ZERO, ZERO, ZERO), 0.0))
-    x, y = np.zeros(leaves(given)), np.zeros(leaves(COMMAND))
-    hands = np.zeros(HALVES * leaves(p.push))
-    log, row, last = np.zeros((rows, leaves(p.sample))), np.zeros(leaves(p.sample)), np.full(leaves(p.sample), math.nan)
-    before, after = p.kernels.before, p.kernels.after
-    before(a, p.pushes, hands, x, 0, p.dt)  # both compile, and fly nothing
-    after(a, hands, y, row, 0, p.dt, True)
-    began, early, k = time.perf_counter(), EMPTY, 0
-    while k <= p.steps and a[size - 1] == 0.0:
-        if k == p.late_step < p.steps:
-            (early,) = _empty(a, p.flying, 1)
-        before(a, p.pushes, hands, x, k, p.dt)
-        measured, reference = unflat(x, given)
-        command, memory = control(gains, memory, measured, reference)
-        y[:] = flat(command)
-        after(a, hands, y, row, k, p.dt, k == p.steps)
-        if k % every == 0:
-            log[k // every] = row
-        if k == p.steps:
-            last[:] = row
-            break
-        k += 1
-        if progress and k % 1000 == 0:
             progress(k, p.steps)
     return Flown(unflat(a[:size], p.flying.moving), early, k, log, last, time.perf_counter() - began)
 
@@ -96,22 +54,23 @@ def _fly_block(flights: Sequence[Prepared], rows: int, every: int) -> list[Flown
     """Fly up to LANES flights of one variant and one grid together; lost ones again, alone, to stop where they must."""
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)]
-    moving_size, columns = leaves(p.flying.moving), leaves(p.sample)
-    _, at_sample, size = p.kernels.block_parts
-    a = _aligned(size)
+    moving_size, columns, r = leaves(p.flying.moving), leaves(p.sample), p.kernels.regions
+    a = _aligned(r.size)
     numbers = np.array([flat(f.flying) for f in lanes]).T
     a[: numbers.size] = numbers.ravel()
-    pushes, log = _interleaved([f.pushes for f in lanes]), np.zeros((LANES, rows, columns))
+    a[r.keys : r.keys + 2 * LANES] = np.array([f.seeds for f in lanes]).T.ravel()
+    tables = Tables(*map(_interleaved, zip(*[f.tables for f in lanes], strict=True), IDLE))
+    ring, log = np.stack([f.ring() for f in lanes], axis=2).reshape(len(p.ring()), -1), np.zeros((LANES, rows, columns))
     block = p.kernels.block
-    block(a, pushes, log, 0, 0, p.steps, every, p.dt)  # compiles, flies nothing
+    block(a, tables, ring, p.delays, log, 0, 0, p.steps, every, p.dt)  # compiles, flies nothing
     began, k, early = time.perf_counter(), 0, [EMPTY] * LANES
     for stop in p.stops:
-        block(a, pushes, log, k, stop, p.steps, every, p.dt)
+        block(a, tables, ring, p.delays, log, k, stop, p.steps, every, p.dt)
         k = min(stop, p.steps)
         if stop == p.late_step:
-            early = _empty(a, p.flying, LANES)
+            early = take_tallies(a, p.flying, LANES)
     wall = (time.perf_counter() - began) / count
-    moving, last = a[: moving_size * LANES].reshape(-1, LANES), a[at_sample:].reshape(-1, LANES)
+    moving, last = a[: moving_size * LANES].reshape(-1, LANES), a[r.sample : r.scratch].reshape(-1, LANES)
     flown = [
         Flown(unflat(moving[:, i], p.flying.moving), early[i], k, log[i].copy(), last[:, i].copy(), wall)
         for i in range(count)
@@ -126,13 +85,12 @@ def _aligned(size: int) -> Array:
     return room[first : first + size]
 
 
-def _interleaved(pushes: Sequence[Array]) -> Array:
-    """The pushes of a block: row i holds push i of every lane, one of no force where a lane has fewer."""
-    table = np.zeros((max(map(len, pushes)), leaves(GAUSSIAN), LANES))
-    table[:, flat(GAUSSIAN._replace(per_sigma=1.0)).index(1.0)] = 1.0
-    for lane, own in enumerate(pushes):
-        table[: len(own), :, lane] = own
-    return table.reshape(len(table), -1)
+def _interleaved(tables: Sequence[Array], idle: Any) -> Array:
+    """A table of a block: row i holds row i of every lane's, an idle one where a lane has fewer."""
+    rows = np.tile(np.array(flat(idle))[:, None], (max(map(len, tables)), 1, LANES))
+    for lane, own in enumerate(tables):
+        rows[: len(own), :, lane] = own
+    return rows.reshape(len(rows), rows.shape[1] * LANES)
 
 
 def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None = None) -> Flight:
@@ -149,10 +107,13 @@ def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
-    engine_named(engine)
-    p = Prepared(mission)
-    pick = _fly_interpreted if p.interpreted else _fly_single
-    return flight_of(p, pick(p, p.steps // p.every + 1, p.every, progress))
+    chosen, p = engine_named(engine), Prepared(mission)
+    rows = p.steps // p.every + 1
+    if chosen.module:
+        body = chosen.start(mission, Vehicle.from_settings(mission.vehicle), p.flying.plant.floor)
+        return flight_of(p, fly_stepwise(p, rows, p.every, progress, body), engine)
+    pick = fly_stepwise if p.interpreted else _fly_single
+    return flight_of(p, pick(p, rows, p.every, progress))
 
 
 def fly_many(
@@ -217,7 +178,7 @@ def _fly_together(flights: Sequence[Prepared], rows: int, every: int) -> list[Fl
     """Fly what goes together, as a block unless it is one flight alone."""
     if len(flights) > 1:
         return _fly_block(flights, rows, every)
-    alone = _fly_interpreted if flights[0].interpreted else _fly_single
+    alone = fly_stepwise if flights[0].interpreted else _fly_single
     return [alone(flights[0], rows, every)]
 
 
@@ -226,7 +187,7 @@ def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[Prepare
     groups: defaultdict[Any, list[tuple[int, Prepared]]] = defaultdict(list)
     for i, mission in enumerate(missions):
         p = Prepared(mission)
-        key = (p.variant, p.steps, p.every, p.dt)
+        key = (p.variant, p.steps, p.every, p.dt, tuple(p.delays))
         groups[key].append((i, p))
         if p.interpreted or len(groups[key]) == LANES:
             yield _unzipped(groups.pop(key))

@@ -149,6 +149,10 @@ class Mat3(NamedTuple):
 ZERO = Vec3(0.0, 0.0, 0.0)
 
 
+class Nothing(NamedTuple):
+    """Stands where a part or its memory is absent; it holds no numbers and costs nothing."""
+
+
 def layout(value: Any) -> Any:
     """The classes of a nested value, without its numbers: equal for values that hold their numbers alike."""
     return (type(value), *map(layout, value)) if hasattr(value, "_fields") else None

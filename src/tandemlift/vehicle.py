@@ -1,8 +1,8 @@
 """A vehicle from its parts: mass, centre of mass, inertia, and the matrices between wrench and rotor thrusts.
 
 Body axes are parallel to the payload's; the beam lies along y. Rotors of a "+" quadrotor stand at +x, +y, −x, −y, of
-an "x" at 45° further; rotors 1 and 3 push the body to turn about +z, 2 and 4 about −z. Thrust is along body z, so
-heights do not enter the allocation.
+an "x" at 45° further, or where `rotor_positions` says; unless `spins` says otherwise, rotors 1 and 3 push the body to
+turn about +z, 2 and 4 about −z. Thrust is along body z, so heights do not enter the allocation.
 """
 
 from __future__ import annotations
@@ -24,18 +24,25 @@ Array = NDArray[np.float64]
 def mixer(quadrotor: Quadrotor) -> Array:
     """A (4 × 4) of one quadrotor: (thrust, roll, pitch, yaw moment about its centre) = A (rotor thrusts)."""
     # paper: total_i_thrust_moments_equ, input_vector_equ
-    angles = np.arange(4) * (np.pi / 2) + (np.pi / 4 if quadrotor.layout == "x" else 0.0)
-    x, y = quadrotor.arm * np.cos(angles), quadrotor.arm * np.sin(angles)
-    if quadrotor.layout == "+":
-        x, y = quadrotor.arm * np.array([1.0, 0.0, -1.0, 0.0]), quadrotor.arm * np.array([0.0, 1.0, 0.0, -1.0])
-    spin = quadrotor.torque_per_thrust * np.array([1.0, -1.0, 1.0, -1.0])
-    return np.array([np.ones(4), y, -x, spin])
+    x, y = np.array(quadrotor.rotors).T
+    return np.array([np.ones(4), y, -x, quadrotor.torque_per_thrust * np.array(quadrotor.spins, dtype=float)])
 
 
 def mixer_inverse(quadrotor: Quadrotor) -> Array:
-    """A⁻¹ (4 × 4): rotor thrusts from one quadrotor's thrust and moments; its columns are orthogonal."""
+    """A⁻¹ (4 × 4): rotor thrusts from one quadrotor's thrust and moments.
+
+    Raises:
+        InputError: its rotors cannot make every thrust and moment.
+    """
     A = mixer(quadrotor)
-    return A.T / np.sum(A * A, axis=1)
+    if quadrotor.rotor_positions is None and quadrotor.spins == (1, -1, 1, -1):
+        return A.T / np.sum(A * A, axis=1)  # its columns are orthogonal
+    if np.linalg.cond(A) > 1e9:
+        raise InputError(
+            f"vehicle.quadrotors: rotors at {[list(r) for r in quadrotor.rotors]} with spins {list(quadrotor.spins)} "
+            "cannot make every thrust and moment: no three may stand in a line, and spins must not all be alike"
+        )
+    return np.linalg.inv(A)
 
 
 def shift(mass: float, d: Array) -> Array:

@@ -28,7 +28,7 @@ INPUT = Wrench(36.0, Vec3(0.5, -0.02, 0.3))
 
 def exact(state: State, u: Wrench) -> np.ndarray:
     """Θ̈ by differences of the Euler rates along the body's motion."""
-    rate, h = motion(state, u, NO_PUSH, BODY), 1e-5
+    rate, h = motion(BODY, state, u, NO_PUSH), 1e-5
 
     def euler_rates(at: State) -> np.ndarray:
         return array(euler_rates_from_rates(euler_from_quaternion(at.attitude), at.rates))
@@ -48,7 +48,7 @@ def tilted(angles: Vec3, rates: Vec3 = ZERO, velocity: Vec3 = ZERO) -> State:
 @given(attitudes(), vectors(), vectors())
 def test_the_lines_of_position_are_exact_at_any_attitude(angles, velocity, rates):
     state = tilted(angles, rates, velocity)
-    expected = motion(state, INPUT, NO_PUSH, BODY).velocity
+    expected = motion(BODY, state, INPUT, NO_PUSH).velocity
     assert array(expanded(state, INPUT).position) == pytest.approx(array(expected), abs=1e-12)
 
 

@@ -73,7 +73,7 @@ class Assembly:
         inputs = rng.standard_normal((count, 4)) * [20.0, 1.0, 1.0, 1.0]
         total = self.vehicle.B @ inputs.ravel()
         body = free_body(self.vehicle.mass, self.vehicle.inertia)
-        rate = motion(self.state, Wrench(float(total[0]), vec3(total[1:])), NO_PUSH, body)
+        rate = motion(body, self.state, Wrench(float(total[0]), vec3(total[1:])), NO_PUSH)
         self.angular = rate.rates
         self.R = rotation_from_quaternion(self.state.attitude)
         self.center = Point(self.state.position, self.state.velocity, rate.velocity)
@@ -186,7 +186,7 @@ class Tumble:
         return np.concatenate([turn @ y[:4], np.linalg.solve(self.J, -np.cross(w, self.J @ w))])
 
     def found(self, d: np.ndarray) -> Point:
-        rate = motion(self.state, Wrench(0.0, ZERO), NO_PUSH, free_body(1.0, self.J))
+        rate = motion(free_body(1.0, self.J), self.state, Wrench(0.0, ZERO), NO_PUSH)
         center = Point(ZERO, self.state.velocity, rate.velocity)
         R = rotation_from_quaternion(self.state.attitude)
         return point_on_body(center, R, self.state.rates, rate.rates, vec3(d))

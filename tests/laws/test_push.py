@@ -59,7 +59,7 @@ def test_several_pushes_act_as_one_force_and_one_moment(seed):
 def test_pushes_turn_and_move_the_body(seed):
     _, total, force, moment, state = several(seed)
     body = free_body(2.0, np.diag([0.5, 0.8, 0.6]))
-    with_push, without = (motion(state, Wrench(0.0, ZERO), p, body) for p in (total, NO_POINT_PUSH))
+    with_push, without = (motion(body, state, Wrench(0.0, ZERO), p) for p in (total, NO_POINT_PUSH))
     assert array(with_push.velocity - without.velocity) == pytest.approx(force / 2.0, abs=1e-14)
     assert array(with_push.rates - without.rates) == pytest.approx(moment / [0.5, 0.8, 0.6], abs=1e-12)
 

@@ -42,7 +42,7 @@ def continuous():
         state = State(Vec3(*y[0:3]), Vec3(*y[3:6]), Quat(*y[6:10]), Vec3(*y[10:13]))
         decision, _ = decide(flying.pilot, flying.moving.memory, Measured(state, ZERO), t, 1.0)
         u = wrench(flying.plant.effect, decision.thrusts)
-        return np.concatenate(motion(state, u, CentralPush(ZERO), flying.plant.body))
+        return np.concatenate(motion(flying.plant.body, state, u, CentralPush(ZERO)))
 
     times = np.arange(0.0, DURATION + 0.25, 0.5)
     solution = solve_ivp(

@@ -1,23 +1,77 @@
-"""Engines: where the body lives. Each is one file and one entry here."""
+"""Engines: where the body lives. Each is one file and one entry here.
+
+An engine is given rotor thrusts, loads of the air and the person's push, moves its body by a step, and tells the state
+after it and what sensors felt at its start. It knows no pilot, no sensors' errors and no mission but for its vehicle,
+its start and its ground.
+"""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import importlib
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.errors import unknown
+from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+
+
+class Body(Protocol):
+    """A body in an engine of its own.
+
+    Attributes:
+        state: (13,) position [m] and velocity [m/s] of the vehicle's centre of mass in world axes, attitude quaternion
+            w, x, y, z (body to world), rates [rad/s] in body axes.
+        felt: (6 + 6N,) the numbers of a `laws.loads.Felt`: specific force at the payload's centre of mass [m/s²], what
+            the quadrotors put on the payload at their joints (x, y, z of all forces [N], then of all torques [N m]),
+            body axes; the force of floor and walls on the vehicle [N, world axes].
+    """
+
+    state: Array
+    felt: Array
+
+    def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
+        """Move by one step of the mission, and bring `state` to its end and `felt` to its start.
+
+        Args:
+            thrusts: of every rotor [N] (4N,).
+            loads: (6 + 6N,) the numbers of a `laws.loads.Loads`, held in world axes; empty without wind.
+            force: of the person [N, world axes] (3,), the mean over the step.
+            moment: of the person about the centre of mass [N m, body axes] (3,), at the start of the step.
+        """
 
 
 class Engine(NamedTuple):
-    """An entry of the registry."""
+    """An entry of the registry; `module` and `body` name the class that a flight's body is made of."""
 
     name: str
     summary: str
+    module: str = ""
+    body: str = ""
+
+    def start(self, mission: Mission, vehicle: Vehicle, floor: Any) -> Body:
+        """The body of a mission at t = 0; `floor`: a `laws.contact.Floor` or `Nothing`.
+
+        Raises:
+            InputError: the engine is not installed, or cannot take the mission.
+        """
+        return getattr(importlib.import_module(self.module), self.body)(mission, vehicle, floor)
 
 
 ENGINES = {
     e.name: e
     for e in [
         Engine("compiled", "One rigid body, Runge-Kutta of order four, compiled together with the pilot."),
+        Engine(
+            "mujoco",
+            "Separate bodies welded together in MuJoCo, with its own sensors and contact (extra: mujoco).",
+            "tandemlift.engines.mujoco",
+            "MuJoCoBody",
+        ),
     ]
 }
 

@@ -1,4 +1,8 @@
-"""The compiled body: one rigid body, moved by a Runge-Kutta step of order four."""
+"""The compiled body: one rigid body among wind, floor and walls, moved by a Runge-Kutta step of order four.
+
+Loads of the air are held over a step. Contact is evaluated in every stage, with the feet's grip and the nearest walls
+held. What is absent is `Nothing`, and costs nothing.
+"""
 
 from __future__ import annotations
 
@@ -7,29 +11,192 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.law import law
+from tandemlift.law import choice, law
 from tandemlift.laws.allocation import Mixer, wrench
-from tandemlift.laws.body import Body, State, rk4
-from tandemlift.laws.inertia import inertia_value
+from tandemlift.laws.body import Body, State, motion, rigid_body_motion, rk4
+from tandemlift.laws.contact import Floor, slip, touch
+from tandemlift.laws.inertia import inertia_value, turn_by
+from tandemlift.laws.loads import Felt, Frame, Load, Loads, feel, frame_of, of_quadrotors, resultant, under
+from tandemlift.laws.parts import Acceleration
+from tandemlift.laws.pending import Walls, press
 from tandemlift.laws.push import Hand
 from tandemlift.laws.rotation import quaternion_from_euler
 from tandemlift.pilot import mixer_value
 from tandemlift.settings import Mission, VehicleTable
-from tandemlift.vector import vec3
+from tandemlift.vector import Nothing, vec3
 from tandemlift.vehicle import Vehicle
 
 
 class Plant(NamedTuple):
-    """The body as it really is: what rotor thrusts do to it, and how it moves."""
+    """The body as it really is: what rotor thrusts do to it, how it moves, its parts, the floor and the walls."""
 
     effect: Mixer
     body: Body
+    frame: Frame
+    floor: Any
+    walls: Any
+
+
+class Surrounded(NamedTuple):
+    """The body during a step: its state at the start, the air's loads, the feet's grip, the nearest walls."""
+
+    plant: Plant
+    air: Any
+    grip: Any
+    near: Any
+
+
+class Moved(NamedTuple):
+    """What a step of the body comes to: the state after it, what was felt at its start, the feet's grip after it."""
+
+    state: State
+    felt: Felt
+    grip: Any
+
+
+@choice
+def of_floor(floor: Any, b: Surrounded, s: State) -> Any:
+    """Loads of the floor on the quadrotors, or `Nothing`."""
+
+
+@of_floor.register(Nothing)
+def _no_floor(floor, b, s):
+    return floor
+
+
+@of_floor.register(Floor)
+def _floor(floor, b, s):
+    return touch(floor, b.grip, b.plant.frame, s)
+
+
+@choice
+def of_walls(walls: Any, b: Surrounded, s: State) -> Any:
+    """Loads of the walls on all parts, or `Nothing`."""
+
+
+@of_walls.register(Nothing)
+def _no_walls(walls, b, s):
+    return walls
+
+
+@of_walls.register(Walls)
+def _walls(walls, b, s):
+    return press(walls, b.near, b.plant.frame, s)
+
+
+@choice
+def summed(load: Any, frame: Frame, attitude: Any) -> Any:
+    """A load about the centre of mass: of everything, of the quadrotors (vectors of sets), or `Nothing`."""
+
+
+@summed.register(Nothing)
+def _none(load, frame, attitude):
+    return load
+
+
+@summed.register(Loads)
+def _of_all(load, frame, attitude):
+    return resultant(frame, attitude, load)
+
+
+@summed.register(Load)
+def _of_quadrotors(load, frame, attitude):
+    return of_quadrotors(frame, attitude, load)
+
+
+@choice
+def moved_by(load: Any, body: Body, rate: State) -> State:
+    """The motion under a further load about the centre of mass."""
+
+
+@moved_by.register(Nothing)
+def _as_before(load, body, rate):
+    return rate
+
+
+@moved_by.register(Load)
+def _pressed(load, body, rate):
+    turned = turn_by(body.inverse_inertia, load.moment)
+    return State(rate.position, rate.velocity + load.force * body.inverse_mass, rate.attitude, rate.rates + turned)
+
+
+@motion.register(Surrounded)
+def surrounded_motion(b, s, u, push):
+    """The motion of the body among its surroundings."""
+    plant, q = b.plant, s.attitude
+    free = moved_by(b.air, plant.body, rigid_body_motion(plant.body, s, u, push))
+    standing = moved_by(summed(of_floor(plant.floor, b, s), plant.frame, q), plant.body, free)
+    return moved_by(summed(of_walls(plant.walls, b, s), plant.frame, q), plant.body, standing)
+
+
+@choice
+def on_quadrotors(loads: Any) -> Any:
+    """The part of loads that acts on the quadrotors, or `Nothing`."""
+
+
+@on_quadrotors.register(Nothing)
+def _on_none(loads):
+    return loads
+
+
+@on_quadrotors.register(Loads)
+def _on_each(loads):
+    return loads.quadrotors
+
+
+@on_quadrotors.register(Load)
+def _on_each_alone(loads):
+    return loads
+
+
+@choice
+def touched_by(load: Any, felt: Felt) -> Felt:
+    """`felt`, with the force of a contact about the centre of mass."""
+
+
+@touched_by.register(Nothing)
+def _untouched(load, felt):
+    return felt
+
+
+@touched_by.register(Load)
+def _touched(load, felt):
+    return Felt(felt.specific_force, felt.joint_force, felt.joint_torque, felt.contact_force + load.force)
 
 
 @law
-def advance(plant: Plant, state: State, thrusts: Any, hand: Hand, dt: Any) -> State:
-    """The state [SI] after dt [s] with the rotor thrusts [N] held and the push continuous."""
-    return rk4(state, wrench(plant.effect, thrusts), hand, plant.body, dt)
+def felt_in(b: Surrounded, s: State, k1: State, air: Any, thrusts: Any) -> Felt:
+    """What is felt in state `s`, whose motion is `k1`, under thrusts [N] and the air's loads on the parts."""
+    frame, q = b.plant.frame, s.attitude
+    floor, walls = of_floor(b.plant.floor, b, s), of_walls(b.plant.walls, b, s)
+    felt = under(on_quadrotors(air), frame, q, feel(frame, s, Acceleration(k1.velocity, k1.rates), thrusts))
+    felt = under(on_quadrotors(floor), frame, q, felt)
+    felt = under(on_quadrotors(walls), frame, q, felt)
+    return touched_by(summed(walls, frame, q), touched_by(summed(floor, frame, q), felt))
+
+
+@choice
+def gripping(floor: Any, grip: Any, s: State) -> Any:
+    """The feet's grip at the end of a step."""
+
+
+@gripping.register(Nothing)
+def _no_feet(floor, grip, s):
+    return grip
+
+
+@gripping.register(Floor)
+def _feet(floor, grip, s):
+    return slip(floor, grip, s)
+
+
+@law
+def advance(plant: Plant, s: State, grip: Any, near: Any, thrusts: Any, air: Any, hand: Hand, dt: Any) -> Moved:
+    """One step of dt [s] with rotor thrusts [N] and the air's loads held, and the push continuous."""
+    b, u = Surrounded(plant, summed(air, plant.frame, s.attitude), grip, near), wrench(plant.effect, thrusts)
+    k1 = motion(b, s, u, hand.start)
+    after = rk4(b, s, k1, u, hand, dt)
+    return Moved(after, felt_in(b, s, k1, air, thrusts), gripping(plant.floor, grip, after))
 
 
 @lru_cache(maxsize=64)
@@ -37,8 +204,8 @@ def _effect(vehicle: VehicleTable) -> Mixer:
     return mixer_value(Vehicle.from_settings(vehicle).effect)
 
 
-def start_plant(mission: Mission, vehicle: Vehicle) -> tuple[Plant, State]:
-    """The body of a mission and its state at t = 0."""
+def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Plant:
+    """The body of a mission, on a floor and between walls, or `Nothing`."""
     scale = np.diag(np.sqrt(mission.plant.inertia_scale))
     J = scale @ vehicle.inertia @ scale
     body = Body(
@@ -50,7 +217,11 @@ def start_plant(mission: Mission, vehicle: Vehicle) -> tuple[Plant, State]:
         force=vec3(mission.disturbance.force),
         moment=vec3(mission.disturbance.moment),
     )
+    return Plant(_effect(mission.vehicle), body, frame_of(vehicle), floor, walls)
+
+
+def start_state(mission: Mission) -> State:
+    """The state of a mission at t = 0."""
     initial = mission.initial
     attitude = quaternion_from_euler(vec3(initial.euler))
-    state = State(vec3(initial.position), vec3(initial.velocity), attitude, vec3(initial.rates))
-    return Plant(_effect(mission.vehicle), body), state
+    return State(vec3(initial.position), vec3(initial.velocity), attitude, vec3(initial.rates))

@@ -2,8 +2,10 @@
 
 from typing import Any, NamedTuple
 
-from tandemlift.law import law
+from tandemlift.law import choice, elementwise, law
 from tandemlift.laws.body import Wrench
+from tandemlift.laws.rotors import efficiency_at
+from tandemlift.ops import maximum, where
 from tandemlift.vector import Vec3, dot
 
 
@@ -16,11 +18,65 @@ class Mixer(NamedTuple):
     yaw: Any
 
 
-@law
-def allocate(inverse: Mixer, u: Wrench) -> Any:
-    """Thrust of every rotor [N] for a wrench: u_q* and each quadrotor's mixer inverse, as one matrix (transposed)."""
+class Constrained(NamedTuple):
+    """Allocation within limits: the pseudo-inverse, and what `laws.limits` needs where it leaves them.
+
+    `rows` and `weights` of the weighted problem, `limits` [N] of all rotors, and the faults that the pilot `known`s.
+    """
+
+    inverse: Mixer
+    rows: Mixer
+    weights: Wrench
+    limits: Any
+    known: Any
+
+
+class Working(NamedTuple):
+    """Memory: which rotors are held at a limit (−1 at 0, 1 at the most, 0 free), and the thrusts [N]; sets."""
+
+    active: Any
+    thrusts: Any
+
+
+@choice
+def allocate(how: Any, u: Wrench) -> Any:
+    """Thrust of every rotor [N] for a wrench, whatever the rotors' limits."""
+
+
+@allocate.register(Mixer)
+def _pseudo_inverse(inverse, u):
+    # u_q* and each quadrotor's mixer inverse, as one matrix (transposed)
     # paper: optim_cont_final_equ
     return inverse.thrust * u.thrust + inverse.roll * u.moment.x + inverse.pitch * u.moment.y + inverse.yaw * u.moment.z
+
+
+@allocate.register(Constrained)
+def _unlimited(how, u):
+    return allocate(how.inverse, u)
+
+
+@law
+def limits_at(how: Constrained, t: Any) -> Any:
+    """The most that every rotor gives at time t [s], as far as the pilot knows [N]."""
+    return how.limits * efficiency_at(how.known, t)
+
+
+@elementwise
+def restored(thrust, efficiency):
+    """The command that makes a weakened rotor give a thrust; none to one that is lost."""
+    return where(efficiency > 0.0, thrust / maximum(efficiency, 1e-9), 0.0)
+
+
+@law
+def commanded(how: Constrained, thrusts: Any, t: Any) -> Any:
+    """Commands [N] that make the rotors give these thrusts at time t [s], as far as the pilot knows."""
+    return restored(thrusts, efficiency_at(how.known, t))
+
+
+@elementwise
+def beyond(thrust, limit):
+    """1 where a thrust is outside its limits, else 0."""
+    return where(thrust < 0.0, 1.0, where(thrust > limit, 1.0, 0.0))
 
 
 @law

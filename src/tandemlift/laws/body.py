@@ -7,7 +7,7 @@ axes, moments about the centre of mass.
 from typing import Any, NamedTuple
 
 from tandemlift.constants import GRAVITY
-from tandemlift.law import law
+from tandemlift.law import choice, law
 from tandemlift.laws.inertia import gyroscopic, turn_by
 from tandemlift.laws.push import Hand, Push, moment_of
 from tandemlift.laws.rotation import body_z_axis, quaternion_rate
@@ -56,9 +56,14 @@ class Body(NamedTuple):
     moment: Vec3
 
 
-@law
-def motion(s: State, u: Wrench, push: Push, body: Body) -> State:
-    """The rate of change of the state under a wrench and a person's push."""
+@choice
+def motion(body: Any, s: State, u: Wrench, push: Push) -> State:
+    """The rate of change of the state of a body under a wrench and a person's push."""
+
+
+@motion.register(Body)
+def rigid_body_motion(body, s, u, push):
+    """The equations of motion of one rigid body."""
     # paper: trans_rot_sys_equ
     force = body_z_axis(s.attitude) * u.thrust - body.drag_force * s.velocity + body.force + push.force
     moment = u.moment + gyroscopic(body.inertia, s.rates) - body.drag_moment * s.rates + body.moment
@@ -71,11 +76,13 @@ def motion(s: State, u: Wrench, push: Push, body: Body) -> State:
 
 
 @law
-def rk4(s: State, u: Wrench, hand: Hand, body: Body, dt: Any) -> State:
-    """One classical Runge-Kutta step of `dt` [s] with the wrench held and the push continuous; unit quaternion."""
-    k1 = motion(s, u, hand.start, body)
-    k2 = motion(s + k1 * (0.5 * dt), u, hand.middle, body)
-    k3 = motion(s + k2 * (0.5 * dt), u, hand.middle, body)
-    k4 = motion(s + k3 * dt, u, hand.end, body)
+def rk4(body: Any, s: State, k1: State, u: Wrench, hand: Hand, dt: Any) -> State:
+    """One classical Runge-Kutta step of `dt` [s] with the wrench held and the push continuous; unit quaternion.
+
+    `k1` is the motion at the start.
+    """
+    k2 = motion(body, s + k1 * (0.5 * dt), u, hand.middle)
+    k3 = motion(body, s + k2 * (0.5 * dt), u, hand.middle)
+    k4 = motion(body, s + k3 * dt, u, hand.end)
     s = s + k1 * (dt / 6.0) + k2 * (dt / 3.0) + k3 * (dt / 3.0) + k4 * (dt / 6.0)
     return State(s.position, s.velocity, s.attitude * (1.0 / sqrt(dot(s.attitude, s.attitude))), s.rates)

@@ -5,12 +5,30 @@ A vector of every quadrotor is a `Vec3` of sets. Joints transmit what a quadroto
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tandemlift.constants import GRAVITY
-from tandemlift.law import elementwise, law
+from tandemlift.law import choice, elementwise, law
 from tandemlift.laws.body import UP, State, Wrench
 from tandemlift.laws.parts import Acceleration
 from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.vector import Quarters, Vec3, apply_transposed, cross, linear, plus, quarters, times, total
+from tandemlift.vector import (
+    ZERO,
+    Nothing,
+    Quarters,
+    Vec3,
+    apply_transposed,
+    cross,
+    each,
+    linear,
+    plus,
+    quarters,
+    spread,
+    times,
+    total,
+    vec3,
+)
+from tandemlift.vehicle import Vehicle
 
 
 @linear
@@ -63,26 +81,54 @@ class Felt(NamedTuple):
     """What perfect sensors fixed to the parts would read; body axes.
 
     Specific force at the payload's centre of mass [m/s²] (acceleration less gravity), and what each quadrotor puts on
-    the payload at its joint: force [N] and torque [N·m], vectors of sets.
+    the payload at its joint: force [N] and torque [N·m], vectors of sets. No sensor, but known to an engine: the force
+    of floor and walls on the whole vehicle [N, world axes].
     """
 
     specific_force: Vec3
     joint_force: Vec3
     joint_torque: Vec3
+    contact_force: Vec3
+
+
+def frame_of(vehicle: Vehicle) -> Frame:
+    """The frame of a vehicle."""
+    quadrotors, N = vehicle.quadrotors, vehicle.count
+    x, y = np.array([q.rotors for q in quadrotors]).reshape(4 * N, 2).T
+    torque = [q.torque_per_thrust * spin for q in quadrotors for spin in q.spins]
+    return Frame(
+        payload=vec3(-vehicle.center_of_mass),
+        quadrotors=spread(vehicle.lever_arms),
+        joints=spread([np.subtract(q.joint_position, q.position) for q in quadrotors]),
+        mass=each(N)(*[q.mass for q in quadrotors]),
+        inertia=spread([q.inertia for q in quadrotors]),
+        x=quarters(each(4 * N)(*map(float, x))),
+        y=quarters(each(4 * N)(*map(float, y))),
+        torque=quarters(each(4 * N)(*torque)),
+    )
+
+
+@law
+def total_of_each(v: Vec3) -> Vec3:
+    """The sum of a vector of sets."""
+    return Vec3(total(v.x), total(v.y), total(v.z))
+
+
+@law
+def of_quadrotors(frame: Frame, attitude: Any, load: Load) -> Load:
+    """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of loads on quadrotors."""
+    R = rotation_from_quaternion(attitude)
+    moments = load.moment + cross(frame.quadrotors, apply_transposed(R, load.force))
+    return Load(total_of_each(load.force), total_of_each(moments))
 
 
 @law
 def resultant(frame: Frame, attitude: Any, loads: Loads) -> Load:
     """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of all loads together."""
     R = rotation_from_quaternion(attitude)
-    beam, each = loads.payload, loads.quadrotors
-    moments = each.moment + cross(frame.quadrotors, apply_transposed(R, each.force))
-    return Load(
-        beam.force + Vec3(total(each.force.x), total(each.force.y), total(each.force.z)),
-        beam.moment
-        + cross(frame.payload, apply_transposed(R, beam.force))
-        + Vec3(total(moments.x), total(moments.y), total(moments.z)),
-    )
+    beam = loads.payload
+    about_center = Load(beam.force, beam.moment + cross(frame.payload, apply_transposed(R, beam.force)))
+    return about_center + of_quadrotors(frame, attitude, loads.quadrotors)
 
 
 @law
@@ -112,15 +158,31 @@ def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
 
 
 @law
-def feel(frame: Frame, s: State, a: Acceleration, thrusts: Any, loads: Loads) -> Felt:
-    """What the sensors feel in state `s` under the acceleration `a` that thrusts [N] and loads bring about."""
+def feel(frame: Frame, s: State, a: Acceleration, thrusts: Any) -> Felt:
+    """What the sensors feel in state `s` under an acceleration and thrusts [N], but for loads on the quadrotors."""
     # paper: trans_rot_quad_equ, solved for the joint
-    R, made, outside = rotation_from_quaternion(s.attitude), thrust_of_each(frame, thrusts), loads.quadrotors
+    made = thrust_of_each(frame, thrusts)
     inertial = specific_force_at(s, a, frame.quadrotors) * Vec3(frame.mass, frame.mass, frame.mass)
-    pushed = apply_transposed(R, outside.force) - inertial
-    force = Vec3(pushed.x, pushed.y, pushed.z + made.thrust)
+    force = Vec3(-inertial.x, -inertial.y, made.thrust - inertial.z)
     J, w = frame.inertia, s.rates
     turning = Vec3(J.x * a.angular.x, J.y * a.angular.y, J.z * a.angular.z)
     spinning = cross(w, Vec3(J.x * w.x, J.y * w.y, J.z * w.z))
-    couple = made.moment + outside.moment - turning - spinning
-    return Felt(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force))
+    couple = made.moment - turning - spinning
+    return Felt(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force), ZERO)
+
+
+@choice
+def under(load: Any, frame: Frame, attitude: Any, felt: Felt) -> Felt:
+    """`felt`, with a load on the quadrotors, which their joints pass on to the payload."""
+
+
+@under.register(Nothing)
+def _no_load(load, frame, attitude, felt):
+    return felt
+
+
+@under.register(Load)
+def _loaded(load, frame, attitude, felt):
+    force = apply_transposed(rotation_from_quaternion(attitude), load.force)
+    torque = felt.joint_torque + load.moment - cross(frame.joints, force)
+    return Felt(felt.specific_force, felt.joint_force + force, torque, felt.contact_force)

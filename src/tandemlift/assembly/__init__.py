@@ -1,0 +1,82 @@
+"""A mission put together for the loop: the flight at t = 0, and what it is given from outside.
+
+Everything random is drawn from the mission's seed: constant errors and the first eddies here, the rest step by step by
+a counter-based generator with the seed's key.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.assembly.actuation import start_rotors
+from tandemlift.assembly.senses import start_estimators, start_sensors
+from tandemlift.assembly.surroundings import floor_of, near_of, push_kind, start_weather, tables_of, walls_of, whiffs_of
+from tandemlift.engines.compiled import advance, start_plant, start_state
+from tandemlift.kernels.outside import Tables
+from tandemlift.laws.contact import start_grip
+from tandemlift.laws.push import Hand
+from tandemlift.laws.random import keys_of
+from tandemlift.loop import Flying, Inputs, Moving, Noise
+from tandemlift.perception import READS, Reads
+from tandemlift.pilot import start_pilot
+from tandemlift.settings import Mission
+from tandemlift.tally import EMPTY
+from tandemlift.vector import ZERO, Nothing
+from tandemlift.vehicle import Vehicle
+
+
+class Delayed(NamedTuple):
+    """Marks flights in which something is delayed; the delays are data of the loop."""
+
+
+class Assembled(NamedTuple):
+    """A flight at t = 0, its inputs' layout, its tables, the delays of unit, motion and command in steps, its key."""
+
+    flying: Flying
+    given: Inputs
+    tables: Tables
+    delays: NDArray[np.int64]
+    seeds: NDArray[np.float64]
+
+
+def delays_of(mission: Mission) -> NDArray[np.int64]:
+    """Delays of the unit on board, the motion measurement and the rotors' commands, in steps."""
+    simulated, real = mission.sensors.model == "simulated", mission.actuators.model == "rotors"
+    seconds = [
+        mission.sensors.delay * simulated,
+        mission.sensors.motion.delay * simulated,
+        mission.actuators.delay * real,
+    ]
+    return np.array([round(s / mission.mission.step) for s in seconds], dtype=np.int64)
+
+
+def assemble(mission: Mission) -> Assembled:
+    """A mission's loop at t = 0.
+
+    Raises:
+        InputError: something in the mission cannot be built.
+    """
+    vehicle, dt = Vehicle.from_settings(mission.vehicle), mission.mission.step
+    chance = np.random.default_rng(mission.mission.seed)
+    pilot, memory = start_pilot(mission, vehicle)
+    state, floor, walls = start_state(mission), floor_of(mission, vehicle), walls_of(mission, vehicle)
+    plant = start_plant(mission, vehicle, floor, walls)
+    grip = Nothing() if isinstance(floor, Nothing) else start_grip(floor, state)
+    delays = delays_of(mission)
+    rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, late=bool(delays[2]))
+    weather, eddies = start_weather(mission, vehicle, chance)
+    push = push_kind(mission)
+    near, hand = near_of(walls, vehicle), Hand(push, push, push)
+    felt = advance(plant, state, grip, near, thrusts, Nothing(), hand, dt).felt
+    devices, sensing, hiss = start_sensors(mission, vehicle, state, felt, chance)
+    readings = Nothing() if isinstance(devices, Nothing) else sensing.readings
+    estimators, known = start_estimators(mission, vehicle, state, readings)
+    moving = Moving(state, memory, spinning, eddies, grip, sensing, readings, known, EMPTY, 0.0)
+    reads = Reads(READS[mission.pilot.state], READS[mission.pilot.push])
+    late = Delayed() if delays.any() else Nothing()
+    flying = Flying(moving, pilot, plant, rotors, weather, devices, estimators, reads, late)
+    given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss), near)
+    return Assembled(flying, given, tables_of(mission), delays, np.array(keys_of(mission.mission.seed)))

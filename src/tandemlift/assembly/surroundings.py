@@ -1,0 +1,84 @@
+"""What is around the vehicle: pushes, wind, floor and walls of a mission."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from tandemlift.constants import GRAVITY
+from tandemlift.jit import flat, leaves
+from tandemlift.kernels.outside import GAUSSIAN, GUST, WALL, Tables
+from tandemlift.laws.contact import floor, soles_below, standing_height
+from tandemlift.laws.pending import Wall
+from tandemlift.laws.push import CentralPush, Gaussian, PointPush
+from tandemlift.laws.wind import Calm, Gust, Whiffs, Wind, air_drag_of, dryden, first_eddies
+from tandemlift.settings import Mission
+from tandemlift.vector import ZERO, Nothing, mat3, vec3
+from tandemlift.vehicle import Vehicle
+from tandemlift.weather import Weather
+
+LEAST_AIRSPEED = 0.5  # m/s, at which eddies pass in still air
+NO_WHIFFS = Whiffs(0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def push_kind(mission: Mission) -> Any:
+    """The zero push of the type that serves a mission's pushes: with a moment only if one has any."""
+    central = all(p.point == ZERO for p in mission.pushes)
+    return CentralPush(ZERO) if central else PointPush(ZERO, mat3([[0.0] * 3] * 3))
+
+
+def tables_of(mission: Mission) -> Tables:
+    """The tables of pushes, gusts and walls, a row each."""
+    pushes = [Gaussian(vec3(p.force), p.time, 1.0 / p.sigma, vec3(p.point)) for p in mission.pushes]
+    gusts = mission.wind.gusts if mission.wind.model == "air" else ()
+    blows = [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
+    walls = [Wall(*w.start, *w.end, w.top) for w in mission.walls]
+    return Tables(*map(_table, (pushes, blows, walls), (GAUSSIAN, GUST, WALL)))
+
+
+def _table(rows: list[Any], like: Any) -> np.ndarray:
+    return np.array([flat(row) for row in rows], dtype=float).reshape(len(rows), leaves(like))
+
+
+def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) -> tuple[Any, Any]:
+    """The wind of a mission and its eddies at t = 0, or `Nothing`."""
+    w = mission.wind
+    if w.model == "none":
+        return Nothing(), Nothing()
+    turbulence: Any = Calm()
+    if w.turbulence > 0.0:
+        airspeed = w.airspeed or max(math.dist(w.velocity, ZERO), LEAST_AIRSPEED)
+        turbulence = dryden(w.turbulence, w.height, airspeed, w.velocity, mission.mission.step)
+    wind = Wind(vec3(w.velocity), turbulence)
+    return Weather(wind, air_drag_of(vehicle, w.density)), first_eddies(turbulence, chance.standard_normal(5))
+
+
+def whiffs_of(weather: Any) -> Any:
+    """The layout of the wind's standard normals."""
+    still = isinstance(weather, Nothing) or isinstance(weather.wind.turbulence, Calm)
+    return Nothing() if still else NO_WHIFFS
+
+
+def floor_of(mission: Mission, vehicle: Vehicle) -> Any:
+    """The floor of a mission, or `Nothing`."""
+    g = mission.ground
+    if g.model == "none":
+        return Nothing()
+    fleet, mass, step = vehicle.quadrotors, vehicle.mass * mission.plant.mass_scale, mission.mission.step
+    soles = soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    at_zero = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage)
+    if g.height is not None:
+        return at_zero._replace(height=g.height)
+    return at_zero._replace(height=mission.initial.position[2] - standing_height(at_zero, mass * GRAVITY))
+
+
+def walls_of(mission: Mission, vehicle: Vehicle) -> Any:
+    """What touches the walls of a mission, or `Nothing` where it has none."""
+    return Nothing()
+
+
+def near_of(walls: Any, vehicle: Vehicle) -> Any:
+    """The walls nearest to the parts, before any was looked at; or `Nothing`."""
+    return Nothing()

@@ -1,0 +1,157 @@
+"""The body in MuJoCo: multibody dynamics that share no equation with ours, so their agreement means something.
+
+The Runge-Kutta step of order four is MuJoCo's. Over a step the rotors' thrusts turn with the body; pushes and the loads
+on the parts are held: forces in world axes, moments in body axes (the quadrotors' in world axes).
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.engines.mujoco_model import FloorContact, WallContact, model_of, mujoco
+from tandemlift.laws.rotation import quaternion_from_euler
+from tandemlift.settings import Mission
+from tandemlift.vector import vec3
+from tandemlift.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+
+UNSOUND = 1e8  # N: a command beyond it is none, and MuJoCo would take one beyond 1e10 for zero
+
+
+class SteppedBody(Protocol):
+    """What an engine that is no law has to be: a body that is moved step by step.
+
+    `state` (13): position [m], velocity [m/s], both world axes, attitude w, x, y, z, rates [rad/s, body axes].
+    `felt` (6 N + 6): the numbers of `laws.loads.Felt` at the start of the step moved last.
+    """
+
+    state: Array
+    felt: Array
+
+    def advance(self, thrusts: Array, loads: Array | None, push_force: Array, push_moment: Array, dt: float) -> None:
+        """Move by one step of dt [s], and refresh `state` and `felt` in place.
+
+        Args:
+            thrusts: of all rotors [N] (4 N).
+            loads: the numbers of `laws.loads.Loads` (6 N + 6), or None where no step of the flight has any.
+            push_force: of the person [N, world axes] (3).
+            push_moment: about the centre of mass [N·m, body axes] (3).
+            dt: step [s].
+        """
+
+
+class MuJoCoBody:
+    """A mission's vehicle in MuJoCo; see `SteppedBody`.
+
+    Args:
+        mission: its `initial`, `plant` and `disturbance` are the body's.
+        vehicle: the vehicle that the pilot knows.
+        floor: to stand on.
+        walls: to bump into.
+    """
+
+    def __init__(
+        self,
+        mission: Mission,
+        vehicle: Vehicle,
+        floor: FloorContact | None = None,
+        walls: WallContact | None = None,
+    ) -> None:
+        self.model = model_of(mission, vehicle, floor, walls)
+        self.data = mujoco.MjData(self.model)
+        N = vehicle.count
+        self.state, self.felt = np.zeros(13), np.zeros(6 * N + 6)
+        self._disturbing_force = np.array(mission.disturbance.force)
+        self._disturbing_moment = np.array(mission.disturbance.moment)
+        self._payload, self._R = skew(-vehicle.center_of_mass), np.empty((3, 3))
+        self._turned = np.empty((3, N))
+        self._made, self._of_rotors = made_at_joints(vehicle), np.empty(6 * N)
+        self._step = mission.mission.step
+        self._view_memory(N, touching=bool(floor or walls))
+        self._place(mission)
+
+    def _view_memory(self, N: int, *, touching: bool) -> None:
+        """Views of MuJoCo's memory and of ours, part by part, so that a step only copies."""
+        d, state, felt, joints = self.data, self.state, self.felt, slice(3, 6 * N + 3)
+        self._position, self._velocity, self._attitude, self._rates = np.split(state, [3, 6, 10])
+        self._true_position, self._true_attitude = d.qpos[:3], d.qpos[3:]
+        self._true_velocity, self._true_rates = d.qvel[:3], d.qvel[3:]
+        self._thrusts, self._force, self._moment = d.ctrl, d.qfrc_applied[:3], d.qfrc_applied[3:]
+        on_quadrotors = d.xfrc_applied[2 : N + 2].T
+        self._force_on_quadrotors, self._moment_on_quadrotors = on_quadrotors[:3], on_quadrotors[3:]
+        self._specific_force, self._accelerometer = felt[:3], d.sensordata[:3]
+        self._at_joints, self._made_at_joints = felt[joints].reshape(2, 3, N), self._of_rotors.reshape(2, 3, N)
+        self._joint_sensors = d.sensordata[joints].reshape(2, N, 3).transpose(0, 2, 1)
+        self._contact_force, self._contact_sensor = felt[6 * N + 3 :], d.sensordata[6 * N + 3 :]
+        self._touching = touching
+
+    def _place(self, mission: Mission) -> None:
+        """Put the body where the mission starts."""
+        initial = mission.initial
+        self._true_position[:], self._true_velocity[:] = initial.position, initial.velocity
+        self._true_attitude[:], self._true_rates[:] = quaternion_from_euler(vec3(initial.euler)), initial.rates
+        self._read_state()
+
+    def _read_state(self) -> None:
+        self._position[:] = self._true_position
+        self._velocity[:] = self._true_velocity
+        self._attitude[:] = self._true_attitude
+        self._rates[:] = self._true_rates
+
+    def _read_felt(self) -> None:
+        # a joint's sensor reads what the payload puts on the quadrotor, and knows nothing of the rotors
+        self._specific_force[:] = self._accelerometer
+        np.subtract(self._made_at_joints, self._joint_sensors, out=self._at_joints)
+        if self._touching:
+            self._contact_force[:] = self._contact_sensor
+
+    def _load(self, loads: Array) -> None:
+        """Apply loads to the parts: to the payload about the system's centre of mass, to each quadrotor at its own."""
+        R = self._R
+        mujoco.mju_quat2Mat(R.ravel(), self._true_attitude)
+        force = loads[:3]
+        self._force += force
+        self._moment += loads[3:6]
+        self._moment += self._payload.dot(force.dot(R))
+        on_quadrotors = loads[6:].reshape(2, 3, -1)
+        self._force_on_quadrotors[:] = on_quadrotors[0]
+        R.dot(on_quadrotors[1], out=self._turned)
+        self._moment_on_quadrotors[:] = self._turned
+
+    def advance(self, thrusts: Array, loads: Array | None, push_force: Array, push_moment: Array, dt: float) -> None:
+        """Move by one step; see `SteppedBody`."""
+        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:
+            self.state.fill(np.nan)
+            self.felt.fill(np.nan)
+            return
+        if dt != self._step:
+            self.model.opt.timestep = self._step = dt
+        self._thrusts[:] = thrusts
+        np.add(push_force, self._disturbing_force, out=self._force)
+        np.add(push_moment, self._disturbing_moment, out=self._moment)
+        if loads is not None:
+            self._load(loads)
+        self._made.dot(thrusts, out=self._of_rotors)
+        mujoco.mj_step(self.model, self.data)
+        self._read_state()
+        self._read_felt()
+
+
+def skew(a: Array) -> Array:
+    """The matrix (3 × 3) of a ×."""
+    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
+
+
+def made_at_joints(vehicle: Vehicle) -> Array:
+    """(6 N × 4 N): what rotor thrusts put on the joints, x, y and z of force [N] and of torque [N·m] as sets of N."""
+    N = vehicle.count
+    made = np.zeros((2, 3, N, N, 4))
+    for i, q in enumerate(vehicle.quadrotors):
+        arms = np.array(q.rotors) - np.subtract(q.joint_position, q.position)[:2]
+        made[0, 2, i, i] = 1.0
+        made[1, :, i, i] = arms[:, 1], -arms[:, 0], q.torque_per_thrust * np.array(q.spins)
+    return made.reshape(6 * N, 4 * N)

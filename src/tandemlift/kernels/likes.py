@@ -1,0 +1,48 @@
+"""The layouts of what passes through a step: nested values whose numbers are void."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.jit import zeroed
+from tandemlift.laws.allocation import Constrained
+from tandemlift.loop import Flying, Inputs, act, advance, observe, think
+from tandemlift.vector import Nothing
+
+
+class Likes(NamedTuple):
+    """Of a flight, of what a step is given, what the pilot thinks, what acts, how the body moves, what is shown."""
+
+    flying: Any
+    given: Any
+    thought: Any
+    acting: Any
+    moved: Any
+    sample: Any
+
+    @property
+    def constrained(self) -> bool:
+        """Whether the allocation keeps to limits."""
+        return isinstance(self.flying.pilot.allocation, Constrained)
+
+    @property
+    def walled(self) -> bool:
+        """Whether there are walls."""
+        return not isinstance(self.given.near, Nothing)
+
+    @property
+    def late(self) -> bool:
+        """Whether anything is delayed."""
+        return not isinstance(self.flying.delays, Nothing)
+
+
+def likes_of(flying: Flying, given: Inputs) -> Likes:
+    """The layouts of a flight's steps, from its first."""
+    before = flying.moving
+    thought = think(flying, given.hand.start.force, 0.0, 0.001)
+    acting = act(flying, thought.decision.thrusts, given, 0.0)
+    air = acting.weather.loads
+    moved = advance(flying.plant, before.state, before.grip, given.near, acting.thrusts, air, given.hand, 0.001)
+    _, sample = observe(flying, thought, acting, moved, given)
+    given_like = given._replace(hand=zeroed(given.hand), noise=zeroed(given.noise), gust=zeroed(given.gust))
+    return Likes(*map(zeroed, (flying,)), given_like, *map(zeroed, (thought, acting, moved, sample)))

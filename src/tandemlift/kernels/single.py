@@ -1,0 +1,62 @@
+"""The loop over the steps of one flight."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from tandemlift.jit import leaves, load, load_lane, store
+from tandemlift.kernels.likes import Likes
+from tandemlift.kernels.limiting import limit
+from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
+from tandemlift.kernels.places import Lines, carry
+from tandemlift.loop import Inputs, continued, finish, think
+
+
+def single_loop(likes: Likes, lines: Lines) -> Callable[..., Any]:
+    """single(a, tables, work, ring, delays, seeds, log, last, k, stop, steps, every, dt) -> the step reached.
+
+    Flies steps k to stop − 1 of `steps`, in `a`; log[k // every] is a logged sample. Step number `steps` only takes the
+    sample `last`. Returns early when the state is no longer sound. `tables`: `Tables`; `work`: scratch; `ring`: the
+    delay line (rows × numbers delayed); `delays`: of unit, motion and command, in steps; `seeds`: the key of chance.
+    """
+    like, hand_like, noise_like, near_like = likes.flying, likes.given.hand, likes.given.noise, likes.given.near
+    push_like, width = hand_like.start, leaves(hand_like.start)
+    n_hands = HALVES * width
+    n_work = n_hands + 4 * SPAN * draws(noise_like)
+    walled, late, constrained = likes.walled, likes.late, likes.constrained
+    at = lines.numbers(1)
+
+    def single(a, tables, work, ring, delays, seeds, log, last, k, stop, steps, every, dt):
+        flying = load(a, like)
+        hands, table, scratch = work[:n_hands], work[n_hands:n_work], work[n_work:]
+        feel(hands, tables.pushes, k, dt, push_like)
+        draw(table, k, seeds[0], seeds[1])
+        while k < stop and flying.moving.lost == 0.0:
+            if k % SPAN == 0:
+                feel(hands, tables.pushes, k, dt, push_like)
+                draw(table, k, seeds[0], seeds[1])
+            hand = load_lane(hands, 2 * (k % SPAN) * width, 1, hand_like)
+            near = near_like
+            if walled:
+                near = approach(tables.walls, flying.plant.frame, flying.moving.state, near_like)
+            given = Inputs(hand, gusting(tables.gusts, k * dt), load_lane(table, k % SPAN, SPAN, noise_like), near)
+            thought = think(flying, hand.start.force, k * dt, dt)
+            if constrained:
+                thought = limit(scratch, flying, thought, k * dt)
+            moving, sample = finish(flying, thought, given, k * dt, dt)
+            if k % every == 0:
+                store(log[k // every], sample)
+            if k == steps:
+                store(last, sample)
+                break
+            flying = continued(flying, moving)
+            if late:
+                store(a, moving)
+                carry(a, ring, delays, k, at)
+                flying = load(a, like)
+            k += 1
+        store(a, flying.moving)
+        return k
+
+    return single

@@ -1,0 +1,130 @@
+"""The parts of one step, for a controller in plain Python or a body in another engine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from tandemlift.engines.compiled import advance
+from tandemlift.jit import leaves, load, load_lane, store
+from tandemlift.kernels.likes import Likes
+from tandemlift.kernels.limiting import limit
+from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
+from tandemlift.kernels.places import Lines, carry
+from tandemlift.laws.admittance import Trajectory
+from tandemlift.laws.body import State, Wrench
+from tandemlift.laws.controllers import Command, Measured, Reference
+from tandemlift.laws.push import moment_of
+from tandemlift.loop import Inputs, Thought, act, observe, perceive, think
+from tandemlift.pilot import conclude, guide
+from tandemlift.vector import ZERO, Quat
+
+COMMAND = Command(Wrench(0.0, ZERO), ZERO)
+LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
+
+
+class Given(NamedTuple):
+    """What a controller is given at a sample."""
+
+    measured: Measured
+    reference: Reference
+
+
+GIVEN = Given(Measured(State(ZERO, ZERO, LEVEL, ZERO), ZERO), Reference(Trajectory(ZERO, ZERO, ZERO), 0.0))
+
+
+class Pushing(NamedTuple):
+    """The push over a step: its mean force [N, world axes] and moment about the centre of mass [N·m, body axes]."""
+
+    force: Any
+    moment: Any
+
+
+class Parts(NamedTuple):
+    """The compiled parts of a step, in the order in which they are called."""
+
+    outside: Callable[..., Any]
+    before: Callable[..., Any]
+    after: Callable[..., Any]
+    whole: Callable[..., Any]
+    acting: Callable[..., Any]
+    moved: Callable[..., Any]
+    observed: Callable[..., Any]
+
+
+def parts_of(likes: Likes, lines: Lines) -> Parts:
+    """The parts of a step, to be compiled.
+
+    They hand values on in flat arrays: `a` the flight, `g` what it is given, `m` what the pilot thinks, `c` what acts
+    on the body, `w` the push as a force and a moment, `v` how it moved, `row` the sample; `x` and `y` what a controller
+    is given and answers.
+    """
+    like, given_like, thought_like, acting_like, moved_like, _ = likes
+    hand_like, noise_like, near_like = given_like.hand, given_like.noise, given_like.near
+    width = leaves(hand_like.start)
+    n_hands = HALVES * width
+    n_work = n_hands + 4 * SPAN * draws(noise_like)
+    walled, late, constrained = likes.walled, likes.late, likes.constrained
+    at = lines.numbers(1)
+
+    def outside(a, tables, work, seeds, g, k, dt):
+        hands, table = work[:n_hands], work[n_hands:n_work]
+        if k % SPAN == 0:
+            feel(hands, tables.pushes, k, dt, hand_like.start)
+            draw(table, k, seeds[0], seeds[1])
+        flying, near = load(a, like), near_like
+        if walled:
+            near = approach(tables.walls, flying.plant.frame, flying.moving.state, near_like)
+        hand, noise = (
+            load_lane(hands, 2 * (k % SPAN) * width, 1, hand_like),
+            load_lane(table, k % SPAN, SPAN, noise_like),
+        )
+        store(g, Inputs(hand, gusting(tables.gusts, k * dt), noise, near))
+
+    def before(a, g, x, k, dt):
+        flying, given = load(a, like), load(g, given_like)
+        _, measured, _ = perceive(flying, given.hand.start.force, k * dt, dt)
+        guidance = guide(flying.pilot, flying.moving.memory.yielding, measured.push, k * dt)
+        store(x, Given(measured, guidance.reference))
+
+    def after(a, g, y, m, scratch, k, dt):
+        flying, given, t = load(a, like), load(g, given_like), k * dt
+        known, measured, estimator = perceive(flying, given.hand.start.force, t, dt)
+        memory = flying.moving.memory
+        guidance = guide(flying.pilot, memory.yielding, measured.push, t)
+        decision, memory = conclude(flying.pilot, memory, guidance, load(y, COMMAND), memory.controller, t, dt)
+        thought = Thought(known, measured, decision, memory, estimator)
+        if constrained:
+            thought = limit(scratch, flying, thought, t)
+        store(m, thought)
+
+    def whole(a, g, m, scratch, k, dt):
+        flying, given = load(a, like), load(g, given_like)
+        thought = think(flying, given.hand.start.force, k * dt, dt)
+        if constrained:
+            thought = limit(scratch, flying, thought, k * dt)
+        store(m, thought)
+
+    def acting(a, g, m, c, w, k, dt):
+        flying, given = load(a, like), load(g, given_like)
+        store(c, act(flying, load(m, thought_like).decision.thrusts, given, k * dt))
+        hand = given.hand
+        mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
+        store(w, Pushing(mean.force, moment_of(mean, flying.moving.state.attitude)))
+
+    def moved(a, g, c, v, k, dt):
+        flying, given, on_body = load(a, like), load(g, given_like), load(c, acting_like)
+        before, air = flying.moving, on_body.weather.loads
+        store(v, advance(flying.plant, before.state, before.grip, given.near, on_body.thrusts, air, given.hand, dt))
+
+    def observed(a, ring, delays, g, m, c, v, row, k, final):
+        flying, given = load(a, like), load(g, given_like)
+        thought, on_body = load(m, thought_like), load(c, acting_like)
+        moving, sample = observe(flying, thought, on_body, load(v, moved_like), given)
+        store(row, sample)
+        if not final:
+            store(a, moving)
+            if late:
+                carry(a, ring, delays, k, at)
+
+    return Parts(outside, before, after, whole, acting, moved, observed)

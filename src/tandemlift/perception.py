@@ -1,0 +1,202 @@
+"""What the pilot perceives: sensors' readings, what is estimated from them, and which of them it reads."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.law import choice
+from tandemlift.laws.body import State
+from tandemlift.laws.estimation import Push, PushEstimator, estimate
+from tandemlift.laws.navigation import Navigator, navigate
+from tandemlift.laws.sensing import Readings, Sensors, sense
+from tandemlift.vector import Nothing, Quat, Vec3
+
+
+class Truth(NamedTuple):
+    """The pilot reads what is true."""
+
+
+class Measurement(NamedTuple):
+    """The pilot reads what sensors measure."""
+
+
+class Estimate(NamedTuple):
+    """The pilot reads what is estimated."""
+
+
+class Reads(NamedTuple):
+    """What the pilot reads of the state, and of the push."""
+
+    state: Any
+    push: Any
+
+
+class Estimators(NamedTuple):
+    """Of the push, and of the state."""
+
+    push: PushEstimator
+    state: Navigator
+
+
+class Remembered(NamedTuple):
+    """Memory of the estimators."""
+
+    push: Any
+    state: Any
+
+
+class Known(NamedTuple):
+    """What is estimated."""
+
+    push: Push
+    state: State
+
+
+class MeasuredChannels(NamedTuple):
+    """What sensors show: the last readings that the pilot has."""
+
+    measured_position: Vec3
+    measured_velocity: Vec3
+    measured_attitude: Quat
+    measured_rates: Vec3
+    measured_specific_force: Vec3
+    measured_joint_force: Vec3
+    measured_joint_torque: Vec3
+
+
+class EstimatedChannels(NamedTuple):
+    """What is estimated from them."""
+
+    estimated_position: Vec3
+    estimated_velocity: Vec3
+    estimated_attitude: Quat
+    estimated_rates: Vec3
+    push_measured: Vec3
+    push_estimate: Vec3
+    push_moment_estimate: Vec3
+    push_point_estimate: Any
+    payload_mass_estimate: Any
+    sensor_disagreement: Any
+    push_usable: Any
+
+
+@choice
+def sensed(sensors: Any, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
+    """(Readings of a step, the sensors' memory)."""
+
+
+@sensed.register(Nothing)
+def _blind(sensors, memory, state, felt, believed, noise):
+    return sensors, memory
+
+
+@sensed.register(Sensors)
+def _sensed(sensors, memory, state, felt, believed, noise):
+    return sense(sensors, memory, state, felt, believed, noise)
+
+
+@choice
+def estimate_all(estimators: Any, memory: Any, readings: Any, t: Any, dt: Any) -> Any:
+    """(what is known from readings, the estimators' memory) at time t [s]."""
+
+
+@estimate_all.register(Nothing)
+def _unknowing(estimators, memory, readings, t, dt):
+    return estimators, memory
+
+
+@estimate_all.register(Estimators)
+def _estimated(estimators, memory, readings, t, dt):
+    push, push_memory = estimate(estimators.push, memory.push, readings.unit, t)
+    state, state_memory = navigate(estimators.state, memory.state, readings)
+    return Known(push, state), Remembered(push_memory, state_memory)
+
+
+@choice
+def read_state(reads: Any, true: State, readings: Any, known: Any) -> State:
+    """The state as the pilot reads it."""
+
+
+@read_state.register(Truth)
+def _true_state(reads, true, readings, known):
+    return true
+
+
+@read_state.register(Measurement)
+def _measured_state(reads, true, readings, known):
+    motion = readings.motion
+    return State(motion.position, motion.velocity, motion.attitude, readings.unit.rates)
+
+
+@read_state.register(Estimate)
+def _estimated_state(reads, true, readings, known):
+    return known.state
+
+
+@choice
+def read_push(reads: Any, true: Vec3, known: Any) -> Vec3:
+    """The push as the pilot reads it [N, world axes]."""
+
+
+@read_push.register(Truth)
+def _true_push(reads, true, known):
+    return true
+
+
+@read_push.register(Measurement)
+def _measured_push(reads, true, known):
+    return known.push.measured
+
+
+@read_push.register(Estimate)
+def _estimated_push(reads, true, known):
+    return known.push.usable
+
+
+@choice
+def shown_readings(readings: Any) -> Any:
+    """The channels of readings."""
+
+
+@shown_readings.register(Nothing)
+def _no_readings(readings):
+    return readings
+
+
+@shown_readings.register(Readings)
+def _readings(readings):
+    m, u = readings.motion, readings.unit
+    return MeasuredChannels(
+        m.position, m.velocity, m.attitude, u.rates, u.specific_force, u.joint_force, u.joint_torque
+    )
+
+
+@choice
+def shown_estimate(known: Any) -> Any:
+    """The channels of what is estimated."""
+
+
+@shown_estimate.register(Nothing)
+def _no_estimate(known):
+    return known
+
+
+@shown_estimate.register(Known)
+def _estimate(known):
+    s, p = known.state, known.push
+    return EstimatedChannels(
+        s.position,
+        s.velocity,
+        s.attitude,
+        s.rates,
+        p.measured,
+        p.force,
+        p.moment,
+        p.point,
+        p.payload_mass,
+        p.disagreement,
+        p.trusted * p.armed,
+    )
+
+
+READS = {"truth": Truth(), "measurement": Measurement(), "estimate": Estimate()}

@@ -1,0 +1,193 @@
+"""What one step of a flight shows: the values behind the channels, and what the tally counts.
+
+Parts that a mission does not have show nothing. `flight.CHANNELS` gives unit and frame of every channel.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.law import choice, elementwise, law
+from tandemlift.laws.allocation import wrench
+from tandemlift.laws.body import Wrench
+from tandemlift.laws.contact import Floor
+from tandemlift.laws.limits import given_share
+from tandemlift.laws.loads import Felt, Loads, total_of_each
+from tandemlift.laws.push import Hand, moment_of
+from tandemlift.laws.rotation import euler_from_quaternion
+from tandemlift.laws.rotors import IdealRotors, Rotors
+from tandemlift.ops import clip, minimum, where
+from tandemlift.perception import shown_estimate, shown_readings
+from tandemlift.tally import Errors
+from tandemlift.vector import Nothing, Quat, Vec3, dot, total
+
+
+class Sample(NamedTuple):
+    """What one step shows. Fields that are groups of values (or `Nothing`) stand for the channels in them."""
+
+    position: Vec3
+    velocity: Vec3
+    attitude: Quat
+    euler: Vec3
+    rates: Vec3
+    reference_position: Vec3
+    reference_velocity: Vec3
+    reference_acceleration: Vec3
+    reference_euler: Vec3
+    admittance_position: Vec3
+    admittance_velocity: Vec3
+    admittance_acceleration: Vec3
+    admittance_force: Vec3
+    push_force: Vec3
+    push_moment: Vec3
+    thrust: Any
+    moment: Vec3
+    rotor_thrusts: Any
+    joint_force: Vec3
+    joint_torque: Vec3
+    actuated: Any
+    air: Any
+    contact: Any
+    measured: Any
+    estimated: Any
+
+
+class Actuated(NamedTuple):
+    """Of real rotors: the thrusts commanded, the wrench that they can give within limits, and its share of U."""
+
+    rotor_commands: Any
+    allocated_thrust: Any
+    allocated_moment: Vec3
+    allocation_share: Any
+
+
+class Air(NamedTuple):
+    """Of moving air: its velocity, and its force on all parts together."""
+
+    wind_velocity: Vec3
+    wind_force: Vec3
+
+
+class Contact(NamedTuple):
+    """Of floor and walls: their force on all parts together."""
+
+    contact_force: Vec3
+
+
+@choice
+def actuated(rotors: Any, effect: Any, command: Wrench, commands: Any) -> Any:
+    """What rotors of this kind show of commanded thrusts [N] for a wanted wrench."""
+
+
+@actuated.register(IdealRotors)
+def _nothing_to_show(rotors, effect, command, commands):
+    return Nothing()
+
+
+@actuated.register(Rotors)
+def _within_limits(rotors, effect, command, commands):
+    thrusts = clip(commands, 0.0, rotors.max_thrust)
+    given = wrench(effect, thrusts)
+    return Actuated(commands, given.thrust, given.moment, given_share(effect, rotors.per_reach, command, thrusts))
+
+
+@choice
+def saturated(rotors: Any, commands: Any) -> Any:
+    """1 if any rotor is commanded to a limit or beyond, else 0."""
+
+
+@saturated.register(IdealRotors)
+def _never(rotors, commands):
+    return 0.0
+
+
+@elementwise
+def at_limit(command, most):
+    """1 where a thrust is at 0 or at its most, or beyond."""
+    return where(command > 0.0, where(command < most, 0.0, 1.0), 1.0)
+
+
+@saturated.register(Rotors)
+def _any(rotors, commands):
+    return minimum(total(at_limit(commands, rotors.max_thrust)), 1.0)
+
+
+@choice
+def air_of(loads: Any, velocity: Any) -> Any:
+    """What moving air shows."""
+
+
+@air_of.register(Nothing)
+def _no_air(loads, velocity):
+    return loads
+
+
+@air_of.register(Loads)
+def _some_air(loads, velocity):
+    return Air(velocity, loads.payload.force + total_of_each(loads.quadrotors.force))
+
+
+@choice
+def contact_of(floor: Any, felt: Felt) -> Any:
+    """What contact shows."""
+
+
+@contact_of.register(Nothing)
+def _no_contact(floor, felt):
+    return floor
+
+
+@contact_of.register(Floor)
+def _some_contact(floor, felt):
+    return Contact(felt.contact_force)
+
+
+@law
+def show(flying: Any, thought: Any, acting: Any, moved: Any, hand: Hand) -> Sample:
+    """The sample of a step, at its start."""
+    state, felt, read = flying.moving.state, moved.felt, thought.decision
+    guidance, command = read.guidance, read.command
+    target = guidance.reference.trajectory
+    return Sample(
+        state.position,
+        state.velocity,
+        state.attitude,
+        euler_from_quaternion(state.attitude).angles,
+        state.rates,
+        target.position,
+        target.velocity,
+        target.acceleration,
+        command.euler,
+        guidance.admittance.position,
+        guidance.admittance.velocity,
+        guidance.admittance.acceleration,
+        guidance.force,
+        hand.start.force,
+        moment_of(hand.start, state.attitude),
+        command.wrench.thrust,
+        command.wrench.moment,
+        acting.thrusts,
+        felt.joint_force,
+        felt.joint_torque,
+        actuated(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
+        air_of(acting.weather.loads, acting.weather.velocity),
+        contact_of(flying.plant.floor, felt),
+        shown_readings(flying.moving.readings),
+        shown_estimate(thought.known),
+    )
+
+
+@law
+def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
+    """What a sample adds to the tally."""
+    return Errors(
+        x.reference_position - x.position,
+        x.reference_velocity - x.velocity,
+        x.reference_euler - x.euler,
+        x.euler,
+        x.thrust,
+        x.moment,
+        x.push_force,
+        dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
+        saturated(flying.rotors, thought.decision.thrusts),
+    )

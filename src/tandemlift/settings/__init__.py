@@ -1,0 +1,102 @@
+"""The tables of a mission: what each key is, in which unit, and what it may be.
+
+Every table is strict: unknown keys, wrong types and non-finite numbers are refused. A leaf that is given per axis
+takes one number for all axes or one number each. The built-in missions in `data/missions` hold the numbers.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated
+
+from pydantic import AfterValidator, Field, SerializeAsAny
+
+from tandemlift.settings.leaves import AtLeastOne6, NonNegative6, Positive, Positive6, Table, divisor, must
+from tandemlift.settings.parts import Drag, Payload, Quadrotor, VehicleTable
+from tandemlift.settings.pilot import (
+    AdmittanceTable,
+    AllocationTable,
+    ControllerTable,
+    Estimator,
+    PhasesTable,
+    PilotTable,
+)
+from tandemlift.settings.world import (
+    Actuators,
+    Disturbance,
+    Fault,
+    Ground,
+    InertialSensor,
+    Initial,
+    Plant,
+    PushTable,
+    Sensors,
+    WallTable,
+    WindTable,
+)
+
+__all__ = [
+    "AdmittanceTable",
+    "AtLeastOne6",
+    "ControllerTable",
+    "Drag",
+    "InertialSensor",
+    "Mission",
+    "MissionTable",
+    "NonNegative6",
+    "Payload",
+    "PhasesTable",
+    "Positive6",
+    "Quadrotor",
+    "Table",
+    "VehicleTable",
+]
+
+
+def _name(name: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}", name):
+        raise must("name", "be 1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit")
+    return name
+
+
+class MissionTable(Table):
+    """`[mission]`: name, duration and times of the run."""
+
+    name: Annotated[str, AfterValidator(_name)]
+    duration: Positive  # s, rounded to whole steps
+    step: Annotated[float, Field(gt=0.0, le=0.02), AfterValidator(divisor)] = 0.001  # s, of the pilot and of the body
+    log_interval: Positive = 0.01  # s, rounded to whole steps
+    seed: Annotated[int, Field(ge=0, le=10**18)] = 0
+
+    @property
+    def steps(self) -> int:
+        """Number of steps of the run, at least one."""
+        return max(1, round(self.duration / self.step))
+
+    @property
+    def log_every(self) -> int:
+        """Steps from one logged sample to the next, at least one and at most one more than there are."""
+        return max(1, round(min(self.log_interval / self.step, self.steps + 1)))
+
+
+class Mission(Table):
+    """Everything that a flight depends on; see `tandemlift.missions` for loading one."""
+
+    mission: MissionTable
+    vehicle: VehicleTable
+    controller: SerializeAsAny[ControllerTable]
+    admittance: AdmittanceTable
+    allocation: AllocationTable = AllocationTable()
+    initial: Initial = Initial()
+    phases: PhasesTable = PhasesTable()
+    pushes: tuple[PushTable, ...] = ()
+    disturbance: Disturbance = Disturbance()
+    plant: Plant = Plant()
+    pilot: PilotTable = PilotTable()
+    estimator: Estimator = Estimator()
+    actuators: Actuators = Actuators()
+    faults: tuple[Fault, ...] = ()
+    sensors: Sensors = Sensors()
+    wind: WindTable = WindTable()
+    ground: Ground = Ground()
+    walls: tuple[WallTable, ...] = ()

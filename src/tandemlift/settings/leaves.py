@@ -1,0 +1,79 @@
+"""Tables and leaves: strict pydantic models, and the kinds of numbers that a key may take."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, get_args, get_origin
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError, core_schema
+
+SMALLEST = 1e-300  # of a divisor: its inverse is finite
+
+
+def must(kind: str, words: str) -> PydanticCustomError:
+    """The error of a value that breaks a rule: 'must …'."""
+    return PydanticCustomError(kind, "must {words}", {"words": words})
+
+
+def divisor(value: float) -> float:
+    """A number whose inverse is finite."""
+    if value < SMALLEST:
+        raise must("size", f"be at least {SMALLEST}")
+    return value
+
+
+Positive = Annotated[float, Field(gt=0.0), AfterValidator(divisor)]
+NonNegative = Annotated[float, Field(ge=0.0)]
+AtLeastOne = Annotated[float, Field(ge=1.0)]
+Scale = Annotated[float, Field(ge=1e-6, le=1e6)]
+
+
+class Table(BaseModel):
+    """A strict, frozen table of a mission."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False, validate_default=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _lists_as_tuples(cls, data: Any) -> Any:
+        kinds = {name: (field.annotation, *get_args(field.annotation)) for name, field in cls.model_fields.items()}
+        tuples = {name for name, options in kinds.items() if tuple in map(get_origin, options)}
+        items = data.items() if isinstance(data, dict) else ()
+        return {k: tuple(v) if k in tuples and isinstance(v, list) else v for k, v in items} or data
+
+
+def is_number(value: Any) -> bool:
+    """Whether a value is a whole or a real number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+class Axes:
+    """Mark of a leaf given per axis: one number for all `count` axes (unless `single` is False), or one number each."""
+
+    def __init__(self, count: int, *, single: bool = True) -> None:
+        self.count, self.single = count, single
+
+    def describe(self, limits: str) -> str:
+        """What is allowed, in words; `limits` is what each number must keep to."""
+        return f"{'one number or ' if self.single else ''}a list of {self.count} numbers{limits and ', each ' + limits}"
+
+    def spread(self, value: Any) -> Any:
+        """The numbers of all axes."""
+        if self.single and is_number(value):
+            return (value,) * self.count
+        if isinstance(value, (list, tuple)) and len(value) == self.count and all(map(is_number, value)):
+            return tuple(value)
+        raise must("axes", f"be {self.describe('')}")
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.no_info_before_validator_function(self.spread, handler(source))
+
+
+Triple = tuple[float, float, float]
+Axes3 = Annotated[Triple, Axes(3)]
+Positive3 = Annotated[tuple[Positive, Positive, Positive], Axes(3)]
+NonNegative3 = Annotated[tuple[NonNegative, NonNegative, NonNegative], Axes(3)]
+Exactly3 = Annotated[Triple, Axes(3, single=False)]
+Positive6 = Annotated[tuple[Positive, Positive, Positive, Positive, Positive, Positive], Axes(6)]
+NonNegative6 = Annotated[tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative], Axes(6)]
+AtLeastOne6 = Annotated[tuple[AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne], Axes(6)]

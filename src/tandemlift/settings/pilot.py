@@ -1,0 +1,89 @@
+"""What the pilot is told to do: controller, admittance, allocation, phases, and which signals it reads."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic_core import core_schema
+
+from tandemlift.settings.leaves import Axes, NonNegative, NonNegative3, Positive, Positive3, Table, is_number, must
+
+Positive4 = Annotated[tuple[Positive, Positive, Positive, Positive], Axes(4)]
+Reading = Literal["truth", "measurement", "estimate"]
+
+
+class ControllerTable(Table):
+    """`[controller]`: a controller's own settings; each controller adds its keys."""
+
+    name: str
+
+
+class AdmittanceTable(Table):
+    """`[admittance]`: virtual mass, damping, stiffness and the gate, per world axis."""
+
+    mass: Positive3  # kg
+    damping: NonNegative3  # N s/m
+    stiffness: NonNegative3 = (0.0, 0.0, 0.0)  # N/m
+    threshold: NonNegative3  # N
+    gate: Literal["hard", "soft"] = "hard"
+    reanchor: bool = False
+
+
+class Weights:
+    """Mark of the allocation weights: one number, four, or four for each quadrotor."""
+
+    def describe(self, limits: str) -> str:
+        """What is allowed, in words; `limits` is what each number must keep to."""
+        return f"one number {limits}, four numbers {limits}, or a list of four for each quadrotor"
+
+    def rows(self, value: Any) -> Any:
+        """Rows of four: one for all quadrotors, or one each."""
+        if is_number(value):
+            value = [value] * 4
+        if isinstance(value, (list, tuple)) and value:
+            rows = value if all(isinstance(row, (list, tuple)) for row in value) else [value]
+            if all(len(row) == 4 and all(map(is_number, row)) for row in rows):
+                return tuple(map(tuple, rows))
+        raise must("axes", f"be {self.describe('> 0')}")
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.no_info_before_validator_function(self.rows, handler(source))
+
+
+class AllocationTable(Table):
+    """`[allocation]`: how the wrench is split over the quadrotors."""
+
+    method: Literal["pseudo-inverse", "constrained"] = "pseudo-inverse"
+    weights: Annotated[tuple[tuple[Positive, Positive, Positive, Positive], ...], Weights()] = ((1.0, 1.0, 1.0, 1.0),)
+    priorities: Positive4 = (30.0, 900.0, 900.0, 1.0)  # thrust, roll, pitch, yaw: of the constrained method
+
+
+class PhasesTable(Table):
+    """`[phases]`: lift to a height, and land; leave `land_start` out never to land."""
+
+    lift_start: NonNegative = 0.0  # s
+    lift_duration: Positive = 1.0  # s
+    height: float = 0.0  # m
+    land_start: NonNegative | None = None  # s
+    land_duration: Positive = 1.0  # s
+    rotors: Literal["always", "flight"] = "always"  # or stopped before the lift starts and after the landing ends
+
+
+class PilotTable(Table):
+    """`[pilot]`: whether the pilot reads the truth, what sensors measure, or what is estimated from them."""
+
+    state: Reading = "truth"
+    push: Reading = "truth"
+
+
+class Estimator(Table):
+    """`[estimator]`: the push from the joint sensors, and the state from inertial and motion sensors."""
+
+    push_bandwidth: Positive = 36.0  # rad/s, of the second-order low-pass on the push
+    tare_start: NonNegative | None = None  # s, in hover; no tare if not given
+    tare_duration: Positive = 2.0  # s
+    identify_mass: bool = False  # of the payload, while taring
+    disagreement_limit: Positive = 2.0  # N, between the joint sensors, beyond which the push is not trusted
+    least_force: Positive = 0.5  # N, below which no point of application is given
+    position_bandwidth: Positive = 6.0  # rad/s, of the state estimate
+    attitude_bandwidth: Positive = 4.0  # rad/s

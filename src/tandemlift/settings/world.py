@@ -1,0 +1,168 @@
+"""The world that the pilot does not know: pushes, disturbances, real rotors, sensors, wind, ground and walls."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field
+
+from tandemlift.settings.leaves import (
+    Axes,
+    Axes3,
+    Exactly3,
+    NonNegative,
+    Positive,
+    Scale,
+    Table,
+    Triple,
+    must,
+)
+
+Delay = Annotated[float, Field(ge=0.0, le=1.0)]
+Share = Annotated[float, Field(ge=0.0, le=1.0)]
+
+
+def _upright(euler: Triple) -> Triple:
+    if abs(euler[0]) >= math.radians(85.0):
+        raise must("roll", "have a roll (the first angle) within ±85° (±1.4835 rad), where the angles are regular")
+    return euler
+
+
+class Initial(Table):
+    """`[initial]`: the state at t = 0."""
+
+    position: Axes3 = (0.0, 0.0, 0.0)  # m, of the system's centre of mass, world axes
+    velocity: Axes3 = (0.0, 0.0, 0.0)  # m/s, world axes
+    euler: Annotated[Axes3, AfterValidator(_upright)] = (0.0, 0.0, 0.0)  # rad: roll, pitch, yaw (Z-X-Y)
+    rates: Axes3 = (0.0, 0.0, 0.0)  # rad/s, body axes
+
+
+class PushTable(Table):
+    """One of `[[pushes]]`: a person's push A exp(−(t − t₀)²/2σ²)."""
+
+    force: Exactly3  # N, peak, world axes
+    time: float  # s, of the peak
+    sigma: Positive  # s
+    point: Exactly3 = (0.0, 0.0, 0.0)  # m, body axes, from the system's centre of mass
+
+
+class Disturbance(Table):
+    """`[disturbance]`: a constant force and moment that the pilot does not know of."""
+
+    force: Axes3 = (0.0, 0.0, 0.0)  # N, world axes, at the centre of mass
+    moment: Axes3 = (0.0, 0.0, 0.0)  # N m, body axes
+
+
+class Plant(Table):
+    """`[plant]`: how the body differs from what the pilot believes."""
+
+    mass_scale: Scale = 1.0
+    inertia_scale: Annotated[tuple[Scale, Scale, Scale], Axes(3)] = (1.0, 1.0, 1.0)
+
+
+class Actuators(Table):
+    """`[actuators]`: what the rotors do with a command."""
+
+    model: Literal["ideal", "rotors"] = "ideal"
+    delay: Delay = 0.0  # s, from the command to the rotor, rounded to whole steps
+    start: Literal["hover", "stopped"] = "hover"  # the rotors' speed at t = 0
+
+
+class Fault(Table):
+    """One of `[[faults]]`: a rotor that loses thrust."""
+
+    quadrotor: Annotated[int, Field(ge=1, le=64)]
+    rotor: Annotated[int, Field(ge=1, le=4)]
+    time: NonNegative  # s
+    efficiency: Share = 0.0  # share of the thrust that is left
+    known_after: NonNegative | None = None  # s; never, if not given
+
+
+class JointSensors(Table):
+    """`[sensors.joints]`: the force-torque sensor at each joint; errors per axis."""
+
+    force_noise: NonNegative = 0.0  # N, standard deviation of a sample
+    force_bias: NonNegative = 0.0  # N, standard deviation of the constant error, drawn from the seed
+    force_drift: NonNegative = 0.0  # N/√s, random walk
+    force_resolution: NonNegative = 0.0  # N, step of quantisation, 0 for none
+    force_range: Positive = 1e6  # N
+    torque_noise: NonNegative = 0.0  # N m
+    torque_bias: NonNegative = 0.0  # N m
+    torque_drift: NonNegative = 0.0  # N m/√s
+    torque_resolution: NonNegative = 0.0  # N m
+    torque_range: Positive = 1e6  # N m
+    misalignment: NonNegative = 0.0  # rad, standard deviation of the sensor's rotation about each axis, from the seed
+
+
+class InertialSensor(Table):
+    """`[sensors.accelerometer]` in m/s², `[sensors.gyroscope]` in rad/s; errors per axis."""
+
+    noise: NonNegative = 0.0  # standard deviation of a sample
+    bias: NonNegative = 0.0  # standard deviation of the constant error, drawn from the seed
+    drift: NonNegative = 0.0  # per √s, random walk
+    range: Positive = 1e6
+
+
+class MotionSensor(Table):
+    """`[sensors.motion]`: position and velocity of the centre of mass, and attitude, as from motion capture."""
+
+    position_noise: NonNegative = 0.0  # m
+    velocity_noise: NonNegative = 0.0  # m/s
+    attitude_noise: NonNegative = 0.0  # rad, about each body axis
+    interval: NonNegative = 0.0  # s, between samples; every step if 0
+    delay: Delay = 0.0  # s
+
+
+class Sensors(Table):
+    """`[sensors]`: the unit on board (joints, accelerometer, gyroscope: one clock) and the motion measurement."""
+
+    model: Literal["none", "simulated"] = "none"
+    interval: NonNegative = 0.0  # s, between samples of the unit on board; every step if 0
+    delay: Delay = 0.0  # s, of the unit on board, beyond the step after which any reading is known
+    joints: JointSensors = JointSensors()
+    accelerometer: InertialSensor = InertialSensor()
+    gyroscope: InertialSensor = InertialSensor()
+    motion: MotionSensor = MotionSensor()
+
+
+class GustTable(Table):
+    """One of `[[wind.gusts]]`: rises as 1 − cos, holds, and falls as it rose (MIL-F-8785C, 3.7.3)."""
+
+    velocity: Exactly3  # m/s, peak, world axes
+    start: float  # s
+    rise: Positive  # s
+    hold: NonNegative | None = None  # s; it stays, if not given
+
+
+class WindTable(Table):
+    """`[wind]`: moving air and its drag on payload and quadrotors."""
+
+    model: Literal["none", "air"] = "none"
+    velocity: Axes3 = (0.0, 0.0, 0.0)  # m/s, mean, world axes
+    turbulence: NonNegative = 0.0  # m/s, wind at 20 ft that makes the Dryden turbulence; 0 for none
+    height: Positive = 3.048  # m, at which the standard's scales are taken; it begins at 10 ft
+    airspeed: Positive | None = None  # m/s, at which eddies pass; the mean wind's, at least 0.5, if not given
+    density: Positive = 1.225  # kg/m³
+    gusts: tuple[GustTable, ...] = ()
+
+
+class Ground(Table):
+    """`[ground]`: a floor to stand on, and walls."""
+
+    model: Literal["none", "floor"] = "none"
+    height: float | None = None  # m, of the floor; just below the feet at the start, if not given
+    sinkage: Positive = 5e-4  # m, of the feet under the vehicle's weight
+    friction: NonNegative = 0.8
+    effect: bool = False  # more thrust near the floor
+
+
+Point2 = Annotated[tuple[float, float], Axes(2, single=False)]
+
+
+class WallTable(Table):
+    """One of `[[walls]]`: upright, from the floor to its top."""
+
+    start: Point2  # m, x and y
+    end: Point2  # m, x and y
+    top: float = 2.5  # m

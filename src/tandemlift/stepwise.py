@@ -1,0 +1,104 @@
+"""Flying step by step: for a controller in plain Python, or a body that lives in another engine.
+
+The parts of a step are compiled, and hand their values on in flat arrays.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from tandemlift.engines import Body
+from tandemlift.flown import Flown, take_tallies
+from tandemlift.jit import flat, leaves, unflat
+from tandemlift.kernels import COMMAND, GIVEN, place
+from tandemlift.laws.controllers import control
+from tandemlift.prepared import Prepared
+from tandemlift.tally import EMPTY
+
+Progress = Callable[[int, int], None]
+PROGRESS_EVERY = 1000  # steps
+STATE = 13  # numbers of a state
+
+
+class Stepper:
+    """One flight, a step at a time.
+
+    Args:
+        p: the mission, ready.
+        body: where the body lives; None for the compiled one.
+    """
+
+    def __init__(self, p: Prepared, body: Body | None = None) -> None:
+        likes = p.kernels.likes
+        self.p, self.body, self.parts = p, body, p.kernels.parts
+        self.a, self.ring, self.work = np.array(flat(p.flying)), p.ring(), np.zeros(p.kernels.work_size)
+        self.g, self.m, self.c, self.v, self.row = (np.zeros(leaves(x)) for x in likes[1:])
+        self.v[:] = flat(likes.moved)
+        self.x, self.y, self.scratch = np.zeros(leaves(GIVEN)), np.zeros(leaves(COMMAND)), self.work[p.kernels.limits :]
+        self.interpreted = p.interpreted
+        thrusts, air = place(likes.acting, "thrusts"), place(likes.acting, "weather", "loads")
+        self.thrusts = self.c[thrusts.at : thrusts.at + thrusts.size]
+        self.loads, self.push = self.c[air.at : air.at + air.size], np.zeros(6)
+
+    def step(self, k: int, *, final: bool = False) -> None:
+        """Take step number k; its sample is left in `row`. If `final`, only the sample is taken."""
+        p, parts = self.p, self.parts
+        parts.outside(self.a, p.tables, self.work, p.seeds, self.g, k, p.dt)
+        if self.interpreted is None:
+            parts.whole(self.a, self.g, self.m, self.scratch, k, p.dt)
+        else:
+            self._control(k)
+        parts.acting(self.a, self.g, self.m, self.c, self.push, k, p.dt)
+        if self.body is None:
+            parts.moved(self.a, self.g, self.c, self.v, k, p.dt)
+        else:
+            self._advance(self.body)
+        parts.observed(self.a, self.ring, p.delays, self.g, self.m, self.c, self.v, self.row, k, final)
+
+    def _control(self, k: int) -> None:
+        """Let the controller in plain Python decide."""
+        p, parts = self.p, self.parts
+        assert self.interpreted
+        gains, memory = self.interpreted
+        parts.before(self.a, self.g, self.x, k, p.dt)
+        measured, reference = unflat(self.x, GIVEN)
+        command, memory = control(gains, memory, measured, reference)
+        self.interpreted, self.y[:] = (gains, memory), flat(command)
+        parts.after(self.a, self.g, self.y, self.m, self.scratch, k, p.dt)
+
+    def _advance(self, body: Body) -> None:
+        body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
+        self.v[:STATE] = body.state
+        self.v[STATE : STATE + body.felt.size] = body.felt
+
+    @property
+    def lost(self) -> bool:
+        """Whether the state is no longer sound."""
+        return self.a[leaves(self.p.flying.moving) - 1] != 0.0
+
+
+def fly_stepwise(
+    p: Prepared, rows: int, every: int, progress: Progress | None = None, body: Body | None = None
+) -> Flown:
+    """Fly a mission step by step; as `single` of the compiled loops, to the last bit if the body is the same."""
+    stepper, columns = Stepper(p, body), leaves(p.sample)
+    log, last = np.zeros((rows, columns)), np.full(columns, math.nan)
+    began, early, k = time.perf_counter(), EMPTY, 0
+    while k <= p.steps and not stepper.lost:
+        if k == p.late_step < p.steps:
+            (early,) = take_tallies(stepper.a, p.flying, 1)
+        stepper.step(k, final=k == p.steps)
+        if k % every == 0:
+            log[k // every] = stepper.row
+        if k == p.steps:
+            last[:] = stepper.row
+            break
+        k += 1
+        if progress and k % PROGRESS_EVERY == 0:
+            progress(k, p.steps)
+    moving = unflat(stepper.a[: leaves(p.flying.moving)], p.flying.moving)
+    return Flown(moving, early, k, log, last, time.perf_counter() - began)
