@@ -50,7 +50,7 @@ CHANNELS: dict[str, Channel] = {
     "thrust": Channel("N", "body z", "commanded total thrust U1"),
     "moment": Channel("N m", "body", "commanded moments U2, U3, U4"),
     "rotor_thrusts": Channel("N", "body z", "of each rotor, quadrotor by quadrotor"),
-    "joint_force": Channel("N", "body", "of each quadrotor on the payload, at its joint: x, y, z of one after the other"),
+    "joint_force": Channel("N", "body", "of each quadrotor on the payload, at its joint: x, y, z, one after another"),
     "joint_torque": Channel("N m", "body", "of each quadrotor on the payload, at its joint, likewise"),
     "rotor_commands": Channel("N", "body z", "thrust commanded of each rotor, where actuators are rotors"),
     "allocated_thrust": Channel("N", "body z", "what these commands, held within limits, give of U1"),

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.engines.compiled import Moved, Plant, advance
+from tandemlift.engines.compiled import Moved, Plant, advance, aloft
 from tandemlift.law import law
 from tandemlift.laws.body import State
 from tandemlift.laws.controllers import Measured
@@ -34,12 +34,13 @@ class Moving(NamedTuple):
 
     state: State
     memory: PilotMemory
-    rotors: Any
     wind: Any
     grip: Any
+    near: Any
     sensing: Any
-    readings: Any
     estimator: Any
+    rotors: Any
+    readings: Any
     tally: Tally
     lost: Any
 
@@ -66,12 +67,11 @@ class Noise(NamedTuple):
 
 
 class Inputs(NamedTuple):
-    """What a step is given from outside: the push, gusts [m/s], standard normals, and the walls nearest to it."""
+    """What a step is given from outside: the push, gusts [m/s], standard normals."""
 
     hand: Hand
     gust: Any
     noise: Any
-    near: Any
 
 
 class Thought(NamedTuple):
@@ -92,6 +92,29 @@ class Acting(NamedTuple):
     weather: Any
 
 
+class Lined(NamedTuple):
+    """What goes through the delay lines, in whole or in part."""
+
+    rotors: Any
+    readings: Any
+
+
+@law
+def relined(m: Moving, line: Lined) -> Moving:
+    """What moves, with what comes out of the delay lines."""
+    return Moving(
+        m.state, m.memory, m.wind, m.grip, m.near, m.sensing, m.estimator, line.rotors, line.readings, m.tally, m.lost
+    )
+
+
+@law
+def neared(m: Moving, near: Any) -> Moving:
+    """What moves, with the walls that are now nearest to it."""
+    return Moving(
+        m.state, m.memory, m.wind, m.grip, near, m.sensing, m.estimator, m.rotors, m.readings, m.tally, m.lost
+    )
+
+
 @law
 def continued(flying: Flying, moving: Moving) -> Flying:
     """A flight with what has changed."""
@@ -106,6 +129,12 @@ def continued(flying: Flying, moving: Moving) -> Flying:
         flying.reads,
         flying.delays,
     )
+
+
+@law
+def lifted_off(f: Flying) -> Flying:
+    """A flight whose feet cannot touch the floor for some steps."""
+    return Flying(f.moving, f.pilot, aloft(f.plant), f.rotors, f.weather, f.sensors, f.estimator, f.reads, f.delays)
 
 
 @law
@@ -152,12 +181,13 @@ def observe(flying: Flying, thought: Thought, acting: Acting, moved: Moved, give
     after = Moving(
         moved.state,
         thought.memory,
-        acting.rotors,
         acting.weather.memory,
         moved.grip,
+        before.near,
         sensing,
-        readings,
         thought.estimator,
+        acting.rotors,
+        readings,
         tally,
         lost,
     )
@@ -170,7 +200,7 @@ def finish(flying: Flying, thought: Thought, given: Inputs, t: Any, dt: Any) -> 
     before, plant = flying.moving, flying.plant
     acting = act(flying, thought.decision.thrusts, given, t)
     air = acting.weather.loads
-    moved = advance(plant, before.state, before.grip, given.near, acting.thrusts, air, given.hand, dt)
+    moved = advance(plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, dt)
     return observe(flying, thought, acting, moved, given)
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.engines.compiled import Above
 from tandemlift.law import choice, elementwise, law
 from tandemlift.laws.allocation import wrench
 from tandemlift.laws.body import Wrench
@@ -137,6 +138,7 @@ def _no_contact(floor, felt):
     return floor
 
 
+@contact_of.register(Above)
 @contact_of.register(Floor)
 def _some_contact(floor, felt):
     return Contact(felt.contact_force)

@@ -10,19 +10,20 @@ import tandemlift as tl
 from tandemlift.constants import GRAVITY
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.laws.body import State
+from tandemlift.laws.contact import floor, soles_below, standing_height, start_grip
 from tandemlift.laws.loads import Felt, Load, Loads, frame_of, resultant
-from tandemlift.laws.push import Hand, PointPush
+from tandemlift.laws.push import CentralPush, Hand, PointPush
 from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.laws.walls import walls
 from tandemlift.vector import Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.vehicle import Vehicle
 
 mujoco = pytest.importorskip("mujoco")
 body_file = importlib.import_module("tandemlift.engines.mujoco")
-model_file = importlib.import_module("tandemlift.engines.mujoco_model")
-MuJoCoBody, FloorContact, WallContact = body_file.MuJoCoBody, model_file.FloorContact, model_file.WallContact
+MuJoCoBody = body_file.MuJoCoBody
 
 DT = 0.001
-NONE = np.zeros(3)
+NONE, CALM = np.zeros(3), np.zeros(0)
 PLACES = [[0.1, 1.0, 0.075], [-0.2, -1.1, 0.05], [0.9, 0.1, 0.1], [-0.8, 0.2, -0.1]]
 DIFFERENT = {"plant.mass_scale": 0.8, "plant.inertia_scale": [0.6, 1.3, 2.0]}  # takes more than the payload has
 
@@ -80,7 +81,7 @@ def test_a_vehicle_in_hover_stays_there(count):
     body = MuJoCoBody(mission, vehicle)
     thrusts = wrench_of(vehicle, vehicle.weight)
     for _ in range(2000):
-        body.advance(thrusts, None, NONE, NONE, DT)
+        body.advance(thrusts, CALM, NONE, NONE)
     np.testing.assert_allclose(body.state, [0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0], atol=1e-10)
 
 
@@ -88,7 +89,7 @@ def test_a_lone_quadrotor_over_its_payload_hovers_too():
     mission, vehicle = mission_of(1, {"vehicle.quadrotors.0.position": [0.0, 0.0, 0.2]})
     body = MuJoCoBody(mission, vehicle)
     for _ in range(1000):
-        body.advance(np.full(4, vehicle.weight / 4.0), None, NONE, NONE, DT)
+        body.advance(np.full(4, vehicle.weight / 4.0), CALM, NONE, NONE)
     np.testing.assert_allclose(body.state[:6], 0.0, atol=1e-10)
 
 
@@ -108,7 +109,7 @@ def excited(mission, vehicle, seconds):
         upright = allocation @ [weight, *(-J * (20.0 * q[1:] + 6.0 * w))]  # or it would tumble within seconds
         thrusts = upright + 0.3 * weight / vehicle.rotor_count * np.sin(rate * k * DT + phase)
         moved = advance(plant, state, Nothing(), Nothing(), rotors(*thrusts), Nothing(), hand, DT)
-        body.advance(thrusts, None, NONE, NONE, DT)
+        body.advance(thrusts, CALM, NONE, NONE)
         state = moved.state
         yield state, moved.felt, body
 
@@ -141,7 +142,7 @@ def test_loads_on_the_parts_and_a_push_act_as_their_resultant():
         body, s = MuJoCoBody(mission, vehicle), some_state(rng)
         body.data.qpos[:], body.data.qvel[:] = [*s.position, *s.attitude], [*s.velocity, *s.rates]
         loads, push, moment = rng.standard_normal(30), rng.standard_normal(3), rng.standard_normal(3)
-        body.advance(rotors, loads, push, moment, DT)
+        body.advance(rotors, loads, push, moment)
         sets = [each(4)(*row) for row in loads[6:].reshape(6, 4)]
         parts = Loads(Load(vec3(loads[:3]), vec3(loads[3:6])), Load(Vec3(*sets[:3]), Vec3(*sets[3:])))
         all_of_it = resultant(frame_of(vehicle), s.attitude, parts)
@@ -155,13 +156,13 @@ def test_loads_on_the_parts_and_a_push_act_as_their_resultant():
 def test_what_the_joints_pass_on_accounts_for_the_payloads_motion():
     mission, vehicle = mission_of(3, {"initial.rates": [1.0, -2.0, 0.5], "vehicle.drag.force": 0.0})
     body, rng = MuJoCoBody(mission, vehicle), np.random.default_rng(7)
-    body.advance(rng.uniform(0.0, 6.0, 12), np.r_[np.zeros(6), rng.standard_normal(18)], NONE, NONE, DT)
+    body.advance(rng.uniform(0.0, 6.0, 12), np.r_[np.zeros(6), rng.standard_normal(18)], NONE, NONE)
     force, torque = body.felt[3:21].reshape(2, 3, 3)
     payload = vehicle.payload
     np.testing.assert_allclose(force.sum(axis=1), payload.mass * body.felt[:3], atol=1e-12)  # Newton
     mission, vehicle = mission_of(3, {"vehicle.drag.moment": 0.0})
     body = MuJoCoBody(mission, vehicle)
-    body.advance(rng.uniform(0.0, 6.0, 12), np.r_[np.zeros(6), rng.standard_normal(18)], NONE, NONE, DT)
+    body.advance(rng.uniform(0.0, 6.0, 12), np.r_[np.zeros(6), rng.standard_normal(18)], NONE, NONE)
     force, torque = body.felt[3:21].reshape(2, 3, 3)
     arms = np.array([q.joint_position for q in vehicle.quadrotors]).T
     about_payload = (torque + np.cross(arms, force, axis=0)).sum(axis=1)
@@ -173,7 +174,7 @@ def test_drag_slows_a_falling_vehicle_as_the_closed_form_says():
     mission, vehicle = mission_of(2, {"vehicle.drag.force": [0.5, 1.0, 2.0], "initial.velocity": [3.0, -2.0, 1.0]})
     body = MuJoCoBody(mission, vehicle)
     for _ in range(1000):
-        body.advance(np.zeros(8), None, NONE, NONE, DT)
+        body.advance(np.zeros(8), CALM, NONE, NONE)
     per_s = np.array([0.5, 1.0, 2.0]) / vehicle.mass
     final = np.array([0.0, 0.0, -GRAVITY]) / per_s
     expected = final + (np.array([3.0, -2.0, 1.0]) - final) * np.exp(-per_s)
@@ -181,31 +182,29 @@ def test_drag_slows_a_falling_vehicle_as_the_closed_form_says():
 
 
 SINKAGE, FRICTION = 5e-4, 0.8
+LEVEL = {"initial.position": 0.0, "initial.euler": [0.0, 0.0, 0.4]}
 
 
 def standing(name="four", changes=None):
-    """A vehicle without thrust on a floor just below its feet, for two seconds; (body, vehicle, floor)."""
-    mission = tl.load_mission(name, {"initial.position": 0.0, "initial.euler": [0.0, 0.0, 0.4]} | (changes or {}))
+    """(body, compiled plant's floor, mission, vehicle): a vehicle whose level feet are just on the floor."""
+    mission = tl.load_mission(name, LEVEL | (changes or {}))
     vehicle = Vehicle.from_settings(mission.vehicle)
-    corners = np.array([[x, y, 0.0] for x in (0.12, -0.12) for y in (0.12, -0.12)]) - [0.0, 0.0, 0.18]
-    feet = vehicle.lever_arms[:, None, :] + corners
-    stiffness = vehicle.weight / (4 * vehicle.count) / SINKAGE
-    damping = 2.0 * 0.3 * np.sqrt(stiffness * vehicle.mass / (4 * vehicle.count))
-    floor = FloorContact(feet[..., 2].min() - 1e-4, feet, 0.005, stiffness, damping, FRICTION)
-    body = MuJoCoBody(mission, vehicle, floor)
-    push_for(body, 2.0, NONE)
-    return body, vehicle, floor
+    soles = soles_below(vehicle.lever_arms, 0.12, 0.18)
+    ground = floor(soles, vehicle.mass, vehicle.inertia, DT, friction=FRICTION, sinkage=SINKAGE)
+    ground = ground._replace(height=-standing_height(ground, vehicle.weight))
+    return MuJoCoBody(mission, vehicle, ground), ground, mission, vehicle
 
 
 def push_for(body, seconds, force):
     for _ in range(round(seconds / DT)):
-        body.advance(np.zeros(len(body.data.ctrl)), None, np.array(force), NONE, DT)
+        body.advance(np.zeros(len(body.data.ctrl)), CALM, np.array(force), NONE)
 
 
 def test_a_vehicle_at_rest_sinks_by_its_weight_over_the_stiffness_of_its_feet():
-    body, vehicle, floor = standing()
-    depth = floor.height - (body.state[2] + np.asarray(floor.feet)[..., 2].min())
-    assert depth == pytest.approx(SINKAGE, abs=1e-9)
+    body, ground, _, vehicle = standing(changes={"initial.position": [0.0, 0.0, 1e-3]})
+    push_for(body, 2.0, NONE)
+    lowest = body.state[2] + vehicle.lever_arms[:, 2].min() - 0.18
+    assert ground.height - lowest == pytest.approx(SINKAGE, abs=1e-9)
     assert np.abs(body.state[3:6]).max() < 1e-7  # m/s
     np.testing.assert_allclose(body.felt[-3:], [0.0, 0.0, vehicle.weight], atol=1e-4)
     np.testing.assert_allclose(body.felt[:3], [0.0, 0.0, GRAVITY], atol=1e-4)
@@ -214,7 +213,7 @@ def test_a_vehicle_at_rest_sinks_by_its_weight_over_the_stiffness_of_its_feet():
 
 
 def test_friction_holds_below_its_limit_and_yields_above_it():
-    body, vehicle, _ = standing()
+    body, _, _, vehicle = standing()
     limit = FRICTION * vehicle.weight
     push_for(body, 0.5, [0.9 * limit, 0.0, 0.0])
     before = body.state.copy()
@@ -227,27 +226,44 @@ def test_friction_holds_below_its_limit_and_yields_above_it():
     assert gained == pytest.approx(0.5 * 0.2 * FRICTION * GRAVITY, rel=0.02)
 
 
+def test_a_crooked_landing_goes_as_in_the_compiled_engine():
+    fall = {"initial.euler": [0.02, -0.015, 0.3], "initial.position": [0.0, 0.0, 0.03], "initial.velocity": 0.2}
+    body, ground, mission, vehicle = standing("paper", fall)
+    state, plant = start_state(mission), start_plant(mission, vehicle, ground, Nothing())
+    grip, off, still = start_grip(ground, state), each(8)(*[0.0] * 8), CentralPush(vec3(NONE))
+    apart = []
+    for _ in range(600):
+        moved = advance(plant, state, grip, Nothing(), off, Nothing(), Hand(still, still, still), DT)
+        state, grip = moved.state, moved.grip
+        body.advance(np.zeros(8), CALM, NONE, NONE)
+        apart.append(np.abs(body.state - numbers(state))[:3])
+    assert np.max(apart) < 1e-3  # m, while it slides and rocks: friction holds and yields differently
+    assert apart[-1][2] < 1e-8  # m, at rest
+
+
 @pytest.mark.parametrize(
-    ("segment", "force", "touching"),
+    ("wall", "force", "touching"),
     [
-        ([1.0, -3.0, 1.0, 3.0, 2.0], [8.0, 0.0, 0.0], 2),  # both guards
-        ([-3.0, 2.0, 3.0, 2.0, 2.0], [0.0, 8.0, 0.0], 1),  # the guard ahead
-        ([0.5, 0.0, 0.7, 0.0, 2.0], [8.0, 0.0, 0.0], 2),  # the beam, along its two contacts with the end of a wall
+        (([1.0, -3.0], [1.0, 3.0]), [8.0, 0.0, 0.0], 2),  # both guards
+        (([-3.0, 2.0], [3.0, 2.0]), [0.0, 8.0, 0.0], 1),  # the guard ahead
+        (([0.5, 0.0], [0.7, 0.0]), [8.0, 0.0, 0.0], 2),  # the beam, along its two contacts with the end of a wall
     ],
 )
-def test_a_vehicle_pressed_against_a_wall_yields_by_the_force_over_the_stiffness(segment, force, touching):
-    changes = {"initial.position": 0.0, "initial.euler": 0.0, "vehicle.drag.force": 20.0}
-    mission = tl.load_mission("paper", changes)
+def test_a_vehicle_pressed_against_a_wall_yields_by_the_force_over_the_stiffness(wall, force, touching):
+    changes = {"vehicle.drag.force": 20.0, "walls": [{"start": wall[0], "end": wall[1], "top": 2.0}]}
+    mission = tl.load_mission("paper", {"initial.position": 0.0, "initial.euler": 0.0} | changes)
     vehicle = Vehicle.from_settings(mission.vehicle)
-    body = MuJoCoBody(mission, vehicle, walls=WallContact([segment], [0.375, 0.375], (1.0, 0.05), 2000.0, 100.0))
-    allocation, J = vehicle.allocation(), np.diag(vehicle.inertia)
+    J, look = vehicle.inertia, {"friction": 0.0, "beam": (2.0, 0.05), "payload": -vehicle.center_of_mass}
+    press = walls(vehicle.lever_arms, 0.375, vehicle.mass, J, DT, stiffness=2000.0, **look)
+    body, allocation = MuJoCoBody(mission, vehicle, walls=press), vehicle.allocation()
     for _ in range(8000):
         q, w = body.state[6:10], body.state[10:]
         lift = (vehicle.weight - 200.0 * body.state[2] - 100.0 * body.state[5]) / (1.0 - 2.0 * (q[1] ** 2 + q[2] ** 2))
-        body.advance(allocation @ [lift, *(-J * (400.0 * q[1:] + 30.0 * w))], None, np.array(force), NONE, DT)
+        moment = -np.diag(J) * (400.0 * q[1:] + 30.0 * w)
+        body.advance(allocation @ [lift, *moment], CALM, np.array(force), NONE)
     contacts = body.data.contact
     assert len(contacts) == touching
-    pressed = 2000.0 * sum(-contact.dist for contact in contacts)
+    pressed = press.stiffness * sum(-contact.dist for contact in contacts)
     assert pressed == pytest.approx(np.linalg.norm(body.felt[-3:]), rel=1e-3)
     assert np.array(force) @ body.felt[-3:] < 0.0  # the wall pushes back
 
@@ -256,7 +272,7 @@ def test_a_vehicle_pressed_against_a_wall_yields_by_the_force_over_the_stiffness
 def test_a_command_that_is_none_ends_the_motion_without_a_word(command, tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     body = MuJoCoBody(*mission_of(2))
-    body.advance(np.full(8, command), None, NONE, NONE, DT)
+    body.advance(np.full(8, command), CALM, NONE, NONE)
     assert np.isnan(body.state).all()
     assert np.isnan(body.felt).all()
     assert not list(tmp_path.iterdir())  # MuJoCo would write a log

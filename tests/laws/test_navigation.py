@@ -36,12 +36,13 @@ def times(duration: float) -> np.ndarray:
     return STEP * np.arange(round(duration / STEP))
 
 
-def steady(duration: float, rates: Any, acceleration: Any) -> np.ndarray:
-    """Constant acceleration in world axes, and constant rates."""
+def steady(duration: float, rates: Any, acceleration: Any, jerk: Any = (0.0, 0.0, 0.0)) -> np.ndarray:
+    """Constant rates, and in world axes an acceleration that grows with the time."""
     t = times(duration)[:, None]
     R = Rotation.from_rotvec([0.3, -0.2, 1.0]) * Rotation.from_rotvec(t * np.array(rates))
-    a, v = np.tile(acceleration, (len(t), 1)), np.array([0.5, 0.0, -0.5])
-    return truth_of(R, np.tile(rates, (len(t), 1)), 0.5 * a * t**2 + v * t + [1.0, 2.0, 3.0], a * t + v, a)
+    v, a, j = np.array([0.5, 0.0, -0.5]), np.array(acceleration), np.array(jerk)
+    position = np.array([1.0, 2.0, 3.0]) + v * t + a * t**2 / 2.0 + j * t**3 / 6.0
+    return truth_of(R, np.tile(rates, (len(t), 1)), position, v + a * t + j * t**2 / 2.0, a + j * t)
 
 
 @functools.cache
@@ -83,9 +84,9 @@ def errors(seen: Any, truth: np.ndarray) -> dict[str, np.ndarray]:
 
 
 @pytest.mark.parametrize(("unit_period", "motion_period"), [(1, 1), (1, 10), (4, 8)])
-def test_constant_acceleration_and_constant_rates_are_carried_exactly(unit_period, motion_period):
+def test_constant_rates_and_an_acceleration_that_grows_evenly_are_carried_exactly(unit_period, motion_period):
     periods = {"unit_period": unit_period, "motion_period": motion_period}
-    truth = steady(3.0, (0.3, -0.4, 1.2), (1.0, -2.0, 0.5))
+    truth = steady(3.0, (0.3, -0.4, 1.2), (1.0, -2.0, 0.5), (0.5, 0.2, -0.4))
     off = errors(estimated(truth, navigator(CENTRE, STEP, **periods), sensors(2, STEP, **periods)), truth)
     assert max(np.abs(e[::unit_period]).max() for e in off.values()) < 1e-11
 

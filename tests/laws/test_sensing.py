@@ -92,8 +92,7 @@ def test_before_the_first_step_stands_a_reading_with_bias_and_without_noise():
     readings = start_sensing(NOISY, AT_REST, FELT, AT_REST.attitude).readings
     assert (readings.unit.fresh, readings.motion.fresh) == (0.0, 0.0)
     off = np.array(readings.unit.joint_force) - np.array(FELT.joint_force)
-    bias = np.array([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]])
-    assert off.T == pytest.approx(bias, abs=1e-15)
+    assert off == pytest.approx(np.transpose([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]]), abs=1e-15)
     assert readings.unit.rates == AT_REST.rates
     assert readings.motion == (AT_REST.position, AT_REST.velocity, AT_REST.attitude, 0.0)
 

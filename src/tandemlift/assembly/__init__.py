@@ -69,14 +69,14 @@ def assemble(mission: Mission) -> Assembled:
     rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, late=bool(delays[2]))
     weather, eddies = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
-    near, hand = near_of(walls, vehicle), Hand(push, push, push)
+    near, hand = near_of(walls), Hand(push, push, push)
     felt = advance(plant, state, grip, near, thrusts, Nothing(), hand, dt).felt
     devices, sensing, hiss = start_sensors(mission, vehicle, state, felt, chance)
     readings = Nothing() if isinstance(devices, Nothing) else sensing.readings
     estimators, known = start_estimators(mission, vehicle, state, readings)
-    moving = Moving(state, memory, spinning, eddies, grip, sensing, readings, known, EMPTY, 0.0)
+    moving = Moving(state, memory, eddies, grip, near, sensing, known, spinning, readings, EMPTY, 0.0)
     reads = Reads(READS[mission.pilot.state], READS[mission.pilot.push])
     late = Delayed() if delays.any() else Nothing()
     flying = Flying(moving, pilot, plant, rotors, weather, devices, estimators, reads, late)
-    given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss), near)
+    given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss))
     return Assembled(flying, given, tables_of(mission), delays, np.array(keys_of(mission.mission.seed)))

@@ -9,10 +9,11 @@ import numpy as np
 
 from tandemlift.constants import GRAVITY
 from tandemlift.jit import flat, leaves
-from tandemlift.kernels.outside import GAUSSIAN, GUST, WALL, Tables
+from tandemlift.kernels.outside import GAUSSIAN, GUST, Tables
 from tandemlift.laws.contact import floor, soles_below, standing_height
-from tandemlift.laws.pending import Wall
 from tandemlift.laws.push import CentralPush, Gaussian, PointPush
+from tandemlift.laws.rectangle import WALL, wall
+from tandemlift.laws.walls import nowhere, walls
 from tandemlift.laws.wind import Calm, Gust, Whiffs, Wind, air_drag_of, dryden, first_eddies
 from tandemlift.settings import Mission
 from tandemlift.vector import ZERO, Nothing, mat3, vec3
@@ -34,8 +35,8 @@ def tables_of(mission: Mission) -> Tables:
     pushes = [Gaussian(vec3(p.force), p.time, 1.0 / p.sigma, vec3(p.point)) for p in mission.pushes]
     gusts = mission.wind.gusts if mission.wind.model == "air" else ()
     blows = [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
-    walls = [Wall(*w.start, *w.end, w.top) for w in mission.walls]
-    return Tables(*map(_table, (pushes, blows, walls), (GAUSSIAN, GUST, WALL)))
+    upright = [wall(w.start, w.end, w.top) for w in mission.walls]
+    return Tables(*map(_table, (pushes, blows, upright), (GAUSSIAN, GUST, WALL)))
 
 
 def _table(rows: list[Any], like: Any) -> np.ndarray:
@@ -75,10 +76,23 @@ def floor_of(mission: Mission, vehicle: Vehicle) -> Any:
 
 
 def walls_of(mission: Mission, vehicle: Vehicle) -> Any:
-    """What touches the walls of a mission, or `Nothing` where it has none."""
-    return Nothing()
+    """What touches the walls of a mission and how they press, or `Nothing` where it has none."""
+    if not mission.walls:
+        return Nothing()
+    payload, fleet = vehicle.payload, vehicle.quadrotors
+    sized = payload.length is not None and payload.radius is not None
+    return walls(
+        vehicle.lever_arms,
+        [q.guard_radius for q in fleet],
+        vehicle.mass * mission.plant.mass_scale,
+        vehicle.inertia,
+        mission.mission.step,
+        friction=mission.ground.friction,
+        beam=(payload.length, payload.radius) if sized else None,
+        payload=-vehicle.center_of_mass,
+    )
 
 
-def near_of(walls: Any, vehicle: Vehicle) -> Any:
+def near_of(settings: Any) -> Any:
     """The walls nearest to the parts, before any was looked at; or `Nothing`."""
-    return Nothing()
+    return settings if isinstance(settings, Nothing) else nowhere(settings)

@@ -16,15 +16,17 @@ from tandemlift.laws.allocation import Mixer, wrench
 from tandemlift.laws.body import Body, State, motion, rigid_body_motion, rk4
 from tandemlift.laws.contact import Floor, slip, touch
 from tandemlift.laws.inertia import inertia_value, turn_by
-from tandemlift.laws.loads import Felt, Frame, Load, Loads, feel, frame_of, of_quadrotors, resultant, under
+from tandemlift.laws.loads import Felt, Frame, Load, Loads, feel, frame_of, of_quadrotors, plus_zero, resultant, under
 from tandemlift.laws.parts import Acceleration
-from tandemlift.laws.pending import Walls, press
 from tandemlift.laws.push import Hand
 from tandemlift.laws.rotation import quaternion_from_euler
+from tandemlift.laws.walls import Walls, press
 from tandemlift.pilot import mixer_value
 from tandemlift.settings import Mission, VehicleTable
-from tandemlift.vector import Nothing, vec3
+from tandemlift.vector import ZERO, Nothing, vec3
 from tandemlift.vehicle import Vehicle
+
+NO_LOAD = Load(ZERO, ZERO)
 
 
 class Plant(NamedTuple):
@@ -54,6 +56,22 @@ class Moved(NamedTuple):
     grip: Any
 
 
+class Above(NamedTuple):
+    """A floor out of reach for some steps: the same numbers, and no force."""
+
+    floor: Floor
+
+
+class Clear(NamedTuple):
+    """The load of a floor out of reach: zero, and added like any other, so that no bit of a flight depends on it."""
+
+
+@law
+def aloft(plant: Plant) -> Plant:
+    """The same body where no foot can touch the floor."""
+    return Plant(plant.effect, plant.body, plant.frame, Above(plant.floor), plant.walls)
+
+
 @choice
 def of_floor(floor: Any, b: Surrounded, s: State) -> Any:
     """Loads of the floor on the quadrotors, or `Nothing`."""
@@ -62,6 +80,11 @@ def of_floor(floor: Any, b: Surrounded, s: State) -> Any:
 @of_floor.register(Nothing)
 def _no_floor(floor, b, s):
     return floor
+
+
+@of_floor.register(Above)
+def _out_of_reach(floor, b, s):
+    return Clear()
 
 
 @of_floor.register(Floor)
@@ -101,7 +124,12 @@ def _of_all(load, frame, attitude):
 
 @summed.register(Load)
 def _of_quadrotors(load, frame, attitude):
-    return of_quadrotors(frame, attitude, load)
+    return of_quadrotors(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
+
+
+@summed.register(Clear)
+def _no_contact(load, frame, attitude):
+    return NO_LOAD
 
 
 @choice
@@ -149,6 +177,16 @@ def _on_each_alone(loads):
     return loads
 
 
+@on_quadrotors.register(Clear)
+def _on_none_yet(loads):
+    return loads
+
+
+@under.register(Clear)
+def _unloaded(load, frame, attitude, felt):
+    return Felt(felt.specific_force, plus_zero(felt.joint_force), plus_zero(felt.joint_torque), felt.contact_force)
+
+
 @choice
 def touched_by(load: Any, felt: Felt) -> Felt:
     """`felt`, with the force of a contact about the centre of mass."""
@@ -182,6 +220,11 @@ def gripping(floor: Any, grip: Any, s: State) -> Any:
 
 @gripping.register(Nothing)
 def _no_feet(floor, grip, s):
+    return grip
+
+
+@gripping.register(Above)
+def _in_the_air(floor, grip, s):
     return grip
 
 

@@ -6,61 +6,34 @@ on the parts are held: forces in world axes, moments in body axes (the quadrotor
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.engines.mujoco_model import FloorContact, WallContact, model_of, mujoco
+from tandemlift.engines.mujoco_model import model_of, mujoco
 from tandemlift.laws.rotation import quaternion_from_euler
 from tandemlift.settings import Mission
-from tandemlift.vector import vec3
+from tandemlift.vector import Nothing, vec3
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
+NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none, and MuJoCo would take one beyond 1e10 for zero
 
 
-class SteppedBody(Protocol):
-    """What an engine that is no law has to be: a body that is moved step by step.
-
-    `state` (13): position [m], velocity [m/s], both world axes, attitude w, x, y, z, rates [rad/s, body axes].
-    `felt` (6 N + 6): the numbers of `laws.loads.Felt` at the start of the step moved last.
-    """
-
-    state: Array
-    felt: Array
-
-    def advance(self, thrusts: Array, loads: Array | None, push_force: Array, push_moment: Array, dt: float) -> None:
-        """Move by one step of dt [s], and refresh `state` and `felt` in place.
-
-        Args:
-            thrusts: of all rotors [N] (4 N).
-            loads: the numbers of `laws.loads.Loads` (6 N + 6), or None where no step of the flight has any.
-            push_force: of the person [N, world axes] (3).
-            push_moment: about the centre of mass [N·m, body axes] (3).
-            dt: step [s].
-        """
-
-
 class MuJoCoBody:
-    """A mission's vehicle in MuJoCo; see `SteppedBody`.
+    """A mission's vehicle in MuJoCo; see `engines.Body`.
 
     Args:
-        mission: its `initial`, `plant` and `disturbance` are the body's.
+        mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: to stand on.
-        walls: to bump into.
+        floor: a `laws.contact.Floor` to stand on, or `Nothing`.
+        walls: a `laws.walls.Walls` that says how the mission's walls press, or `Nothing`.
     """
 
-    def __init__(
-        self,
-        mission: Mission,
-        vehicle: Vehicle,
-        floor: FloorContact | None = None,
-        walls: WallContact | None = None,
-    ) -> None:
+    def __init__(self, mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:
         self.model = model_of(mission, vehicle, floor, walls)
         self.data = mujoco.MjData(self.model)
         N = vehicle.count
@@ -70,8 +43,7 @@ class MuJoCoBody:
         self._payload, self._R = skew(-vehicle.center_of_mass), np.empty((3, 3))
         self._turned = np.empty((3, N))
         self._made, self._of_rotors = made_at_joints(vehicle), np.empty(6 * N)
-        self._step = mission.mission.step
-        self._view_memory(N, touching=bool(floor or walls))
+        self._view_memory(N, touching=self.model.npair > 0)
         self._place(mission)
 
     def _view_memory(self, N: int, *, touching: bool) -> None:
@@ -122,18 +94,16 @@ class MuJoCoBody:
         R.dot(on_quadrotors[1], out=self._turned)
         self._moment_on_quadrotors[:] = self._turned
 
-    def advance(self, thrusts: Array, loads: Array | None, push_force: Array, push_moment: Array, dt: float) -> None:
-        """Move by one step; see `SteppedBody`."""
+    def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
+        """Move by one step; see `engines.Body`."""
         if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:
             self.state.fill(np.nan)
             self.felt.fill(np.nan)
             return
-        if dt != self._step:
-            self.model.opt.timestep = self._step = dt
         self._thrusts[:] = thrusts
-        np.add(push_force, self._disturbing_force, out=self._force)
-        np.add(push_moment, self._disturbing_moment, out=self._moment)
-        if loads is not None:
+        np.add(force, self._disturbing_force, out=self._force)
+        np.add(moment, self._disturbing_moment, out=self._moment)
+        if len(loads):
             self._load(loads)
         self._made.dot(thrusts, out=self._of_rotors)
         mujoco.mj_step(self.model, self.data)

@@ -6,21 +6,24 @@ rates [rad/s] in body axes; forces applied to it are N in world axes and N·m in
 
 Contact parameters are those of the spring-damper that MuJoCo's constraint (Computation: Parameters) becomes where its
 impedance d is small: f = (−b v − k r − a)/R with R = (1 − d)/d Â, of which the inertia 1/R is a ten-thousandth of the
-vehicle's as felt at the contact. So a foot of stiffness K sinks by exactly f/K.
+vehicle's as felt at the contact. So a foot of stiffness K sinks by exactly f/K. Friction is MuJoCo's own: a foot that
+holds creeps by micrometres a second.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import reduce
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tandemlift.constants import GRAVITY
 from tandemlift.errors import InputError
-from tandemlift.settings import Mission, Quadrotor
+from tandemlift.laws.contact import Floor
+from tandemlift.laws.walls import Beam, Walls
+from tandemlift.settings import Mission, Quadrotor, WallTable
 from tandemlift.vehicle import Vehicle
 
 try:
@@ -41,63 +44,36 @@ Weight = tuple[float, ArrayLike]  # kg; kg m², principal moments
 SOFT = 1e-4  # impedance d of contacts, the least that MuJoCo takes: next to a pure spring and damper
 FRICTION_IMPEDANCE = 1e7  # MuJoCo's impratio: makes friction a thousand times harder than the vehicle is heavy
 STICKING = 0.2  # share of a foot's sliding speed that friction takes away in one step, below its limit
+POINT = 1e-4  # m, radius of the sphere that stands for a foot's ball joint
 THIN = 1e-4  # m, thickness of a wall
 NET_FORCE = 3  # MuJoCo's reduction of all contacts to one, in world axes
 DEEP = 1e3  # m, how far walls reach down: below any floor
 
 
-class FloorContact(NamedTuple):
-    """A level floor and the feet that stand on it.
-
-    `height` of the floor [m]; `feet` (N, 4, 3), the soles [m] from the system's centre of mass, body axes; `radius` of
-    a foot's sphere [m], whose lowest point at level attitude is the sole; `stiffness` [N/m] and `damping` [N·s/m] of
-    one foot; `friction`, the coefficient μ.
-    """
-
-    height: float
-    feet: ArrayLike
-    radius: float
-    stiffness: float
-    damping: float
-    friction: float
-
-
-class WallContact(NamedTuple):
-    """Upright walls, and the spheres around quadrotors and the capsule along the payload that touch them.
-
-    `segments` (W, 5): x and y of both ends, and the top [m]; `guards` (N), radius [m] of the sphere around each
-    quadrotor's centre of mass; `beam`: half the length of the capsule's axis along body y, and its radius [m], or None;
-    `stiffness` [N/m], `damping` [N·s/m] and `friction` of each contact.
-    """
-
-    segments: ArrayLike
-    guards: ArrayLike
-    beam: tuple[float, float] | None
-    stiffness: float
-    damping: float
-    friction: float = 0.0
-
-
-def model_of(
-    mission: Mission, vehicle: Vehicle, floor: FloorContact | None = None, walls: WallContact | None = None
-) -> mujoco.MjModel:
-    """The compiled model of a mission's vehicle as it really is, without and with surroundings.
+def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
+    """The compiled `mujoco.MjModel` of a mission's vehicle as it really is.
 
     Actuator 4 i + j is rotor j of quadrotor i, and its control the thrust [N]. The sensors are, in this order: the
     accelerometer at the payload's centre of mass (3), the force at each joint (3 N), the torque at each joint (3 N),
-    and with surroundings the force of all contacts (3).
+    and with a floor or walls the force of all contacts (3).
+
+    Args:
+        mission: its step, `plant` and `walls` are the model's.
+        vehicle: the vehicle that the pilot knows.
+        floor: a `laws.contact.Floor`, or `Nothing`.
+        walls: a `laws.walls.Walls`, or `Nothing`.
     """
-    spec, touching = mujoco.MjSpec(), bool(floor or walls)
-    _set_options(spec, mission.mission.step, touching=touching)
+    spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
+    _set_options(spec, mission.mission.step, touching=standing or walled)
     _add_payload(spec, vehicle)
     for i, (quadrotor, center) in enumerate(zip(vehicle.quadrotors, vehicle.lever_arms, strict=True), 1):
         _add_quadrotor(spec, f"quadrotor{i}", quadrotor, center)
     difference = _add_difference(spec, mission, vehicle)
-    _add_sensors(spec, vehicle.count, touching=touching)
-    if floor:
+    _add_sensors(spec, vehicle.count, touching=standing or walled)
+    if standing:
         _add_floor(spec, floor, vehicle)
-    if walls:
-        _add_walls(spec, walls, vehicle)
+    if walled:
+        _add_walls(spec, walls, mission.walls, vehicle)
     model = spec.compile()
     quadrotors = [(q.mass, q.inertia) for q in vehicle.quadrotors]
     _weigh(model, [(vehicle.payload.mass, vehicle.payload.moments), *quadrotors, *difference])
@@ -203,47 +179,48 @@ def _pair(spec: Any, one: str, other: str, friction: float) -> None:
     )
 
 
-def _add_floor(spec: Any, floor: FloorContact, vehicle: Vehicle) -> None:
-    """The floor, and under every quadrotor four spheres whose lowest points are its soles."""
-    shape = mujoco.mjtGeom
-    _shape(spec.worldbody, "floor", shape.mjGEOM_PLANE, size=[0.0, 0.0, 1.0], pos=[0.0, 0.0, floor.height])
-    for i, (soles, center) in enumerate(zip(np.asarray(floor.feet), vehicle.lever_arms, strict=True), 1):
-        for j, sole in enumerate(soles, 1):
-            foot, place = f"quadrotor{i} foot{j}", sole - center + [0.0, 0.0, floor.radius]
-            _shape(spec.body(f"quadrotor{i}"), foot, shape.mjGEOM_SPHERE, size=[floor.radius, 0.0, 0.0], pos=place)
+def _add_floor(spec: Any, floor: Floor, vehicle: Vehicle) -> None:
+    """The floor, and a point for the ball joint of every foot; both without the pads between them."""
+    shape, height = mujoco.mjtGeom, floor.height + floor.radius - POINT
+    _shape(spec.worldbody, "floor", shape.mjGEOM_PLANE, size=[0.0, 0.0, 1.0], pos=[0.0, 0.0, height])
+    centers = np.array(floor.feet).transpose(2, 0, 1)  # (N, 4, 3)
+    for i, (feet, center) in enumerate(zip(centers, vehicle.lever_arms, strict=True), 1):
+        for j, place in enumerate(feet - center, 1):
+            foot = f"quadrotor{i} foot{j}"
+            _shape(spec.body(f"quadrotor{i}"), foot, shape.mjGEOM_SPHERE, size=[POINT, 0.0, 0.0], pos=place)
             _pair(spec, "floor", foot, floor.friction)
 
 
-def _add_walls(spec: Any, walls: WallContact, vehicle: Vehicle) -> None:
+def _add_walls(spec: Any, walls: Walls, upright: Sequence[WallTable], vehicle: Vehicle) -> None:
     """The walls as thin boxes, a sphere around each quadrotor, and a capsule along the payload."""
     shape, touching = mujoco.mjtGeom, []
-    for i, radius in enumerate(np.asarray(walls.guards, dtype=float), 1):
+    for i, radius in enumerate(walls.guards, 1):
         touching.append(f"quadrotor{i} guard")
         _shape(spec.body(f"quadrotor{i}"), touching[-1], shape.mjGEOM_SPHERE, size=[radius, 0.0, 0.0])
-    if walls.beam:
-        half, radius = walls.beam
+    if isinstance(walls.beam, Beam):
         touching.append("beam")
-        ends = np.array([[0.0, -half, 0.0], [0.0, half, 0.0]]) - vehicle.center_of_mass
-        _shape(spec.body("payload"), "beam", shape.mjGEOM_CAPSULE, size=[radius, 0.0, 0.0], fromto=ends.ravel())
-    for k, (x1, y1, x2, y2, top) in enumerate(np.asarray(walls.segments, dtype=float), 1):
-        half, along = np.hypot(x2 - x1, y2 - y1) / 2.0, np.arctan2(y2 - y1, x2 - x1) / 2.0
+        ends = np.array([[0.0, end, 0.0] for end in walls.beam.ends]) - vehicle.center_of_mass
+        size = [walls.beam.radius, 0.0, 0.0]
+        _shape(spec.body("payload"), "beam", shape.mjGEOM_CAPSULE, size=size, fromto=ends.ravel())
+    for k, wall in enumerate(upright, 1):
+        (x1, y1), (x2, y2), along = wall.start, wall.end, np.subtract(wall.end, wall.start)
+        turn = np.arctan2(along[1], along[0]) / 2.0
         box: dict[str, Any] = {
-            "pos": [(x1 + x2) / 2.0, (y1 + y2) / 2.0, top - DEEP / 2.0],
-            "size": [half, THIN / 2.0, DEEP / 2.0],
-            "quat": [np.cos(along), 0.0, 0.0, np.sin(along)],
+            "pos": [(x1 + x2) / 2.0, (y1 + y2) / 2.0, wall.top - DEEP / 2.0],
+            "size": [np.hypot(*along) / 2.0, THIN / 2.0, DEEP / 2.0],
+            "quat": [np.cos(turn), 0.0, 0.0, np.sin(turn)],
         }
         _shape(spec.worldbody, f"wall{k}", shape.mjGEOM_BOX, **box)
         for part in touching:
             _pair(spec, f"wall{k}", part, walls.friction)
 
 
-def _press(model: Any, floor: FloorContact | None, walls: WallContact | None) -> None:
+def _press(model: Any, floor: Any, walls: Any) -> None:
     """Give every pair of shapes the stiffness [N/m] and damping [N·s/m] of its surroundings."""
     ground = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, "floor")
     for p in range(model.npair):
-        shapes = {int(model.pair_geom1[p]), int(model.pair_geom2[p])}
+        shapes = int(model.pair_geom1[p]), int(model.pair_geom2[p])
         side = floor if ground in shapes else walls
-        assert side
         part = max(shapes, key=lambda shape: model.geom_bodyid[shape])  # the other is fixed to the world
         R_d = (1.0 - SOFT) * model.body_invweight0[model.geom_bodyid[part], 0]
         model.pair_solref[p] = -np.array([side.stiffness, side.damping]) * R_d

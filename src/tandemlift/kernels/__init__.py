@@ -13,7 +13,7 @@ from typing import Any
 
 import numba
 
-from tandemlift.jit import cached_in, folder, install, leaves, zeroed
+from tandemlift.jit import cached_in, folder, install, leaves
 from tandemlift.kernels.block import Regions, block_loop
 from tandemlift.kernels.likes import likes_of
 from tandemlift.kernels.limiting import scratch_size
@@ -37,7 +37,7 @@ class Kernels:
     @property
     def folder(self) -> Path:
         """Where these loops are kept once compiled."""
-        return folder((self.likes.flying, zeroed(self.likes.given)))
+        return folder((self.likes.flying, self.likes.given))
 
     @property
     def work_size(self) -> int:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.jit import leaves, load_lane, store_lane
 from tandemlift.kernels.likes import Likes
-from tandemlift.kernels.limiting import limit_lanes, scratch_size
+from tandemlift.kernels.limiting import Excess, as_wished, excess_of, limit_lanes, outside, scratch_size
 from tandemlift.kernels.outside import (
     GAUSSIAN,
     GUST,
@@ -27,15 +27,17 @@ from tandemlift.kernels.outside import (
     inlined,
 )
 from tandemlift.kernels.places import Lines, carry, place
-from tandemlift.loop import Inputs, finish, move, think
-from tandemlift.vector import ZERO
+from tandemlift.law import choice
+from tandemlift.laws.contact import may_touch
+from tandemlift.loop import Flying, Inputs, Thought, finish, lifted_off, think
+from tandemlift.vector import ZERO, Nothing
 
 
 class Regions(NamedTuple):
     """Where the parts of a block's array begin, behind the flights, and its size.
 
-    The table of pushes, one row of any table, the gusts' velocity, standard normals, the keys of chance, the nearest
-    walls, what the pilots think, the samples; scratch for one flight.
+    The table of pushes, one row of any table, the gusts' velocity, standard normals, the keys of chance, what the
+    pilots think, what leaves their limits, the samples; scratch for one flight.
     """
 
     hands: int
@@ -43,8 +45,8 @@ class Regions(NamedTuple):
     gust: int
     noise: int
     keys: int
-    near: int
     thought: int
+    excess: int
     sample: int
     scratch: int
     size: int
@@ -60,8 +62,8 @@ class Regions(NamedTuple):
             leaves(ZERO),
             4 * draws(given.noise),
             2,
-            leaves(given.near),
             leaves(likes.thought) if likes.constrained else 0,
+            leaves(excess_of(likes.thought)) if likes.constrained else 0,
             leaves(likes.sample),
         ]
         starts = [sum(widths[: i + 1]) * LANES for i in range(len(widths))]
@@ -76,30 +78,93 @@ def given_to(a, lane, at_hand, r, given_like):
         load_lane(a, at_hand + lane, LANES, given_like.hand),
         load_lane(a, r.gust + lane, LANES, ZERO),
         load_lane(a, r.noise + lane, LANES, given_like.noise),
-        load_lane(a, r.near + lane, LANES, given_like.near),
     )
 
 
-@inlined
-def whole_step(a, lane, at_hand, r, like, given_like, thought_like, t, dt):
-    """A lane's step."""
-    return move(load_lane(a, lane, LANES, like), given_to(a, lane, at_hand, r, given_like), t, dt)
+class Low(NamedTuple):
+    """Marks steps in which feet may touch the floor, or without one."""
+
+
+class High(NamedTuple):
+    """Marks steps in which no lane's feet can."""
+
+
+@choice
+def stepping(where: Any, flying: Flying, thought: Any, given: Inputs, t: Any, dt: Any) -> Any:
+    """A lane's step, once its pilot has thought if it does so apart: (Moving, Sample)."""
+
+
+@stepping.register(Low)
+def _near_the_floor(where, flying, thought, given, t, dt):
+    return finish(flying, thinking(thought, flying, given.hand.start.force, t, dt), given, t, dt)
+
+
+@stepping.register(High)
+def _in_the_air(where, flying, thought, given, t, dt):
+    return finish(lifted_off(flying), thinking(thought, flying, given.hand.start.force, t, dt), given, t, dt)
+
+
+@choice
+def thinking(thought: Any, flying: Flying, push: Any, t: Any, dt: Any) -> Any:
+    """What a pilot has thought, or thinks now if it has not."""
+
+
+@thinking.register(Thought)
+def _has_thought(thought, flying, push, t, dt):
+    return thought
+
+
+@thinking.register(Nothing)
+def _thinks_now(thought, flying, push, t, dt):
+    return think(flying, push, t, dt)
+
+
+LOW, HIGH = Low(), High()
 
 
 @inlined
-def rest_of_step(a, lane, at_hand, r, like, given_like, thought_like, t, dt):
-    """A lane's step once its pilot has thought."""
-    thought = load_lane(a, r.thought + lane, LANES, thought_like)
-    return finish(load_lane(a, lane, LANES, like), thought, given_to(a, lane, at_hand, r, given_like), t, dt)
+def fly_lanes(a, where, at_hand, r, like, given_like, thought_like, t, dt, shown):
+    """A step of all lanes; their samples too, if shown."""
+    if shown:
+        for lane in range(LANES):
+            flying, given = load_lane(a, lane, LANES, like), given_to(a, lane, at_hand, r, given_like)
+            thought = load_lane(a, r.thought + lane, LANES, thought_like)
+            moving, sample = stepping(where, flying, thought, given, t, dt)
+            store_lane(a, lane, LANES, moving)
+            store_lane(a, r.sample + lane, LANES, sample)
+    else:
+        for lane in range(LANES):
+            flying, given = load_lane(a, lane, LANES, like), given_to(a, lane, at_hand, r, given_like)
+            thought = load_lane(a, r.thought + lane, LANES, thought_like)
+            moving, _ = stepping(where, flying, thought, given, t, dt)
+            store_lane(a, lane, LANES, moving)
 
 
 @inlined
-def think_within_limits(a, at_hand, r, at_limits, like, given_like, thought_like, t, dt):
+def any_low(a, like, time):
+    """Whether any lane's feet may touch the floor within a time [s]."""
+    low = False
+    for lane in range(LANES):
+        flying = load_lane(a, lane, LANES, like)
+        low |= may_touch(flying.plant.floor, flying.moving.state, time)
+    return low
+
+
+@inlined
+def think_within_limits(a, at_hand, r, at_limits, like, given_like, excess_like, t, dt):
     """The pilots of all lanes think; a lane whose thrusts leave the limits is solved for alone."""
     for lane in range(LANES):
         push = load_lane(a, at_hand + lane, LANES, given_like.hand).start.force
-        store_lane(a, r.thought + lane, LANES, think(load_lane(a, lane, LANES, like), push, t, dt))
-    limit_lanes(a, a[r.scratch :], r.thought, at_limits[0], at_limits[1], like, thought_like, t)
+        flying = load_lane(a, lane, LANES, like)
+        thought = think(flying, push, t, dt)
+        settled, decision = as_wished(flying, thought, t), thought.decision
+        store_lane(a, r.thought + lane, LANES, thought)
+        store_lane(a, r.thought + at_limits[0] + lane, LANES, settled.commands)
+        store_lane(a, r.thought + at_limits[1] + lane, LANES, settled.memory)
+        excess = Excess(outside(flying, thought, t), decision.command.wrench, decision.thrusts)
+        store_lane(a, r.excess + lane, LANES, excess)
+    commands, memory = r.thought + at_limits[0], r.thought + at_limits[1]
+    limit_lanes(a, a[r.scratch :], r.excess, commands, memory, like, excess_like, t)
 
 
 def block_loop(likes: Likes, lines: Lines, regions: Regions) -> Callable[..., Any]:
@@ -109,41 +174,41 @@ def block_loop(likes: Likes, lines: Lines, regions: Regions) -> Callable[..., An
     samples. The numbers of a lane with `lost` = 1 are void. `delays` are the same for all lanes.
     """
     like, given_like, thought_like, push_like = likes.flying, likes.given, likes.thought, likes.given.hand.start
+    excess_like, nowhere = excess_of(thought_like), likes.nowhere
+    at_near = place(like, "moving", "near").at * LANES
     width, moving_size, groups = leaves(push_like), leaves(like.moving) * LANES, draws(given_like.noise)
     walled, late, constrained = likes.walled, likes.late, likes.constrained
     at_limits = (
         place(likes.thought, "decision", "thrusts").at * LANES,
         place(likes.thought, "memory", "allocation").at * LANES,
     )
-    step = rest_of_step if constrained else whole_step
+    apart_like = thought_like if constrained else Nothing()
+    grounded = likes.grounded
     r, at = regions, lines.numbers(LANES)
 
     def block(a, tables, ring, delays, log, k, stop, steps, every, dt):
         feel_block(a, r.hands, r.row, width, tables.pushes, k, dt, push_like)
-        kept = a[:moving_size]
+        kept, low = a[:moving_size], True
         while k < stop:
             t = k * dt
             if k % SPAN == 0:
                 feel_block(a, r.hands, r.row, width, tables.pushes, k, dt, push_like)
+                if grounded:
+                    low = any_low(a, like, SPAN * dt)
+                if walled:
+                    approach_block(a, at_near, r.row, tables.walls, like, nowhere)
             draw_block(a, r.noise, groups, r.keys, k)
             gusting_block(a, r.gust, r.row, tables.gusts, t)
-            if walled:
-                approach_block(a, r.near, r.row, tables.walls, like, given_like.near)
             at_hand = r.hands + 2 * (k % SPAN) * width * LANES
             if k == steps:
                 kept = a[:moving_size].copy()
             if constrained:
-                think_within_limits(a, at_hand, r, at_limits, like, given_like, thought_like, t, dt)
+                think_within_limits(a, at_hand, r, at_limits, like, given_like, excess_like, t, dt)
             logged = k % every == 0
-            if logged or k == steps:
-                for lane in range(LANES):
-                    moving, sample = step(a, lane, at_hand, r, like, given_like, thought_like, t, dt)
-                    store_lane(a, lane, LANES, moving)
-                    store_lane(a, r.sample + lane, LANES, sample)
+            if grounded and not low:
+                fly_lanes(a, HIGH, at_hand, r, like, given_like, apart_like, t, dt, logged or k == steps)
             else:
-                for lane in range(LANES):
-                    moving, _ = step(a, lane, at_hand, r, like, given_like, thought_like, t, dt)
-                    store_lane(a, lane, LANES, moving)
+                fly_lanes(a, LOW, at_hand, r, like, given_like, apart_like, t, dt, logged or k == steps)
             if logged:
                 for lane in range(LANES):
                     for i in range(log.shape[2]):

@@ -11,7 +11,10 @@ from tandemlift.vector import Nothing
 
 
 class Likes(NamedTuple):
-    """Of a flight, of what a step is given, what the pilot thinks, what acts, how the body moves, what is shown."""
+    """Of a flight, of what a step is given, what the pilot thinks, what acts, how the body moves, what is shown.
+
+    `nowhere`, whose numbers count: the nearest walls before any was looked at.
+    """
 
     flying: Any
     given: Any
@@ -19,6 +22,7 @@ class Likes(NamedTuple):
     acting: Any
     moved: Any
     sample: Any
+    nowhere: Any
 
     @property
     def constrained(self) -> bool:
@@ -28,7 +32,12 @@ class Likes(NamedTuple):
     @property
     def walled(self) -> bool:
         """Whether there are walls."""
-        return not isinstance(self.given.near, Nothing)
+        return not isinstance(self.nowhere, Nothing)
+
+    @property
+    def grounded(self) -> bool:
+        """Whether there is a floor."""
+        return not isinstance(self.flying.plant.floor, Nothing)
 
     @property
     def late(self) -> bool:
@@ -42,7 +51,6 @@ def likes_of(flying: Flying, given: Inputs) -> Likes:
     thought = think(flying, given.hand.start.force, 0.0, 0.001)
     acting = act(flying, thought.decision.thrusts, given, 0.0)
     air = acting.weather.loads
-    moved = advance(flying.plant, before.state, before.grip, given.near, acting.thrusts, air, given.hand, 0.001)
+    moved = advance(flying.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
     _, sample = observe(flying, thought, acting, moved, given)
-    given_like = given._replace(hand=zeroed(given.hand), noise=zeroed(given.noise), gust=zeroed(given.gust))
-    return Likes(*map(zeroed, (flying,)), given_like, *map(zeroed, (thought, acting, moved, sample)))
+    return Likes(*map(zeroed, (flying, given, thought, acting, moved, sample)), before.near)

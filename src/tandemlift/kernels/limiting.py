@@ -12,15 +12,16 @@ from numba.extending import register_jitable
 from tandemlift.jit import load, load_lane, store, store_lane
 from tandemlift.kernels.outside import COMPILE, LANES, inlined
 from tandemlift.laws.allocation import Working, beyond, commanded, limits_at
-from tandemlift.laws.limits import COMPILED, limited
+from tandemlift.laws.limits import PARTS, limited
 from tandemlift.loop import Thought
 from tandemlift.pilot import Decision, PilotMemory
 from tandemlift.vector import total
 
 GAMMA = 1e-3  # of thrusts away from the pseudo-inverse's, against the weighted wrench
 
-for _function in COMPILED:
-    register_jitable(**COMPILE)(_function)
+for _part in PARTS:
+    register_jitable(forceinline=True, **COMPILE)(_part)
+register_jitable(**COMPILE)(limited)
 
 
 class Settled(NamedTuple):
@@ -47,34 +48,45 @@ def _solve(s, n):
         s[at + 4 * n : at + 5 * n],
     )
     wanted = (s[4 * n + 4], s[4 * n + 5], s[4 * n + 6], s[4 * n + 7])
-    limited(rows, s[4 * n : 4 * n + 4], wanted, u, limits, GAMMA, active, f, work, 4 * n)
+    limited(rows, s[4 * n : 4 * n + 4], wanted, u, limits, GAMMA, active, f, work, 8 * n)
 
 
 @inlined
-def settle(s, flying, thought, t):
-    """The pilot's commands within limits; `s`: scratch."""
+def as_wished(flying, thought, t):
+    """Commands of a pilot whose thrusts are within limits."""
     how, wished = flying.pilot.allocation, thought.decision.thrusts
-    n, limits = len(wished), limits_at(how, t)
-    if total(beyond(wished, limits)) > 0.0:
-        at, held = 4 * n + 8, flying.moving.memory.allocation
-        store(s, how.rows)
-        store(s[4 * n :], how.weights)
-        store(s[4 * n + 4 :], thought.decision.command.wrench)
-        store(s[at:], wished)
-        store(s[at + n :], limits)
-        store(s[at + 2 * n :], held)
-        _solve(s, n)
-        memory = load(s[at + 2 * n :], held)
-    else:
-        memory = Working(wished * 0.0, wished)
+    return Settled(commanded(how, wished, t), Working(wished * 0.0, wished))
+
+
+@inlined
+def outside(flying, thought, t):
+    """Above 0 if a thrust is outside its limits."""
+    return total(beyond(thought.decision.thrusts, limits_at(flying.pilot.allocation, t)))
+
+
+@inlined
+def settle(s, flying, wrench, wished, t):
+    """Commands within limits for thrusts that are not; `s`: scratch."""
+    how, held, n = flying.pilot.allocation, flying.moving.memory.allocation, len(wished)
+    at = 4 * n + 8
+    store(s, how.rows)
+    store(s[4 * n :], how.weights)
+    store(s[4 * n + 4 :], wrench)
+    store(s[at:], wished)
+    store(s[at + n :], limits_at(how, t))
+    store(s[at + 2 * n :], held)
+    _solve(s, n)
+    memory = load(s[at + 2 * n :], held)
     return Settled(commanded(how, memory.thrusts, t), memory)
 
 
 @inlined
 def limit(s, flying, thought, t):
     """What a pilot thinks, its commands kept within limits."""
-    settled = settle(s, flying, thought, t)
     decision, m = thought.decision, thought.memory
+    settled = as_wished(flying, thought, t)
+    if outside(flying, thought, t) > 0.0:
+        settled = settle(s, flying, decision.command.wrench, decision.thrusts, t)
     return Thought(
         thought.known,
         thought.measured,
@@ -84,11 +96,25 @@ def limit(s, flying, thought, t):
     )
 
 
+class Excess(NamedTuple):
+    """Of a lane: above 0 if its thrusts are outside limits, and the wrench and thrusts wished for then."""
+
+    outside: Any
+    wrench: Any
+    wished: Any
+
+
+def excess_of(thought: Any) -> Excess:
+    """The layout of a lane's excess."""
+    return Excess(0.0, thought.decision.command.wrench, thought.decision.thrusts)
+
+
 @inlined
-def limit_lanes(a, s, at_thought, at_commands, at_memory, like, thought_like, t):
-    """`limit` for LANES flights, whose thoughts stand in `a` from `at_thought` on."""
+def limit_lanes(a, s, at_excess, at_commands, at_memory, like, excess_like, t):
+    """Solve for those of LANES flights whose thrusts are outside limits: commands and memory in their thoughts."""
     for lane in range(LANES):
-        flying = load_lane(a, lane, LANES, like)
-        settled = settle(s, flying, load_lane(a, at_thought + lane, LANES, thought_like), t)
-        store_lane(a, at_thought + at_commands + lane, LANES, settled.commands)
-        store_lane(a, at_thought + at_memory + lane, LANES, settled.memory)
+        if a[at_excess + lane] > 0.0:
+            excess = load_lane(a, at_excess + lane, LANES, excess_like)
+            settled = settle(s, load_lane(a, lane, LANES, like), excess.wrench, excess.wished, t)
+            store_lane(a, at_commands + lane, LANES, settled.commands)
+            store_lane(a, at_memory + lane, LANES, settled.memory)

@@ -13,9 +13,10 @@ from typing import Any, NamedTuple
 from numba.extending import register_jitable
 
 from tandemlift.jit import leaves, load, load_lane, store_lane
-from tandemlift.laws.pending import Wall, consider
 from tandemlift.laws.push import SUPPORT, Gaussian, push_of
 from tandemlift.laws.random import normals
+from tandemlift.laws.rectangle import WALL
+from tandemlift.laws.walls import consider
 from tandemlift.laws.wind import Gust, gust_velocity
 from tandemlift.vector import ZERO
 
@@ -24,7 +25,6 @@ SPAN = 16  # steps
 HALVES = 2 * SPAN + 1
 GAUSSIAN = Gaussian(ZERO, 0.0, 0.0, ZERO)
 GUST = Gust(ZERO, 0.0, 0.0, 0.0)
-WALL = Wall(0.0, 0.0, 0.0, 0.0, 0.0)
 
 COMPILE: dict[str, Any] = {"error_model": "numpy", "fastmath": False}
 inlined = register_jitable(forceinline=True, **COMPILE)
@@ -122,22 +122,22 @@ def draw_block(a, at_noise, groups, at_keys, k):
 
 
 @inlined
-def approach(walls, frame, state, near_like):
+def approach(walls, plant, state, nowhere):
     """The walls nearest to the parts of the vehicle."""
-    near = near_like
+    near = nowhere
     for i in range(walls.shape[0]):
-        near = consider(load(walls[i], WALL), near, frame, state)
+        near = consider(plant.walls, load(walls[i], WALL), near, plant.frame, state)
     return near
 
 
 @inlined
-def approach_block(a, at_near, at_row, walls, like, near_like):
+def approach_block(a, at_near, at_row, walls, like, nowhere):
     """`approach` for LANES flights, into `a` from `at_near` on."""
     for lane in range(LANES):
-        store_lane(a, at_near + lane, LANES, near_like)
+        store_lane(a, at_near + lane, LANES, nowhere)
     for i in range(walls.shape[0]):
         a[at_row : at_row + walls.shape[1]] = walls[i]
         for lane in range(LANES):
             flying, wall = load_lane(a, lane, LANES, like), load_lane(a, at_row + lane, LANES, WALL)
-            near = load_lane(a, at_near + lane, LANES, near_like)
-            store_lane(a, at_near + lane, LANES, consider(wall, near, flying.plant.frame, flying.moving.state))
+            moving, plant = flying.moving, flying.plant
+            store_lane(a, at_near + lane, LANES, consider(plant.walls, wall, moving.near, plant.frame, moving.state))

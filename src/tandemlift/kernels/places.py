@@ -57,6 +57,12 @@ def lines_of(flying: Any) -> Lines:
 
 
 @inlined
+def _shift(a, row, arriving, at, size, column):
+    row[column : column + size] = a[at : at + size]
+    a[at : at + size] = arriving[column : column + size]
+
+
+@inlined
 def carry(a, ring, delays, k, at):
     """After step k, put what is delayed into row k of the line, and what arrives for step k + 1 in its place.
 
@@ -64,11 +70,10 @@ def carry(a, ring, delays, k, at):
     delay acts at once.
     """
     depth = ring.shape[0]
-    second, third = at[1], at[1] + at[3]
-    row = ring[k % depth]
-    row[:second] = a[at[0] : at[0] + at[1]]
-    row[second:third] = a[at[2] : at[2] + at[3]]
-    row[third : third + at[5]] = a[at[4] : at[4] + at[5]]
-    a[at[0] : at[0] + at[1]] = ring[(k - delays[0]) % depth, :second]
-    a[at[2] : at[2] + at[3]] = ring[(k - delays[1]) % depth, second:third]
-    a[at[4] : at[4] + at[5]] = ring[(k + 1 - delays[2]) % depth, third : third + at[5]]
+    row, second, third = ring[k % depth], at[1], at[1] + at[3]
+    if delays[0] > 0:
+        _shift(a, row, ring[(k - delays[0]) % depth], at[0], at[1], 0)
+    if delays[1] > 0:
+        _shift(a, row, ring[(k - delays[1]) % depth], at[2], at[3], second)
+    if delays[2] > 0:
+        _shift(a, row, ring[(k + 1 - delays[2]) % depth], at[4], at[5], third)

@@ -9,8 +9,9 @@ from tandemlift.jit import leaves, load, load_lane, store
 from tandemlift.kernels.likes import Likes
 from tandemlift.kernels.limiting import limit
 from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
-from tandemlift.kernels.places import Lines, carry
-from tandemlift.loop import Inputs, continued, finish, think
+from tandemlift.kernels.places import Lines, carry, place
+from tandemlift.laws.contact import may_touch
+from tandemlift.loop import Inputs, Lined, continued, finish, lifted_off, neared, relined, think
 
 
 def single_loop(likes: Likes, lines: Lines) -> Callable[..., Any]:
@@ -20,41 +21,49 @@ def single_loop(likes: Likes, lines: Lines) -> Callable[..., Any]:
     sample `last`. Returns early when the state is no longer sound. `tables`: `Tables`; `work`: scratch; `ring`: the
     delay line (rows × numbers delayed); `delays`: of unit, motion and command, in steps; `seeds`: the key of chance.
     """
-    like, hand_like, noise_like, near_like = likes.flying, likes.given.hand, likes.given.noise, likes.given.near
+    like, hand_like, noise_like, nowhere = likes.flying, likes.given.hand, likes.given.noise, likes.nowhere
     push_like, width = hand_like.start, leaves(hand_like.start)
     n_hands = HALVES * width
     n_work = n_hands + 4 * SPAN * draws(noise_like)
     walled, late, constrained = likes.walled, likes.late, likes.constrained
-    at = lines.numbers(1)
+    grounded = likes.grounded
+    at, at_line = lines.numbers(1), place(like, "moving", "rotors").at
+    line_like = Lined(like.moving.rotors, like.moving.readings)
 
     def single(a, tables, work, ring, delays, seeds, log, last, k, stop, steps, every, dt):
         flying = load(a, like)
         hands, table, scratch = work[:n_hands], work[n_hands:n_work], work[n_work:]
         feel(hands, tables.pushes, k, dt, push_like)
         draw(table, k, seeds[0], seeds[1])
+        low = True
         while k < stop and flying.moving.lost == 0.0:
             if k % SPAN == 0:
                 feel(hands, tables.pushes, k, dt, push_like)
                 draw(table, k, seeds[0], seeds[1])
+                if grounded:
+                    low = may_touch(flying.plant.floor, flying.moving.state, SPAN * dt)
+                if walled:
+                    near = approach(tables.walls, flying.plant, flying.moving.state, nowhere)
+                    flying = continued(flying, neared(flying.moving, near))
             hand = load_lane(hands, 2 * (k % SPAN) * width, 1, hand_like)
-            near = near_like
-            if walled:
-                near = approach(tables.walls, flying.plant.frame, flying.moving.state, near_like)
-            given = Inputs(hand, gusting(tables.gusts, k * dt), load_lane(table, k % SPAN, SPAN, noise_like), near)
+            given = Inputs(hand, gusting(tables.gusts, k * dt), load_lane(table, k % SPAN, SPAN, noise_like))
             thought = think(flying, hand.start.force, k * dt, dt)
             if constrained:
                 thought = limit(scratch, flying, thought, k * dt)
-            moving, sample = finish(flying, thought, given, k * dt, dt)
+            if grounded and not low:
+                moving, sample = finish(lifted_off(flying), thought, given, k * dt, dt)
+            else:
+                moving, sample = finish(flying, thought, given, k * dt, dt)
             if k % every == 0:
                 store(log[k // every], sample)
             if k == steps:
                 store(last, sample)
                 break
-            flying = continued(flying, moving)
             if late:
-                store(a, moving)
+                store(a[at_line:], Lined(moving.rotors, moving.readings))
                 carry(a, ring, delays, k, at)
-                flying = load(a, like)
+                moving = relined(moving, load(a[at_line:], line_like))
+            flying = continued(flying, moving)
             k += 1
         store(a, flying.moving)
         return k

@@ -15,7 +15,7 @@ from tandemlift.laws.admittance import Trajectory
 from tandemlift.laws.body import State, Wrench
 from tandemlift.laws.controllers import Command, Measured, Reference
 from tandemlift.laws.push import moment_of
-from tandemlift.loop import Inputs, Thought, act, observe, perceive, think
+from tandemlift.loop import Inputs, Thought, act, neared, observe, perceive, think
 from tandemlift.pilot import conclude, guide
 from tandemlift.vector import ZERO, Quat
 
@@ -59,8 +59,8 @@ def parts_of(likes: Likes, lines: Lines) -> Parts:
     on the body, `w` the push as a force and a moment, `v` how it moved, `row` the sample; `x` and `y` what a controller
     is given and answers.
     """
-    like, given_like, thought_like, acting_like, moved_like, _ = likes
-    hand_like, noise_like, near_like = given_like.hand, given_like.noise, given_like.near
+    like, given_like, thought_like, acting_like, moved_like, _, nowhere = likes
+    hand_like, noise_like = given_like.hand, given_like.noise
     width = leaves(hand_like.start)
     n_hands = HALVES * width
     n_work = n_hands + 4 * SPAN * draws(noise_like)
@@ -72,14 +72,15 @@ def parts_of(likes: Likes, lines: Lines) -> Parts:
         if k % SPAN == 0:
             feel(hands, tables.pushes, k, dt, hand_like.start)
             draw(table, k, seeds[0], seeds[1])
-        flying, near = load(a, like), near_like
-        if walled:
-            near = approach(tables.walls, flying.plant.frame, flying.moving.state, near_like)
+            if walled:
+                flying = load(a, like)
+                near = approach(tables.walls, flying.plant, flying.moving.state, nowhere)
+                store(a, neared(flying.moving, near))
         hand, noise = (
             load_lane(hands, 2 * (k % SPAN) * width, 1, hand_like),
             load_lane(table, k % SPAN, SPAN, noise_like),
         )
-        store(g, Inputs(hand, gusting(tables.gusts, k * dt), noise, near))
+        store(g, Inputs(hand, gusting(tables.gusts, k * dt), noise))
 
     def before(a, g, x, k, dt):
         flying, given = load(a, like), load(g, given_like)
@@ -115,7 +116,7 @@ def parts_of(likes: Likes, lines: Lines) -> Parts:
     def moved(a, g, c, v, k, dt):
         flying, given, on_body = load(a, like), load(g, given_like), load(c, acting_like)
         before, air = flying.moving, on_body.weather.loads
-        store(v, advance(flying.plant, before.state, before.grip, given.near, on_body.thrusts, air, given.hand, dt))
+        store(v, advance(flying.plant, before.state, before.grip, before.near, on_body.thrusts, air, given.hand, dt))
 
     def observed(a, ring, delays, g, m, c, v, row, k, final):
         flying, given = load(a, like), load(g, given_like)

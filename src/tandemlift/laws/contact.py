@@ -1,14 +1,16 @@
-"""Contact of the vehicle's feet with a level floor: what holds it up, what keeps it in place, and what it weighs there.
+"""A vehicle's feet on a level floor: what holds it up, and what keeps it in place.
 
 Every quadrotor has four feet. A foot is a pad on a ball joint, so what it passes on acts at the joint's centre, ρ above
-the pad. With the depth δ of the pad in the floor and the slip e of the joint from where it gripped, world axes,
+the pad. With the depth δ of the pad in the floor and the way e of the joint from where it gripped, in world axes,
 
     N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −(k_t e + c_t ė), shortened to the length μ N if it is longer.
 
-Neither makes energy. In N, k δ is a spring and the rest takes max(c δ̇², −k δ δ̇), which is at least 0 because N is cut
-only where δ̇ < −k δ/c. In F the same holds as long as |k_t e| ≤ μ N: `slip` sees to it at the end of every step, and
-takes for N the smaller of its values at both ends, so that a foot that has just landed has stretched nothing.
+Neither makes energy. In N, k δ is a spring and the rest takes the power c δ̇², or −k δ δ̇ where N is cut, which is only
+where δ̇ < −k δ/c. In F, k_t e is a spring and the rest takes power as long as |k_t e| ≤ μ N: `slip` sees to that at the
+end of every step, with N the smaller of its values at both ends, so that a foot that has just landed stores nothing.
 Below μ N the grip does not move at all: a vehicle that stands, stays.
+
+A step is `touch` in every stage with the memory held, then `slip`. Nothing but the feet touches the floor.
 """
 
 from typing import Any, NamedTuple
@@ -21,12 +23,14 @@ from tandemlift.law import elementwise, law
 from tandemlift.laws.body import State
 from tandemlift.laws.loads import Frame, Load, raised
 from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.ops import maximum, minimum, sqrt, where
-from tandemlift.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, spread
+from tandemlift.ops import absolute, maximum, minimum, sqrt, where
+from tandemlift.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
 
-TINY = 1e-300  # N²: keeps 0/0 out of the friction of a foot in the air
 Array = NDArray[np.float64]
 
+FASTEST_TURN = 1000.0  # rad/s², more than rotors make
+
+TINY = 1e-300  # N²: keeps 0/0 out of the friction of a foot in the air
 OSCILLATION = 0.5  # rad a step: the fastest oscillation on springs that a Runge-Kutta step resolves well
 DECAY = 2.0  # time constants a step: the fastest decay; Runge-Kutta of order four is stable to 2.78
 
@@ -36,7 +40,8 @@ class Floor(NamedTuple):
 
     `height` z of the floor [m]; of one foot `stiffness` k [N/m] and `damping` c [N·s/m], `tangential_stiffness` k_t and
     `tangential_damping` c_t; `friction` μ; `radius` ρ [m]; `feet`: centre of foot j of every quadrotor from the
-    system's centre of mass [m, body axes], vectors of sets; `reach` [m]: how far the lowest pad can be from there.
+    system's centre of mass [m, body axes], vectors of sets. From there [m], `extent`: how
+    far feet are along each body axis; `reach`: how far any pad can be.
     """
 
     height: Any
@@ -47,6 +52,7 @@ class Floor(NamedTuple):
     tangential_damping: Any
     radius: Any
     feet: Quarters
+    extent: Vec3
     reach: Any
 
 
@@ -157,9 +163,13 @@ def slip(floor: Floor, grip: Quarters, s: State) -> Quarters:
 
 @law
 def may_touch(floor: Floor, s: State, time: Any) -> Any:
-    """Whether a foot may touch the floor within `time` [s] of state `s`, however the vehicle turns."""
+    """Whether a foot may touch the floor within `time` [s] of state `s`."""
+    q, size = s.attitude, floor.extent
+    tilt = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
+    hangs = dot(absolute(tilt), size) + floor.radius
+    swings = floor.reach * (sqrt(dot(s.rates, s.rates)) + FASTEST_TURN * time) * time
     fall = (minimum(s.velocity.z, 0.0) - 2.0 * GRAVITY * time) * time  # four g, as thrust may add to weight
-    return s.position.z + fall - floor.reach < floor.height
+    return s.position.z + fall - minimum(hangs + swings, floor.reach) < floor.height
 
 
 def mobility(points: Array, mass: float, inertia: Array) -> float:
@@ -185,7 +195,7 @@ def steady(stiffness: float, damping: float, give: float, step: float) -> tuple[
     """
     frequency, rate = np.sqrt(stiffness * give), 0.5 * damping * give
     decay = rate + np.sqrt(max(rate**2 - frequency**2, 0.0))
-    factor = min(1.0, OSCILLATION / (frequency * step), DECAY / (decay * step))
+    factor = 1.0 / max(1.0, frequency * step / OSCILLATION, decay * step / DECAY)
     return float(stiffness * factor**2), float(damping * factor)
 
 
@@ -235,7 +245,8 @@ def floor(
     k, c = steady(wanted, 2.0 * damping_ratio * np.sqrt(wanted * share), give, step)
     reach = float(np.linalg.norm(points, axis=1).max()) + radius
     feet = Quarters(*[spread(places[:, j]) for j in range(4)])
-    return Floor(float(height), k, c, float(friction), k, c, float(radius), feet, reach)
+    extent = vec3(np.abs(points).max(axis=0))
+    return Floor(float(height), k, c, float(friction), k, c, float(radius), feet, extent, reach)
 
 
 def standing_height(floor: Floor, weight: float) -> float:

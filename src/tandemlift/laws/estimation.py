@@ -1,9 +1,9 @@
 """The push of a person on the payload, from the sensors at its joints and in its centre of mass.
 
 With f_i, t_i what quadrotor i puts on the payload at its joint c_i, a the specific force and ω the rates, all in body
-axes and about the payload's centre of mass, Newton and Euler leave for the person
-F = m_L a − Σ f_i and M = J_L ω̇ + ω × J_L ω − Σ t_i − Σ c_i × f_i (paper, section on the human's wrench). Wind on the
-payload counts as a push. ω̇ is the difference of consecutive samples.
+axes and about the payload's centre of mass, the payload's equations of motion (the paper's trans_rot_payload_equ, with
+a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_L ω̇ + ω × J_L ω − Σ t_i − Σ c_i × f_i.
+Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
 
 In hover, over a window, the means of F and M are taken as the sensors' bias (the tare), after the payload's mass if it
 is identified: m = Σ f·a / Σ a·a. Bias of the joints' force along gravity and mass cannot be told apart there.

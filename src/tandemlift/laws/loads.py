@@ -171,6 +171,12 @@ def feel(frame: Frame, s: State, a: Acceleration, thrusts: Any) -> Felt:
     return Felt(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force), ZERO)
 
 
+@law
+def plus_zero(v: Vec3) -> Vec3:
+    """A vector of sets with no −0 in it."""
+    return Vec3(raised(v.x, 0.0), raised(v.y, 0.0), raised(v.z, 0.0))
+
+
 @choice
 def under(load: Any, frame: Frame, attitude: Any, felt: Felt) -> Felt:
     """`felt`, with a load on the quadrotors, which their joints pass on to the payload."""
@@ -183,6 +189,6 @@ def _no_load(load, frame, attitude, felt):
 
 @under.register(Load)
 def _loaded(load, frame, attitude, felt):
-    force = apply_transposed(rotation_from_quaternion(attitude), load.force)
-    torque = felt.joint_torque + load.moment - cross(frame.joints, force)
+    force = plus_zero(apply_transposed(rotation_from_quaternion(attitude), load.force))
+    torque = felt.joint_torque + plus_zero(load.moment - cross(frame.joints, force))
     return Felt(felt.specific_force, felt.joint_force + force, torque, felt.contact_force)

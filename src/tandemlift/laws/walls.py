@@ -8,8 +8,8 @@ length where a wall ends and where it has its top. Each presses at the nearest p
 N along the line between the nearest points, F against the sliding velocity v of the surface there. The distance to a
 wall has no jumps, so k δ is a spring, and neither force makes energy.
 
-Which walls are near changes slowly: `consider` goes through all of them now and then, and `press` measures the
-distance to the near ones exactly, wherever the vehicle has gone in between.
+Which walls are near changes slowly: `consider` goes through all of them now and then, from `nowhere` on, and `press`
+measures the distance to the near ones exactly, wherever the vehicle has gone in between.
 """
 
 from typing import Any, NamedTuple
@@ -212,8 +212,7 @@ def _nothing_near(beam, wall, near, frame, s):
 @consider_beam.register(Beam)
 def _near_beam(beam, wall, near, frame, s):
     a, half = beam_axis(frame, s), beam.ends[1]
-    ends = on_beam(a, beam.ends)
-    start, end = edges_of(wall)
+    ends, (start, end) = on_beam(a, beam.ends), edges_of(wall)
     edge, other = with_edge(a, half, start, near.edge, near.other_edge)
     edge, other = with_edge(a, half, end, edge, other)
     d = offset_from_top(wall, on_beam(a, point_by_top(a, half, wall)))
@@ -243,8 +242,8 @@ def consider(w: Walls, wall: Wall, near: Near, frame: Frame, s: State) -> Near:
 @law
 def may_reach(w: Walls, wall: Wall, s: State, time: Any) -> Any:
     """Whether any part may come to touch a wall within `time` [s] of state `s`, however the vehicle turns."""
-    o, way = offset(wall, s.position), w.reach + (sqrt(dot(s.velocity, s.velocity)) + 2.0 * GRAVITY * time) * time
-    return dot(o, o) < way * way
+    o, speed = offset(wall, s.position), sqrt(dot(s.velocity, s.velocity)) + 2.0 * GRAVITY * time
+    return sqrt(dot(o, o)) < w.reach + speed * time
 
 
 def nowhere(w: Walls) -> Near:
@@ -287,7 +286,7 @@ def walls(
         damping_ratio: of the vehicle that swings against one contact, without turning.
     """
     J, centers = np.asarray(inertia, dtype=float), np.asarray(quadrotors, dtype=float)
-    radii = np.broadcast_to(np.asarray(guards, dtype=float), len(centers))
+    radii = np.broadcast_to(guards, len(centers))
     spheres = list(zip(centers, radii, strict=True))
     if beam:
         half = 0.5 * beam[0]

@@ -16,7 +16,7 @@ from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
-CARBON, METAL, SHELL, WOOD = "#2b2f36", "#8d949e", "#f2f3f5", "#c98f4e"
+CARBON, METAL, SHELL, WOOD = "#2b2f36", "#8d949e", "#d9dce0", "#c2853f"
 FRONT, REAR, JOINT, GUARD = "#e8641b", "#2f6fb0", "#f0b429", "#5b636e"
 SHAPELESS = 0.2  # m, edge of the box that stands for a payload without length
 SPINNING = 40.0  # rad/s at which blades are shown to turn; true ones would be a blur
@@ -59,7 +59,7 @@ def aircraft(vehicle: Vehicle) -> Aircraft:
         nearest = origin + np.array([0.0, np.clip(quadrotor.joint_position[1], -half, half), 0.0])
         width = 0.09 * spread(quadrotor)
         solids += [rod(nearest, joint, 0.8 * width, METAL), rod(joint, center, width, METAL)]
-        solids += [ball(joint, 1.6 * width, JOINT), _quadrotor(quadrotor, center)]
+        solids += [_sensor(joint, center, vehicle.payload.radius or 0.0, 1.8 * width), _quadrotor(quadrotor, center)]
     hubs = np.concatenate([center + _hubs(q) for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)])
     radii = np.repeat([q.rotor_radius for q in vehicle.quadrotors], 4)
     spins = np.concatenate([q.spins for q in vehicle.quadrotors]).astype(float)
@@ -89,6 +89,14 @@ def _payload(vehicle: Vehicle) -> Mesh:
     )
 
 
+def _sensor(joint: Array, center: Array, depth: float, radius: float) -> Mesh:
+    """The sensor at a joint, as a collar where the strut leaves a payload whose surface is `depth` above the joint."""
+    way = center - joint
+    length = max(float(np.linalg.norm(way)), 1e-9)
+    start = min(depth, 0.8 * length)
+    return rod(joint + way * start / length, joint + way * min(start + radius, length) / length, radius, JOINT)
+
+
 def _hubs(quadrotor: Quadrotor) -> Array:
     """Centres (4, 3) of the rotors' discs from the quadrotor's centre of mass [m]."""
     return np.column_stack([quadrotor.rotors, np.full(4, 0.2 * spread(quadrotor))])
@@ -102,7 +110,7 @@ def _quadrotor(quadrotor: Quadrotor, center: ArrayLike) -> Mesh:
         color, outward = FRONT if x > 1e-9 else REAR, np.array([x, y, 0.0]) / np.hypot(x, y)
         parts.append(rod([0.0, 0.0, 0.0], outward * quadrotor.guard_radius, 0.05 * size, CARBON))
         parts.append(rod([x, y, -0.05 * size], [x, y, 0.12 * size], 0.1 * size, METAL))
-        parts.append(rod([x, y, 0.12 * size], hub + [0.0, 0.0, 0.04 * size], 0.05 * size, color, 0.03 * size))
+        parts.append(rod([x, y, 0.12 * size], hub + np.array([0.0, 0.0, 0.04 * size]), 0.05 * size, color, 0.03 * size))
     across, depth = quadrotor.feet_spread, quadrotor.feet_depth
     for corner in ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)):
         foot = np.array([across * corner[0], across * corner[1], -depth + 0.03 * size])

@@ -58,6 +58,19 @@ def frame_along(direction: ArrayLike) -> Array:
     return np.column_stack([x, np.cross(z, x), z])
 
 
+def _outward(points: Array, *, smooth: bool) -> tuple[Array, Array]:
+    """Directions across the segments of a profile (n, 2), at the start and at the end of each."""
+    along = np.diff(points, axis=0)
+    across = np.column_stack([along[:, 1], -along[:, 0]]) / np.maximum(np.linalg.norm(along, axis=1), 1e-12)[:, None]
+    if not smooth:
+        return across, across
+    closed = np.allclose(points[0], points[-1])
+    before, after = (across[-1:], across[:1]) if closed else (across[:1], across[-1:])
+    mean = np.concatenate([before, across]) + np.concatenate([across, after])
+    mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-12)[:, None]
+    return mean[:-1], mean[1:]
+
+
 def turned(profile: ArrayLike, color: str, *, smooth: bool = False, sides: int = SIDES) -> Mesh:
     """A profile (n, 2) of (radius, height) turned about z, its outside on the right of its way up.
 
@@ -68,15 +81,7 @@ def turned(profile: ArrayLike, color: str, *, smooth: bool = False, sides: int =
         sides: of the polygon that stands for the circle.
     """
     points = np.asarray(profile, dtype=float)
-    along = np.diff(points, axis=0)
-    across = np.column_stack([along[:, 1], -along[:, 0]]) / np.maximum(np.linalg.norm(along, axis=1), 1e-12)[:, None]
-    start, end = across, across
-    if smooth:
-        closed = np.allclose(points[0], points[-1])
-        before, after = (across[-1:], across[:1]) if closed else (across[:1], across[-1:])
-        mean = np.concatenate([before, across]) + np.concatenate([across, after])
-        mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-12)[:, None]
-        start, end = mean[:-1], mean[1:]
+    start, end = _outward(points, smooth=smooth)
     turn = np.linspace(0.0, 2.0 * np.pi, sides + 1)
     circle = np.column_stack([np.cos(turn), np.sin(turn)])
 
@@ -128,7 +133,14 @@ def box(center: ArrayLike, size: ArrayLike, color: str, R: Array | None = None) 
     for k in range(3):
         u, v, w = axes[k], axes[(k + 1) % 3], axes[(k + 2) % 3]
         for side in (1.0, -1.0):
-            face = [side * u + p * v + q * w for p, q in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+            face = [side * u + p * v + side * q * w for p, q in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
             corners.append(np.array(face) * np.asarray(size) / 2.0)
             normals.append(np.broadcast_to(side * u, (4, 3)))
     return _quads(np.array(corners), np.array(normals), color).placed(center, np.eye(3) if R is None else R)
+
+
+def panel(corner: ArrayLike, along: ArrayLike, up: ArrayLike, color: str) -> Mesh:
+    """A parallelogram from a corner and its two sides (3)."""
+    a, u, v = (np.asarray(p, dtype=float) for p in (corner, along, up))
+    across = np.cross(u, v) / max(float(np.linalg.norm(np.cross(u, v))), 1e-12)
+    return _quads(np.array([[a, a + u, a + u + v, a + v]]), np.broadcast_to(across, (1, 4, 3)), color)

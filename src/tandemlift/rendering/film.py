@@ -1,0 +1,227 @@
+"""Pictures (PNG) and animations (GIF) of a flight."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from tandemlift.errors import InputError
+from tandemlift.files import whole
+from tandemlift.flight import Flight
+from tandemlift.rendering.camera import CAMERAS, Camera, View, look_at
+from tandemlift.rendering.stage import Stage
+from tandemlift.rendering.studio import shown
+
+Array = NDArray[np.float64]
+Progress = Callable[[int, int], None]
+
+PICTURE, FILM = (1280, 720), (640, 360)  # pixels
+SAMPLES = {".png": 3, ".gif": 2}  # each way, of a pixel
+LONGEST = 20.0  # s: a longer flight is shown faster, unless a speed is given
+PALETTE = ((Image.Quantize.MEDIANCUT, 160), (Image.Quantize.MAXCOVERAGE, 90))  # fine shades, and rare colours
+CLOSE, LOWER = 3.7, 0.07  # distance of the eye over the vehicle's reach; how far below it looks, over the distance
+FILLED = 0.94  # share of the picture that the whole way takes
+FOLLOWING = 0.6  # s, over which a following eye smooths the vehicle's way
+INK = (60, 68, 78)
+LARGEST, MOST = 3840 * 2160, 3000  # pixels of a picture, pictures of an animation
+
+
+@dataclass(frozen=True)
+class Shot:
+    """What to draw of a flight.
+
+    Args:
+        time: of a picture [s]; that of the strongest push, else the end, if not given.
+        start: of an animation [s]; the flight's if not given.
+        end: of an animation [s]; likewise.
+        fps: pictures a second of the animation, as near as a GIF's hundredths of a second come to it.
+        speed: seconds of the flight in one of the animation; so that it lasts 20 s at most, if not given.
+        size: width and height in pixels; 1280 × 720 for a picture, 640 × 360 for an animation, if not given.
+        camera: from where to look.
+    """
+
+    time: float | None = None
+    start: float | None = None
+    end: float | None = None
+    fps: float = 20.0
+    speed: float | None = None
+    size: tuple[int, int] | None = None
+    camera: Camera = CAMERAS["follow"]
+
+
+SHOT = Shot()
+
+
+class Film:
+    """A flight in front of a camera; `picture(time)` is what it sees."""
+
+    def __init__(self, flight: Flight, camera: Camera, size: tuple[int, int], samples: int) -> None:
+        if not (min(size) >= 16 and size[0] * size[1] <= LARGEST):
+            raise InputError(f"size {size[0]}x{size[1]} must be at least 16x16 and of at most 3840x2160 pixels")
+        self.stage, self._camera = Stage(flight), camera
+        self._size, self._samples = size, samples
+        self._smooth = _smoothed(self.stage.time, self.stage.path)
+
+    def _view(self, time: float) -> tuple[View, float]:
+        """The view at a time, and how far away it looks [m]."""
+        stage, camera = self.stage, self._camera
+        azimuth, elevation = np.radians(camera.azimuth), np.radians(camera.elevation)
+        if not camera.follows:
+            return self._whole(azimuth, elevation)
+        target = np.array([np.interp(time, stage.time, column) for column in self._smooth.T])
+        distance = camera.distance or CLOSE * stage.reach
+        target[2] -= LOWER * distance * np.cos(elevation)
+        lowest = np.arcsin(np.clip((stage.floor + 0.1 - target[2]) / distance, -1.0, 1.0))  # or it saw the floor's back
+        return look_at(target, azimuth, max(elevation, lowest), distance, *self._size), distance
+
+    def _whole(self, azimuth: float, elevation: float) -> tuple[View, float]:
+        """The view of the whole way from a direction, as near as it fits into the picture."""
+        stage = self.stage
+        low, high = stage.path.min(axis=0) - stage.reach, stage.path.max(axis=0) + stage.reach
+        target = (low + high) / 2.0
+        view = look_at(target, azimuth, elevation, 1.0, *self._size)
+        across, up, ahead = np.moveaxis((stage.path - target) @ view.axes.T, 1, 0)
+        half = FILLED * np.array(self._size) / 2.0 / view.focal
+        needed = [(np.abs(across) + stage.reach) / half[0] - ahead, (np.abs(up) + stage.reach) / half[1] - ahead]
+        distance = float(np.max(needed))
+        return look_at(target, azimuth, elevation, distance, *self._size), distance
+
+    def picture(self, time: float, note: str = "") -> Image.Image:
+        """The picture at a time [s]; `note` is written after it."""
+        view, distance = self._view(time)
+        cell = 1.0 if distance < 30.0 else 10.0 ** np.floor(np.log10(distance / 3.0))
+        scene = self.stage.scene(time, distance / view.focal, cell)
+        image = Image.fromarray(shown(scene, view, distance, self._samples))
+        push = float(np.linalg.norm(self.stage.push(time)))
+        notes = [self.stage.name, f"{time:.2f} s{note}", f"grid {cell:g} m"]
+        notes += [f"push {push:.1f} N"] if self.stage.pushed(push) else []
+        height = max(10, self._size[1] // 40)
+        place = height, self._size[1] - 2 * height
+        ImageDraw.Draw(image).text(place, "     ".join(notes), fill=INK, font=_font(height))
+        return image
+
+
+@lru_cache(maxsize=4)
+def _font(height: int) -> Any:
+    return ImageFont.truetype(str(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), height)
+
+
+def _smoothed(time: Array, path: Array) -> Array:
+    """A path (T, 3) without its quick changes: what a following eye looks at."""
+    if len(time) < 3:
+        return path
+    step = float(np.median(np.diff(time)))
+    width = max(1, min(len(time), round(FOLLOWING / max(step, 1e-9))))
+    padded = np.pad(path, ((width // 2, width - 1 - width // 2), (0, 0)), mode="edge")
+    sums = np.vstack([np.zeros(3), padded.cumsum(axis=0)])
+    return (sums[width:] - sums[:-width]) / width
+
+
+def picture(flight: Flight, shot: Shot = SHOT) -> Image.Image:
+    """A picture of a flight at one time.
+
+    Raises:
+        InputError: nothing can be drawn, or not at that time.
+    """
+    film = Film(flight, shot.camera, shot.size or PICTURE, SAMPLES[".png"])
+    return film.picture(film.stage.telling if shot.time is None else film.stage.within("time", shot.time))
+
+
+class Animation:
+    """The pictures of a flight one after another: `len` of them, drawn as they are iterated over.
+
+    Args:
+        flight: to draw; also one that diverged.
+        shot: what of it, and how.
+
+    Raises:
+        InputError: nothing can be drawn, or not within these times.
+    """
+
+    def __init__(self, flight: Flight, shot: Shot = SHOT) -> None:
+        self.film = Film(flight, shot.camera, shot.size or FILM, SAMPLES[".gif"])
+        stage = self.film.stage
+        start = float(stage.time[0]) if shot.start is None else stage.within("from", shot.start)
+        end = float(stage.time[-1]) if shot.end is None else stage.within("to", shot.end)
+        if end < start:
+            raise InputError(f"an animation from {start:g} s to {end:g} s has its end before its start")
+        speed = max(1.0, float(np.ceil((end - start) / LONGEST))) if shot.speed is None else shot.speed
+        if not (1.0 <= shot.fps <= 50.0 and 0.001 <= speed <= 1000.0):
+            raise InputError(f"fps {shot.fps:g} must be from 1 to 50, and speed {speed:g} from 0.001 to 1000")
+        self.milliseconds = round(100.0 / shot.fps) * 10  # a GIF counts in hundredths of a second
+        step = speed * self.milliseconds / 1000.0
+        count = 1 + int((end - start) / step + 1e-9)
+        if count > MOST:
+            raise InputError(f"{count} pictures are more than the {MOST} of one animation: raise speed, or lower fps")
+        self.times = start + np.arange(count) * step
+        self.note = "" if speed == 1.0 else f" (× {speed:g})"
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __iter__(self) -> Iterator[Image.Image]:
+        return (self.film.picture(float(time), self.note) for time in self.times)
+
+    def palette(self) -> Image.Image:
+        """Colours for all pictures, or the same grey would flicker from one to the next."""
+        strongest = np.argmax([np.linalg.norm(self.film.stage.push(float(time))) for time in self.times])
+        few = {0, len(self) // 2, len(self) - 1, int(strongest)}
+        images = np.concatenate([np.asarray(self.film.picture(float(self.times[k]), self.note)) for k in sorted(few)])
+        colors = list[int]()
+        for method, count in PALETTE:
+            colors += Image.fromarray(images).quantize(count, method=method).getpalette()[: 3 * count]  # type: ignore
+        palette = Image.new("P", (1, 1))
+        palette.putpalette(colors)
+        return palette
+
+    def save(self, path: Path, progress: Progress | None) -> None:
+        """Write the animation as a GIF."""
+        palette, done = self.palette(), itertools.count(1)
+
+        def reduced() -> Iterator[Image.Image]:
+            for image in self:
+                yield image.quantize(palette=palette, dither=Image.Dither.NONE)
+                if progress:
+                    progress(next(done), len(self))
+
+        pictures = reduced()
+        look: dict[str, Any] = {"duration": self.milliseconds, "loop": 0}
+        next(pictures).save(path, format="GIF", save_all=True, append_images=pictures, **look)
+
+
+def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progress: Progress | None = None) -> Path:
+    """Draw a flight into a file, a picture (.png) or an animation (.gif); it appears whole or not at all.
+
+    Args:
+        flight: to draw; also one that diverged.
+        out: path of the file.
+        shot: what of it, and how.
+        progress: called after each picture of an animation with (pictures drawn, pictures in all).
+
+    Returns:
+        The path.
+
+    Raises:
+        InputError: the file is of another kind, or nothing can be drawn.
+    """
+    path = Path(out)
+    kind = path.suffix.lower()
+    if kind not in SAMPLES:
+        raise InputError(f"{path}: a picture's name ends in .png, an animation's in .gif")
+    drawn = picture(flight, shot) if kind == ".png" else Animation(flight, shot)
+    with whole(path) as partial:
+        if isinstance(drawn, Animation):
+            drawn.save(partial, progress)
+        else:
+            drawn.save(partial, format="PNG")
+    return path

@@ -1,0 +1,126 @@
+"""One picture: the solid parts, what is seen through, and all of it on the floor.
+
+Solid parts are drawn in several times as many pixels each way and then averaged, which smooths their edges; the floor
+is smooth by itself.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.rendering.camera import ANGLE, View
+from tandemlift.rendering.ground import background
+from tandemlift.rendering.light import Shadow, coded, lit
+from tandemlift.rendering.mesh import NOTHING, Mesh
+from tandemlift.rendering.raster import glaze, nearest
+
+Array = NDArray[np.float64]
+
+FOCAL = 360.0 / np.tan(ANGLE / 2.0)  # length [pixels] in a picture of 720 rows
+AT_ONCE = 1_500_000  # samples: a large picture is drawn in strips, which take less memory
+CLOSER = 1.002  # lines are drawn as if nearer by so much, or they would sink into what they lie on
+
+
+class Line(NamedTuple):
+    """A line through points (n, 3) [m], of a width [pixels of a picture of 720 rows] and colours (n, 3)."""
+
+    points: Array
+    width: float
+    colors: Array
+
+
+class Pane(NamedTuple):
+    """A mesh that is seen through, with its opacity."""
+
+    mesh: Mesh
+    opacity: float
+
+
+class Scene(NamedTuple):
+    """What is in a picture: solid parts, lines, panes, the floor's height [m], and the cell of its grid [m]."""
+
+    solid: Mesh
+    lines: list[Line]
+    panes: list[Pane]
+    floor: float
+    cell: float
+
+
+def shown(scene: Scene, view: View, distance: float, fine: int) -> NDArray[np.uint8]:
+    """The picture (H, W, 3) of a scene.
+
+    Args:
+        scene: what there is.
+        view: from where it is seen.
+        distance: how far the eye looks [m].
+        fine: samples of solid parts, each way, in a pixel.
+    """
+    shadow = Shadow(scene.solid.corners, scene.floor)
+    picture = np.empty((view.height, view.width, 3), np.uint8)
+    rows = max(1, AT_ONCE // (view.width * fine**2))
+    for first in range(0, view.height, rows):
+        strip = view.strip(first, min(rows, view.height - first))
+        light = background(strip, scene.floor, distance, shadow, scene.cell)
+        front = _averaged(_front(scene, strip.finer(fine), shadow), fine)
+        picture[first : first + rows] = coded(front[..., :3] + light * (1.0 - front[..., 3:]))
+    return picture
+
+
+def _averaged(picture: Array, fine: int) -> Array:
+    """A picture in pixels of `fine` × `fine` of its own."""
+    parts = [picture[i::fine, j::fine] for i in range(fine) for j in range(fine)]
+    return np.add.reduce(parts) / fine**2
+
+
+def _front(scene: Scene, view: View, shadow: Shadow) -> Array:
+    """Everything but the background (H, W, 4): light times opacity, and opacity."""
+    ribbons = [_ribbon(line, view) for line in scene.lines]
+    flat = Mesh(*map(np.concatenate, zip(NOTHING, *ribbons, strict=True)))
+    solid = scene.solid
+    corners = np.concatenate([view.seen(solid.corners), flat.corners])
+    size = view.height, view.width
+    depth, face, weights = np.zeros(size), np.zeros(size, np.int64), np.zeros((*size, 2))
+    nearest(corners, depth, face, weights)
+    picture = np.zeros((*size, 4))
+    rows, columns = np.nonzero(depth)
+    seen, share = face[rows, columns], weights[rows, columns]
+    normals = np.concatenate([solid.normals, flat.normals])[seen]
+    colors = np.concatenate([solid.colors, flat.colors])[seen]
+    share = np.column_stack([1.0 - share.sum(axis=1), share])
+    ahead = view.rays(rows, columns)
+    points = view.eye + ahead / depth[rows, columns, None]
+    ahead = ahead / np.linalg.norm(ahead, axis=1)[:, None]
+    normals = (normals * share[..., None]).sum(axis=1)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-12)[:, None]
+    picture[rows, columns, :3] = lit(colors, normals, ahead, shadow.on_parts(points))
+    picture[rows, columns, 3] = 1.0
+    _lay_panes(scene.panes, view, depth, picture)
+    return picture
+
+
+def _lay_panes(panes: list[Pane], view: View, depth: Array, picture: Array) -> None:
+    """Lay what is seen through over the picture, the farthest first."""
+    corners = [pane.mesh.corners for pane in panes]
+    far = [float(-np.linalg.norm(c.mean(axis=(0, 1)) - view.eye)) for c in corners]
+    for i in np.argsort(far):
+        colors = np.column_stack([panes[i].mesh.colors, np.full(len(corners[i]), panes[i].opacity)])
+        glaze(view.seen(corners[i]), colors, depth, picture)
+
+
+def _ribbon(line: Line, view: View) -> Mesh:
+    """A line as triangles in pixels, of one width wherever it is; its corners are as from `View.seen`."""
+    seen, width = view.seen(line.points), line.width * view.focal / FOCAL
+    seen[:, 2] *= CLOSER
+    start, end = seen[:-1], seen[1:]
+    along = end[:, :2] - start[:, :2]
+    length = np.linalg.norm(along, axis=1)
+    kept = length > 1e-6  # false for NaN
+    start, end, along = start[kept], end[kept], along[kept] / length[kept, None]
+    across = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))]) * width / 2.0
+    on = np.column_stack([along, np.zeros(len(along))]) * width / 4.0  # closes gaps at bends
+    a, b, c, d = start - across - on, start + across - on, end + across + on, end - across + on
+    corners = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+    return Mesh(corners, np.zeros_like(corners), np.tile(line.colors[:-1][kept], (2, 1)))
