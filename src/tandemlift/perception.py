@@ -113,7 +113,7 @@ def _estimated(estimators, memory, readings, t, dt):
 
 
 @choice
-def read_state(reads: Any, true: State, readings: Any, known: Any) -> State:
+def read_state(reads: Any, true: State, readings: Any, known: Any) -> Any:
     """The state as the pilot reads it."""
 
 
@@ -134,7 +134,7 @@ def _estimated_state(reads, true, readings, known):
 
 
 @choice
-def read_push(reads: Any, true: Vec3, known: Any) -> Vec3:
+def read_push(reads: Any, true: Vec3, known: Any) -> Any:
     """The push as the pilot reads it [N, world axes]."""
 
 

@@ -110,7 +110,7 @@ def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None
     chosen, p = engine_named(engine), Prepared(mission)
     rows = p.steps // p.every + 1
     if chosen.module:
-        body = chosen.start(mission, Vehicle.from_settings(mission.vehicle), p.flying.plant.floor)
+        body = chosen.start(mission, Vehicle.from_settings(mission.vehicle), p.flying.plant.floor, p.flying.plant.walls)
         return flight_of(p, fly_stepwise(p, rows, p.every, progress, body), engine)
     pick = fly_stepwise if p.interpreted else _fly_single
     return flight_of(p, pick(p, rows, p.every, progress))

@@ -36,13 +36,27 @@ class Stepper:
         likes = p.kernels.likes
         self.p, self.body, self.parts = p, body, p.kernels.parts
         self.a, self.ring, self.work = np.array(flat(p.flying)), p.ring(), np.zeros(p.kernels.work_size)
-        self.g, self.m, self.c, self.v, self.row = (np.zeros(leaves(x)) for x in likes[1:])
+        self.g, self.m, self.c, self.v, self.row = (np.zeros(leaves(x)) for x in likes[1:-1])
         self.v[:] = flat(likes.moved)
         self.x, self.y, self.scratch = np.zeros(leaves(GIVEN)), np.zeros(leaves(COMMAND)), self.work[p.kernels.limits :]
         self.interpreted = p.interpreted
         thrusts, air = place(likes.acting, "thrusts"), place(likes.acting, "weather", "loads")
         self.thrusts = self.c[thrusts.at : thrusts.at + thrusts.size]
         self.loads, self.push = self.c[air.at : air.at + air.size], np.zeros(6)
+
+    def compile(self) -> None:
+        """Let the parts of a step compile, and fly nothing."""
+        p, parts, a = self.p, self.parts, self.a.copy()
+        parts.outside(a, p.tables, self.work.copy(), p.seeds, self.g, 0, p.dt)
+        if self.interpreted is None:
+            parts.whole(a, self.g, self.m, self.scratch, 0, p.dt)
+        else:
+            parts.before(a, self.g, self.x, 0, p.dt)
+            parts.after(a, self.g, self.y, self.m, self.scratch, 0, p.dt)
+        parts.acting(a, self.g, self.m, self.c, self.push, 0, p.dt)
+        if self.body is None:
+            parts.moved(a, self.g, self.c, self.v, 0, p.dt)
+        parts.observed(a, self.ring.copy(), p.delays, self.g, self.m, self.c, self.v, self.row, 0, True)
 
     def step(self, k: int, *, final: bool = False) -> None:
         """Take step number k; its sample is left in `row`. If `final`, only the sample is taken."""
@@ -87,6 +101,7 @@ def fly_stepwise(
     """Fly a mission step by step; as `single` of the compiled loops, to the last bit if the body is the same."""
     stepper, columns = Stepper(p, body), leaves(p.sample)
     log, last = np.zeros((rows, columns)), np.full(columns, math.nan)
+    stepper.compile()
     began, early, k = time.perf_counter(), EMPTY, 0
     while k <= p.steps and not stepper.lost:
         if k == p.late_step < p.steps:

@@ -42,7 +42,7 @@ def mixer_inverse(quadrotor: Quadrotor) -> Array:
             f"vehicle.quadrotors: rotors at {[list(r) for r in quadrotor.rotors]} with spins {list(quadrotor.spins)} "
             "cannot make every thrust and moment: no three may stand in a line, and spins must not all be alike"
         )
-    return np.linalg.inv(A)
+    return np.asarray(np.linalg.inv(A), dtype=np.float64)
 
 
 def shift(mass: float, d: Array) -> Array:

@@ -26,7 +26,7 @@ class Blowing(NamedTuple):
 
 
 @choice
-def weather(kind: Any, memory: Any, frame: Frame, state: Any, gust: Any, noise: Any) -> Blowing:
+def weather(kind: Any, memory: Any, frame: Frame, state: Any, gust: Any, noise: Any) -> Any:
     """The air over a step that starts in `state`; `gust`: velocity of all gusts together [m/s, world axes]."""
 
 

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.constants import GRAVITY
 from tandemlift.jit import flat, leaves
@@ -36,10 +37,10 @@ def tables_of(mission: Mission) -> Tables:
     gusts = mission.wind.gusts if mission.wind.model == "air" else ()
     blows = [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
     upright = [wall(w.start, w.end, w.top) for w in mission.walls]
-    return Tables(*map(_table, (pushes, blows, upright), (GAUSSIAN, GUST, WALL)))
+    return Tables(_table(pushes, GAUSSIAN), _table(blows, GUST), _table(upright, WALL))
 
 
-def _table(rows: list[Any], like: Any) -> np.ndarray:
+def _table(rows: list[Any], like: Any) -> NDArray[np.float64]:
     return np.array([flat(row) for row in rows], dtype=float).reshape(len(rows), leaves(like))
 
 
@@ -53,7 +54,7 @@ def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generato
         airspeed = w.airspeed or max(math.dist(w.velocity, ZERO), LEAST_AIRSPEED)
         turbulence = dryden(w.turbulence, w.height, airspeed, w.velocity, mission.mission.step)
     wind = Wind(vec3(w.velocity), turbulence)
-    return Weather(wind, air_drag_of(vehicle, w.density)), first_eddies(turbulence, chance.standard_normal(5))
+    return Weather(wind, air_drag_of(vehicle, w.density)), first_eddies(turbulence, chance.standard_normal(5).tolist())
 
 
 def whiffs_of(weather: Any) -> Any:
@@ -80,7 +81,7 @@ def walls_of(mission: Mission, vehicle: Vehicle) -> Any:
     if not mission.walls:
         return Nothing()
     payload, fleet = vehicle.payload, vehicle.quadrotors
-    sized = payload.length is not None and payload.radius is not None
+    beam = (payload.length, payload.radius) if payload.length and payload.radius else None
     return walls(
         vehicle.lever_arms,
         [q.guard_radius for q in fleet],
@@ -88,7 +89,7 @@ def walls_of(mission: Mission, vehicle: Vehicle) -> Any:
         vehicle.inertia,
         mission.mission.step,
         friction=mission.ground.friction,
-        beam=(payload.length, payload.radius) if sized else None,
+        beam=beam,
         payload=-vehicle.center_of_mass,
     )
 

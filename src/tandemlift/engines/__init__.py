@@ -53,13 +53,13 @@ class Engine(NamedTuple):
     module: str = ""
     body: str = ""
 
-    def start(self, mission: Mission, vehicle: Vehicle, floor: Any) -> Body:
-        """The body of a mission at t = 0; `floor`: a `laws.contact.Floor` or `Nothing`.
+    def start(self, mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Body:
+        """The body of a mission at t = 0; `floor`: a `laws.contact.Floor`, `walls`: a `laws.walls.Walls`, or `Nothing`.
 
         Raises:
             InputError: the engine is not installed, or cannot take the mission.
         """
-        return getattr(importlib.import_module(self.module), self.body)(mission, vehicle, floor)
+        return getattr(importlib.import_module(self.module), self.body)(mission, vehicle, floor, walls)
 
 
 ENGINES = {

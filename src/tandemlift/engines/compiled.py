@@ -133,7 +133,7 @@ def _no_contact(load, frame, attitude):
 
 
 @choice
-def moved_by(load: Any, body: Body, rate: State) -> State:
+def moved_by(load: Any, body: Body, rate: State) -> Any:
     """The motion under a further load about the centre of mass."""
 
 
@@ -188,7 +188,7 @@ def _unloaded(load, frame, attitude, felt):
 
 
 @choice
-def touched_by(load: Any, felt: Felt) -> Felt:
+def touched_by(load: Any, felt: Felt) -> Any:
     """`felt`, with the force of a contact about the centre of mass."""
 
 

@@ -61,9 +61,14 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
         mission: its step, `plant` and `walls` are the model's.
         vehicle: the vehicle that the pilot knows.
         floor: a `laws.contact.Floor`, or `Nothing`.
-        walls: a `laws.walls.Walls`, or `Nothing`.
+        walls: a `laws.walls.Walls`, or `Nothing` for a mission without walls.
+
+    Raises:
+        TypeError: the mission has walls, but nothing says how they press.
     """
     spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
+    if mission.walls and not walled:
+        raise TypeError("a mission with walls needs a laws.walls.Walls that says how they press")
     _set_options(spec, mission.mission.step, touching=standing or walled)
     _add_payload(spec, vehicle)
     for i, (quadrotor, center) in enumerate(zip(vehicle.quadrotors, vehicle.lever_arms, strict=True), 1):

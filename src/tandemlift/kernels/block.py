@@ -68,7 +68,7 @@ class Regions(NamedTuple):
         ]
         starts = [sum(widths[: i + 1]) * LANES for i in range(len(widths))]
         rotors = leaves(likes.thought.decision.thrusts) if likes.constrained else 0
-        return cls(*starts, starts[-1] + scratch_size(rotors))
+        return cls._make([*starts, starts[-1] + scratch_size(rotors)])
 
 
 @inlined

@@ -53,4 +53,5 @@ def likes_of(flying: Flying, given: Inputs) -> Likes:
     air = acting.weather.loads
     moved = advance(flying.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
     _, sample = observe(flying, thought, acting, moved, given)
-    return Likes(*map(zeroed, (flying, given, thought, acting, moved, sample)), before.near)
+    layouts = [zeroed(x) for x in (flying, given, thought, acting, moved, sample)]
+    return Likes._make([*layouts, before.near])

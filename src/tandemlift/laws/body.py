@@ -57,7 +57,7 @@ class Body(NamedTuple):
 
 
 @choice
-def motion(body: Any, s: State, u: Wrench, push: Push) -> State:
+def motion(body: Any, s: State, u: Wrench, push: Push) -> Any:
     """The rate of change of the state of a body under a wrench and a person's push."""
 
 

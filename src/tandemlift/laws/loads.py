@@ -178,7 +178,7 @@ def plus_zero(v: Vec3) -> Vec3:
 
 
 @choice
-def under(load: Any, frame: Frame, attitude: Any, felt: Felt) -> Felt:
+def under(load: Any, frame: Frame, attitude: Any, felt: Felt) -> Any:
     """`felt`, with a load on the quadrotors, which their joints pass on to the payload."""
 
 

@@ -107,7 +107,7 @@ def _quadrotor(quadrotor: Quadrotor, center: ArrayLike) -> Mesh:
     size = spread(quadrotor)
     parts = [_shell(size), ring([0.0, 0.0, 0.02 * size], quadrotor.guard_radius, 0.035 * size, GUARD)]
     for (x, y), hub in zip(quadrotor.rotors, _hubs(quadrotor), strict=True):
-        color, outward = FRONT if x > 1e-9 else REAR, np.array([x, y, 0.0]) / np.hypot(x, y)
+        color, outward = FRONT if x > 1e-9 else REAR, np.array([x, y, 0.0]) / max(np.hypot(x, y), 1e-9)
         parts.append(rod([0.0, 0.0, 0.0], outward * quadrotor.guard_radius, 0.05 * size, CARBON))
         parts.append(rod([x, y, -0.05 * size], [x, y, 0.12 * size], 0.1 * size, METAL))
         parts.append(rod([x, y, 0.12 * size], hub + np.array([0.0, 0.0, 0.04 * size]), 0.05 * size, color, 0.03 * size))

@@ -17,8 +17,8 @@ SUN = np.array([0.35, -0.42, 0.84]) / np.linalg.norm([0.35, -0.42, 0.84])  # the
 SUNLIGHT, SKYLIGHT, FLOORLIGHT = np.array([0.82, 0.78, 0.71]), np.array([0.30, 0.34, 0.40]), np.array([0.2, 0.19, 0.18])
 SHINE, GLOSS = 0.16, 30.0  # strength and exponent of the highlight
 PENUMBRA = 0.035  # width of a shadow's edge over the height of what throws it
-TEXEL = 0.008  # m
-FINEST = 700  # texels each way
+TEXEL = 0.003  # m, at least
+FINEST = 500  # texels each way, at most
 BIAS = 0.02  # m: what is less far above throws no shadow, or every surface would shade itself
 HAZE, ZENITH = linear("#e9edf1"), linear("#a9c4de")
 

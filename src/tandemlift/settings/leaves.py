@@ -37,7 +37,7 @@ class Table(BaseModel):
     @classmethod
     def _lists_as_tuples(cls, data: Any) -> Any:
         kinds = {name: (field.annotation, *get_args(field.annotation)) for name, field in cls.model_fields.items()}
-        tuples = {name for name, options in kinds.items() if tuple in map(get_origin, options)}
+        tuples = {name for name, options in kinds.items() if any(get_origin(o) is tuple for o in options)}
         items = data.items() if isinstance(data, dict) else ()
         return {k: tuple(v) if k in tuples and isinstance(v, list) else v for k, v in items} or data
 
