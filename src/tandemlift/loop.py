@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.delays import Ends
 from tandemlift.engines.compiled import Moved, Plant, advance, aloft
 from tandemlift.law import law
 from tandemlift.laws.body import State
@@ -92,16 +93,9 @@ class Acting(NamedTuple):
     weather: Any
 
 
-class Lined(NamedTuple):
-    """What goes through the delay lines, in whole or in part."""
-
-    rotors: Any
-    readings: Any
-
-
 @law
-def relined(m: Moving, line: Lined) -> Moving:
-    """What moves, with what comes out of the delay lines."""
+def delayed(m: Moving, line: Ends) -> Moving:
+    """What moves, with what has come out of the delay lines."""
     return Moving(
         m.state, m.memory, m.wind, m.grip, m.near, m.sensing, m.estimator, line.rotors, line.readings, m.tally, m.lost
     )

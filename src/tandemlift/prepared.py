@@ -71,13 +71,13 @@ class Prepared:
             KERNELS[self.variant] = Kernels(self.flying, self.given)
         return KERNELS[self.variant]
 
-    def ring(self, lanes: int = 1) -> np.ndarray:
-        """A delay line for so many flights like this one, filled with what they hold at t = 0."""
+    def ring(self) -> np.ndarray:
+        """A delay line for this flight, filled with what it holds at t = 0."""
         lines, numbers = self.kernels.lines, np.array(flat(self.flying))
         if not self.delays.any():
-            return np.zeros((1, 3 * lanes))
+            return np.zeros((1, 0))
         row = np.concatenate([numbers[span.at : span.at + span.size] for span in lines])
-        return np.tile(np.repeat(row, lanes), (int(self.delays.max()) + 1, 1))
+        return np.tile(row, (1 << int(self.delays.max()).bit_length(), 1))
 
 
 def needs_compiling(mission: Mission) -> bool:

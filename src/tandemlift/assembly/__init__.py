@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from tandemlift.assembly.actuation import start_rotors
 from tandemlift.assembly.senses import start_estimators, start_sensors
 from tandemlift.assembly.surroundings import floor_of, near_of, push_kind, start_weather, tables_of, walls_of, whiffs_of
+from tandemlift.delays import Late, Lines
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.kernels.outside import Tables
 from tandemlift.laws.contact import start_grip
@@ -26,10 +27,6 @@ from tandemlift.settings import Mission
 from tandemlift.tally import EMPTY
 from tandemlift.vector import ZERO, Nothing
 from tandemlift.vehicle import Vehicle
-
-
-class Delayed(NamedTuple):
-    """Marks flights in which something is delayed; the delays are data of the loop."""
 
 
 class Assembled(NamedTuple):
@@ -76,7 +73,7 @@ def assemble(mission: Mission) -> Assembled:
     estimators, known = start_estimators(mission, vehicle, state, readings)
     moving = Moving(state, memory, eddies, grip, near, sensing, known, spinning, readings, EMPTY, 0.0)
     reads = Reads(READS[mission.pilot.state], READS[mission.pilot.push])
-    late = Delayed() if delays.any() else Nothing()
+    late = Lines(*[Late() if d else Nothing() for d in delays]) if delays.any() else Nothing()
     flying = Flying(moving, pilot, plant, rotors, weather, devices, estimators, reads, late)
     given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss))
     return Assembled(flying, given, tables_of(mission), delays, np.array(keys_of(mission.mission.seed)))

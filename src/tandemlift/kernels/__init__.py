@@ -18,7 +18,7 @@ from tandemlift.kernels.block import Regions, block_loop
 from tandemlift.kernels.likes import likes_of
 from tandemlift.kernels.limiting import scratch_size
 from tandemlift.kernels.outside import COMPILE, GAUSSIAN, GUST, HALVES, LANES, SPAN, WALL, Tables, draws
-from tandemlift.kernels.places import lines_of, place
+from tandemlift.kernels.places import place, stretches_of
 from tandemlift.kernels.single import single_loop
 from tandemlift.kernels.stepped import COMMAND, GIVEN, Parts, parts_of
 from tandemlift.loop import Flying, Inputs
@@ -32,7 +32,7 @@ class Kernels:
     def __init__(self, flying: Flying, given: Inputs) -> None:
         install()
         self.likes = likes_of(flying, given)
-        self.lines = lines_of(self.likes.flying)
+        self.lines = stretches_of(self.likes.flying)
 
     @property
     def folder(self) -> Path:

@@ -26,7 +26,7 @@ from tandemlift.kernels.outside import (
     gusting_block,
     inlined,
 )
-from tandemlift.kernels.places import Lines, carry, place
+from tandemlift.kernels.places import Stretches, carry, place
 from tandemlift.law import choice
 from tandemlift.laws.contact import may_touch
 from tandemlift.loop import Flying, Inputs, Thought, finish, lifted_off, think
@@ -167,7 +167,7 @@ def think_within_limits(a, at_hand, r, at_limits, like, given_like, excess_like,
     limit_lanes(a, a[r.scratch :], r.excess, commands, memory, like, excess_like, t)
 
 
-def block_loop(likes: Likes, lines: Lines, regions: Regions) -> Callable[..., Any]:
+def block_loop(likes: Likes, lines: Stretches, regions: Regions) -> Callable[..., Any]:
     """block(a, tables, ring, delays, log, k, stop, steps, every, dt): LANES flights, else as `single_loop`.
 
     Step number `steps` takes the last sample and leaves the flights as they were; log[lane] receives the logged

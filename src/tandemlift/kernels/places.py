@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.jit import leaves
 from tandemlift.kernels.outside import inlined
+from tandemlift.vector import Nothing
 
 
 class Span(NamedTuple):
@@ -15,10 +16,14 @@ class Span(NamedTuple):
     size: int
 
 
-class Lines(NamedTuple):
-    """What is delayed in a flight: the readings of the unit on board, those of the motion, the rotors' commands.
+NONE = Span(0, 0)
 
-    Each is a stretch of the flight; in a row of the delay line they stand one after the other.
+
+class Stretches(NamedTuple):
+    """What is delayed in a flight: readings of the unit on board, those of the motion, the rotors' commands.
+
+    Each is a stretch of the flight, empty where there is no delay; in a row of the delay line they stand one after the
+    other.
     """
 
     unit: Span
@@ -28,11 +33,16 @@ class Lines(NamedTuple):
     @property
     def size(self) -> int:
         """Numbers in a row."""
-        return self.unit.size + self.motion.size + self.command.size
+        return sum(span.size for span in self)
 
     def numbers(self, lanes: int) -> tuple[int, ...]:
-        """The stretches in an array of so many lanes: at and size of each, constants of a compiled loop."""
+        """At and size of each in a block of so many lanes: constants of a compiled loop."""
         return tuple(n * lanes for span in self for n in span)
+
+    def packed(self) -> tuple[int, ...]:
+        """At and size of each in a row of one flight's line."""
+        unit, motion, command = (span.size for span in self)
+        return 0, unit, unit, motion, unit + motion, command
 
 
 def place(value: Any, *path: str) -> Span:
@@ -47,33 +57,34 @@ def place(value: Any, *path: str) -> Span:
     return Span(at, leaves(value))
 
 
-def lines_of(flying: Any) -> Lines:
+def stretches_of(flying: Any) -> Stretches:
     """What is delayed in flights like this one."""
-    return Lines(
-        place(flying, "moving", "readings", "unit"),
-        place(flying, "moving", "readings", "motion"),
-        place(flying, "moving", "rotors", "arriving"),
-    )
+    late, ends = flying.delays, (("readings", "unit"), ("readings", "motion"), ("rotors", "arriving"))
+    if isinstance(late, Nothing):
+        return Stretches(NONE, NONE, NONE)
+    spans = [
+        NONE if isinstance(mark, Nothing) else place(flying, "moving", *end)
+        for mark, end in zip(late, ends, strict=True)
+    ]
+    return Stretches._make(spans)
 
 
 @inlined
-def _shift(a, row, arriving, at, size, column):
-    row[column : column + size] = a[at : at + size]
-    a[at : at + size] = arriving[column : column + size]
+def _shift(a, ring, into, out, at, size, column):
+    for i in range(size):
+        ring[into, column + i] = a[at + i]
+    for i in range(size):
+        a[at + i] = ring[out, column + i]
 
 
 @inlined
 def carry(a, ring, delays, k, at):
-    """After step k, put what is delayed into row k of the line, and what arrives for step k + 1 in its place.
+    """After step k, put what is delayed into a row of the line, and what arrives for step k + 1 in its place.
 
     `delays`: steps of unit, motion and command. A reading is known one step later at the soonest; a command without
-    delay acts at once.
+    delay acts at once. The line has a power of two of rows.
     """
-    depth = ring.shape[0]
-    row, second, third = ring[k % depth], at[1], at[1] + at[3]
-    if delays[0] > 0:
-        _shift(a, row, ring[(k - delays[0]) % depth], at[0], at[1], 0)
-    if delays[1] > 0:
-        _shift(a, row, ring[(k - delays[1]) % depth], at[2], at[3], second)
-    if delays[2] > 0:
-        _shift(a, row, ring[(k + 1 - delays[2]) % depth], at[4], at[5], third)
+    rows, second, third = ring.shape[0] - 1, at[1], at[1] + at[3]
+    _shift(a, ring, k & rows, (k - delays[0]) & rows, at[0], at[1], 0)
+    _shift(a, ring, k & rows, (k - delays[1]) & rows, at[2], at[3], second)
+    _shift(a, ring, k & rows, (k + 1 - delays[2]) & rows, at[4], at[5], third)

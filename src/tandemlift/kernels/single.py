@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
+from tandemlift.delays import Ends, arrived, departing
 from tandemlift.jit import leaves, load, load_lane, store
 from tandemlift.kernels.likes import Likes
 from tandemlift.kernels.limiting import limit
 from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
-from tandemlift.kernels.places import Lines, carry, place
+from tandemlift.kernels.places import Stretches, carry
 from tandemlift.laws.contact import may_touch
-from tandemlift.loop import Inputs, Lined, continued, finish, lifted_off, neared, relined, think
+from tandemlift.loop import Inputs, continued, delayed, finish, lifted_off, neared, think
+from tandemlift.vector import Nothing
 
 
-def single_loop(likes: Likes, lines: Lines) -> Callable[..., Any]:
+def single_loop(likes: Likes, lines: Stretches) -> Callable[..., Any]:
     """single(a, tables, work, ring, delays, seeds, log, last, k, stop, steps, every, dt) -> the step reached.
 
     Flies steps k to stop − 1 of `steps`, in `a`; log[k // every] is a logged sample. Step number `steps` only takes the
@@ -27,12 +31,13 @@ def single_loop(likes: Likes, lines: Lines) -> Callable[..., Any]:
     n_work = n_hands + 4 * SPAN * draws(noise_like)
     walled, late, constrained = likes.walled, likes.late, likes.constrained
     grounded = likes.grounded
-    at, at_line = lines.numbers(1), place(like, "moving", "rotors").at
-    line_like = Lined(like.moving.rotors, like.moving.readings)
+    line_like = departing(like.delays, Ends(like.moving.rotors, like.moving.readings)) if late else Nothing()
+    at, n_line = lines.packed(), lines.size
 
     def single(a, tables, work, ring, delays, seeds, log, last, k, stop, steps, every, dt):
         flying = load(a, like)
         hands, table, scratch = work[:n_hands], work[n_hands:n_work], work[n_work:]
+        line = np.empty(n_line)
         feel(hands, tables.pushes, k, dt, push_like)
         draw(table, k, seeds[0], seeds[1])
         low = True
@@ -60,9 +65,10 @@ def single_loop(likes: Likes, lines: Lines) -> Callable[..., Any]:
                 store(last, sample)
                 break
             if late:
-                store(a[at_line:], Lined(moving.rotors, moving.readings))
-                carry(a, ring, delays, k, at)
-                moving = relined(moving, load(a[at_line:], line_like))
+                ends = Ends(moving.rotors, moving.readings)
+                store(line, departing(flying.delays, ends))
+                carry(line, ring, delays, k, at)
+                moving = delayed(moving, arrived(flying.delays, load(line, line_like), ends))
             flying = continued(flying, moving)
             k += 1
         store(a, flying.moving)

@@ -10,7 +10,7 @@ from tandemlift.jit import leaves, load, load_lane, store
 from tandemlift.kernels.likes import Likes
 from tandemlift.kernels.limiting import limit
 from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
-from tandemlift.kernels.places import Lines, carry
+from tandemlift.kernels.places import Stretches, carry
 from tandemlift.laws.admittance import Trajectory
 from tandemlift.laws.body import State, Wrench
 from tandemlift.laws.controllers import Command, Measured, Reference
@@ -52,7 +52,7 @@ class Parts(NamedTuple):
     observed: Callable[..., Any]
 
 
-def parts_of(likes: Likes, lines: Lines) -> Parts:
+def parts_of(likes: Likes, lines: Stretches) -> Parts:
     """The parts of a step, to be compiled.
 
     They hand values on in flat arrays: `a` the flight, `g` what it is given, `m` what the pilot thinks, `c` what acts
