@@ -189,13 +189,17 @@ def observe(flying: Flying, thought: Thought, acting: Acting, moved: Moved, give
 
 
 @law
+def swing(plant: Plant, before: Moving, acting: Acting, hand: Hand, dt: Any) -> Moved:
+    """The body's part of a step."""
+    air = acting.weather.loads
+    return advance(plant, before.state, before.grip, before.near, acting.thrusts, air, hand, dt)
+
+
+@law
 def finish(flying: Flying, thought: Thought, given: Inputs, t: Any, dt: Any) -> Any:
     """The rest of a step once the pilot has decided: (Moving after it, the Sample at its start)."""
-    before, plant = flying.moving, flying.plant
     acting = act(flying, thought.decision.thrusts, given, t)
-    air = acting.weather.loads
-    moved = advance(plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, dt)
-    return observe(flying, thought, acting, moved, given)
+    return observe(flying, thought, acting, swing(flying.plant, flying.moving, acting, given.hand, dt), given)
 
 
 @law

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.errors import InputError
-from tandemlift.jit import cached_in, flat, folder, install, leaves, load, store, zeroed
+from tandemlift.jit import Layout, cached_in, flat, folder, install, leaves, load, store, zeroed
 from tandemlift.kernels import COMPILE
 from tandemlift.laws.body import State
 from tandemlift.laws.controllers import Measured, control
@@ -59,7 +59,7 @@ class Pilot:
 
     @cached_property
     def _sample(self) -> Callable[..., None]:
-        like, dt = zeroed(self._start), self._dt
+        like, dt = Layout(self._start), self._dt
 
         def sample(a, x, thrusts):
             pilot = load(a, like)
@@ -67,7 +67,7 @@ class Pilot:
             store(thrusts, decision.thrusts)
             store(a, Remembered(pilot.samples + 1.0, memory))
 
-        with cached_in(folder(like)):
+        with cached_in(folder(zeroed(self._start))):
             return numba.njit(cache=True, **COMPILE)(sample)
 
     def step(self, measurement: Array) -> Array:

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.laws.push import Hand
-from tandemlift.loop import Moving, move, pushes_of, start
+from tandemlift.assembly import assemble
+from tandemlift.loop import move
 from tandemlift.vector import Quat, Vec3
 
 from .helpers import flat, rebuilt
@@ -29,8 +29,7 @@ class Hover:
 
     def __init__(self, name: str, changes: dict[str, Any]) -> None:
         self.mission = tl.load_mission(name, {"pushes": [], **changes})
-        self.flying, (_, push) = start(self.mission), pushes_of(self.mission)
-        self.hand = Hand(push, push, push)
+        self.flying, self.given, *_ = assemble(self.mission)
         state = self.flying.moving.state._replace(
             position=Vec3(0.0, 0.0, 1.0), velocity=Vec3(0.0, 0.0, 0.0), attitude=Quat(1.0, 0.0, 0.0, 0.0)
         )
@@ -42,8 +41,8 @@ class Hover:
         values = list(x)
         size = len(flat(self.like[0]))
         state, memory = rebuilt(values[:size], self.like[0]), rebuilt(values[size:], self.like[1])
-        moving = Moving(state, memory, self.flying.moving.tally, 0.0)
-        after, _ = move(self.flying._replace(moving=moving), self.hand, 40.0, 0.001)
+        moving = self.flying.moving._replace(state=state, memory=memory)
+        after, _ = move(self.flying._replace(moving=moving), self.given, 40.0, 0.001)
         return flat((after.state, after.memory))
 
     def differences(self) -> np.ndarray:

@@ -9,64 +9,87 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.assembly import assemble
 from tandemlift.jit import install, leaves, load, store, zeroed
-from tandemlift.laws.push import Hand
-from tandemlift.loop import Flying, move, pushes_of, start
+from tandemlift.loop import Flying, Inputs, move
 
 from .helpers import flat, rebuilt
 
-VARIANTS: dict[str, dict[str, Any]] = {
-    "tanh, hard gate, zero derivatives, exact rates, exact tilt, cubic, diagonal inertia, central pushes": {},
-    "saturation, soft gate, filtered, body rates, printed tilt, power, diagonal inertia, pushes at points": {
-        "controller.switching": "saturation",
-        "controller.attitude_reference_derivatives": "filtered",
-        "controller.euler_rates": "body",
-        "controller.tilt_inverse": "printed",
-        "controller.gains.a": 2.5,
-        "admittance.gate": "soft",
-        "pushes.0.point": [0.1, 0.8, -0.06],
-    },
-    "sign, soft gate, filtered, exact rates, exact tilt, power, full inertia, pushes at points, re-anchoring": {
-        "controller.switching": "sign",
-        "controller.attitude_reference_derivatives": "filtered",
-        "controller.gains.a": 1.5,
-        "admittance.gate": "soft",
-        "admittance.stiffness": 2.0,
-        "admittance.reanchor": True,
-        "vehicle.quadrotors.0.position": [0.3, 1.0, 0.2],
-        "pushes.0.point": [0.1, 0.8, -0.06],
-    },
-    "tanh, hard gate, zero derivatives, body rates, printed tilt, cubic, full inertia, feed-forward": {
-        "controller.euler_rates": "body",
-        "controller.tilt_inverse": "printed",
-        "controller.human_force_feedforward": True,
-        "vehicle.quadrotors.1.position": [-0.2, -1.0, 0.3],
-        "vehicle.quadrotors.1.layout": "x",
-    },
+VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
+    "tanh, hard gate, zero derivatives, exact rates, exact tilt, cubic, diagonal inertia, central pushes": (
+        "paper",
+        {},
+    ),
+    "saturation, soft gate, filtered, body rates, printed tilt, power, diagonal inertia, pushes at points": (
+        "paper",
+        {
+            "controller.switching": "saturation",
+            "controller.attitude_reference_derivatives": "filtered",
+            "controller.euler_rates": "body",
+            "controller.tilt_inverse": "printed",
+            "controller.gains.a": 2.5,
+            "admittance.gate": "soft",
+            "pushes.0.point": [0.1, 0.8, -0.06],
+        },
+    ),
+    "sign, soft gate, filtered, exact rates, exact tilt, power, full inertia, pushes at points, re-anchoring": (
+        "paper",
+        {
+            "controller.switching": "sign",
+            "controller.attitude_reference_derivatives": "filtered",
+            "controller.gains.a": 1.5,
+            "admittance.gate": "soft",
+            "admittance.stiffness": 2.0,
+            "admittance.reanchor": True,
+            "vehicle.quadrotors.0.position": [0.3, 1.0, 0.2],
+            "pushes.0.point": [0.1, 0.8, -0.06],
+        },
+    ),
+    "tanh, hard gate, zero derivatives, body rates, printed tilt, cubic, full inertia, feed-forward": (
+        "paper",
+        {
+            "controller.euler_rates": "body",
+            "controller.tilt_inverse": "printed",
+            "controller.human_force_feedforward": True,
+            "vehicle.quadrotors.1.position": [-0.2, -1.0, 0.3],
+            "vehicle.quadrotors.1.layout": "x",
+        },
+    ),
+    "real rotors, limits, floor, walls, turbulence, gusts, sensors, estimators": (
+        "iris",
+        {
+            "wind.model": "air",
+            "wind.turbulence": 3.0,
+            "wind.velocity": [3.0, 1.0, 0.0],
+            "wind.gusts": [{"velocity": [1.0, 0.0, 0.5], "start": 4.0, "rise": 2.0}],
+            "walls": [{"start": [1.0, -3.0], "end": [1.0, 3.0]}],
+            "faults": [{"quadrotor": 1, "rotor": 2, "time": 3.0, "efficiency": 0.5}],
+            "sensors.motion.delay": 0.01,
+        },
+    ),
 }
 BATCH = 16
 T, DT = 5.0, 0.001
 
 
-class Inputs(NamedTuple):
+class Step(NamedTuple):
     """What a step depends on, apart from its time."""
 
     flying: Flying
-    hand: Hand
+    given: Inputs
 
 
 class Case:
     """A variant, a batch of excited inputs (numbers × BATCH), and what plain Python makes of them."""
 
-    def __init__(self, changes: dict[str, Any]) -> None:
-        mission = tl.load_mission("paper", changes)
-        flying, (_, push) = start(mission), pushes_of(mission)
-        self.like = Inputs(flying, Hand(push, push, push))
+    def __init__(self, name: str, changes: dict[str, Any]) -> None:
+        flying, given, *_ = assemble(tl.load_mission(name, changes))
+        self.like = Step(flying, given)
         rng = np.random.default_rng(8)
-        moving, hand = len(flat(flying.moving)), len(flat(self.like.hand))
+        moving, outside = len(flat(flying.moving)), len(flat(given))
         numbers = np.repeat(np.array(flat(self.like), dtype=float)[:, None], BATCH, axis=1)
         numbers[:moving] = 0.3 * rng.standard_normal((moving, BATCH))
-        numbers[-hand:] = rng.standard_normal((hand, BATCH))
+        numbers[-outside:] = rng.standard_normal((outside, BATCH))
         attitude = slice(6, 10)
         numbers[attitude] += [[1.0], [0.0], [0.0], [0.0]]
         numbers[attitude] /= np.linalg.norm(numbers[attitude], axis=0)
@@ -75,8 +98,8 @@ class Case:
 
     def step(self, numbers: Any) -> list[Any]:
         """The numbers of (Moving, Sample) after a step."""
-        given = rebuilt(numbers, self.like)
-        return flat(move(given.flying, given.hand, T, DT))
+        step = rebuilt(numbers, self.like)
+        return flat(move(step.flying, step.given, T, DT))
 
     def agrees(self, found: Any) -> None:
         """Every number is that of plain Python to 1e-12 of the largest in its row."""
@@ -88,14 +111,14 @@ class Case:
 
 @pytest.fixture(scope="module", params=VARIANTS.values(), ids=VARIANTS)
 def case(request):
-    return Case(request.param)
+    return Case(*request.param)
 
 
 def test_variants_differ_in_type():
-    """So that the tests below fly four different loops."""
+    """So that the tests below fly different loops."""
     from tandemlift.prepared import Prepared
 
-    assert len({Prepared(tl.load_mission("paper", changes)).variant for changes in VARIANTS.values()}) == len(VARIANTS)
+    assert len({Prepared(tl.load_mission(*variant)).variant for variant in VARIANTS.values()}) == len(VARIANTS)
 
 
 def test_numpy_broadcasts_the_step(case):
@@ -123,7 +146,7 @@ def test_numba_compiles_the_step(case):
     @numba.njit(error_model="numpy")
     def step(a, y):
         x = load(a, like)
-        store(y, move(x.flying, x.hand, T, DT))
+        store(y, move(x.flying, x.given, T, DT))
 
     found = np.zeros_like(case.expected)
     assert len(case.numbers) == leaves(case.like)

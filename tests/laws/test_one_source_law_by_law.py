@@ -62,7 +62,7 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "reaching time": (sliding.reaching_time, (V, V, V, V)),
     "expanded dynamics": (expanded.expanded_dynamics, (BODY, V, V, AXES)),
     "Euler dynamics": (expanded.euler_dynamics, (BODY, EULER, V, V, Wrench(0.0, V))),
-    "motion, pushed at points": (motion, (State(V, V, Q, V), Wrench(0.0, V), PointPush(V, M), BODY)),
+    "motion, pushed at points": (motion, (BODY, State(V, V, Q, V), Wrench(0.0, V), PointPush(V, M))),
 }
 POSITIVE = {"power", "smooth step", "soft gate", "sliding surface", "surface rate", "wanted acceleration"}
 BATCH = 12

@@ -5,11 +5,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
+from tandemlift.assembly import assemble
 from tandemlift.laws.allocation import wrench
 from tandemlift.laws.body import State, motion
 from tandemlift.laws.controllers import Measured
 from tandemlift.laws.push import CentralPush
-from tandemlift.loop import start
 from tandemlift.pilot import decide
 from tandemlift.vector import ZERO, Quat, Vec3, hamilton
 
@@ -35,7 +35,7 @@ def lifting(step):
 @pytest.fixture(scope="module")
 def continuous():
     """Positions and attitudes of the loop whose pilot is never held, at the logged times."""
-    flying = start(lifting(0.001))
+    flying = assemble(lifting(0.001)).flying
     begin = flying.moving.state
 
     def rate(t, y):

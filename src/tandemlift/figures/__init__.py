@@ -27,11 +27,33 @@ def _drawing(name: str) -> Draw:
     return draw
 
 
-FIGURES: dict[str, Draw] = {name: _drawing(name) for name in ("reference", "path", "tracking", "inputs", "interaction")}
+NAMES = (
+    *("reference", "path", "tracking", "inputs", "interaction"),  # in the order of the paper
+    *("push", "joints", "rotors", "surroundings"),
+)
+FIGURES: dict[str, Draw] = {name: _drawing(name) for name in NAMES}
+"""All figures that there are; a flight has those of `figures_of`."""
+
+SHOWS: dict[str, tuple[str, ...]] = {
+    "push": ("push_estimate",),
+    "joints": ("joint_force",),
+    "rotors": ("rotor_commands",),
+    "surroundings": ("wind_velocity", "contact_force"),
+}
+"""Channels that a figure is about: a flight has it if it has one of them. A figure without is every flight's."""
+
+
+def figures_of(flight: Flight) -> dict[str, Draw]:
+    """The figures that a flight has, in the order of `FIGURES`."""
+    return {
+        name: draw
+        for name, draw in FIGURES.items()
+        if name not in SHOWS or any(channel in flight.channels for channel in SHOWS[name])
+    }
 
 
 def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progress | None = None) -> list[Path]:
-    """Draw every figure of a flight and write each as NAME.png and NAME.pdf; each file appears whole or not at all.
+    """Draw every figure that a flight has and write it as NAME.png and NAME.pdf; a file appears whole or not at all.
 
     Args:
         flight: a flight, also one that diverged or has few samples.
@@ -45,10 +67,10 @@ def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progr
 
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    written = []
-    for done, (name, draw) in enumerate(FIGURES.items(), 1):
+    written, figures = [], figures_of(flight)
+    for done, (name, draw) in enumerate(figures.items(), 1):
         figure = draw(flight)
         written += [save(figure, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
         if progress:
-            progress(done, len(FIGURES))
+            progress(done, len(figures))
     return written

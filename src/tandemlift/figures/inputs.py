@@ -13,7 +13,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from tandemlift.figures.panels import extent, fit, line, time_axis
+from tandemlift.figures.panels import fit, line, time_axis
+from tandemlift.figures.start import START, is_disturbed
 from tandemlift.figures.style import BLACK, BLUE, GREY, PAGE, journal
 from tandemlift.flight import Flight
 from tandemlift.settings import VehicleTable
@@ -21,24 +22,8 @@ from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
-START = 1.0  # s, how long a start may be
-LONG = 5.0  # s, flights shorter than this are all start
-DISTURBED = 1.5  # times the span of what follows, from where the start gets a column
 LEAST = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
 LABELS = ("$U_1$ (N)", "$U_2$ (N m)", "$U_3$ (N m)", "$U_4$ (N m)")
-
-
-def _span(values: Array) -> float:
-    low, high = extent(values)
-    return high - low
-
-
-def start_is_disturbed(time: Array, inputs: Array) -> bool:
-    """Whether any input (T, 4) spans far more in the first second than afterwards."""
-    if not len(time) or time[-1] < LONG:
-        return False
-    late = time > START
-    return any(_span(inputs[:, i]) > DISTURBED * max(_span(inputs[late, i]), LEAST[i]) for i in range(inputs.shape[1]))
 
 
 def _panel(ax: Any, flight: Flight, i: int, part: NDArray[np.bool_], shown: NDArray[np.bool_]) -> None:
@@ -60,7 +45,7 @@ def weight_of(flight: Flight) -> float:
 def draw(flight: Flight) -> Figure:
     """Draw U1 [N] with the vehicle's weight, and U2, U3, U4 [N m]; the start apart if it is disturbed."""
     time = flight.time
-    disturbed = start_is_disturbed(time, np.column_stack([flight["thrust"], flight["moment"]]))
+    disturbed = is_disturbed(time, np.column_stack([flight["thrust"], flight["moment"]]), LEAST)
     every, early = np.ones(len(time), dtype=bool), time <= START
     figure = Figure(figsize=(PAGE, 4.4), layout="constrained")
     widths = (1.0, 2.6) if disturbed else (1.0,)

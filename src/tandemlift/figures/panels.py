@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from tandemlift.figures.series import drawable, intervals, telling
-from tandemlift.figures.style import PALE
+from tandemlift.figures.style import COMPONENTS, PALE
 from tandemlift.flight import Flight
 
 Array = NDArray[np.float64]
@@ -26,6 +26,11 @@ def line(ax: Axes, time: Array, values: Array, **look: Any) -> Any:
     kept = telling(values)
     (drawn,) = ax.plot(time[kept], values[kept], **look)
     return drawn
+
+
+def components(ax: Axes, time: Array, values: Array, **look: Any) -> list[Any]:
+    """Draw a vector (T, 3) over time [s], a line for each component. Returns the lines."""
+    return [line(ax, time, values[:, i], **COMPONENTS[i], **look) for i in range(3)]
 
 
 def time_axis(ax: Axes, flight: Flight, label: bool = True) -> None:
@@ -60,10 +65,10 @@ def fit(ax: Axes, *values: Array, least: float) -> None:
     ax.yaxis.set_major_locator(value_ticks())
 
 
-def shade(ax: Axes, time: Array, active: NDArray[np.bool_]) -> Array:
+def shade(ax: Axes, time: Array, active: NDArray[np.bool_], color: str = PALE) -> Array:
     """Shade the intervals (K, 2) [s] in which samples are active over the panel's height, and return them."""
     spans = intervals(time, active)
     if len(spans):
         bars = [(start, end - start) for start, end in spans]
-        ax.broken_barh(bars, (0.0, 1.0), transform=ax.get_xaxis_transform(), facecolor=PALE, lw=0.0, zorder=0)
+        ax.broken_barh(bars, (0.0, 1.0), transform=ax.get_xaxis_transform(), facecolor=color, lw=0.0, zorder=0)
     return spans

@@ -1,7 +1,8 @@
 """The path in space, with arrows where the person pushed, and the vehicle at a few instants.
 
 An arrow starts where the push acted at the time of its peak, points along it and is as long, over the longest one, as
-it was strong. The path's shadow straight below it lies on the floor.
+it was strong. The path's shadow straight below it lies on the floor. Walls are seen through, and stand before or behind
+the path as they are nearer to the reader or farther away.
 """
 # paper: fig5, b
 
@@ -13,13 +14,15 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import FancyArrowPatch
+from matplotlib.patches import FancyArrowPatch, Patch
 from numpy.typing import NDArray
 
+from tandemlift.figures.ground import floor_height
 from tandemlift.figures.scene import NEAR, Scene, on_paper
 from tandemlift.figures.series import drawable, telling
 from tandemlift.figures.skeleton import Skeleton, skeleton
 from tandemlift.figures.style import BLACK, BLUE, GREY, VERMILLION, journal
+from tandemlift.figures.walls import EDGE, GLASS, Wall, draw_walls, walls_near
 from tandemlift.flight import Flight
 from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.vector import Quat
@@ -30,6 +33,7 @@ MOST = 6  # vehicles drawn
 SPACING = 1.2  # vehicle spans of path from one vehicle drawn to the next, at least
 VISIBLE = 0.02  # of the longest side of the scene: a smaller vehicle would be a blot
 LONGEST = 0.13  # of the longest side of the scene: the longest arrow
+DEEP = 0.5  # of the longest side of the scene: a floor farther below is not drawn
 FAINT = "#6e6e6e"
 
 
@@ -86,12 +90,15 @@ def _draw_pushes(scene: Scene, found: list[Push], tips: Array) -> None:
         scene.axes.add_patch(arrow)
 
 
-def _legend(scene: Scene, found: list[Push], handles: list[Any]) -> None:
+def _legend(scene: Scene, found: list[Push], walls: list[Wall], handles: list[Any]) -> None:
     labels = ["path", "its shadow on the floor", "start", "end"]
     if found:
         strongest = max(float(np.linalg.norm(p.force)) for p in found)
         handles = [*handles, Line2D([], [], color=VERMILLION, lw=1.6, marker=">", ms=4)]
         labels.append(f"push (longest arrow: {strongest:.3g} N)")
+    if walls:
+        handles = [*handles, Patch(facecolor=GLASS, edgecolor=EDGE, lw=0.6)]
+        labels.append("wall")
     scene.figure.legend(handles, labels, loc="upper left", ncols=len(labels), columnspacing=1.2)
 
 
@@ -106,6 +113,12 @@ def _draw_path(scene: Scene, path: Array) -> list[Any]:
         scene.line(path[:1], marker="o", **ends),
         scene.line(path[-1:], marker="s", **ends),
     ]
+
+
+def _floor(flight: Flight, around: Array) -> float | None:
+    """Height of the floor [m] if there is one not far below the points (n, 3) that are shown."""
+    height = floor_height(flight)
+    return height if height is not None and around[:, 2].min() - height < DEEP * np.ptp(around, axis=0).max() else None
 
 
 @journal
@@ -123,11 +136,15 @@ def draw(flight: Flight) -> Figure:
     found = pushes(flight)
     per_newton = LONGEST * np.ptp(around, axis=0).max() / max([np.linalg.norm(p.force) for p in found], default=1.0)
     tips = np.array([p.point + per_newton * p.force for p in found]).reshape(-1, 3)
+    around = np.concatenate([around, tips])
 
-    scene = Scene(np.concatenate([around, tips]))
+    tables = flight.mission.get("walls", [])
+    reach = np.concatenate([around, *(wall.rim for wall in walls_near(tables, around))])
+    scene = Scene(reach, _floor(flight, around))
     handles = _draw_path(scene, path)
     for order, k in enumerate(sorted(range(len(shown)), key=lambda k: float(path[shown[k]] @ NEAR))):
         _draw_vehicle(scene, vehicles[k], BLACK if shown[k] in (0, len(path) - 1) else FAINT, 4.0 + order)
     _draw_pushes(scene, found, tips)
-    _legend(scene, found, handles)
+    walls = draw_walls(scene, tables, path if len(path) else around)
+    _legend(scene, found, walls, handles)
     return scene.figure

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ TOUCHING = np.array([0.05, 0.3, 0.3])  # of a cell: what stands out of the box b
 TALLEST = 5.2  # in
 ROOM = np.array([0.4, 0.3, 0.5, 0.36])  # in, for labels: left, bottom, right, top
 LIGHT, LIGHTER = "#d0d0d0", "#e8e8e8"
+GROUND = "#f1eee7"  # of a floor that is there, under its grid
 
 
 def on_paper(points: Any) -> Array:
@@ -38,15 +39,21 @@ def on_paper(points: Any) -> Array:
 class Scene:
     """A figure with a box of space in it, wide enough for points (n, 3) [m, world axes].
 
+    Args:
+        points: what is to be seen.
+        floor: height of a floor that is there [m], on which the box stands; else its floor is but a place for shadows.
+
     Attributes:
         figure: as wide as a page unless the box is tall.
         axes: plain axes, in metres on paper.
-        box: (3, 2) lower and upper ends of the box [m, world axes], multiples of `cell`.
+        box: (3, 2) lower and upper ends of the box [m, world axes], multiples of `cell` but for a floor that is there.
         cell: of the grid [m].
     """
 
-    def __init__(self, points: Array) -> None:
+    def __init__(self, points: Array, floor: float | None = None) -> None:
         self.cell, self.box = _box(points)
+        if floor is not None:
+            self.box[2] = floor, max(self.box[2, 1], floor + self.cell)
         corners = on_paper(np.stack(np.meshgrid(*self.box), axis=-1).reshape(-1, 3))
         seen = np.concatenate([corners, on_paper(points)])
         low, high = seen.min(axis=0), seen.max(axis=0)
@@ -58,6 +65,10 @@ class Scene:
         self.axes: Any = self.figure.add_axes((*(corner / size), *(inner / size)))
         self.axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         self.axes.set_axis_off()
+        if floor is not None:
+            (x0, x1), (y0, y1), _ = self.box
+            ground = np.array([(x0, y0, floor), (x1, y0, floor), (x1, y1, floor), (x0, y1, floor)])
+            self.fill(ground, facecolor=GROUND, zorder=-1, gid="floor")
         self._draw_box()
 
     def line(self, points: Array, **look: Any) -> Any:
@@ -65,10 +76,14 @@ class Scene:
         (drawn,) = self.axes.plot(*on_paper(points).T, clip_on=False, **look)
         return drawn
 
+    def fill(self, corners: Array, **look: Any) -> None:
+        """Fill a plane polygon with corners (n, 3) [m, world axes]."""
+        self.axes.add_collection(PolyCollection([on_paper(corners)], lw=0.0, clip_on=False, **look))
+
     def _draw_box(self) -> None:
         """Floor and the two walls behind, with a grid, and labels on the three edges that are free."""
         (x0, x1), (y0, y1), (z0, z1) = self.box
-        xs, ys, zs = (np.arange(round((high - low) / self.cell) + 1) * self.cell + low for low, high in self.box)
+        xs, ys, zs = (_multiples(low, high, self.cell) for low, high in self.box)
         floor = [[(x, y0, z0), (x, y1, z0)] for x in xs] + [[(x0, y, z0), (x1, y, z0)] for y in ys]
         walls = [[(x, y1, z0), (x, y1, z1)] for x in xs] + [[(x0, y, z0), (x0, y, z1)] for y in ys]
         walls += [[(x0, y1, z), (x1, y1, z)] for z in zs] + [[(x0, y0, z), (x0, y1, z)] for z in zs]
@@ -91,6 +106,11 @@ class Scene:
             self.axes.annotate(text, spot, offset, fontsize=7.5, ha=across, va=along, **look)
         beside = spots[-1] if axis == "z" else spots.mean(axis=0)
         self.axes.annotate(f"${axis}$ (m)", beside, name, ha="left" if axis == "y" else "center", va="center", **look)
+
+
+def _multiples(low: float, high: float, cell: float) -> Array:
+    """The multiples of a cell from one to the other; what is off by rounding counts as a multiple."""
+    return np.arange(np.ceil(low / cell - 1e-6), np.floor(high / cell + 1e-6) + 1.0) * cell
 
 
 def _box(points: Array) -> tuple[float, Array]:

@@ -1,7 +1,6 @@
 """A vehicle as lines: payload, struts, arms and rotor discs, in body axes about the centre of mass, or in the world.
 
-Everything comes from the mission's `vehicle` table, so the drawing has the vehicle's own size and mounting points. Only
-the radius of a rotor is not in the table; half an arm is close to that of common quadrotors.
+Everything comes from the mission's `vehicle` table, so the drawing has the vehicle's own size and mounting points.
 """
 
 from __future__ import annotations
@@ -19,7 +18,6 @@ from tandemlift.vehicle import Vehicle, mixer
 
 Array = NDArray[np.float64]
 
-ROTOR = 0.5  # radius of a rotor over the length of an arm
 CORNERS = 24  # of the polygon that stands for a rotor's disc
 
 
@@ -60,5 +58,5 @@ def skeleton(table: Mapping[str, Any]) -> Skeleton:
         _, roll, pitch, _ = mixer(quadrotor)
         for hub in center + np.column_stack([-pitch, roll, np.zeros(4)]):  # a rotor's levers are where it stands
             arms.append([center, hub])
-            rotors.append(hub + ROTOR * quadrotor.arm * circle)
+            rotors.append(hub + quadrotor.rotor_radius * circle)
     return Skeleton(beam, np.array(struts), np.array(arms), np.array(rotors))

@@ -28,6 +28,8 @@ GREEN = "#009E73"
 VERMILLION = "#D55E00"
 GREY = "#8c8c8c"
 PALE = "#d9d9d9"
+LIGHT_BLUE = "#a9d6f0"  # of areas, told apart from PALE in grey print by little only: use where both are labelled
+TAN = "#e0b878"  # of what is noisy and stands behind
 
 ACTUAL: dict[str, Any] = {"color": BLUE, "lw": 1.2}
 DESIRED: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (4, 2))}

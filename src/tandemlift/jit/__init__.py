@@ -8,10 +8,11 @@ Only the loop and the compiled pilot import this package, so that Numba is loade
 """
 
 from tandemlift.jit.cache import cached_in, folder
-from tandemlift.jit.layout import flat, leaves, load, load_lane, store, store_lane, unflat, zeroed
+from tandemlift.jit.layout import Layout, flat, leaves, load, load_lane, store, store_lane, unflat, zeroed
 from tandemlift.jit.overloads import install
 
 __all__ = [
+    "Layout",
     "cached_in",
     "flat",
     "folder",

@@ -8,7 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 from numba import types
-from numba.extending import overload
+from numba.core.imputils import lower_constant
+from numba.extending import models, overload, register_model, typeof_impl
 
 from tandemlift.jit.fuse import INLINE
 
@@ -40,6 +41,38 @@ def unflat(numbers: Any, like: Any) -> Any:
 
 def _unflat(numbers: Any, like: Any) -> Any:
     return type(like)(*[_unflat(numbers, part) for part in like]) if is_value(like) else next(numbers)
+
+
+class Layout:
+    """The layout of a nested value as a constant of compiled code, which hands it on at no cost."""
+
+    def __init__(self, value: Any) -> None:
+        self.value = zeroed(value)
+
+
+class LayoutType(types.Opaque):
+    """Of a `Layout`: the type of the nested value."""
+
+    def __init__(self, kind: Any) -> None:
+        self.kind = kind
+        super().__init__(f"Layout({kind})")
+
+
+register_model(LayoutType)(models.OpaqueModel)
+
+
+@typeof_impl.register(Layout)
+def _typeof_layout(layout, context):
+    return LayoutType(typeof_impl(layout.value, context))
+
+
+@lower_constant(LayoutType)
+def _layout_constant(context, builder, kind, layout):
+    return context.get_dummy_value()
+
+
+def _kind(like: Any) -> Any:
+    return like.kind if isinstance(like, LayoutType) else like
 
 
 def load(a, like):
@@ -89,14 +122,14 @@ def _implement(parameters: str, body: list[str], names: dict[str, Any]) -> Any:
 @overload(load, jit_options=INLINE)
 def _load(a, like):
     names: dict[str, Any] = {}
-    source, _ = _reading(like, 0, "{}", names)
+    source, _ = _reading(_kind(like), 0, "{}", names)
     return _implement("a, like", [f"return {source}"], names)
 
 
 @overload(load_lane, jit_options=INLINE)
 def _load_lane(a, lane, stride, like):
     names: dict[str, Any] = {}
-    source, _ = _reading(like, 0, "{}*stride + lane", names)
+    source, _ = _reading(_kind(like), 0, "{}*stride + lane", names)
     return _implement("a, lane, stride, like", [f"return {source}"], names)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from tandemlift.jit import leaves, load_lane, store_lane
+from tandemlift.jit import Layout, leaves, load_lane, store_lane
 from tandemlift.kernels.likes import Likes
 from tandemlift.kernels.limiting import Excess, as_wished, excess_of, limit_lanes, outside, scratch_size
 from tandemlift.kernels.outside import (
@@ -71,13 +71,23 @@ class Regions(NamedTuple):
         return cls._make([*starts, starts[-1] + scratch_size(rotors)])
 
 
+class Layouts(NamedTuple):
+    """Layouts of the values in a block's array."""
+
+    flying: Any
+    hand: Any
+    noise: Any
+    thought: Any
+    excess: Any
+
+
 @inlined
-def given_to(a, lane, at_hand, r, given_like):
-    """What a lane is given."""
+def given_to(a, lane, at_hand, r, x):
+    """What a lane is given; `x`: layouts."""
     return Inputs(
-        load_lane(a, at_hand + lane, LANES, given_like.hand),
+        load_lane(a, at_hand + lane, LANES, x.hand),
         load_lane(a, r.gust + lane, LANES, ZERO),
-        load_lane(a, r.noise + lane, LANES, given_like.noise),
+        load_lane(a, r.noise + lane, LANES, x.noise),
     )
 
 
@@ -123,19 +133,19 @@ LOW, HIGH = Low(), High()
 
 
 @inlined
-def fly_lanes(a, where, at_hand, r, like, given_like, thought_like, t, dt, shown):
-    """A step of all lanes; their samples too, if shown."""
+def fly_lanes(a, where, at_hand, r, x, t, dt, shown):
+    """A step of all lanes; their samples too, if shown. `x`: layouts."""
     if shown:
         for lane in range(LANES):
-            flying, given = load_lane(a, lane, LANES, like), given_to(a, lane, at_hand, r, given_like)
-            thought = load_lane(a, r.thought + lane, LANES, thought_like)
+            flying, given = load_lane(a, lane, LANES, x.flying), given_to(a, lane, at_hand, r, x)
+            thought = load_lane(a, r.thought + lane, LANES, x.thought)
             moving, sample = stepping(where, flying, thought, given, t, dt)
             store_lane(a, lane, LANES, moving)
             store_lane(a, r.sample + lane, LANES, sample)
     else:
         for lane in range(LANES):
-            flying, given = load_lane(a, lane, LANES, like), given_to(a, lane, at_hand, r, given_like)
-            thought = load_lane(a, r.thought + lane, LANES, thought_like)
+            flying, given = load_lane(a, lane, LANES, x.flying), given_to(a, lane, at_hand, r, x)
+            thought = load_lane(a, r.thought + lane, LANES, x.thought)
             moving, _ = stepping(where, flying, thought, given, t, dt)
             store_lane(a, lane, LANES, moving)
 
@@ -151,11 +161,11 @@ def any_low(a, like, time):
 
 
 @inlined
-def think_within_limits(a, at_hand, r, at_limits, like, given_like, excess_like, t, dt):
+def think_within_limits(a, at_hand, r, at_limits, x, t, dt):
     """The pilots of all lanes think; a lane whose thrusts leave the limits is solved for alone."""
     for lane in range(LANES):
-        push = load_lane(a, at_hand + lane, LANES, given_like.hand).start.force
-        flying = load_lane(a, lane, LANES, like)
+        push = load_lane(a, at_hand + lane, LANES, x.hand).start.force
+        flying = load_lane(a, lane, LANES, x.flying)
         thought = think(flying, push, t, dt)
         settled, decision = as_wished(flying, thought, t), thought.decision
         store_lane(a, r.thought + lane, LANES, thought)
@@ -164,7 +174,7 @@ def think_within_limits(a, at_hand, r, at_limits, like, given_like, excess_like,
         excess = Excess(outside(flying, thought, t), decision.command.wrench, decision.thrusts)
         store_lane(a, r.excess + lane, LANES, excess)
     commands, memory = r.thought + at_limits[0], r.thought + at_limits[1]
-    limit_lanes(a, a[r.scratch :], r.excess, commands, memory, like, excess_like, t)
+    limit_lanes(a, a[r.scratch :], r.excess, commands, memory, x.flying, x.excess, t)
 
 
 def block_loop(likes: Likes, lines: Stretches, regions: Regions) -> Callable[..., Any]:
@@ -173,16 +183,22 @@ def block_loop(likes: Likes, lines: Stretches, regions: Regions) -> Callable[...
     Step number `steps` takes the last sample and leaves the flights as they were; log[lane] receives the logged
     samples. The numbers of a lane with `lost` = 1 are void. `delays` are the same for all lanes.
     """
-    like, given_like, thought_like, push_like = likes.flying, likes.given, likes.thought, likes.given.hand.start
-    excess_like, nowhere = excess_of(thought_like), likes.nowhere
-    at_near = place(like, "moving", "near").at * LANES
-    width, moving_size, groups = leaves(push_like), leaves(like.moving) * LANES, draws(given_like.noise)
+    push_like, nowhere, thought = likes.given.hand.start, likes.nowhere, likes.thought
+    like = Layout(likes.flying)
+    x = Layouts(
+        flying=like,
+        hand=Layout(likes.given.hand),
+        noise=Layout(likes.given.noise),
+        thought=Layout(thought if likes.constrained else Nothing()),
+        excess=Layout(excess_of(thought)),
+    )
+    at_near = place(likes.flying, "moving", "near").at * LANES
+    width, moving_size, groups = leaves(push_like), leaves(likes.flying.moving) * LANES, draws(likes.given.noise)
     walled, late, constrained = likes.walled, likes.late, likes.constrained
     at_limits = (
         place(likes.thought, "decision", "thrusts").at * LANES,
         place(likes.thought, "memory", "allocation").at * LANES,
     )
-    apart_like = thought_like if constrained else Nothing()
     grounded = likes.grounded
     r, at = regions, lines.numbers(LANES)
 
@@ -203,12 +219,12 @@ def block_loop(likes: Likes, lines: Stretches, regions: Regions) -> Callable[...
             if k == steps:
                 kept = a[:moving_size].copy()
             if constrained:
-                think_within_limits(a, at_hand, r, at_limits, like, given_like, excess_like, t, dt)
+                think_within_limits(a, at_hand, r, at_limits, x, t, dt)
             logged = k % every == 0
             if grounded and not low:
-                fly_lanes(a, HIGH, at_hand, r, like, given_like, apart_like, t, dt, logged or k == steps)
+                fly_lanes(a, HIGH, at_hand, r, x, t, dt, logged or k == steps)
             else:
-                fly_lanes(a, LOW, at_hand, r, like, given_like, apart_like, t, dt, logged or k == steps)
+                fly_lanes(a, LOW, at_hand, r, x, t, dt, logged or k == steps)
             if logged:
                 for lane in range(LANES):
                     for i in range(log.shape[2]):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.delays import Ends, departing
 from tandemlift.jit import zeroed
 from tandemlift.laws.allocation import Constrained
 from tandemlift.loop import Flying, Inputs, act, advance, observe, think
@@ -33,6 +34,12 @@ class Likes(NamedTuple):
     def walled(self) -> bool:
         """Whether there are walls."""
         return not isinstance(self.nowhere, Nothing)
+
+    @property
+    def line(self) -> Any:
+        """What goes through the delay lines."""
+        moving = self.flying.moving
+        return departing(self.flying.delays, Ends(moving.rotors, moving.readings)) if self.late else Nothing()
 
     @property
     def grounded(self) -> bool:

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from tandemlift.delays import Ends, arrived, departing
-from tandemlift.jit import leaves, load, load_lane, store
+from tandemlift.engines.compiled import aloft
+from tandemlift.jit import Layout, leaves, load, load_lane, store
 from tandemlift.kernels.likes import Likes
 from tandemlift.kernels.limiting import limit
 from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
 from tandemlift.kernels.places import Stretches, carry
 from tandemlift.laws.contact import may_touch
-from tandemlift.loop import Inputs, continued, delayed, finish, lifted_off, neared, think
-from tandemlift.vector import Nothing
+from tandemlift.loop import Inputs, act, continued, delayed, neared, observe, swing, think
 
 
 def single_loop(likes: Likes, lines: Stretches) -> Callable[..., Any]:
@@ -25,13 +25,13 @@ def single_loop(likes: Likes, lines: Stretches) -> Callable[..., Any]:
     sample `last`. Returns early when the state is no longer sound. `tables`: `Tables`; `work`: scratch; `ring`: the
     delay line (rows × numbers delayed); `delays`: of unit, motion and command, in steps; `seeds`: the key of chance.
     """
-    like, hand_like, noise_like, nowhere = likes.flying, likes.given.hand, likes.given.noise, likes.nowhere
-    push_like, width = hand_like.start, leaves(hand_like.start)
+    given, nowhere, push_like = likes.given, likes.nowhere, likes.given.hand.start
+    like, hand_like, noise_like = Layout(likes.flying), Layout(given.hand), Layout(given.noise)
+    width = leaves(push_like)
     n_hands = HALVES * width
-    n_work = n_hands + 4 * SPAN * draws(noise_like)
-    walled, late, constrained = likes.walled, likes.late, likes.constrained
-    grounded = likes.grounded
-    line_like = departing(like.delays, Ends(like.moving.rotors, like.moving.readings)) if late else Nothing()
+    n_work = n_hands + 4 * SPAN * draws(given.noise)
+    walled, late, constrained, grounded = likes.walled, likes.late, likes.constrained, likes.grounded
+    line_like = Layout(likes.line)
     at, n_line = lines.packed(), lines.size
 
     def single(a, tables, work, ring, delays, seeds, log, last, k, stop, steps, every, dt):
@@ -55,10 +55,12 @@ def single_loop(likes: Likes, lines: Stretches) -> Callable[..., Any]:
             thought = think(flying, hand.start.force, k * dt, dt)
             if constrained:
                 thought = limit(scratch, flying, thought, k * dt)
+            acting = act(flying, thought.decision.thrusts, given, k * dt)
             if grounded and not low:
-                moving, sample = finish(lifted_off(flying), thought, given, k * dt, dt)
+                moved = swing(aloft(flying.plant), flying.moving, acting, hand, dt)
             else:
-                moving, sample = finish(flying, thought, given, k * dt, dt)
+                moved = swing(flying.plant, flying.moving, acting, hand, dt)
+            moving, sample = observe(flying, thought, acting, moved, given)
             if k % every == 0:
                 store(log[k // every], sample)
             if k == steps:

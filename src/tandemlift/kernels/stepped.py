@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from tandemlift.engines.compiled import advance
-from tandemlift.jit import leaves, load, load_lane, store
+from tandemlift.jit import Layout, leaves, load, load_lane, store
 from tandemlift.kernels.likes import Likes
 from tandemlift.kernels.limiting import limit
 from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
@@ -15,7 +14,7 @@ from tandemlift.laws.admittance import Trajectory
 from tandemlift.laws.body import State, Wrench
 from tandemlift.laws.controllers import Command, Measured, Reference
 from tandemlift.laws.push import moment_of
-from tandemlift.loop import Inputs, Thought, act, neared, observe, perceive, think
+from tandemlift.loop import Inputs, Thought, act, neared, observe, perceive, swing, think
 from tandemlift.pilot import conclude, guide
 from tandemlift.vector import ZERO, Quat
 
@@ -59,18 +58,18 @@ def parts_of(likes: Likes, lines: Stretches) -> Parts:
     on the body, `w` the push as a force and a moment, `v` how it moved, `row` the sample; `x` and `y` what a controller
     is given and answers.
     """
-    like, given_like, thought_like, acting_like, moved_like, _, nowhere = likes
-    hand_like, noise_like = given_like.hand, given_like.noise
-    width = leaves(hand_like.start)
+    like, given_like, thought_like, acting_like, moved_like, _ = map(Layout, likes[:-1])
+    given, nowhere, push_like = likes.given, likes.nowhere, likes.given.hand.start
+    hand_like, noise_like, width = Layout(given.hand), Layout(given.noise), leaves(push_like)
     n_hands = HALVES * width
-    n_work = n_hands + 4 * SPAN * draws(noise_like)
+    n_work = n_hands + 4 * SPAN * draws(given.noise)
     walled, late, constrained = likes.walled, likes.late, likes.constrained
     at = lines.numbers(1)
 
     def outside(a, tables, work, seeds, g, k, dt):
         hands, table = work[:n_hands], work[n_hands:n_work]
         if k % SPAN == 0:
-            feel(hands, tables.pushes, k, dt, hand_like.start)
+            feel(hands, tables.pushes, k, dt, push_like)
             draw(table, k, seeds[0], seeds[1])
             if walled:
                 flying = load(a, like)
@@ -114,9 +113,8 @@ def parts_of(likes: Likes, lines: Stretches) -> Parts:
         store(w, Pushing(mean.force, moment_of(mean, flying.moving.state.attitude)))
 
     def moved(a, g, c, v, k, dt):
-        flying, given, on_body = load(a, like), load(g, given_like), load(c, acting_like)
-        before, air = flying.moving, on_body.weather.loads
-        store(v, advance(flying.plant, before.state, before.grip, before.near, on_body.thrusts, air, given.hand, dt))
+        flying = load(a, like)
+        store(v, swing(flying.plant, flying.moving, load(c, acting_like), load(g, given_like).hand, dt))
 
     def observed(a, ring, delays, g, m, c, v, row, k, final):
         flying, given = load(a, like), load(g, given_like)

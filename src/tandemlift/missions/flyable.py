@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Iterator
 
 import numpy as np
 
 from tandemlift.errors import FlightWarning, InputError
+from tandemlift.missions.equipment import check_equipment, doubts_of_equipment
 from tandemlift.missions.explain import shown
+from tandemlift.missions.surroundings import check_surroundings, doubts_of_surroundings
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
 MAX_STEPS = 1_000_000_000
 MAX_LOG = 4_000_000_000  # bytes
-ROW = 8 * 64  # bytes of a logged sample, about
 LEAST_RATIO = 1e-12  # of the principal moments of inertia
 PRECISION = 1e-6  # of the allocation
 
@@ -28,6 +30,17 @@ def check_flyable(m: Mission) -> None:
     _check_times(m)
     _check_vehicle(m)
     _check_admittance(m)
+    check_equipment(m)
+    check_surroundings(m)
+
+
+def row_of(m: Mission) -> int:
+    """Bytes of a logged sample."""
+    count = len(m.vehicle.quadrotors)
+    numbers = 52 + 10 * count
+    numbers += (5 + 4 * count) * (m.actuators.model == "rotors") + 6 * (m.wind.model == "air")
+    numbers += 3 * (m.ground.model == "floor") + (42 + 6 * count) * (m.sensors.model == "simulated")
+    return 8 * numbers
 
 
 def _check_times(m: Mission) -> None:
@@ -38,7 +51,7 @@ def _check_times(m: Mission) -> None:
     if t.duration / t.step > MAX_STEPS:
         count = f"makes {t.duration / t.step:.3g} steps of mission.step = {t.step}"
         raise InputError(f"mission.duration = {t.duration}: {count}; at most {MAX_STEPS:.0e} are allowed")
-    size = t.steps / t.log_every * ROW
+    size = t.steps / t.log_every * row_of(m)
     if size > MAX_LOG:
         longer = f"must be at least {t.log_interval * size / MAX_LOG:.2g}"
         raise InputError(
@@ -82,17 +95,14 @@ def _check_admittance(m: Mission) -> None:
             )
 
 
-def warn(m: Mission, source: str) -> None:
-    """Tell of what may fly badly, with the numbers."""
-    vehicle, p = Vehicle.from_settings(m.vehicle), m.phases
-    told = []
-    if vehicle.weight > vehicle.max_thrust:
-        told.append(
-            f"the vehicle weighs {vehicle.weight:.4g} N and its rotors lift {vehicle.max_thrust:.4g} N; it flies only "
-            "because actuators.model is ideal"
-        )
+def _doubts(m: Mission) -> Iterator[str]:
+    p = m.phases
     lifted = p.lift_start + p.lift_duration
     if p.height and p.land_start is not None and p.land_start < lifted:
-        told.append(f"phases.land_start = {p.land_start} is before the lift ends at {lifted:g} s: it is cut short")
-    for message in told:
+        yield f"phases.land_start = {p.land_start} is before the lift ends at {lifted:g} s: it is cut short"
+
+
+def warn(m: Mission, source: str) -> None:
+    """Tell of what may fly badly, with the numbers."""
+    for message in (*_doubts(m), *doubts_of_equipment(m), *doubts_of_surroundings(m)):
         warnings.warn(f"{source}: {message}", FlightWarning, stacklevel=5)

@@ -26,6 +26,8 @@ Positive = Annotated[float, Field(gt=0.0), AfterValidator(divisor)]
 NonNegative = Annotated[float, Field(ge=0.0)]
 AtLeastOne = Annotated[float, Field(ge=1.0)]
 Scale = Annotated[float, Field(ge=1e-6, le=1e6)]
+Size = Annotated[float, Field(ge=0.0, le=1e6)]
+Length = Annotated[float, Field(gt=0.0, le=1e3), AfterValidator(divisor)]  # m
 
 
 class Table(BaseModel):

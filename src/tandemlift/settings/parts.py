@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from tandemlift.settings.leaves import (
     Axes,
     Exactly3,
+    Length,
     NonNegative,
     NonNegative3,
     Positive,
     Positive3,
+    Size,
     Table,
     Triple,
     must,
@@ -30,6 +32,7 @@ def _principal(inertia: Triple) -> Triple:
 
 
 Inertia = Annotated[Positive3, AfterValidator(_principal)]
+Areas = Annotated[tuple[Size, Size, Size], Axes(3)]
 
 
 class Payload(Table):
@@ -39,8 +42,8 @@ class Payload(Table):
     length: Positive | None = None  # m, along body y
     radius: Positive | None = None  # m
     inertia: Inertia | None = None  # kg m², about its centre of mass; a beam's if not given
-    drag_area: NonNegative3 | None = None  # m², seen along each body axis; a beam's if not given
-    drag_coefficient: NonNegative = 1.0
+    drag_area: Areas | None = None  # m², seen along each body axis; a beam's if not given
+    drag_coefficient: Size = 1.0
 
     @model_validator(mode="after")
     def _complete(self) -> Payload:
@@ -66,7 +69,9 @@ class Payload(Table):
         return (2.0 * radius * length, math.pi * radius**2, 2.0 * radius * length)
 
 
-Corner = Annotated[tuple[float, float], Axes(2, single=False)]
+Metre = Annotated[float, Field(ge=-1e3, le=1e3)]
+Corner = Annotated[tuple[Metre, Metre], Axes(2, single=False)]
+Joint = Annotated[tuple[Metre, Metre, Metre], Axes(3, single=False)]
 Turns = Literal[-1, 1]
 
 
@@ -85,13 +90,13 @@ class Quadrotor(Table):
     torque_per_thrust: Positive  # m
     lag_up: NonNegative  # s, time constant of spinning up
     lag_down: NonNegative  # s
-    rotor_radius: Positive = 0.128  # m
-    joint: Exactly3 | None = None  # m, from the payload's centre of mass, body axes; at z = 0 below it if not given
-    guard_radius: Positive = 0.375  # m, of the sphere that touches walls
-    feet_spread: Positive = 0.12  # m, of each foot from the centre of mass along x and along y
-    feet_depth: Positive = 0.18  # m, from the centre of mass down to the soles
-    drag_area: NonNegative3 = (0.02, 0.02, 0.05)  # m², seen along each body axis
-    drag_coefficient: NonNegative = 1.0
+    rotor_radius: Length = 0.128  # m
+    joint: Joint | None = None  # m, from the payload's centre of mass, body axes; at z = 0 below it if not given
+    guard_radius: Length = 0.375  # m, of the sphere that touches walls
+    feet_spread: Length = 0.12  # m, of each foot from the centre of mass along x and along y
+    feet_depth: Length = 0.18  # m, from the centre of mass down to the soles
+    drag_area: Areas = (0.02, 0.02, 0.05)  # m², seen along each body axis
+    drag_coefficient: Size = 1.0
 
     @model_validator(mode="after")
     def _arms(self) -> Quadrotor:

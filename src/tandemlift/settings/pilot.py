@@ -4,11 +4,24 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
+from pydantic import AfterValidator, Field
 from pydantic_core import core_schema
 
-from tandemlift.settings.leaves import Axes, NonNegative, NonNegative3, Positive, Positive3, Table, is_number, must
+from tandemlift.settings.leaves import (
+    Axes,
+    NonNegative,
+    NonNegative3,
+    Positive,
+    Positive3,
+    Scale,
+    Table,
+    divisor,
+    is_number,
+    must,
+)
 
-Positive4 = Annotated[tuple[Positive, Positive, Positive, Positive], Axes(4)]
+Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], Axes(4)]
+Bandwidth = Annotated[float, Field(gt=0.0, le=1e4), AfterValidator(divisor)]  # rad/s
 Reading = Literal["truth", "measurement", "estimate"]
 
 
@@ -55,7 +68,7 @@ class AllocationTable(Table):
 
     method: Literal["pseudo-inverse", "constrained"] = "pseudo-inverse"
     weights: Annotated[tuple[tuple[Positive, Positive, Positive, Positive], ...], Weights()] = ((1.0, 1.0, 1.0, 1.0),)
-    priorities: Positive4 = (30.0, 900.0, 900.0, 1.0)  # thrust, roll, pitch, yaw: of the constrained method
+    priorities: Priorities = (30.0, 900.0, 900.0, 1.0)  # thrust, roll, pitch, yaw: of the constrained method
 
 
 class PhasesTable(Table):
@@ -79,11 +92,11 @@ class PilotTable(Table):
 class Estimator(Table):
     """`[estimator]`: the push from the joint sensors, and the state from inertial and motion sensors."""
 
-    push_bandwidth: Positive = 36.0  # rad/s, of the second-order low-pass on the push
+    push_bandwidth: Bandwidth = 36.0  # rad/s, of the second-order low-pass on the push
     tare_start: NonNegative | None = None  # s, in hover; no tare if not given
     tare_duration: Positive = 2.0  # s
     identify_mass: bool = False  # of the payload, while taring
-    disagreement_limit: Positive = 2.0  # N, between the joint sensors, beyond which the push is not trusted
-    least_force: Positive = 0.5  # N, below which no point of application is given
-    position_bandwidth: Positive = 6.0  # rad/s, of the state estimate
-    attitude_bandwidth: Positive = 4.0  # rad/s
+    disagreement_limit: Scale = 2.0  # N, between the joint sensors, beyond which the push is not trusted
+    least_force: Scale = 0.5  # N, below which no point of application is given
+    position_bandwidth: Bandwidth = 6.0  # rad/s, of the state estimate
+    attitude_bandwidth: Bandwidth = 4.0  # rad/s

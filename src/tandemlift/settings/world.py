@@ -14,13 +14,31 @@ from tandemlift.settings.leaves import (
     NonNegative,
     Positive,
     Scale,
+    Size,
     Table,
     Triple,
     must,
 )
 
+FINEST = 1e-9  # resolution of a sensor, in its unit
+
 Delay = Annotated[float, Field(ge=0.0, le=1.0)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
+Interval = Annotated[float, Field(ge=0.0, le=10.0)]  # s
+Turn = Annotated[float, Field(ge=0.0, le=1.0)]  # rad
+Speed = Annotated[float, Field(ge=-1e3, le=1e3)]  # m/s, along an axis
+Speeds = tuple[Speed, Speed, Speed]
+Turbulence = Annotated[float, Field(ge=0.0, le=1e3)]  # m/s
+Airspeed = Annotated[float, Field(ge=0.01, le=1e3)]  # m/s
+
+
+def _step_of_quantisation(value: float) -> float:
+    if 0.0 < value < FINEST:
+        raise must("size", f"be 0 (for none) or at least {FINEST}")
+    return value
+
+
+Resolution = Annotated[Size, AfterValidator(_step_of_quantisation)]
 
 
 def _upright(euler: Triple) -> Triple:
@@ -82,35 +100,35 @@ class Fault(Table):
 class JointSensors(Table):
     """`[sensors.joints]`: the force-torque sensor at each joint; errors per axis."""
 
-    force_noise: NonNegative = 0.0  # N, standard deviation of a sample
-    force_bias: NonNegative = 0.0  # N, standard deviation of the constant error, drawn from the seed
-    force_drift: NonNegative = 0.0  # N/√s, random walk
-    force_resolution: NonNegative = 0.0  # N, step of quantisation, 0 for none
+    force_noise: Size = 0.0  # N, standard deviation of a sample
+    force_bias: Size = 0.0  # N, standard deviation of the constant error, drawn from the seed
+    force_drift: Size = 0.0  # N/√s, random walk
+    force_resolution: Resolution = 0.0  # N, step of quantisation, 0 for none
     force_range: Positive = 1e6  # N
-    torque_noise: NonNegative = 0.0  # N m
-    torque_bias: NonNegative = 0.0  # N m
-    torque_drift: NonNegative = 0.0  # N m/√s
-    torque_resolution: NonNegative = 0.0  # N m
+    torque_noise: Size = 0.0  # N m
+    torque_bias: Size = 0.0  # N m
+    torque_drift: Size = 0.0  # N m/√s
+    torque_resolution: Resolution = 0.0  # N m
     torque_range: Positive = 1e6  # N m
-    misalignment: NonNegative = 0.0  # rad, standard deviation of the sensor's rotation about each axis, from the seed
+    misalignment: Turn = 0.0  # rad, standard deviation of the sensor's rotation about each axis, from the seed
 
 
 class InertialSensor(Table):
     """`[sensors.accelerometer]` in m/s², `[sensors.gyroscope]` in rad/s; errors per axis."""
 
-    noise: NonNegative = 0.0  # standard deviation of a sample
-    bias: NonNegative = 0.0  # standard deviation of the constant error, drawn from the seed
-    drift: NonNegative = 0.0  # per √s, random walk
+    noise: Size = 0.0  # standard deviation of a sample
+    bias: Size = 0.0  # standard deviation of the constant error, drawn from the seed
+    drift: Size = 0.0  # per √s, random walk
     range: Positive = 1e6
 
 
 class MotionSensor(Table):
     """`[sensors.motion]`: position and velocity of the centre of mass, and attitude, as from motion capture."""
 
-    position_noise: NonNegative = 0.0  # m
-    velocity_noise: NonNegative = 0.0  # m/s
-    attitude_noise: NonNegative = 0.0  # rad, about each body axis
-    interval: NonNegative = 0.0  # s, between samples; every step if 0
+    position_noise: Size = 0.0  # m
+    velocity_noise: Size = 0.0  # m/s
+    attitude_noise: Size = 0.0  # rad, about each body axis
+    interval: Interval = 0.0  # s, between samples; every step if 0
     delay: Delay = 0.0  # s
 
 
@@ -118,7 +136,7 @@ class Sensors(Table):
     """`[sensors]`: the unit on board (joints, accelerometer, gyroscope: one clock) and the motion measurement."""
 
     model: Literal["none", "simulated"] = "none"
-    interval: NonNegative = 0.0  # s, between samples of the unit on board; every step if 0
+    interval: Interval = 0.0  # s, between samples of the unit on board; every step if 0
     delay: Delay = 0.0  # s, of the unit on board, beyond the step after which any reading is known
     joints: JointSensors = JointSensors()
     accelerometer: InertialSensor = InertialSensor()
@@ -129,7 +147,7 @@ class Sensors(Table):
 class GustTable(Table):
     """One of `[[wind.gusts]]`: rises as 1 − cos, holds, and falls as it rose (MIL-F-8785C, 3.7.3)."""
 
-    velocity: Exactly3  # m/s, peak, world axes
+    velocity: Annotated[Speeds, Axes(3, single=False)]  # m/s, peak, world axes
     start: float  # s
     rise: Positive  # s
     hold: NonNegative | None = None  # s; it stays, if not given
@@ -139,11 +157,11 @@ class WindTable(Table):
     """`[wind]`: moving air and its drag on payload and quadrotors."""
 
     model: Literal["none", "air"] = "none"
-    velocity: Axes3 = (0.0, 0.0, 0.0)  # m/s, mean, world axes
-    turbulence: NonNegative = 0.0  # m/s, wind at 20 ft that makes the Dryden turbulence; 0 for none
+    velocity: Annotated[Speeds, Axes(3)] = (0.0, 0.0, 0.0)  # m/s, mean, world axes
+    turbulence: Turbulence = 0.0  # m/s, wind at 20 ft that makes the Dryden turbulence; 0 for none
     height: Positive = 3.048  # m, at which the standard's scales are taken; it begins at 10 ft
-    airspeed: Positive | None = None  # m/s, at which eddies pass; the mean wind's, at least 0.5, if not given
-    density: Positive = 1.225  # kg/m³
+    airspeed: Airspeed | None = None  # m/s, at which eddies pass; the mean wind's, at least 0.5, if not given
+    density: Annotated[Positive, Field(le=1e4)] = 1.225  # kg/m³
     gusts: tuple[GustTable, ...] = ()
 
 
@@ -152,8 +170,8 @@ class Ground(Table):
 
     model: Literal["none", "floor"] = "none"
     height: float | None = None  # m, of the floor; just below the feet at the start, if not given
-    sinkage: Positive = 5e-4  # m, of the feet under the vehicle's weight
-    friction: NonNegative = 0.8
+    sinkage: Annotated[Positive, Field(le=0.1)] = 5e-4  # m, of the feet under the vehicle's weight
+    friction: Annotated[float, Field(ge=0.0, le=100.0)] = 0.8
     effect: bool = False  # more thrust near the floor
 
 

@@ -1,0 +1,138 @@
+"""The push of a person as it is, as the last readings of the joint sensors say, and as it is estimated, world axes.
+
+Below: where on the beam it acts, the payload's mass, and by how much the sensors disagree. Grey where the pilot may not
+use the estimate; blue the tare, in which the sensors' bias is found.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from tandemlift.figures.panels import fit, line, shade, time_axis
+from tandemlift.figures.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
+from tandemlift.flight import Flight
+from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.settings import VehicleTable
+from tandemlift.settings.pilot import Estimator
+from tandemlift.vector import Quat, Vec3, apply_transposed
+from tandemlift.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+
+TRUE: dict[str, Any] = {"color": BLUE, "lw": 1.2}
+ESTIMATE: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (4, 1.6))}
+MEASURED: dict[str, Any] = {"color": TAN, "lw": 0.6}
+LIMIT: dict[str, Any] = {"color": BLACK, "lw": 0.7, "ls": (0, (5, 3))}
+ROWS = (1.0, 1.0, 1.0, 1.0, 0.85)  # heights: three forces, the place, mass and disagreement
+LEAST_FORCE, LEAST_PLACE, LEAST_MASS = 0.2, 0.1, 0.02  # N, m, kg: least spans of the axes
+BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to each side
+
+
+def vehicle_of(flight: Flight) -> Vehicle:
+    """The vehicle that the pilot believes in."""
+    return Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
+
+
+def payload_mass(flight: Flight) -> float:
+    """Mass [kg] of the payload that flew: what the vehicle has beyond the one believed in, the payload has."""
+    vehicle, scale = vehicle_of(flight), flight.mission.get("plant", {}).get("mass_scale", 1.0)
+    return vehicle.payload.mass + (scale - 1.0) * vehicle.mass
+
+
+def places(flight: Flight) -> list[Array]:
+    """Where on body y each push acts (T) [m from the payload's centre of mass], NaN while it is too small to tell."""
+    least = Estimator.model_validate(flight.mission.get("estimator", {})).least_force
+    R = rotation_from_quaternion(Quat(*flight["attitude"].T))
+    center = vehicle_of(flight).center_of_mass[1]
+    found = []
+    for push in flight.mission.get("pushes", []):
+        size = np.exp(-0.5 * ((flight.time - push["time"]) / push["sigma"]) ** 2)
+        force = apply_transposed(R, Vec3(*(size * axis for axis in push["force"])))
+        across = np.hypot(force.x, force.z)
+        found.append(np.where(across >= least, push["point"][1] + center, np.nan))
+    return found
+
+
+def _shadings(ax: Any, flight: Flight, estimator: Estimator) -> None:
+    shade(ax, flight.time, flight["push_usable"] == 0.0)
+    if estimator.tare_start is not None:
+        end = estimator.tare_start + estimator.tare_duration
+        shade(ax, flight.time, (flight.time >= estimator.tare_start) & (flight.time < end), LIGHT_BLUE)
+
+
+def _force(ax: Any, flight: Flight, axis: int) -> list[Any]:
+    """Fill the panel of one axis's force; returns the handles for the legend."""
+    threshold = float(flight.mission["admittance"]["threshold"][axis])
+    measured, estimate, true = (flight[name][:, axis] for name in ("push_measured", "push_estimate", "push_force"))
+    handles = [
+        line(ax, flight.time, true, zorder=3, **TRUE),
+        line(ax, flight.time, estimate, zorder=4, **ESTIMATE),
+        line(ax, flight.time, measured, zorder=2, **MEASURED),
+        *[ax.axhline(side * threshold, zorder=1, **LIMIT) for side in (1.0, -1.0)],
+    ]
+    fit(ax, true, estimate, measured, np.array([threshold, -threshold]), least=LEAST_FORCE)
+    ax.set_ylabel(f"$F_{'xyz'[axis]}$ (N)")
+    return handles[:4]
+
+
+def _place(ax: Any, flight: Flight) -> None:
+    """Fill the panel of where on the beam the push acts, as wide as the beam if the payload is one."""
+    true = places(flight)
+    told = flight["push_point_estimate"]
+    told = np.where(told == 0.0, np.nan, told)
+    for place in true:
+        line(ax, flight.time, place, zorder=3, **TRUE)
+    line(ax, flight.time, told, zorder=4, **ESTIMATE)
+    length = vehicle_of(flight).payload.length
+    fit(ax, told, *true, least=LEAST_PLACE)
+    if length:
+        ax.set_ylim(-BEYOND * length / 2.0, BEYOND * length / 2.0)
+    ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
+    ax.set_ylabel("acts at $y$ (m)")
+
+
+def _mass(ax: Any, flight: Flight) -> None:
+    true, estimate = payload_mass(flight), flight["payload_mass_estimate"]
+    ax.axhline(true, zorder=1, **TRUE)
+    line(ax, flight.time, estimate, zorder=4, **ESTIMATE)
+    fit(ax, estimate, np.array([true]), least=LEAST_MASS)
+    ax.set_ylabel("payload (kg)")
+
+
+def _disagreement(ax: Any, flight: Flight, limit: float) -> None:
+    values = flight["sensor_disagreement"]
+    line(ax, flight.time, values, zorder=4, **ESTIMATE | {"ls": "-"})
+    ax.axhline(limit, zorder=1, **LIMIT)
+    fit(ax, values, np.array([0.0, limit]), least=LEAST_FORCE)
+    ax.set_ylabel("disagreement (N)")
+
+
+@journal
+def draw(flight: Flight) -> Figure:
+    """Draw the push [N, world axes] true, measured and estimated, where it acts [m], mass [kg] and disagreement [N]."""
+    estimator = Estimator.model_validate(flight.mission.get("estimator", {}))
+    figure = Figure(figsize=(PAGE, 6.6), layout="constrained")
+    grid = figure.add_gridspec(5, 2, height_ratios=ROWS)
+    axes = [figure.add_subplot(grid[row, :]) for row in range(4)]
+    below = [figure.add_subplot(grid[4, column]) for column in range(2)]
+    handles: list[Any] = []
+    for axis, ax in enumerate(axes[:3]):
+        handles = _force(ax, flight, axis)
+    _place(axes[3], flight)
+    _mass(below[0], flight)
+    _disagreement(below[1], flight, estimator.disagreement_limit)
+    for ax in (*axes, *below):
+        _shadings(ax, flight, estimator)
+        time_axis(ax, flight, label=ax in (axes[3], *below))
+    figure.align_ylabels([*axes, below[0]])
+    names = ["true", "estimated", "measured", "threshold, limit", "estimate not usable"]
+    handles.append(Patch(facecolor=PALE))
+    if estimator.tare_start is not None:
+        handles, names = [*handles, Patch(facecolor=LIGHT_BLUE)], [*names, "tare"]
+    figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.2)
+    return figure

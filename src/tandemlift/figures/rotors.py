@@ -1,0 +1,107 @@
+"""The thrust of every rotor and what was commanded of it [N], between its limits, and what share of the wrench they give.
+
+A rotor that fails is marked from then on, and its upper limit falls to what it has left. Commands far beyond the limits
+are cut off.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from tandemlift.figures.fleet import fleet_figure
+from tandemlift.figures.panels import extent, line, time_axis, value_ticks
+from tandemlift.figures.style import BLACK, BLUE, GREY, TAN, VERMILLION, journal
+from tandemlift.flight import Flight
+from tandemlift.settings import Quadrotor, VehicleTable
+
+Array = NDArray[np.float64]
+
+AROUND, SHARE = 2.0, 0.85  # in: above and below the rows of rotors, and of that, the panel of the share
+MARGIN = 0.12  # of the largest thrust, beyond the limits
+ROOMY = 0.7  # share of the thrust: if no more is left, words fit in above it
+THRUST: dict[str, Any] = {"color": BLUE, "lw": 0.9}
+COMMAND: dict[str, Any] = {"color": TAN, "lw": 0.7}
+LIMIT: dict[str, Any] = {"color": BLACK, "lw": 0.7, "ls": (0, (5, 3))}
+FAILED: dict[str, Any] = {"color": VERMILLION, "lw": 1.0}
+
+
+def fault_of(flight: Flight, quadrotor: int, rotor: int) -> dict[str, Any] | None:
+    """The fault of a rotor (both counted from 1) if it comes within the time flown: the last one that is given."""
+    faults = [f for f in flight.mission.get("faults", []) if (f["quadrotor"], f["rotor"]) == (quadrotor, rotor)]
+    return faults[-1] if faults and len(flight.time) and faults[-1]["time"] <= flight.time[-1] else None
+
+
+def _limits(ax: Any, flight: Flight, most: float, fault: dict[str, Any] | None) -> None:
+    """Draw the limits of a rotor, the upper one falling where it fails, and mark that."""
+    time_axis(ax, flight, label=False)
+    ax.xaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 3, 5, 10]))
+    end = ax.get_xlim()[1]
+    ax.axhline(0.0, zorder=1, **LIMIT)
+    if fault is None:
+        ax.axhline(most, zorder=1, **LIMIT)
+        return
+    at, left = fault["time"], fault["efficiency"]
+    ax.plot([0.0, at, at, end], [most, most, left * most, left * most], zorder=1, **LIMIT)
+    ax.axvline(at, zorder=4, gid="fault", **FAILED)
+    place = most * (1.0 + left) / 2.0 if left < ROOMY else 0.25 * most
+    late = at > end / 2.0
+    look: Any = {"fontsize": 7, "color": VERMILLION, "va": "center", "ha": "right" if late else "left", "zorder": 5}
+    ax.annotate(
+        f"{100.0 * left:.3g} % left", (at, place), (-3.0 if late else 3.0, 0.0), textcoords="offset points", **look
+    )
+
+
+def _panel(ax: Any, flight: Flight, column: int, quadrotor: Quadrotor, name: tuple[int, int]) -> None:
+    """Fill the panel of one rotor, column of its channels; `name` is its quadrotor's number and its own."""
+    most = quadrotor.max_thrust
+    thrust = flight["rotor_thrusts"][:, column]
+    line(ax, flight.time, flight["rotor_commands"][:, column], zorder=2, **COMMAND)
+    line(ax, flight.time, thrust, zorder=3, **THRUST)
+    _limits(ax, flight, most, fault_of(flight, *name))
+    low, high = extent(thrust, np.array([0.0, most]))  # near the floor a rotor gives more than its most
+    ax.set_ylim(low - MARGIN * most, high + MARGIN * most)
+    ax.yaxis.set_major_locator(value_ticks())
+
+
+def _share(ax: Any, flight: Flight) -> None:
+    line(ax, flight.time, flight["allocation_share"], color=BLUE, lw=1.0)
+    ax.axhline(1.0, color=GREY, lw=0.4, zorder=0)
+    ax.set_ylim(-0.05, 1.08)
+    ax.set_yticks([0.0, 0.5, 1.0])
+    ax.set_ylabel("share of wrench")
+    time_axis(ax, flight)
+
+
+def _legend(figure: Figure, flight: Flight) -> None:
+    looks, names = [THRUST, COMMAND, LIMIT], ["thrust", "commanded", "limits"]
+    if flight.mission.get("faults"):
+        looks, names = [*looks, FAILED], [*names, "rotor fails"]
+    handles = [Line2D([], [], **look) for look in looks]
+    figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.6)
+
+
+@journal
+def draw(flight: Flight) -> Figure:
+    """Draw thrust, command and limits [N] of each rotor, a row a quadrotor, of the first eight; below, the share."""
+    quadrotors = VehicleTable.model_validate(flight.mission["vehicle"]).quadrotors
+    figure, rows = fleet_figure(len(quadrotors), AROUND)
+    height = figure.get_figheight() - AROUND
+    grid = figure.add_gridspec(rows + 1, 4, height_ratios=[*[height / rows] * rows, SHARE])
+    for row, quadrotor in enumerate(quadrotors[:rows]):
+        for rotor in range(4):
+            ax = figure.add_subplot(grid[row, rotor])
+            _panel(ax, flight, 4 * row + rotor, quadrotor, (row + 1, rotor + 1))
+            ax.tick_params(labelbottom=row == rows - 1, labelleft=rotor == 0)
+            if rotor == 0:
+                ax.set_ylabel(f"quadrotor {row + 1} (N)" if rows < 5 else f"{row + 1} (N)")
+            if row == 0:
+                ax.set_title(f"rotor {rotor + 1}")
+    _share(figure.add_subplot(grid[rows, :]), flight)
+    _legend(figure, flight)
+    return figure

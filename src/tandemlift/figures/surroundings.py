@@ -1,0 +1,76 @@
+"""What is around the vehicle, in world axes: the air's velocity and force, the force of floor and walls, the height.
+
+Grey where floor or walls touch the vehicle. The height is the lowest sole's over the floor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from tandemlift.figures.ground import clearance, floor_height
+from tandemlift.figures.inputs import weight_of
+from tandemlift.figures.panels import components, fit, line, shade, time_axis
+from tandemlift.figures.style import BLACK, BLUE, COMPONENTS, GREY, PAGE, PALE, journal
+from tandemlift.flight import Flight
+
+ROW, AROUND = 1.35, 0.85  # in: height of a panel, and above and below them all
+VECTORS = (  # channel, label, least span of the axis
+    ("wind_velocity", "wind (m/s)", 0.2),
+    ("wind_force", "force of the wind (N)", 0.2),
+    ("contact_force", "contact force (N)", 1.0),
+)
+LEAST_HEIGHT = 0.02  # m
+HEIGHT = "height over floor (m)"
+
+
+def _vector(ax: Any, flight: Flight, name: str, least: float) -> None:
+    components(ax, flight.time, flight[name], zorder=3)
+    fit(ax, flight[name], least=least)
+    ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
+    if name == "contact_force":
+        ax.axhline(weight_of(flight), color=BLACK, lw=0.7, ls=(0, (5, 3)), zorder=2)
+
+
+def _height(ax: Any, flight: Flight, floor: float) -> None:
+    values = clearance(flight, floor)
+    line(ax, flight.time, values, color=BLUE, lw=1.2, zorder=3)
+    fit(ax, values, np.zeros(1), least=LEAST_HEIGHT)
+    ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
+
+
+def _legend(figure: Figure, touching: bool) -> None:
+    handles: list[Any] = [Line2D([], [], **look) for look in COMPONENTS]
+    names = ["$x$", "$y$", "$z$"]
+    if touching:
+        handles += [Line2D([], [], color=BLACK, lw=0.7, ls=(0, (5, 3))), Patch(facecolor=PALE)]
+        names += ["weight", "in contact"]
+    figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.6)
+
+
+@journal
+def draw(flight: Flight) -> Figure:
+    """Draw, of what there is, wind [m/s], its force [N], the contact force [N, world axes] and the height [m]."""
+    panels: list[tuple[str, Callable[[Any], None]]] = [
+        (label, lambda ax, name=name, least=least: _vector(ax, flight, name, least))  # type: ignore[misc]
+        for name, label, least in VECTORS
+        if name in flight.channels
+    ]
+    if (floor := floor_height(flight)) is not None:
+        panels.append((HEIGHT, lambda ax: _height(ax, flight, floor)))
+    figure = Figure(figsize=(PAGE, AROUND + ROW * len(panels)), layout="constrained")
+    axes = figure.subplots(len(panels), 1, squeeze=False)[:, 0]
+    for row, (ax, (label, fill)) in enumerate(zip(axes, panels, strict=True), 1):
+        fill(ax)
+        if "contact_force" in flight.channels:
+            shade(ax, flight.time, np.any(flight["contact_force"] != 0.0, axis=1))
+        ax.set_ylabel(label)
+        time_axis(ax, flight, label=row == len(panels))
+    figure.align_ylabels(axes)
+    _legend(figure, "contact_force" in flight.channels)
+    return figure
