@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from tandemlift.errors import InputError
 from tandemlift.jit import Layout, cached_in, flat, folder, install, leaves, load, store, zeroed
 from tandemlift.kernels import COMPILE
+from tandemlift.kernels.limiting import limit, scratch_size
+from tandemlift.laws.allocation import Constrained
 from tandemlift.laws.body import State
 from tandemlift.laws.controllers import Measured, control
 from tandemlift.pilot import PilotMemory, PilotParameters, decide, start_pilot
@@ -56,14 +58,19 @@ class Pilot:
         self._dt = mission.mission.step
         self._numbers = np.array(flat(self._start))
         self.thrusts: Array = np.zeros(vehicle.rotor_count)
+        self._scratch = np.zeros(scratch_size(vehicle.rotor_count))
 
     @cached_property
     def _sample(self) -> Callable[..., None]:
         like, dt = Layout(self._start), self._dt
+        constrained = isinstance(self._start.parameters.allocation, Constrained)
 
-        def sample(a, x, thrusts):
+        def sample(a, x, thrusts, scratch):
             pilot = load(a, like)
-            decision, memory = decide(pilot.parameters, pilot.memory, load(x, MEASURED), pilot.samples * dt, dt)
+            t, how, held = pilot.samples * dt, pilot.parameters.allocation, pilot.memory.allocation
+            decision, memory = decide(pilot.parameters, pilot.memory, load(x, MEASURED), t, dt)
+            if constrained:
+                decision, memory = limit(scratch, how, held, decision, memory, t)
             store(thrusts, decision.thrusts)
             store(a, Remembered(pilot.samples + 1.0, memory))
 
@@ -87,7 +94,7 @@ class Pilot:
         if type(measurement) is not np.ndarray or measurement.shape != SHAPE or measurement.dtype != FLOAT64:
             given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
             raise InputError(f"measurement is {given}: must be a float64 array of shape {SHAPE}")
-        self._sample(self._numbers, measurement, self.thrusts)
+        self._sample(self._numbers, measurement, self.thrusts, self._scratch)
         return self.thrusts
 
     def reset(self) -> None:

@@ -6,20 +6,21 @@ a counter-based generator with the seed's key.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.assembly.actuation import start_rotors
-from tandemlift.assembly.senses import start_estimators, start_sensors
+from tandemlift.assembly.senses import sensors_of, start_estimators
 from tandemlift.assembly.surroundings import floor_of, near_of, push_kind, start_weather, tables_of, walls_of, whiffs_of
 from tandemlift.delays import Late, Lines
-from tandemlift.engines.compiled import advance, start_plant, start_state
+from tandemlift.engines.compiled import felt_at_rest, start_plant, start_state
 from tandemlift.kernels.outside import Tables
 from tandemlift.laws.contact import start_grip
 from tandemlift.laws.push import Hand
 from tandemlift.laws.random import keys_of
+from tandemlift.laws.sensing import start_sensing
 from tandemlift.loop import Flying, Inputs, Moving, Noise
 from tandemlift.perception import READS, Reads
 from tandemlift.pilot import start_pilot
@@ -56,7 +57,7 @@ def assemble(mission: Mission) -> Assembled:
     Raises:
         InputError: something in the mission cannot be built.
     """
-    vehicle, dt = Vehicle.from_settings(mission.vehicle), mission.mission.step
+    vehicle = Vehicle.from_settings(mission.vehicle)
     chance = np.random.default_rng(mission.mission.seed)
     pilot, memory = start_pilot(mission, vehicle)
     state, floor, walls = start_state(mission), floor_of(mission, vehicle), walls_of(mission, vehicle)
@@ -67,8 +68,11 @@ def assemble(mission: Mission) -> Assembled:
     weather, eddies = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
     near, hand = near_of(walls), Hand(push, push, push)
-    felt = advance(plant, state, grip, near, thrusts, Nothing(), hand, dt).felt
-    devices, sensing, hiss = start_sensors(mission, vehicle, state, felt, chance)
+    devices, hiss = sensors_of(mission, vehicle, chance)
+    sensing: Any = Nothing()
+    if not isinstance(devices, Nothing):
+        felt = felt_at_rest(plant, state, grip, near, thrusts, hand)
+        sensing = start_sensing(devices, state, felt, state.attitude)
     readings = Nothing() if isinstance(devices, Nothing) else sensing.readings
     estimators, known = start_estimators(mission, vehicle, state, readings)
     moving = Moving(state, memory, eddies, grip, near, sensing, known, spinning, readings, EMPTY, 0.0)

@@ -9,10 +9,9 @@ import numpy as np
 
 from tandemlift.laws.body import State
 from tandemlift.laws.estimation import push_estimator, start_push
-from tandemlift.laws.loads import Felt
 from tandemlift.laws.meters import Grade
 from tandemlift.laws.navigation import navigator, start_navigation
-from tandemlift.laws.sensing import Hiss, sensors, start_sensing
+from tandemlift.laws.sensing import Hiss, sensors
 from tandemlift.perception import Estimators, Remembered
 from tandemlift.settings import InertialSensor, Mission
 from tandemlift.vector import ZERO, Nothing, Vec3, each
@@ -24,13 +23,11 @@ def steps_of(interval: float, step: float) -> int:
     return max(1, round(interval / step))
 
 
-def start_sensors(
-    mission: Mission, vehicle: Vehicle, state: State, felt: Felt, chance: np.random.Generator
-) -> tuple[Any, Any, Any]:
-    """The sensors of a mission, their memory at t = 0, and the layout of their noise; or `Nothing`."""
+def sensors_of(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) -> tuple[Any, Any]:
+    """The sensors of a mission, and the layout of their noise; or `Nothing`."""
     s, N, step = mission.sensors, vehicle.count, mission.mission.step
     if s.model == "none":
-        return Nothing(), Nothing(), Nothing()
+        return Nothing(), Nothing()
     j, turns = s.joints, chance.standard_normal((N, 3)) * s.joints.misalignment
     force = Grade(
         j.force_noise,
@@ -63,7 +60,7 @@ def start_sensors(
     )
     none = each(N)(*(0.0,) * N)
     sets = Vec3(none, none, none)
-    return devices, start_sensing(devices, state, felt, state.attitude), Hiss(ZERO, ZERO, sets, sets, ZERO, ZERO, ZERO)
+    return devices, Hiss(ZERO, ZERO, sets, sets, ZERO, ZERO, ZERO)
 
 
 def _inertial(s: InertialSensor, chance: np.random.Generator) -> Grade:

@@ -242,6 +242,12 @@ def advance(plant: Plant, s: State, grip: Any, near: Any, thrusts: Any, air: Any
     return Moved(after, felt_in(b, s, k1, air, thrusts), gripping(plant.floor, grip, after))
 
 
+def felt_at_rest(plant: Plant, s: State, grip: Any, near: Any, thrusts: Any, hand: Hand) -> Felt:
+    """What is felt in still air in state `s` under rotor thrusts [N]."""
+    b, air = Surrounded(plant, Nothing(), grip, near), Nothing()
+    return felt_in(b, s, motion(b, s, wrench(plant.effect, thrusts), hand.start), air, thrusts)
+
+
 @lru_cache(maxsize=64)
 def _effect(vehicle: VehicleTable) -> Mixer:
     return mixer_value(Vehicle.from_settings(vehicle).effect)

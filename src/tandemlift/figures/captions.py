@@ -24,8 +24,10 @@ CAPTIONS: dict[str, Caption] = {
         "Path",
         "The path of the centre of mass, with arrows where the person pushed: each starts where the push acted at its "
         "peak and is as long, over the longest one, as it was strong. The vehicle is drawn to scale at a few instants, "
-        "black at the start and at the end; dotted lines lead from the pushes straight down to the floor.",
-        "Three-dimensional view of the flown path with an arrow for each push and the vehicle at a few instants.",
+        "black at the start and at the end; dotted lines lead from the pushes straight down to the floor, which is filled if "
+        "it is there to stand on. Walls are seen through.",
+        "Three-dimensional view of the flown path with an arrow for each push, the vehicle at a few instants, and the "
+        "floor and walls if there are any.",
     ),
     "tracking": Caption(
         "Tracking",
@@ -47,5 +49,39 @@ CAPTIONS: dict[str, Caption] = {
         "held.",
         "Three panels over time, for x, y and z: push, thresholds and reference position, shaded where the admittance "
         "is active.",
+    ),
+    "push": Caption(
+        "Push as felt",
+        "The person’s push, what the last readings of the joint sensors say of it, and the estimate made of them, per "
+        "world axis, with the thresholds of the admittance. Then: where on the beam it acts, along body y from the "
+        "payload’s centre and as wide as the beam, while it is large enough to tell; the payload’s mass; and by how "
+        "much the sensors disagree, with the limit beyond which they are not trusted. Grey: the estimate may not be "
+        "used. Blue: the tare, in which the sensors’ bias is found.",
+        "Six panels over time: true, measured and estimated push along x, y and z with thresholds; place along the "
+        "beam; mass of the payload; disagreement of the sensors. Shaded where the estimate may not be used.",
+    ),
+    "joints": Caption(
+        "Joints",
+        "Force and torque of each quadrotor on the payload at its joint, in body axes. Where sensors are simulated, "
+        "what they measured stands behind. Where a disturbed start asks for far more than the rest of the flight, the "
+        "scale is that of what follows the first second.",
+        "A row of two panels over time for each quadrotor: force and torque on the payload, components x, y and z.",
+    ),
+    "rotors": Caption(
+        "Rotors",
+        "Thrust of each rotor and what was commanded of it, between its limits; commands far beyond them are cut off. "
+        "A rotor that fails is marked, and its upper limit falls to what is left. Near the floor a rotor can give more "
+        "than its limit. Bottom: the share of the wanted thrust and moments that the commands, held within the limits, "
+        "give; it is 0 while the rotors are stopped.",
+        "A row of four panels over time for each quadrotor: thrust, command and limits of each rotor. Below, the share "
+        "of the wanted thrust and moments that they give.",
+    ),
+    "surroundings": Caption(
+        "Surroundings",
+        "What there is of these: velocity of the air and its force on all parts together, force of floor and walls on "
+        "the vehicle with its weight, in world axes, and height of the lowest sole over the floor. Grey: floor or "
+        "walls touch the vehicle.",
+        "Panels over time of the wind’s velocity and force, the contact force and the height over the floor, as far as "
+        "there are wind and floor; shaded in contact.",
     ),
 }

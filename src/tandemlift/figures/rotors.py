@@ -99,7 +99,7 @@ def draw(flight: Flight) -> Figure:
             _panel(ax, flight, 4 * row + rotor, quadrotor, (row + 1, rotor + 1))
             ax.tick_params(labelbottom=row == rows - 1, labelleft=rotor == 0)
             if rotor == 0:
-                ax.set_ylabel(f"quadrotor {row + 1} (N)" if rows < 5 else f"{row + 1} (N)")
+                ax.set_ylabel(f"quadrotor {row + 1}\nthrust (N)")
             if row == 0:
                 ax.set_title(f"rotor {rotor + 1}")
     _share(figure.add_subplot(grid[rows, :]), flight)

@@ -68,7 +68,7 @@ def draw(flight: Flight) -> Figure:
     for row, (ax, (label, fill)) in enumerate(zip(axes, panels, strict=True), 1):
         fill(ax)
         if "contact_force" in flight.channels:
-            shade(ax, flight.time, np.any(flight["contact_force"] != 0.0, axis=1))
+            shade(ax, flight.time, np.any(np.abs(flight["contact_force"]) > 0.0, axis=1))
         ax.set_ylabel(label)
         time_axis(ax, flight, label=row == len(panels))
     figure.align_ylabels(axes)

@@ -167,11 +167,12 @@ def think_within_limits(a, at_hand, r, at_limits, x, t, dt):
         push = load_lane(a, at_hand + lane, LANES, x.hand).start.force
         flying = load_lane(a, lane, LANES, x.flying)
         thought = think(flying, push, t, dt)
-        settled, decision = as_wished(flying, thought, t), thought.decision
+        how, decision = flying.pilot.allocation, thought.decision
+        settled = as_wished(how, decision.thrusts, t)
         store_lane(a, r.thought + lane, LANES, thought)
         store_lane(a, r.thought + at_limits[0] + lane, LANES, settled.commands)
         store_lane(a, r.thought + at_limits[1] + lane, LANES, settled.memory)
-        excess = Excess(outside(flying, thought, t), decision.command.wrench, decision.thrusts)
+        excess = Excess(outside(how, decision.thrusts, t), decision.command.wrench, decision.thrusts)
         store_lane(a, r.excess + lane, LANES, excess)
     commands, memory = r.thought + at_limits[0], r.thought + at_limits[1]
     limit_lanes(a, a[r.scratch :], r.excess, commands, memory, x.flying, x.excess, t)

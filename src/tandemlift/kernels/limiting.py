@@ -52,22 +52,21 @@ def _solve(s, n):
 
 
 @inlined
-def as_wished(flying, thought, t):
-    """Commands of a pilot whose thrusts are within limits."""
-    how, wished = flying.pilot.allocation, thought.decision.thrusts
+def as_wished(how, wished, t):
+    """Commands for thrusts that are within limits."""
     return Settled(commanded(how, wished, t), Working(wished * 0.0, wished))
 
 
 @inlined
-def outside(flying, thought, t):
+def outside(how, wished, t):
     """Above 0 if a thrust is outside its limits."""
-    return total(beyond(thought.decision.thrusts, limits_at(flying.pilot.allocation, t)))
+    return total(beyond(wished, limits_at(how, t)))
 
 
 @inlined
-def settle(s, flying, wrench, wished, t):
-    """Commands within limits for thrusts that are not; `s`: scratch."""
-    how, held, n = flying.pilot.allocation, flying.moving.memory.allocation, len(wished)
+def settle(s, how, held, wrench, wished, t):
+    """Commands within limits for thrusts that are not; `s`: scratch, `held`: the memory."""
+    n = len(wished)
     at = 4 * n + 8
     store(s, how.rows)
     store(s[4 * n :], how.weights)
@@ -81,19 +80,28 @@ def settle(s, flying, wrench, wished, t):
 
 
 @inlined
-def limit(s, flying, thought, t):
+def within(s, how, held, wrench, wished, t):
+    """Commands within limits for any thrusts."""
+    settled = as_wished(how, wished, t)
+    if outside(how, wished, t) > 0.0:
+        settled = settle(s, how, held, wrench, wished, t)
+    return settled
+
+
+@inlined
+def limit(s, how, held, decision, memory, t):
+    """(Decision, memory) of a pilot, its commands kept within limits; `held`: the allocation's memory before."""
+    settled = within(s, how, held, decision.command.wrench, decision.thrusts, t)
+    limited_memory = PilotMemory(memory.yielding, memory.controller, settled.memory)
+    return Decision(decision.guidance, decision.command, settled.commands), limited_memory
+
+
+@inlined
+def limit_thought(s, flying, thought, t):
     """What a pilot thinks, its commands kept within limits."""
-    decision, m = thought.decision, thought.memory
-    settled = as_wished(flying, thought, t)
-    if outside(flying, thought, t) > 0.0:
-        settled = settle(s, flying, decision.command.wrench, decision.thrusts, t)
-    return Thought(
-        thought.known,
-        thought.measured,
-        Decision(decision.guidance, decision.command, settled.commands),
-        PilotMemory(m.yielding, m.controller, settled.memory),
-        thought.estimator,
-    )
+    how, held = flying.pilot.allocation, flying.moving.memory.allocation
+    decision, memory = limit(s, how, held, thought.decision, thought.memory, t)
+    return Thought(thought.known, thought.measured, decision, memory, thought.estimator)
 
 
 class Excess(NamedTuple):
@@ -115,6 +123,8 @@ def limit_lanes(a, s, at_excess, at_commands, at_memory, like, excess_like, t):
     for lane in range(LANES):
         if a[at_excess + lane] > 0.0:
             excess = load_lane(a, at_excess + lane, LANES, excess_like)
-            settled = settle(s, load_lane(a, lane, LANES, like), excess.wrench, excess.wished, t)
+            flying = load_lane(a, lane, LANES, like)
+            how, held = flying.pilot.allocation, flying.moving.memory.allocation
+            settled = settle(s, how, held, excess.wrench, excess.wished, t)
             store_lane(a, at_commands + lane, LANES, settled.commands)
             store_lane(a, at_memory + lane, LANES, settled.memory)

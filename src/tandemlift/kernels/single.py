@@ -11,7 +11,7 @@ from tandemlift.delays import Ends, arrived, departing
 from tandemlift.engines.compiled import aloft
 from tandemlift.jit import Layout, leaves, load, load_lane, store
 from tandemlift.kernels.likes import Likes
-from tandemlift.kernels.limiting import limit
+from tandemlift.kernels.limiting import limit_thought
 from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
 from tandemlift.kernels.places import Stretches, carry
 from tandemlift.laws.contact import may_touch
@@ -54,7 +54,7 @@ def single_loop(likes: Likes, lines: Stretches) -> Callable[..., Any]:
             given = Inputs(hand, gusting(tables.gusts, k * dt), load_lane(table, k % SPAN, SPAN, noise_like))
             thought = think(flying, hand.start.force, k * dt, dt)
             if constrained:
-                thought = limit(scratch, flying, thought, k * dt)
+                thought = limit_thought(scratch, flying, thought, k * dt)
             acting = act(flying, thought.decision.thrusts, given, k * dt)
             if grounded and not low:
                 moved = swing(aloft(flying.plant), flying.moving, acting, hand, dt)

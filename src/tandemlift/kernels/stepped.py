@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.jit import Layout, leaves, load, load_lane, store
 from tandemlift.kernels.likes import Likes
-from tandemlift.kernels.limiting import limit
+from tandemlift.kernels.limiting import limit_thought
 from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
 from tandemlift.kernels.places import Stretches, carry
 from tandemlift.laws.admittance import Trajectory
@@ -95,14 +95,14 @@ def parts_of(likes: Likes, lines: Stretches) -> Parts:
         decision, memory = conclude(flying.pilot, memory, guidance, load(y, COMMAND), memory.controller, t, dt)
         thought = Thought(known, measured, decision, memory, estimator)
         if constrained:
-            thought = limit(scratch, flying, thought, t)
+            thought = limit_thought(scratch, flying, thought, t)
         store(m, thought)
 
     def whole(a, g, m, scratch, k, dt):
         flying, given = load(a, like), load(g, given_like)
         thought = think(flying, given.hand.start.force, k * dt, dt)
         if constrained:
-            thought = limit(scratch, flying, thought, k * dt)
+            thought = limit_thought(scratch, flying, thought, k * dt)
         store(m, thought)
 
     def acting(a, g, m, c, w, k, dt):

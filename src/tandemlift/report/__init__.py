@@ -1,4 +1,4 @@
-"""The report of a flight: one HTML file that needs nothing else, with the verdict, the figures and the metrics."""
+"""The report of a flight: one HTML file that needs nothing else: verdict, set-up, figures, metrics and mission."""
 
 from __future__ import annotations
 
@@ -12,11 +12,13 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from tandemlift.figures import FIGURES
+from tandemlift.figures import figures_of
 from tandemlift.figures.captions import CAPTIONS
 from tandemlift.files import whole
 from tandemlift.flight import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
+from tandemlift.report.page import PAGE, STYLE
+from tandemlift.report.setup import setup_of
 
 UNITS = {  # by the end of a metric's name; longer ends first
     "n_m": "N m",
@@ -34,89 +36,6 @@ SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
 WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
-
-STYLE = """
-:root { color-scheme: light dark; --ink: #1b1f24; --soft: #5b6470; --line: #d7dce1; --page: #fff; --card: #f5f7f9;
-  --good: #00664b; --bad: #a83e00; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e4e7eb; --soft: #9aa4af; --line: #3a424b; --page: #15191e;
-  --card: #1e242b; --good: #4fd3ab; --bad: #ff9d5c; } }
-* { box-sizing: border-box; }
-body { margin: 0; background: var(--page); color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; }
-main { max-width: 64rem; margin: 0 auto; padding: 1.5rem 1rem 3rem; }
-h1 { margin: 0; font-size: 2rem; line-height: 1.2; overflow-wrap: anywhere; }
-h2 { margin: 2.5rem 0 1rem; font-size: 1.3rem; }
-.kind, .soft, figcaption { color: var(--soft); }
-.kind { margin: 0; }
-.verdict { margin: 1rem 0 .5rem; padding: .6rem .9rem; border-left: .3rem solid var(--good); background: var(--card); }
-.verdict.diverged, .verdict.missed { border-color: var(--bad); }
-.verdict strong { color: var(--good); }
-.verdict.diverged strong, .verdict.missed strong { color: var(--bad); }
-figure { margin: 0 0 2rem; }
-figcaption { max-width: 44rem; margin-top: .5rem; font-size: .9rem; }
-figcaption b { color: var(--ink); }
-.sheet { overflow-x: auto; padding: .75rem; border: 1px solid var(--line); border-radius: .4rem; background: #fff; }
-.sheet img { display: block; max-width: 100%; height: auto; margin: 0 auto; }
-.sheet img.wide { min-width: 38rem; }
-.table { overflow-x: auto; }
-table { width: 100%; border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .35rem .75rem; border-bottom: 1px solid var(--line); text-align: right; vertical-align: top;
-  white-space: nowrap; }
-th:first-child { padding-left: 0; text-align: left; font-weight: 500; white-space: normal; }
-thead th, thead th:first-child { font-weight: 600; }
-td:last-child, thead th:last-child { text-align: left; }
-td.one { text-align: center; white-space: normal; }
-td small { color: var(--soft); }
-sup { line-height: 0; }
-code, pre { font: .85em/1.45 ui-monospace, monospace; }
-th code { color: var(--soft); font-size: .75rem; overflow-wrap: anywhere; }
-pre { overflow-x: auto; padding: .75rem 1rem; border-radius: .4rem; background: var(--card); }
-summary { cursor: pointer; }
-footer { margin-top: 2.5rem; padding-top: .75rem; border-top: 1px solid var(--line); font-size: .85rem; }
-@media (max-width: 40rem) { table { font-size: .78rem; }
-  th code { display: none; } th, td { padding: .35rem .25rem; } }
-@media print { :root { color-scheme: light; --ink: #000; --soft: #444; --line: #bbb; --page: #fff; --card: #f4f4f4;
-  --good: #00664b; --bad: #a83e00; }
-  main { max-width: none; padding: 0; } figure, tr { break-inside: avoid; } .sheet { border: 0; padding: 0; }
-  .sheet, .table { overflow: visible; } .sheet img.wide { min-width: 0; } h2 { break-after: avoid; } }
-"""
-
-PAGE = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{name}: flight report</title>
-<style>{style}</style>
-</head>
-<body>
-<main>
-<header>
-<p class="kind">Flight report</p>
-<h1>{name}</h1>
-{verdict}
-</header>
-{figures}
-<section>
-<h2>Metrics</h2>
-{metrics}
-</section>
-<section>
-<h2>Mission</h2>
-<details>
-<summary>The mission as it was flown, with every key</summary>
-<pre><code>{mission}</code></pre>
-</details>
-</section>
-<section>
-<h2>How to fly it again</h2>
-{again}
-</section>
-<footer class="soft">Flown with {versions}.</footer>
-</main>
-</body>
-</html>
-"""
-
 
 def number(value: Any) -> str:
     """A metric's value as HTML: four significant digits, or a power of ten; a dash for None."""
@@ -204,13 +123,26 @@ def _place(point: Iterable[float]) -> str:
     return f"({', '.join(f'{round(v, 3) + 0.0:.3f}'.replace('-', '−') for v in point)}) m"
 
 
-def _pngs(figures: Any) -> dict[str, Path]:
-    """The figures' PNG files by name, of those that there are."""
+def _pngs(flight: Flight, figures: Any) -> dict[str, Path]:
+    """The PNG files of a flight's figures by name, of those that there are."""
+    names = figures_of(flight)
     if isinstance(figures, (str, os.PathLike)):
-        found = {name: Path(figures) / f"{name}.png" for name in FIGURES}
+        found = {name: Path(figures) / f"{name}.png" for name in names}
     else:
         found = {Path(p).stem: Path(p) for p in figures if Path(p).suffix == ".png"}
-    return {name: found[name] for name in FIGURES if name in found and found[name].is_file()}
+    return {name: found[name] for name in names if name in found and found[name].is_file()}
+
+
+def _engine(flight: Flight) -> str:
+    """Which engine the body lived in, of flights that say so."""
+    name = flight.version.get("engine")
+    return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine not told"
+
+
+def _setup(flight: Flight) -> str:
+    """Vehicle, pilot, rotors, sensors and surroundings as a table, a row each."""
+    rows = (f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>' for what, said in setup_of(flight))
+    return f'<div class="table">\n<table class="setup">\n<tbody>\n{chr(10).join(rows)}\n</tbody>\n</table>\n</div>'
 
 
 def _figure(place: int, name: str, png: Path) -> str:
@@ -241,18 +173,21 @@ def write_report(
 
     Args:
         flight: a flight, also one that diverged.
-        figures: the folder that `save_figures` wrote to, or the files; figures that are not there are left out.
+        figures: the folder that `save_figures` wrote to, or the files; what is not there, or is not this flight's, is
+            left out.
         path: of the HTML file; its folder is made if it does not exist.
 
     Returns:
         The path.
     """
     path = Path(path)
-    shown = [_figure(i, name, png) for i, (name, png) in enumerate(_pngs(figures).items(), 1)]
+    shown = [_figure(i, name, png) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
     text = PAGE.format(
         name=escape(flight.name),
         style=STYLE,
+        engine=_engine(flight),
         verdict=_verdict(flight),
+        setup=_setup(flight),
         figures=f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>" if shown else "",
         metrics=_metrics(flight.metrics()),
         mission=escape(format_toml(flight.mission)),

@@ -1,0 +1,153 @@
+"""What a flight was flown with, in words: vehicle, pilot, rotors, sensors, and what was around, from its mission."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any, TypeVar
+
+from tandemlift.figures.ground import floor_height
+from tandemlift.flight import Flight
+from tandemlift.settings import Quadrotor, Table, VehicleTable
+from tandemlift.settings.pilot import AllocationTable, Estimator, PilotTable
+from tandemlift.settings.world import Actuators, Disturbance, Fault, Ground, Plant, Sensors, WindTable
+
+Row = tuple[str, str]
+Settings = TypeVar("Settings", bound=Table)
+
+READ = {"truth": "true", "measurement": "measured", "estimate": "estimated"}
+JOINTS = {"force": ("N", "Joint forces"), "torque": ("N m", "Joint torques")}
+
+
+def _table(flight: Flight, name: str, model: type[Settings]) -> Settings:
+    """A table of the flight's mission, with what an older mission does not have."""
+    return model.model_validate(flight.mission.get(name, {}))
+
+
+def say(value: float, unit: str = "", scale: float = 1.0) -> str:
+    """A number in at most four digits, with its unit."""
+    return f"{scale * value:.4g} {unit}".rstrip().replace("-", "−")
+
+
+def _vector(values: Iterable[float], unit: str) -> str:
+    return f"({', '.join(say(v) for v in values)}) {unit}"
+
+
+def _spread(values: Iterable[float], unit: str, scale: float = 1.0) -> str:
+    """One value, or the least to the largest of several."""
+    ordered = sorted(values)
+    return " to ".join(dict.fromkeys(say(v, scale=scale) for v in (ordered[0], ordered[-1]))) + f" {unit}"
+
+
+def _vehicle(flight: Flight) -> Iterator[Row]:
+    table = _table(flight, "vehicle", VehicleTable)
+    count, payload = len(table.quadrotors), table.payload.mass
+    mass = payload + sum(q.mass for q in table.quadrotors)
+    fleet = f"{count} quadrotor{'s' if count > 1 else ''}"
+    yield "Vehicle", f"{fleet} and a payload of {say(payload, 'kg')}, {say(mass, 'kg')} in all"
+    plant, push = _table(flight, "plant", Plant), _table(flight, "disturbance", Disturbance)
+    unknown = []
+    if plant.mass_scale != 1.0:
+        unknown.append(f"its mass is {say(plant.mass_scale * mass, 'kg')}")
+    if plant.inertia_scale != (1.0, 1.0, 1.0):
+        unknown.append(f"its inertia is {_vector(plant.inertia_scale, 'times as large')}")
+    if any(push.force):
+        unknown.append(f"a force of {_vector(push.force, 'N')} acts on it")
+    if any(push.moment):
+        unknown.append(f"a moment of {_vector(push.moment, 'N m')} acts on it")
+    if unknown:
+        yield "Unknown to the pilot", ", ".join(unknown)
+
+
+def _pilot(flight: Flight) -> Iterator[Row]:
+    pilot, name = _table(flight, "pilot", PilotTable), flight.mission["controller"]["name"]
+    yield "Pilot", f"controller {name}; reads the {READ[pilot.state]} state and the {READ[pilot.push]} push"
+
+
+def _lag(quadrotors: tuple[Quadrotor, ...]) -> str:
+    up, down = ([getattr(q, name) for q in quadrotors] for name in ("lag_up", "lag_down"))
+    return f"lag of {_spread(up, 'ms', 1e3)} up and {_spread(down, 'ms', 1e3)} down" if any(up + down) else "no lag"
+
+
+def _rotors(flight: Flight) -> Iterator[Row]:
+    actuators, quadrotors = _table(flight, "actuators", Actuators), _table(flight, "vehicle", VehicleTable).quadrotors
+    method = _table(flight, "allocation", AllocationTable).method
+    if actuators.model == "ideal":
+        yield "Rotors", f"ideal: every command is given at once and exactly; {method} allocation"
+        return
+    most = _spread([q.max_thrust for q in quadrotors], "N")
+    late = f"commands {say(actuators.delay, 'ms', 1e3)} late" if actuators.delay else "commands without delay"
+    start = {"hover": "turning as in hover at the start", "stopped": "stopped at the start"}[actuators.start]
+    yield "Rotors", f"0 to {most} each; {_lag(quadrotors)}; {late}; {start}; {method} allocation"
+    for fault in (Fault.model_validate(f) for f in flight.mission.get("faults", [])):
+        known = "never known" if fault.known_after is None else f"known {say(fault.known_after, 's')} later"
+        left = f"{say(fault.efficiency, '%', 100.0)} of the thrust left"
+        yield "Fault", f"rotor {fault.rotor} of quadrotor {fault.quadrotor}: {left} from {say(fault.time, 's')} on, {known}"
+
+
+def _errors(unit: str, **sizes: tuple[float, str]) -> str:
+    """The errors that are not zero, each by its name, with its unit."""
+    said = [f"{name} {say(size, f'{unit}{per}')}" for name, (size, per) in sizes.items() if size]
+    return ", ".join(said) or "exact"
+
+
+def _every(interval: float, delay: float) -> str:
+    often = f"every {say(interval, 'ms', 1e3)}" if interval else "every step"
+    late = f"{say(delay, 'ms', 1e3)} and " if delay else ""
+    return f"{often}, known {late}a step later"
+
+
+def _sensors(flight: Flight) -> Iterator[Row]:
+    s = _table(flight, "sensors", Sensors)
+    if s.model == "none":
+        yield "Sensors", "none: the pilot reads what is true"
+        return
+    drawn = "noise, bias and turns are given as standard deviations; biases and turns are drawn from the seed"
+    yield "Sensors on board", f"{_every(s.interval, s.delay)}; {drawn}"
+    for kind, (unit, name) in JOINTS.items():
+        noise, bias, drift, step = (getattr(s.joints, f"{kind}_{x}") for x in ("noise", "bias", "drift", "resolution"))
+        errors = _errors(unit, noise=(noise, ""), bias=(bias, ""), drift=(drift, "/√s"), steps=(step, ""))
+        turned = f", turned by {say(s.joints.misalignment, 'rad')}" if s.joints.misalignment else ""
+        yield name, f"{errors}{turned}; up to ±{say(getattr(s.joints, f'{kind}_range'), unit)}"
+    for meter, unit, name in ((s.accelerometer, "m/s²", "Accelerometer"), (s.gyroscope, "rad/s", "Gyroscope")):
+        errors = _errors(unit, noise=(meter.noise, ""), bias=(meter.bias, ""), drift=(meter.drift, "/√s"))
+        yield name, f"{errors}; up to ±{say(meter.range, unit)}"
+    m = s.motion
+    noises = ((m.position_noise, "m"), (m.velocity_noise, "m/s"), (m.attitude_noise, "rad"))
+    noise = ", ".join(say(size, unit) for size, unit in noises if size)
+    yield "Motion", f"{_every(m.interval, m.delay)}; " + (f"noise {noise}" if noise else "exact")
+    yield "Estimate of the push", _estimate(_table(flight, "estimator", Estimator))
+
+
+def _estimate(e: Estimator) -> str:
+    tare = "no tare"
+    if e.tare_start is not None:
+        tare = f"tare from {say(e.tare_start)} to {say(e.tare_start + e.tare_duration, 's')}"
+        tare += ", which also finds the payload’s mass" if e.identify_mass else ""
+    trust = f"not used while sensors disagree by {say(e.disagreement_limit, 'N')} or more"
+    return f"low-pass of {say(e.push_bandwidth, 'rad/s')}; {tare}; {trust}"
+
+
+def _surroundings(flight: Flight) -> Iterator[Row]:
+    wind = _table(flight, "wind", WindTable)
+    said = "none"
+    if wind.model == "air":
+        parts = [f"mean {_vector(wind.velocity, 'm/s')}"]
+        if wind.turbulence:
+            parts.append(f"Dryden turbulence of {say(wind.turbulence, 'm/s')} at 20 ft")
+        parts += [f"gust of {_vector(g.velocity, 'm/s')} from {say(g.start, 's')} on" for g in wind.gusts]
+        said = "; ".join(parts)
+    yield "Wind", said
+    ground, height = _table(flight, "ground", Ground), floor_height(flight)
+    if height is not None:
+        effect = "; rotors give more near it" if ground.effect else ""
+        yield "Floor", f"at z = {say(height, 'm')}; friction {say(ground.friction)}{effect}"
+    else:
+        yield "Floor", "none"
+    if walls := flight.mission.get("walls"):
+        yield "Walls", str(len(walls))
+
+
+def setup_of(flight: Flight) -> list[Row]:
+    """What a flight was flown with: rows of a name and what there is to say."""
+    parts = (_vehicle, _pilot, _rotors, _sensors, _surroundings)
+    return [row for part in parts for row in part(flight)]
