@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: run test lint types imports tests bench bench-peers lock clean help
+.PHONY: run test lint types imports tests bench validate bench-peers lock clean help
 
 help:            ## say what there is
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -25,8 +25,11 @@ imports: .venv/dev  ## imports go downward only
 tests: .venv/dev ## all tests
 	$(BIN)/pytest -n auto
 
-bench: .venv/run ## speed of everything, printed
+bench: .venv/dev ## speed of everything, printed
 	$(BIN)/python benchmarks/bench.py
+
+validate: .venv/dev  ## both engines against each other, printed
+	$(BIN)/python benchmarks/validate.py
 
 bench-peers: .venv-peers/ready  ## speed beside other simulators, printed
 	.venv-peers/bin/python benchmarks/peers.py

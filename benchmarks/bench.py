@@ -54,6 +54,12 @@ def other_rows(results: dict[str, Any]) -> list[list[str]]:
     starts, growth = results["processes"], results["memory_mib"]
     rows = [
         ["`Pilot.step` from Python, µs", number(results["pilot_call_us"])],
+        [
+            "`paper` in MuJoCo with the pilot, 1 kHz, no contact: times real time",
+            number(results["mujoco"]["real_time"]),
+        ],
+        ["the same, µs a step", number(results["mujoco"]["step_us"])],
+        ["share of bare `mj_step` in it", number(results["mujoco"]["bare_share"])],
         ["`import tandemlift`, s", number(starts["import_s"])],
         ["first `load_mission`, s", number(starts["load_mission_s"])],
         ["Numba loaded after import / after `load_mission`", _loaded(starts)],
@@ -80,11 +86,12 @@ def _kept(name: str) -> str:
 
 
 def measure(rounds: int) -> dict[str, Any]:
-    about = describe(("tandemlift", "numba", "llvmlite", "numpy", "pydantic"))
+    about = describe(("tandemlift", "numba", "llvmlite", "numpy", "pydantic", "mujoco"))
     return {
         "machine": about,
         "missions": {name: flights.mission_speeds(name, rounds) for name in flights.MISSIONS},
         "pilot_call_us": flights.pilot_call_us(),
+        "mujoco": flights.mujoco_speed(),
         "memory_mib": processes.memory(),
         "processes": {**processes.imports(rounds), **processes.first_flight(), **processes.command_line(5)},
     }

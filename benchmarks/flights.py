@@ -19,8 +19,21 @@ import numpy as np
 
 import tandemlift as tl
 
-MISSIONS = ("one-push", "paper", "flight-ready", "four")
 DURATION = 90.0  # s, of each
+WIND = {  # on top of iris: then every part is on
+    "wind.model": "air",
+    "wind.velocity": [1.0, 0.5, 0.0],
+    "wind.turbulence": 3.0,
+    "wind.gusts": [{"velocity": [0.5, 0.0, 0.0], "start": 30.0, "rise": 2.0, "hold": 5.0}],
+}
+MISSIONS: dict[str, dict[str, Any]] = {
+    "one-push": {},
+    "paper": {},
+    "flight-ready": {},
+    "four": {},
+    "iris": {},
+    "iris, wind": WIND,
+}
 MANY = 64  # flights a call
 BLOCKS = {  # name: keep, threads
     "metrics_1": ("metrics", 1),
@@ -62,7 +75,7 @@ def mission_speeds(name: str, rounds: int) -> dict[str, Any]:
     the latter with the log at the mission's interval. `ratio`, of a step alone to a step in a block in the kernel, is
     between the best of the rounds.
     """
-    mission = tl.load_mission(name, {"mission.duration": DURATION})
+    mission = tl.load_mission(name.partition(",")[0], {"mission.duration": DURATION, **MISSIONS[name]})
     many = [mission] * MANY
     taken: dict[str, list[float]] = {}
     for turn in range(rounds + 1):
@@ -88,6 +101,25 @@ def pilot_call_us(repeats: int = 50, calls: int = 2000) -> float:
             pilot.step(measurement)
 
     return median([_timed(run)[0] / calls * 1e6 for _ in range(repeats)])
+
+
+def mujoco_speed(duration: float = 30.0, rounds: int = 5) -> dict[str, float]:
+    """The MuJoCo engine with the pilot in the loop, no contact: times real time, µs a step, and bare `mj_step`'s share."""
+    import mujoco
+
+    from tandemlift.engines.mujoco import MuJoCoBody
+    from tandemlift.vehicle import Vehicle
+
+    mission = tl.load_mission("paper", {"mission.duration": duration})
+    body = MuJoCoBody(mission, Vehicle.from_settings(mission.vehicle))
+    steps = mission.mission.steps
+    taken = []
+    for _ in range(rounds + 1):
+        wall = tl.fly(mission, "mujoco").metrics()["wall_s"]
+        bare, _ = _timed(lambda: [mujoco.mj_step(body.model, body.data) for _ in range(steps)])
+        taken.append((wall, bare))
+    wall, bare = (median(times) for times in zip(*taken[1:], strict=True))
+    return {"real_time": duration / wall, "step_us": wall / steps * 1e6, "bare_share": bare / wall}
 
 
 def _peak_mebibytes() -> float:

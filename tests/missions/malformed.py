@@ -121,7 +121,9 @@ UNKNOWN_KEYS = [
     case("unknown key of a push", "pushes = [{force = [1, 0, 0], time = 1, sigma = 1, sgima = 2}]", "pushes.0.sgima"),
     case("empty key", "'' = 1", '"" = 1', "unknown key"),
     case("key of odd characters", r'"a\nb\u001b[31m" = 1', r"a\nb\u001b[31m", "unknown key"),
-    case("unknown key without a near one", "wind.speed = 5", "wind = {speed = 5}", "has the tables mission, vehicle"),
+    case("unknown key without a near one", "rain.rate = 5", "rain = {rate = 5}", "has the tables mission, vehicle"),
+    case("unknown key of a gust", "wind.gusts = [{velocty = [1, 0, 0]}]", "Did you mean wind.gusts.0.velocity?"),
+    case("unknown sensor", "sensors.gyro.noise = 1", "sensors.gyro", "Did you mean sensors.gyroscope?"),
 ]
 
 WRONG_NAMES = [

@@ -4,14 +4,15 @@ import math
 import tomllib
 import warnings
 
+import pytest
 import tomli_w
 from hypothesis import given
 from hypothesis import strategies as st
-from schema import SCHEMA
+from schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
+from tandemlift.assembly import assemble
 from tandemlift.cli.run import parse_setting
-from tandemlift.loop import start
 from tandemlift.missions import check, load_mission, to_toml
 
 EDGES = [0.0, -0.0, 5e-324, 1e-300, 1e-155, 1e-15, 0.02, 1.0, 90.0, 1e15, 1e155, 1e300, 1.7976931348623157e308]
@@ -41,7 +42,7 @@ def taken_or_refused(make):
         if mission is None:
             return None
         assert check(tomllib.loads(to_toml(mission))) == mission
-        start(mission)
+        assemble(mission)
         return mission
 
 
@@ -53,6 +54,18 @@ def test_any_change_is_taken_or_refused(changes):
 @given(st.dictionaries(st.sampled_from(sorted(SCHEMA)), numbers | lists, min_size=1, max_size=2))
 def test_any_numbers_are_taken_or_refused(changes):
     taken_or_refused(lambda: load_mission("four", changes))
+
+
+@given(st.dictionaries(st.sampled_from(sorted(SCHEMA)), numbers | lists, min_size=1, max_size=2))
+def test_any_numbers_are_taken_or_refused_by_a_mission_that_has_everything(changes):
+    taken_or_refused(lambda: load_mission("iris", EVERYTHING | changes))
+
+
+@pytest.mark.parametrize("key", sorted(SCHEMA))
+@pytest.mark.parametrize("edge", [*EDGES, -1.0, math.inf, math.nan], ids=str)
+def test_any_edge_is_taken_or_refused(key, edge):
+    taken_or_refused(lambda: load_mission("iris", EVERYTHING | {key: edge}))
+    taken_or_refused(lambda: load_mission("iris", EVERYTHING | {key: [edge] * 3}))
 
 
 @given(st.dictionaries(st.sampled_from(["mission", "vehicle", "pushes", "controller"]) | st.text(max_size=5), values))

@@ -8,16 +8,27 @@ import tomli_w
 from schema import SCHEMA
 
 import tandemlift as tl
-from tandemlift.missions import built_in, format_toml, load_mission, merge, tables_of, to_toml
+from tandemlift.missions import DATA, built_in, format_toml, load_mission, merge, tables_of, to_toml
 from tandemlift.missions.explain import allowed, value_at
 from tandemlift.settings import Mission
 
-BUILT_IN = ["flight-ready", "four", "hover", "one-push", "paper"]
+BUILT_IN = [
+    *("flight-ready", "four", "gusts", "heavy-payload", "hover", "iris"),
+    *("off-centre-push", "one-push", "paper", "rotor-loss"),
+]
 
 
 def test_the_built_in_missions_are_these_with_a_summary_each():
-    assert set(BUILT_IN) <= set(built_in())
-    assert all(len(summary) > 20 and "#" not in summary for summary in built_in().values())
+    assert list(built_in()) == BUILT_IN
+    assert all(summary[0] != "#" and 20 < len(summary) <= 118 for summary in built_in().values())
+    assert all(summary.endswith(".") for summary in built_in().values())
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_the_summary_of_a_built_in_mission_tells_its_duration(name):
+    told = re.findall(r"\((\d+) s\)\.$", built_in()[name])
+    duration = load_mission(name).mission.duration
+    assert [float(seconds) for seconds in told] == [duration] or name in ("flight-ready", "four")
 
 
 @pytest.mark.parametrize("name", list(built_in()))
@@ -36,6 +47,26 @@ def test_a_built_in_mission_is_named_as_its_file_and_warns_of_nothing(name):
         assert load_mission(name).mission.name == name
 
 
+def common(whole, said):
+    """The part of resolved tables whose keys are said in others."""
+    if isinstance(said, dict):
+        return {key: common(whole[key], value) for key, value in said.items()}
+    listed = isinstance(said, list) and said and isinstance(said[0], dict)
+    return [common(*pair) for pair in zip(whole, said, strict=True)] if listed else whole
+
+
+def test_the_paper_mission_leaves_out_only_what_it_has_no_part_of():
+    rest = tables_of(load_mission("paper"))
+    assert [rest[part]["model"] for part in ("actuators", "sensors", "wind", "ground")] == ["ideal", *["none"] * 3]
+    assert rest["pilot"] == {"state": "truth", "push": "truth"}
+    assert rest["faults"] == rest["walls"] == []
+    assert rest["phases"]["rotors"] == "always"
+    assert rest["plant"] == {"mass_scale": 1.0, "inertia_scale": [1.0] * 3}
+    assert rest["disturbance"] == {"force": [0.0] * 3, "moment": [0.0] * 3}
+    assert rest["initial"]["velocity"] == rest["initial"]["rates"] == [0.0] * 3
+    assert all(q["spins"] == [1, -1, 1, -1] for q in rest["vehicle"]["quadrotors"])
+
+
 def test_the_paper_mission_has_the_paper_s_numbers():
     quadrotor = {
         "mass": 1.5,
@@ -48,6 +79,7 @@ def test_the_paper_mission_has_the_paper_s_numbers():
         "lag_up": 0.0125,
         "lag_down": 0.025,
     }
+    beam = {"mass": 0.5, "length": 2.0, "radius": 0.05}
     pushes = [
         ("z", 14, 1.5, 0.5),
         ("x", 22, 3, 0.6),
@@ -58,10 +90,11 @@ def test_the_paper_mission_has_the_paper_s_numbers():
         ("y", 52, 2, 0.6),
         ("x", 58, 3, 0.6),
     ]
-    assert tables_of(load_mission("paper")) == {
+    said = tomllib.loads((DATA / "missions" / "paper.toml").read_text("utf-8"))
+    assert common(tables_of(load_mission("paper")), said) == {
         "mission": {"name": "paper", "duration": 90.0, "step": 0.001, "log_interval": 0.01, "seed": 0},
         "vehicle": {
-            "payload": {"mass": 0.5, "length": 2.0, "radius": 0.05},
+            "payload": beam,
             "quadrotors": [quadrotor | {"position": [0.0, y, 0.075]} for y in (1.0, -1.0)],
             "drag": {"force": [0.006] * 3, "moment": [0.006] * 3},
         },
@@ -77,7 +110,6 @@ def test_the_paper_mission_has_the_paper_s_numbers():
             "switching": "tanh",
             "boundary_layer": [0.1] * 6,
             "attitude_reference_derivatives": "zero",
-            "filter_bandwidth": 60.0,
             "euler_rates": "exact",
             "tilt_inverse": "zxy",
             "human_force_feedforward": False,
@@ -91,19 +123,12 @@ def test_the_paper_mission_has_the_paper_s_numbers():
             "reanchor": False,
         },
         "allocation": {"method": "pseudo-inverse", "weights": [[1.0] * 4]},
-        "initial": {
-            "position": [0.3, -0.3, 0.0],
-            "velocity": [0.0] * 3,
-            "euler": [0.15, -0.15, 0.2],
-            "rates": [0.0] * 3,
-        },
+        "initial": {"position": [0.3, -0.3, 0.0], "euler": [0.15, -0.15, 0.2]},
         "phases": {"lift_start": 2.0, "lift_duration": 6.0, "height": 1.0, "land_start": 70.0, "land_duration": 12.0},
         "pushes": [
-            {"force": [A * (axis == other) for other in "xyz"], "time": t, "sigma": sigma, "point": [0.0] * 3}
+            {"force": [A * (axis == other) for other in "xyz"], "time": t, "sigma": sigma}
             for axis, t, A, sigma in pushes
         ],
-        "disturbance": {"force": [0.0] * 3, "moment": [0.0] * 3},
-        "plant": {"mass_scale": 1.0, "inertia_scale": [1.0] * 3},
         "actuators": {"model": "ideal"},
     }
 
@@ -118,6 +143,9 @@ AXES = {
 def test_every_leaf_that_the_design_gives_per_axis_is_one():
     assert sorted(AXES) == sorted(
         [
+            "allocation.priorities",
+            "wind.velocity",
+            *(f"vehicle.{part}.drag_area" for part in ("payload", "quadrotors.0")),
             "vehicle.payload.inertia",
             "vehicle.quadrotors.0.inertia",
             "vehicle.drag.force",

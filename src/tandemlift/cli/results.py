@@ -68,7 +68,7 @@ def _check_room(folder: Path) -> None:
 
 def write_results(flight: Flight, mission: Mission, folder: Path, *, figures: bool) -> None:
     """Write everything that `tandemlift run` leaves behind, replacing what an earlier run left."""
-    from tandemlift.figures import FIGURES, save_figures
+    from tandemlift.figures import FIGURES, figures_of, save_figures
     from tandemlift.missions import to_toml
     from tandemlift.report import write_report
 
@@ -81,7 +81,7 @@ def write_results(flight: Flight, mission: Mission, folder: Path, *, figures: bo
         for kind in ("png", "pdf"):
             (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
     if figures:
-        with bar("Drawing", len(FIGURES), shown=sys.stderr.isatty()) as progress:
+        with bar("Drawing", len(figures_of(flight)), shown=sys.stderr.isatty()) as progress:
             save_figures(flight, folder / "figures", progress)
     write_report(flight, folder / "figures", folder / "report.html")
 

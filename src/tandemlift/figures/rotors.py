@@ -6,6 +6,7 @@ are cut off.
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from tandemlift.figures.fleet import fleet_figure
 from tandemlift.figures.panels import extent, line, time_axis, value_ticks
 from tandemlift.figures.style import BLACK, BLUE, GREY, TAN, VERMILLION, journal
 from tandemlift.flight import Flight
-from tandemlift.settings import Quadrotor, VehicleTable
+from tandemlift.settings import VehicleTable
 
 Array = NDArray[np.float64]
 
@@ -57,13 +58,12 @@ def _limits(ax: Any, flight: Flight, most: float, fault: dict[str, Any] | None) 
     )
 
 
-def _panel(ax: Any, flight: Flight, column: int, quadrotor: Quadrotor, name: tuple[int, int]) -> None:
-    """Fill the panel of one rotor, column of its channels; `name` is its quadrotor's number and its own."""
-    most = quadrotor.max_thrust
+def _panel(ax: Any, flight: Flight, column: int, most: float, fault: dict[str, Any] | None) -> None:
+    """Fill the panel of one rotor: a column of its channels, and the most that it gives [N]."""
     thrust = flight["rotor_thrusts"][:, column]
     line(ax, flight.time, flight["rotor_commands"][:, column], zorder=2, **COMMAND)
     line(ax, flight.time, thrust, zorder=3, **THRUST)
-    _limits(ax, flight, most, fault_of(flight, *name))
+    _limits(ax, flight, most, fault)
     low, high = extent(thrust, np.array([0.0, most]))  # near the floor a rotor gives more than its most
     ax.set_ylim(low - MARGIN * most, high + MARGIN * most)
     ax.yaxis.set_major_locator(value_ticks())
@@ -78,9 +78,9 @@ def _share(ax: Any, flight: Flight) -> None:
     time_axis(ax, flight)
 
 
-def _legend(figure: Figure, flight: Flight) -> None:
+def _legend(figure: Figure, failing: bool) -> None:
     looks, names = [THRUST, COMMAND, LIMIT], ["thrust", "commanded", "limits"]
-    if flight.mission.get("faults"):
+    if failing:
         looks, names = [*looks, FAILED], [*names, "rotor fails"]
     handles = [Line2D([], [], **look) for look in looks]
     figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.6)
@@ -91,17 +91,17 @@ def draw(flight: Flight) -> Figure:
     """Draw thrust, command and limits [N] of each rotor, a row a quadrotor, of the first eight; below, the share."""
     quadrotors = VehicleTable.model_validate(flight.mission["vehicle"]).quadrotors
     figure, rows = fleet_figure(len(quadrotors), AROUND)
-    height = figure.get_figheight() - AROUND
-    grid = figure.add_gridspec(rows + 1, 4, height_ratios=[*[height / rows] * rows, SHARE])
-    for row, quadrotor in enumerate(quadrotors[:rows]):
-        for rotor in range(4):
-            ax = figure.add_subplot(grid[row, rotor])
-            _panel(ax, flight, 4 * row + rotor, quadrotor, (row + 1, rotor + 1))
-            ax.tick_params(labelbottom=row == rows - 1, labelleft=rotor == 0)
-            if rotor == 0:
-                ax.set_ylabel(f"quadrotor {row + 1}\nthrust (N)")
-            if row == 0:
-                ax.set_title(f"rotor {rotor + 1}")
+    height = (figure.get_figheight() - AROUND) / rows
+    grid = figure.add_gridspec(rows + 1, 4, height_ratios=[*[height] * rows, SHARE])
+    faults = {name: fault_of(flight, *name) for name in product(range(1, rows + 1), range(1, 5))}
+    for column, ((row, rotor), fault) in enumerate(faults.items()):
+        ax = figure.add_subplot(grid[row - 1, rotor - 1])
+        _panel(ax, flight, column, quadrotors[row - 1].max_thrust, fault)
+        ax.tick_params(labelbottom=row == rows, labelleft=rotor == 1)
+        if rotor == 1:
+            ax.set_ylabel(f"quadrotor {row}\nthrust (N)")
+        if row == 1:
+            ax.set_title(f"rotor {rotor}")
     _share(figure.add_subplot(grid[rows, :]), flight)
-    _legend(figure, flight)
+    _legend(figure, any(faults.values()))
     return figure

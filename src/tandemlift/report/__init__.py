@@ -37,6 +37,7 @@ WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
 
+
 def number(value: Any) -> str:
     """A metric's value as HTML: four significant digits, or a power of ten; a dash for None."""
     if value is None:

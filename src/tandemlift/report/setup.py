@@ -81,7 +81,10 @@ def _rotors(flight: Flight) -> Iterator[Row]:
     for fault in (Fault.model_validate(f) for f in flight.mission.get("faults", [])):
         known = "never known" if fault.known_after is None else f"known {say(fault.known_after, 's')} later"
         left = f"{say(fault.efficiency, '%', 100.0)} of the thrust left"
-        yield "Fault", f"rotor {fault.rotor} of quadrotor {fault.quadrotor}: {left} from {say(fault.time, 's')} on, {known}"
+        yield (
+            "Fault",
+            f"rotor {fault.rotor} of quadrotor {fault.quadrotor}: {left} from {say(fault.time, 's')} on, {known}",
+        )
 
 
 def _errors(unit: str, **sizes: tuple[float, str]) -> str:
