@@ -104,7 +104,7 @@ def pilot_call_us(repeats: int = 50, calls: int = 2000) -> float:
 
 
 def mujoco_speed(duration: float = 30.0, rounds: int = 5) -> dict[str, float]:
-    """The MuJoCo engine with the pilot in the loop, no contact: times real time, µs a step, and bare `mj_step`'s share."""
+    """MuJoCo with the pilot in the loop, no contact: times real time, µs a step, and bare `mj_step`'s share."""
     import mujoco
 
     from tandemlift.engines.mujoco import MuJoCoBody

@@ -24,8 +24,8 @@ CAPTIONS: dict[str, Caption] = {
         "Path",
         "The path of the centre of mass, with arrows where the person pushed: each starts where the push acted at its "
         "peak and is as long, over the longest one, as it was strong. The vehicle is drawn to scale at a few instants, "
-        "black at the start and at the end; dotted lines lead from the pushes straight down to the floor, which is filled if "
-        "it is there to stand on. Walls are seen through.",
+        "black at the start and at the end; dotted lines lead from the pushes straight down to the floor, which is "
+        "filled if it is there to stand on. Walls are seen through.",
         "Three-dimensional view of the flown path with an arrow for each push, the vehicle at a few instants, and the "
         "floor and walls if there are any.",
     ),

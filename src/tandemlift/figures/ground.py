@@ -6,19 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.constants import GRAVITY
+from tandemlift.figures.vehicle import mass_of, vehicle_of
 from tandemlift.flight import Flight
 from tandemlift.laws.contact import floor, soles_below, standing_height
 from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.settings import VehicleTable
 from tandemlift.settings.world import Ground
 from tandemlift.vector import Quat
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
-
-
-def _vehicle(flight: Flight) -> Vehicle:
-    return Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
 
 
 def _soles(vehicle: Vehicle) -> Array:
@@ -35,8 +31,7 @@ def floor_height(flight: Flight) -> float | None:
     ground = Ground.model_validate(flight.mission.get("ground", {}))
     if ground.model == "none" or ground.height is not None:
         return ground.height if ground.model != "none" else None
-    vehicle, mission = _vehicle(flight), flight.mission
-    mass = vehicle.mass * mission.get("plant", {}).get("mass_scale", 1.0)
+    vehicle, mission, mass = vehicle_of(flight), flight.mission, mass_of(flight)
     step, friction = mission["mission"]["step"], ground.friction
     at_zero = floor(_soles(vehicle), mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage)
     return mission["initial"]["position"][2] - standing_height(at_zero, mass * GRAVITY)
@@ -45,6 +40,6 @@ def floor_height(flight: Flight) -> float | None:
 def clearance(flight: Flight, height: float) -> Array:
     """How high the lowest sole is (T) over a floor at a height [m]."""
     R = rotation_from_quaternion(Quat(*flight["attitude"].T))
-    soles = _soles(_vehicle(flight)).reshape(-1, 3)
+    soles = _soles(vehicle_of(flight)).reshape(-1, 3)
     below = np.column_stack([R.z.x, R.z.y, R.z.z]) @ soles.T
     return flight["position"][:, 2] + below.min(axis=1) - height

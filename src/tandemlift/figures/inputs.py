@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 from tandemlift.figures.panels import fit, line, time_axis
 from tandemlift.figures.start import START, is_disturbed
 from tandemlift.figures.style import BLACK, BLUE, GREY, PAGE, journal
+from tandemlift.figures.vehicle import weight_of
 from tandemlift.flight import Flight
-from tandemlift.settings import VehicleTable
-from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
@@ -33,12 +32,6 @@ def _panel(ax: Any, flight: Flight, i: int, part: NDArray[np.bool_], shown: NDAr
     fit(ax, values[part], least=LEAST[i])
     if i:
         ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
-
-
-def weight_of(flight: Flight) -> float:
-    """Weight [N] of the vehicle that flew, which need not be the one that the pilot believed in."""
-    believed = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"])).weight
-    return believed * flight.mission.get("plant", {}).get("mass_scale", 1.0)
 
 
 @journal

@@ -1,7 +1,7 @@
 """What every quadrotor puts on the payload at its joint: force [N] and torque [N m], body axes.
 
-Where sensors are simulated, their readings stand faintly behind. Where a disturbed start asks for far more than the rest
-of the flight, the value axes are scaled to what follows its first second.
+Where sensors are simulated, their readings stand faintly behind. Where a disturbed start asks for far more than the
+rest of the flight, the value axes are scaled to what follows its first second.
 """
 # paper: trans_rot_payload_equ
 

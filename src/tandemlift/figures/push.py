@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 
 from tandemlift.figures.panels import fit, line, shade, time_axis
 from tandemlift.figures.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
+from tandemlift.figures.vehicle import payload_mass_of, vehicle_of
 from tandemlift.flight import Flight
 from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.settings import VehicleTable
 from tandemlift.settings.pilot import Estimator
 from tandemlift.vector import Quat, Vec3, apply_transposed
-from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
@@ -31,17 +30,6 @@ LIMIT: dict[str, Any] = {"color": BLACK, "lw": 0.7, "ls": (0, (5, 3))}
 ROWS = (1.0, 1.0, 1.0, 1.0, 0.85)  # heights: three forces, the place, mass and disagreement
 LEAST_FORCE, LEAST_PLACE, LEAST_MASS = 0.2, 0.1, 0.02  # N, m, kg: least spans of the axes
 BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to each side
-
-
-def vehicle_of(flight: Flight) -> Vehicle:
-    """The vehicle that the pilot believes in."""
-    return Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
-
-
-def payload_mass(flight: Flight) -> float:
-    """Mass [kg] of the payload that flew: what the vehicle has beyond the one believed in, the payload has."""
-    vehicle, scale = vehicle_of(flight), flight.mission.get("plant", {}).get("mass_scale", 1.0)
-    return vehicle.payload.mass + (scale - 1.0) * vehicle.mass
 
 
 def places(flight: Flight) -> list[Array]:
@@ -97,7 +85,7 @@ def _place(ax: Any, flight: Flight) -> None:
 
 
 def _mass(ax: Any, flight: Flight) -> None:
-    true, estimate = payload_mass(flight), flight["payload_mass_estimate"]
+    true, estimate = payload_mass_of(flight), flight["payload_mass_estimate"]
     ax.axhline(true, zorder=1, **TRUE)
     line(ax, flight.time, estimate, zorder=4, **ESTIMATE)
     fit(ax, estimate, np.array([true]), least=LEAST_MASS)

@@ -1,4 +1,4 @@
-"""The thrust of every rotor and what was commanded of it [N], between its limits, and what share of the wrench they give.
+"""Thrust of every rotor and what was commanded of it [N], between its limits, and the share of the wrench they give.
 
 A rotor that fails is marked from then on, and its upper limit falls to what it has left. Commands far beyond the limits
 are cut off.

@@ -14,9 +14,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from tandemlift.figures.ground import clearance, floor_height
-from tandemlift.figures.inputs import weight_of
 from tandemlift.figures.panels import components, fit, line, shade, time_axis
 from tandemlift.figures.style import BLACK, BLUE, COMPONENTS, GREY, PAGE, PALE, journal
+from tandemlift.figures.vehicle import weight_of
 from tandemlift.flight import Flight
 
 ROW, AROUND = 1.35, 0.85  # in: height of a panel, and above and below them all

@@ -66,7 +66,7 @@ def walls_near(tables: Sequence[Mapping[str, Any]], around: Array) -> list[Wall]
 def _stretches(wall: Wall, path: Array, cell: float) -> Iterator[tuple[bool, Array]]:
     """The stretches (2, 3) of a wall's rim that stand before the path (n, 3), or behind it, one after another."""
     length = float(np.linalg.norm(wall.rim[1] - wall.rim[0]))
-    points = np.linspace(*wall.rim, max(2, 1 + int(np.ceil(PARTS * length / cell))))
+    points = np.linspace(wall.rim[0], wall.rim[1], max(2, 1 + int(np.ceil(PARTS * length / cell))))
     middles = (points[1:] + points[:-1]) / 2.0
     nearest = [path[np.argmin(((path - middle)[:, :2] ** 2).sum(axis=1))] for middle in middles]
     before = ((middles - nearest)[:, :2] @ NEAR[:2] > 0.0).tolist()
