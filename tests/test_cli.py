@@ -33,7 +33,7 @@ METRICS = [
 ]
 OURS = {"mission.toml", "flight.npz", "metrics.json", "figures", "report.html"}
 DRAWN = {
-    f"{name}.{kind}" for name in ("reference", "path", "tracking", "inputs", "interaction") for kind in ("png", "pdf")
+    f"{name}.{kind}" for name in ("reference", "path", "tracking", "inputs", "interaction", "joints") for kind in ("png", "pdf")
 }
 SHORT = ("--no-figures", "--set", "mission.duration=0.5")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")
@@ -135,7 +135,7 @@ def test_a_run_writes_its_results_to_out_name(run, tmp_path):
     assert code == 0
     assert {path.name for path in folder.iterdir()} == OURS
     assert {path.name for path in (folder / "figures").iterdir()} == DRAWN
-    assert {f"{name}.png" for name in FIGURES} < DRAWN
+    assert {f"{name}.{kind}" for name in FIGURES for kind in ("png", "pdf")} >= DRAWN
     assert "mine: 1000 steps" in out
     assert str(Path("out") / "mine" / "report.html") in out
     assert "http-equiv" not in (folder / "report.html").read_text("utf-8")

@@ -9,12 +9,15 @@ import subprocess
 import tomllib
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.figures import FIGURES, save_figures
+from tandemlift.cli.results import write_results
+from tandemlift.figures import figures_of, save_figures
 from tandemlift.figures.captions import CAPTIONS
-from tandemlift.flight import Divergence
+from tandemlift.flight import Divergence, Flight
+from tandemlift.missions import tables_of
 from tandemlift.report import number, split_unit, write_report
 
 HOSTILE = "<script>alert('x')</script>\"&<img src=http://evil.example/x.png>"
@@ -62,6 +65,21 @@ def paper():
 
 
 @pytest.fixture(scope="module")
+def windy():
+    """A mission with sensors, real rotors, a fault, wind and floor, as if it had been flown."""
+    changes = {
+        "wind.model": "air",
+        "wind.velocity": [2.0, -1.0, 0.0],
+        "wind.turbulence": 6.0,
+        "plant.mass_scale": 3.8 / 3.5,
+        "faults": [{"quadrotor": 2, "rotor": 3, "time": 15.0, "efficiency": 0.25, "known_after": 0.05}],
+        "walls": [{"start": [0.0, 3.0], "end": [9.0, 3.0]}],
+    }
+    mission = tables_of(tl.load_mission("iris", changes))
+    return Flight(np.zeros(0), {}, mission, {}, version={"tandemlift": "1", "engine": "mujoco"})
+
+
+@pytest.fixture(scope="module")
 def figures(paper, tmp_path_factory):
     folder = tmp_path_factory.mktemp("figures")
     save_figures(paper, folder)
@@ -102,17 +120,71 @@ def test_the_page_says_its_language_its_title_and_fits_a_phone(page):
     assert {"name": "viewport", "content": "width=device-width, initial-scale=1"} in page.all("meta")
 
 
-def test_every_figure_is_there_with_its_size_a_description_and_a_caption(page):
-    images = page.all("img")
-    assert [figure["id"] for figure in page.all("figure")] == list(FIGURES)
-    assert [image["alt"] for image in images] == [caption.alt for caption in CAPTIONS.values()]
+def test_every_figure_is_there_with_its_size_a_description_and_a_caption(page, paper):
+    images, names = page.all("img"), list(figures_of(paper))
+    assert [figure["id"] for figure in page.all("figure")] == names
+    assert [image["alt"] for image in images] == [CAPTIONS[name].alt for name in names]
     assert all(300 < int(image["width"]) < 1100 and 200 < int(image["height"]) < 1100 for image in images)
-    for caption in CAPTIONS.values():
-        assert html.escape(caption.text) in page.text
+    for name in names:
+        assert html.escape(CAPTIONS[name].text) in page.text
+
+
+def test_the_engine_is_told_at_the_top(page, windy, paper, write):
+    head = page.text.partition("</header>")[0]
+    assert "Flown in engine <b>compiled</b>" in head
+    assert "Flown in engine <b>mujoco</b>" in write(windy).text
+    assert "<b>" not in write(dataclasses.replace(paper, version={})).text.partition("</header>")[0]
+
+
+def test_the_set_up_is_told_with_the_mission_s_numbers(windy, write):
+    told = dict(row for row in write(windy).rows if len(row) == 2)
+    sensors = windy.mission["sensors"]
+    pieces = {
+        "Vehicle": ["2 quadrotors", "0.5 kg", "3.5 kg"],
+        "Unknown to the pilot": ["3.8 kg"],
+        "Pilot": ["nftsmc", "estimated state", "estimated push"],
+        "Rotors": ["0 to 7.066 N", "12.5 ms up", "25 ms down", "10 ms late", "stopped", "constrained"],
+        "Fault": ["rotor 3 of quadrotor 2", "25 % of the thrust left from 15 s", "0.05 s later"],
+        "Joint forces": [f"noise {sensors['joints']['force_noise']:g} N", f"±{sensors['joints']['force_range']:g} N"],
+        "Accelerometer": [f"bias {sensors['accelerometer']['bias']:g} m/s²"],
+        "Motion": [f"every {1e3 * sensors['motion']['interval']:g} ms"],
+        "Wind": ["mean (2, −1, 0) m/s", "turbulence of 6 m/s"],
+        "Floor": ["at z = −", "friction 0.8"],
+        "Walls": ["1"],
+    }
+    assert {what: [p for p in parts if p not in told[what]] for what, parts in pieces.items()} == {
+        what: [] for what in pieces
+    }
+
+
+def test_the_set_up_of_a_flight_without_parts_says_so_and_an_older_mission_has_one_as_well(page, paper, write):
+    told = dict(row for row in page.rows if len(row) == 2)
+    assert told["Rotors"].startswith("ideal")
+    assert told["Sensors"].startswith("none")
+    assert (told["Wind"], told["Floor"]) == ("none", "none")
+    assert not {"Fault", "Walls", "Unknown to the pilot"} & set(told)
+    newer = ("sensors", "wind", "ground", "walls", "faults", "pilot", "estimator")
+    older = {name: table for name, table in paper.mission.items() if name not in newer}
+    assert dict(row for row in write(dataclasses.replace(paper, mission=older)).rows if len(row) == 2) == told
+
+
+def test_figures_that_an_earlier_flight_left_are_not_shown(paper, figures, tmp_path, write):
+    folder = tmp_path / "figures"
+    shutil.copytree(figures, folder)
+    shutil.copy(folder / "joints.png", folder / "push.png")
+    assert [figure["id"] for figure in write(paper, folder).all("figure")] == list(figures_of(paper))
+
+
+def test_a_run_removes_the_figures_that_its_flight_does_not_have(paper, tmp_path):
+    for name in ("push.png", "rotors.pdf", "mine.png"):
+        (tmp_path / "figures").mkdir(exist_ok=True)
+        (tmp_path / "figures" / name).write_text("old")
+    write_results(paper, tl.load_mission("paper"), tmp_path, figures=False)
+    assert [path.name for path in (tmp_path / "figures").iterdir()] == ["mine.png"]
 
 
 def test_every_metric_is_in_the_table_with_its_value_and_unit(page, paper):
-    rows = {row[0].split("\n")[1]: row for row in page.rows[1:]}
+    rows = {row[0].split("\n")[1]: row for row in page.rows if len(row) > 2 and "\n" in row[0]}
     assert list(rows) == list(paper.metrics())
     for name, value in paper.metrics().items():
         if name == "command_at_start":
@@ -195,7 +267,7 @@ def test_text_from_outside_is_only_text(paper, write):
 
 def test_a_report_without_figures_is_whole(paper, tmp_path, write):
     assert write(paper, tmp_path / "nowhere").all("figure") == []
-    assert write(paper, []).all("h2") == [{}, {}, {}]
+    assert write(paper, []).all("h2") == [{}, {}, {}, {}]
 
 
 def test_figures_may_be_given_as_files(paper, figures, write):
@@ -255,5 +327,5 @@ def test_a_browser_without_a_network_shows_every_figure(report, tmp_path, progra
     offline = ["--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={tmp_path / 'profile'}"]
     shown = subprocess.run([browser, *quiet, *offline, copy.as_uri()], capture_output=True, text=True, timeout=120)
     assert shown.returncode == 0, shown.stderr
-    assert "<title>2148,2148,2148,2148,1050</title>" in shown.stdout
+    assert "<title>2148,2148,2148,2148,1050,2148</title>" in shown.stdout
     shutil.rmtree(tmp_path / "profile", ignore_errors=True)

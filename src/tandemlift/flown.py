@@ -87,9 +87,10 @@ def metrics_of(p: Prepared, flown: Flown) -> dict[str, Any]:
 
 
 @cache
-def versions() -> Mapping[str, str]:
-    """Versions of what a flight was flown with."""
-    return {name: metadata.version(name) for name in ("tandemlift", "numba", "numpy")}
+def versions(engine: str) -> Mapping[str, str]:
+    """Versions of what a flight is flown with in an engine."""
+    packages = ("tandemlift", "numba", "numpy", *(["mujoco"] if engine == "mujoco" else []))
+    return {name: metadata.version(name) for name in packages}
 
 
 def _channels(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
@@ -118,5 +119,5 @@ def flight_of(p: Prepared, flown: Flown, engine: str = "compiled") -> Flight:
         mission=tables_of(p.mission),
         results=metrics_of(p, flown),
         divergence=_divergence(p, flown),
-        version={**versions(), "engine": engine},
+        version={**versions(engine), "engine": engine},
     )

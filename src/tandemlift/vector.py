@@ -236,16 +236,16 @@ def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
 @law
 def apply(A: Mat3, v: Vec3) -> Vec3:
     """A v."""
-    return Vec3(dot(A.x, v), dot(A.y, v), dot(A.z, v))
+    return Vec3(dot(v, A.x), dot(v, A.y), dot(v, A.z))
 
 
 @law
 def apply_transposed(A: Mat3, v: Vec3) -> Vec3:
     """Aᵀ v."""
     return Vec3(
-        A.x.x * v.x + A.y.x * v.y + A.z.x * v.z,
-        A.x.y * v.x + A.y.y * v.y + A.z.y * v.z,
-        A.x.z * v.x + A.y.z * v.y + A.z.z * v.z,
+        v.x * A.x.x + v.y * A.y.x + v.z * A.z.x,
+        v.x * A.x.y + v.y * A.y.y + v.z * A.z.y,
+        v.x * A.x.z + v.y * A.y.z + v.z * A.z.z,
     )
 
 

@@ -10,9 +10,11 @@ from scipy.linalg import null_space
 from scipy.optimize import minimize
 
 from tandemlift.errors import InputError
-from tandemlift.laws.allocation import allocate, wrench
+from tandemlift.laws.allocation import Constrained, allocate, beyond, commanded, limits_at, wrench
 from tandemlift.laws.body import Wrench
-from tandemlift.pilot import mixer_value
+from tandemlift.laws.rotors import Faults
+from tandemlift.missions import load_mission
+from tandemlift.pilot import mixer_value, start_pilot
 from tandemlift.vector import each, vec3
 from tandemlift.vehicle import Vehicle
 
@@ -111,3 +113,48 @@ def test_roll_is_within_reach_only_if_the_quadrotors_share_it_by_their_thrusts()
     assert reachable(v, ((1.0, 100.0, 1.0, 1.0),), 1) == pytest.approx(20.8, abs=0.05)
     assert reachable(v, ONE, 2) == pytest.approx(2.8, abs=0.05)
     assert reachable(v, ONE, 3) == pytest.approx(1.33, abs=0.005)
+
+
+def constrained(limits, times, efficiency) -> Constrained:
+    """Allocation within limits [N] for rotors whose faults the pilot knows from certain times [s] on."""
+    cls = each(len(limits))
+    none = mixer_value(np.zeros((4, len(limits))))
+    faults = Faults(cls(*times), cls(*efficiency))
+    return Constrained(none, none, Wrench(0.0, vec3((0.0, 0.0, 0.0))), cls(*limits), faults)
+
+
+@given(seeds)
+def test_commands_to_weak_rotors_make_them_give_the_thrusts(seed):
+    rng = np.random.default_rng(seed)
+    limits, times, left = rng.uniform(5.0, 9.0, 8), rng.uniform(0.0, 2.0, 8), rng.uniform(0.0, 1.0, 8)
+    left[rng.integers(8)] = 0.0
+    how, t = constrained(limits, times, left), 1.0
+    share = np.where(times <= t, left, 1.0)
+    most = np.array(limits_at(how, t))
+    assert most == pytest.approx(limits * share)
+    thrusts = most * rng.uniform(0.0, 1.0, 8)
+    commands = np.array(commanded(how, each(8)(*map(float, thrusts)), t))
+    assert commands * share == pytest.approx(thrusts)
+    assert np.all(commands <= limits * (1.0 + 1e-12))
+    assert np.all(commands[share == 0.0] == 0.0)
+
+
+def test_a_thrust_is_beyond_its_limits_below_zero_and_above_the_most_only():
+    assert [beyond(f, 7.0) for f in (-1e-12, 0.0, 3.0, 7.0, 7.0 + 1e-12)] == [1.0, 0.0, 0.0, 0.0, 1.0]
+
+
+@pytest.mark.parametrize("method", ["pseudo-inverse", "constrained"])
+def test_the_pilot_of_the_real_iris_allocates_what_makes_the_wrench(method):
+    mission = load_mission("iris", {"allocation.method": method})
+    vehicle = Vehicle.from_settings(mission.vehicle)
+    pilot, _ = start_pilot(mission, vehicle)
+    wanted = np.array([34.0, 1.0, -0.2, 0.3])
+    thrusts = np.array(allocate(pilot.allocation, Wrench(float(wanted[0]), vec3(wanted[1:]))))
+    total, moment = 0.0, np.zeros(3)
+    for q, own in zip(vehicle.quadrotors, thrusts.reshape(2, 4), strict=True):
+        for (x, y), spin, f in zip(q.rotor_positions, q.spins, own, strict=True):
+            total += f
+            moment += np.cross(np.add(q.position, [x, y, 0.0]), [0.0, 0.0, f])
+            moment[2] += 0.06 * spin * f
+    assert [total, *moment] == pytest.approx(wanted, abs=1e-12)
+    assert np.all((thrusts > 0.0) & (thrusts < vehicle.quadrotors[0].max_thrust))

@@ -10,12 +10,27 @@ import numpy as np
 import pytest
 
 from tandemlift.jit import install, load, store
-from tandemlift.laws import admittance, expanded, parts, reference, rotation, sliding, virtual
+from tandemlift.laws import (
+    admittance,
+    allocation,
+    contact,
+    expanded,
+    limits,
+    loads,
+    parts,
+    reference,
+    rotation,
+    rotors,
+    sliding,
+    virtual,
+    walls,
+)
 from tandemlift.laws.body import Body, State, Wrench, motion
 from tandemlift.laws.inertia import gyroscopic
 from tandemlift.laws.push import PointPush
+from tandemlift.laws.rectangle import Wall
 from tandemlift.ops import power
-from tandemlift.vector import Mat3, Quat, Vec3, apply, apply_transposed, cross, hamilton, outer
+from tandemlift.vector import Mat3, Quarters, Quat, Vec3, apply, apply_transposed, cross, each, hamilton, outer
 
 from .helpers import flat, rebuilt
 
@@ -27,6 +42,21 @@ BODY = Body(0.0, V, V, V, V, V, V)
 JOINT = parts.Joint(V, V)
 SURFACE = sliding.Surface(V, V, sliding.Power(V), V, V, sliding.Tanh(V))
 AXES = expanded.Axes(V, V)
+STATE = State(V, V, Q, V)
+TWO, EIGHT = each(2)(0.0, 0.0), each(8)(*[0.0] * 8)  # a value of every quadrotor, and of every rotor
+VV, FOUR = Vec3(TWO, TWO, TWO), Quarters(TWO, TWO, TWO, TWO)
+FRAME = loads.Frame(V, VV, VV, TWO, VV, FOUR, FOUR, FOUR)
+LOADS = loads.Loads(loads.Load(V, V), loads.Load(VV, VV))
+FELT = loads.Felt(V, VV, VV, V)
+FLOOR = contact.Floor(*[0.0] * 7, Quarters(VV, VV, VV, VV), V, 0.0)
+GRIP = Quarters(*[contact.Grip(TWO, TWO, TWO)] * 4)
+WALLS = walls.Walls(*[0.0] * 4, TWO, walls.Beam(0.0, TWO), 0.0)
+UPRIGHT, UPRIGHTS = Wall(*[0.0] * 6), Wall(*[TWO] * 6)
+NEAR = walls.Near(UPRIGHTS, UPRIGHTS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT, UPRIGHT))
+LAG, MIXER = rotors.Lag(EIGHT, EIGHT, EIGHT), allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
+SURFACES = rotors.GroundEffect(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, 0.0)
+ROTORS = rotors.Rotors(EIGHT, EIGHT, EIGHT, LAG, LAG, rotors.Faults(EIGHT, EIGHT), SURFACES, 0.0, Wrench(0.0, V))
+CONSTRAINED = allocation.Constrained(MIXER, MIXER, Wrench(0.0, V), EIGHT, rotors.Faults(EIGHT, EIGHT))
 
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "cross": (cross, (V, V)),
@@ -62,9 +92,20 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "reaching time": (sliding.reaching_time, (V, V, V, V)),
     "expanded dynamics": (expanded.expanded_dynamics, (BODY, V, V, AXES)),
     "Euler dynamics": (expanded.euler_dynamics, (BODY, EULER, V, V, Wrench(0.0, V))),
+    "thrusts of rotors": (rotors.drive, (ROTORS, rotors.Spinning(EIGHT, EIGHT), EIGHT, STATE, 0.0)),
+    "commands to weak rotors": (allocation.commanded, (CONSTRAINED, EIGHT, 0.0)),
+    "share of a wrench": (limits.given_share, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
+    "what joints feel": (loads.feel, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
+    "what joints pass on": (loads.under, (LOADS.quadrotors, FRAME, Q, FELT)),
+    "loads together": (loads.resultant, (FRAME, Q, LOADS)),
+    "feet on the floor": (contact.touch, (FLOOR, GRIP, FRAME, STATE)),
+    "feet that slip": (contact.slip, (FLOOR, GRIP, STATE)),
+    "near walls": (walls.press, (WALLS, NEAR, FRAME, STATE)),
+    "nearest walls": (walls.consider, (WALLS, UPRIGHT, NEAR, FRAME, STATE)),
     "motion, pushed at points": (motion, (BODY, State(V, V, Q, V), Wrench(0.0, V), PointPush(V, M))),
 }
 POSITIVE = {"power", "smooth step", "soft gate", "sliding surface", "surface rate", "wanted acceleration"}
+POSITIVE |= {"thrusts of rotors", "commands to weak rotors", "feet on the floor", "feet that slip"}
 BATCH = 12
 EACH = pytest.mark.parametrize("name", LAWS)
 

@@ -8,11 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tandemlift.errors import InputError
-from tandemlift.vehicle import Vehicle, mixer
+from tandemlift.vehicle import Vehicle, mixer, mixer_inverse
 
 from .helpers import BEAM, HEIGHT, paper_vehicle, quadrotor, random_vehicle, seeds
 
 counts = st.integers(1, 4)
+IRIS = ((0.13, -0.22), (-0.13, 0.20), (0.13, 0.22), (-0.13, -0.20))  # m: Gazebo's rotors 0 to 3
+IRIS_SPINS = (-1, -1, 1, 1)  # counter-clockwise rotors, 0 and 1, push the body clockwise
 
 
 def point_masses(mass: float, moments, center) -> tuple[np.ndarray, np.ndarray]:
@@ -95,6 +97,76 @@ def test_the_effect_of_the_rotors_is_the_sum_over_all_of_them(count, seed):
             moment += np.cross(place, [0.0, 0.0, f])
             moment[2] += spin * q.torque_per_thrust * f
     assert v.effect @ thrusts.ravel() == pytest.approx(np.append(force, moment), abs=1e-12)
+
+
+def placed(positions=IRIS, spins=IRIS_SPINS, **changes):
+    return quadrotor(layout="x", arm=None, rotor_positions=positions, spins=spins, **changes)
+
+
+def made_by(q, thrusts) -> np.ndarray:
+    """Thrust and moments about a quadrotor's centre of mass, rotor by rotor."""
+    force, moment = 0.0, np.zeros(3)
+    for (x, y), spin, f in zip(q.rotor_positions, q.spins, thrusts, strict=True):
+        force += f
+        moment += np.cross([x, y, 0.0], [0.0, 0.0, f])
+        moment[2] += spin * q.torque_per_thrust * f
+    return np.append(force, moment)
+
+
+@given(seeds)
+def test_the_real_iris_makes_any_thrust_and_moments_by_its_mixers_inverse(seed):
+    q, wanted = placed(), np.random.default_rng(seed).standard_normal(4)
+    thrusts = mixer_inverse(q) @ wanted
+    assert made_by(q, thrusts) == pytest.approx(wanted, abs=1e-13)
+    assert mixer(q) @ thrusts == pytest.approx(wanted, abs=1e-13)
+
+
+def test_the_real_iris_hovers_on_equal_thrusts_and_yaws_by_unequal_ones():
+    """Its front rotors are further out: they turn it about z by less, so that it does not roll."""
+    inverse = mixer_inverse(placed())
+    assert inverse[:, 0] == pytest.approx([0.25] * 4, abs=1e-15)
+    front, back = inverse[0, 3], inverse[1, 3]
+    assert front / back == pytest.approx(0.20 / 0.22)
+    rolling = inverse[:, 1]
+    assert np.abs(rolling) == pytest.approx([1.0 / 0.84] * 4)  # 0.22 + 0.20 + 0.22 + 0.20 m
+
+
+@given(seeds)
+def test_rotors_at_any_places_have_an_inverse_or_are_refused(seed):
+    rng = np.random.default_rng(seed)
+    places = tuple(map(tuple, rng.uniform(-0.3, 0.3, (4, 2)).tolist()))
+    q = placed(places, tuple(int(s) for s in rng.choice([-1, 1], 4)))
+    wanted = rng.standard_normal(4)
+    try:
+        thrusts = mixer_inverse(q) @ wanted
+    except InputError:
+        assert np.linalg.matrix_rank(np.array([made_by(q, f) for f in np.eye(4)]), tol=1e-9) < 4
+        return
+    assert made_by(q, thrusts) == pytest.approx(wanted, abs=1e-9 * (1.0 + np.abs(thrusts).max()))
+
+
+def test_rotors_placed_as_a_layout_has_them_are_that_layout():
+    for layout, angles in (("+", np.arange(4) * 90.0), ("x", np.arange(4) * 90.0 + 45.0)):
+        corners = 0.25 * np.column_stack([np.cos(np.radians(angles)), np.sin(np.radians(angles))])
+        by_place = placed(tuple(map(tuple, corners.tolist())), (1, -1, 1, -1))
+        by_layout = quadrotor(layout=layout, arm=0.25)
+        assert np.array(by_layout.rotors) == pytest.approx(corners, abs=1e-16)
+        assert mixer_inverse(by_place) == pytest.approx(mixer_inverse(by_layout), abs=1e-12)
+
+
+CANNOT = {
+    "spins that are alike": (IRIS, (1, 1, 1, 1)),
+    "four in a line": (((0.3, 0.0), (0.1, 0.0), (-0.1, 0.0), (-0.3, 0.0)), (1, -1, 1, -1)),
+    "two at one place that turn alike": (((0.2, 0.0), (0.2, 0.0), (-0.2, 0.1), (-0.2, -0.1)), (1, 1, -1, -1)),
+    "spins that go with the side": (((0.2, -0.2), (-0.2, 0.2), (0.2, 0.2), (-0.2, -0.2)), (-1, 1, 1, -1)),
+}
+
+
+@pytest.mark.parametrize(("positions", "spins"), CANNOT.values(), ids=CANNOT)
+def test_rotors_that_cannot_make_every_moment_are_refused(positions, spins):
+    q = placed(positions, spins)
+    with pytest.raises(InputError, match="cannot make every thrust and moment"):
+        mixer_inverse(q)
 
 
 def test_B_of_two_quadrotors_stands_side_by_side():

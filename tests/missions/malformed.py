@@ -12,16 +12,27 @@ def fleet(*positions: str) -> str:
     return f"vehicle.quadrotors = [{', '.join(QUADROTOR % p for p in positions)}]"
 
 
+ROTORS = fleet("0, 1, 0").replace("arm = 0.25", "rotor_positions = [%s]")
+FAULT = "faults = [{quadrotor = 1, rotor = 1, time = 1, %s}]"
+GUST = "wind.gusts = [{start = 1, %s}]"
+
+
 class Case(NamedTuple):
-    """A line or more of TOML on top of the paper's mission, and pieces that the one message must have."""
+    """A line or more of TOML on top of a built-in mission, and pieces that the one message must have."""
 
     name: str
     toml: str
     pieces: tuple[str, ...]
+    base: str = "paper"
 
 
 def case(name: str, toml: str, *pieces: str) -> Case:
     return Case(name, toml, pieces)
+
+
+def of_parts(name: str, toml: str, *pieces: str) -> Case:
+    """A case on top of mission iris, with real rotors, sensors and a floor."""
+    return Case(name, toml, pieces, "iris")
 
 
 WRONG_TYPES = [
@@ -157,4 +168,94 @@ WRONG_TOGETHER = [
     case("too much damping", "admittance.damping = [1, 1, 2100]", "admittance.damping = 2100.0 along z", "2000"),
 ]
 
+WRONG_PARTS = [
+    case("one number for a joint", fleet("0, 1, 0").replace("arm", "joint = 1, arm"), "joint = 1", "a list of 3"),
+    case("three rotors", fleet("0, 1, 0").replace("arm = 0.25", "rotor_positions = [[1, 0], [0, 1], [1, 1]]"), "of 4"),
+    case("rotor in space", ROTORS % "[1, 0, 0], [0, 1], [1, 1], [0, 0]", "rotor_positions.0 = [1, 0, 0]", "list of 2"),
+    case("half a spin", fleet("0, 1, 0").replace("arm", "spins = [1, -1, 0.5, -1], arm"), "spins.2 = 0.5", "-1 or 1"),
+    case("spins alike", fleet("0, 1, 0").replace("arm", "spins = [1, 1, 1, 1], arm"), "[1, 1, 1, 1]", "every thrust"),
+    case("rotors in a line", ROTORS % "[1, 0], [2, 0], [3, 0], [4, 0]", "[4.0, 0.0]", "cannot make every thrust"),
+    case("no arm", fleet("0, 1, 0").replace("arm = 0.25, ", ""), "have either arm (and layout), or rotor_positions"),
+    case("no feet", fleet("0, 1, 0").replace("arm", "feet_depth = 0, arm"), "feet_depth = 0", "> 0 and ≤ 1000"),
+    case("negative area", "vehicle.payload.drag_area = [1, -1, 1]", "drag_area.1 = -1", "≥ 0"),
+    case("three priorities", "allocation.priorities = [1, 2, 3]", "[1, 2, 3]", "one number or a list of 4 numbers"),
+    case("no priority", "allocation.priorities = [1, 0, 1, 1]", "priorities.1 = 0", "≥ 1e-06"),
+    case("a rotor that is none", "faults = [{quadrotor = 1, rotor = 5, time = 1}]", "faults.0.rotor = 5", "≤ 4"),
+    case("rotor zero", "faults = [{quadrotor = 0, rotor = 1, time = 1}]", "faults.0.quadrotor = 0", "≥ 1"),
+    case("more than all thrust", FAULT % "efficiency = 1.1", "faults.0.efficiency = 1.1", "≥ 0 and ≤ 1"),
+    case("known before", FAULT % "known_after = -1", "faults.0.known_after = -1", "a number ≥ 0"),
+    case("fault without a time", "faults = [{quadrotor = 1, rotor = 1}]", "faults.0.time is missing"),
+    case("sensors of another kind", "sensors.model = 'real'", 'sensors.model = "real"', '"none" or "simulated"'),
+    case("negative noise", "sensors.joints.force_noise = -1", "force_noise = -1", "≥ 0"),
+    case("noise per axis", "sensors.gyroscope.noise = [1, 1, 1]", "noise = [1, 1, 1]", "a number ≥ 0"),
+    case("no range", "sensors.accelerometer.range = 0", "range = 0", "> 0"),
+    case(
+        "resolution below rounding",
+        "sensors.joints.force_resolution = 1e-10",
+        "1e-10",
+        "0 (for none) or at least 1e-09",
+    ),
+    case("slow sensor", "sensors.motion.interval = 11", "sensors.motion.interval = 11", "≤ 10"),
+    case("late sensor", "sensors.delay = 1.5", "sensors.delay = 1.5", "≥ 0 and ≤ 1"),
+    case("reading by hope", "pilot.state = 'hope'", '"hope"', '"truth", "measurement" or "estimate"'),
+    case("no bandwidth", "estimator.push_bandwidth = 0", "push_bandwidth = 0", "> 0"),
+    case("no least force", "estimator.least_force = 0", "least_force = 0", "≥ 1e-06"),
+    case("wind faster than any", "wind.velocity = [2000, 0, 0]", "wind.velocity.0 = 2000", "≤ 1000"),
+    case("wind of two numbers", "wind.velocity = [1, 0]", "wind.velocity = [1, 0]", "a list of 3 numbers"),
+    case("one number for a gust", GUST % "velocity = 3, rise = 1", "gusts.0.velocity = 3", "a list of 3 numbers"),
+    case("gust without a rise", GUST % "velocity = [1, 0, 0]", "wind.gusts.0.rise is missing"),
+    case("gust that rises at once", GUST % "velocity = [1, 0, 0], rise = 0", "wind.gusts.0.rise = 0", "> 0"),
+    case("table for gusts", "wind.gusts = {rise = 1}", "wind.gusts", "a list of tables", "double brackets"),
+    case("no height for eddies", "wind.height = 0", "wind.height = 0", "> 0"),
+    case("soft floor", "ground.sinkage = 1", "ground.sinkage = 1", "≤ 0.1"),
+    case("negative friction", "ground.friction = -0.1", "ground.friction = -0.1", "≥ 0"),
+    case("wall in space", "walls = [{start = [0, 0, 0], end = [1, 0]}]", "walls.0.start = [0, 0, 0]", "a list of 2"),
+    case("wall without an end", "walls = [{start = [0, 0]}]", "walls.0.end is missing"),
+    case("gusts for faults", "faults = [{velocity = [1, 0, 0]}]", "faults.0.velocity", "unknown key"),
+]
+
+WRONG_PARTS_TOGETHER = [
+    case(
+        "fault of ideal rotors",
+        FAULT % "efficiency = 0",
+        'actuators.model = "ideal"',
+        '"rotors" where there are faults',
+    ),
+    of_parts(
+        "fault of a third quadrotor",
+        "faults = [{quadrotor = 3, rotor = 1, time = 1}]",
+        "faults.0.quadrotor = 3",
+        "1 to 2",
+    ),
+    of_parts(
+        "fault twice",
+        "faults = [{quadrotor = 2, rotor = 3, time = 1}, {quadrotor = 2, rotor = 3, time = 2}]",
+        "faults.1.rotor = 3",
+        "must fail once, and does so in faults.0",
+    ),
+    of_parts("more than rotors lift", "vehicle.payload.mass = 3.1", "59.84 N", "56.53 N", "must be lighter"),
+    of_parts("more than rotors lift, unknown", "plant.mass_scale = 1.7", "58.37 N", "mass_scale = 1.7", "56.53 N"),
+    case("estimate without sensors", "pilot.state = 'estimate'", 'pilot.state = "estimate"', 'must be "truth"'),
+    case("push without sensors", "pilot.push = 'measurement'", 'pilot.push = "measurement"', '"simulated"'),
+    of_parts("sensors taken away", "sensors.model = 'none'", 'pilot.state = "estimate"', 'must be "truth"'),
+    case("mass without a tare", "estimator.identify_mass = true", "identify_mass = true", "give estimator.tare_start"),
+    of_parts("tare of no sample", "estimator.tare_duration = 0.0001", "tare_duration = 0.0001", "every 0.001 s"),
+    of_parts(
+        "tare shorter than slow samples", "sensors.interval = 4.0", "estimator.tare_duration = 3.0", "come every 4 s"
+    ),
+    of_parts("delay of too many steps", "mission.step = 1e-7", "actuators.delay = 0.01", "10000 steps of", "1e-07"),
+    case("walls without a floor", "walls = [{start = [0, 0], end = [1, 0]}]", 'ground.model = "none"', "walls"),
+    of_parts("wall of no length", "walls = [{start = [9, 1], end = [9, 1]}]", "walls.0.end = [9.0, 1.0]", "0.001 m"),
+    case(
+        "ground effect without ground", "ground.effect = true", "ground.effect = true", 'ground.model must be "floor"'
+    ),
+    of_parts("ground effect of ideal rotors", "actuators.model = 'ideal'", "ground.effect = true", '"ideal"'),
+    case(
+        "rotors stopped in the air", "phases.rotors = 'flight'", 'phases.rotors = "flight"', '"always" without a floor'
+    ),
+    of_parts("floor above the feet", "ground.height = 0.2", "ground.height = 0.2", "0.339 m deep", "must be lower"),
+    case("tilted on the floor", "ground.model = 'floor'", "initial.euler = [0.15, -0.15, 0.2]", "must be level"),
+]
+
 CASES = WRONG_TYPES + WRONG_NUMBERS + WRONG_SHAPES + UNKNOWN_KEYS + WRONG_NAMES + WRONG_TOGETHER
+CASES += WRONG_PARTS + WRONG_PARTS_TOGETHER

@@ -14,8 +14,8 @@ from schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
 from tandemlift.assembly import assemble
-from tandemlift.jit import flat
 from tandemlift.cli.run import parse_setting
+from tandemlift.jit import flat
 from tandemlift.missions import check, load_mission, to_toml
 from tandemlift.missions.explain import allowed
 

@@ -62,13 +62,13 @@ def mine(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("case", CASES, ids=[c.name for c in CASES])
 def test_a_malformed_mission_is_refused_with_file_key_value_and_what_is_allowed(case, mine):
-    message = refusal(mine(f'extends = "paper"\n{case.toml}\n'))
+    message = refusal(mine(f'extends = "{case.base}"\n{case.toml}\n'))
     assert [piece for piece in ("mine.toml: ", *case.pieces) if piece not in message] == []
 
 
 @pytest.mark.parametrize("case", CASES, ids=[c.name for c in CASES])
 def test_a_refusal_is_short_and_in_plain_words(case, mine):
-    lines = refusal(mine(f'extends = "paper"\n{case.toml}\n')).splitlines()
+    lines = refusal(mine(f'extends = "{case.base}"\n{case.toml}\n')).splitlines()
     assert len(lines) == len(set(lines)) <= 9
     assert all(len(line) < 420 and line.isprintable() for line in lines)
     assert [word for word in JARGON if any(word in line for line in lines)] == []

@@ -24,7 +24,9 @@ def template_lines():
     place, lines = "", {}
     for line in TEMPLATE.splitlines():
         if line.removeprefix("# ").startswith("["):
-            place = line.removeprefix("# ").split("#")[0].strip().replace("[[", "").replace("]]", ".0").strip("[]") + "."
+            place = (
+                line.removeprefix("# ").split("#")[0].strip().replace("[[", "").replace("]]", ".0").strip("[]") + "."
+            )
         elif " = " in line:
             statement, _, comment = line.removeprefix("# ").partition("#")
             key, _, value = statement.partition(" = ")
@@ -56,7 +58,9 @@ def test_the_template_tells_what_a_key_is_and_its_default(key):
     elif field.default is None:
         assert "left out" in comment
     else:
-        assert resolved(key, tomllib.loads(f"v = {default.removesuffix(']')}")["v"]) == (np.array(field.default).tolist() if isinstance(field.default, tuple) else field.default)
+        shown = tomllib.loads(f"v = {default.removesuffix(']')}")["v"]
+        expected = np.array(field.default).tolist() if isinstance(field.default, tuple) else field.default
+        assert resolved(key, shown) == expected
 
 
 def test_the_template_is_a_mission_as_it_stands():

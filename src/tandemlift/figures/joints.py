@@ -3,7 +3,6 @@
 Where sensors are simulated, their readings stand faintly behind. Where a disturbed start asks for far more than the
 rest of the flight, the value axes are scaled to what follows its first second.
 """
-# paper: trans_rot_payload_equ
 
 from __future__ import annotations
 

@@ -134,7 +134,7 @@ def moment_on_payload(k: PushEstimator, unit: Unit, angular: Vec3) -> Vec3:
 def sides(k: PushEstimator, unit: Unit, angular: Vec3) -> Sides:
     """What acts on every quadrotor from outside, horizontally in body axes, less its mean [N]."""
     a, w = unit.specific_force, unit.rates
-    turn = cross(angular, k.quadrotors) + cross(w, cross(w, k.quadrotors))
+    turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
     x = unit.joint_force.x + raised(turn.x, a.x) * k.quadrotor_mass
     y = unit.joint_force.y + raised(turn.y, a.y) * k.quadrotor_mass
     return Sides(raised(x, -total(x) * k.share), raised(y, -total(y) * k.share))

@@ -153,7 +153,7 @@ def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
     """Specific force [m/s², body axes] at the point r [m, body axes] from the system's centre of mass."""
     # paper: kinematic_equ
     g = apply_transposed(rotation_from_quaternion(s.attitude), a.linear + UP * GRAVITY)
-    turn = cross(a.angular, r) + cross(s.rates, cross(s.rates, r))
+    turn = cross(cross(r, s.rates), s.rates) - cross(r, a.angular)
     return Vec3(raised(turn.x, g.x), raised(turn.y, g.y), raised(turn.z, g.z))
 
 

@@ -94,7 +94,7 @@ def depth_at(distance, radius):
 @law
 def scaled(v: Vec3, k: Any) -> Vec3:
     """v k, where either may be of sets."""
-    return Vec3(v.x * k, v.y * k, v.z * k)
+    return Vec3(k * v.x, k * v.y, k * v.z)
 
 
 @law

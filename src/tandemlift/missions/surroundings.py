@@ -22,18 +22,23 @@ from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
-DEEP = 0.02  # m, of feet in the floor at the start: their springs would throw the vehicle up by several of its lengths
+DEEP = 0.02  # m, of feet in the floor at the start
 SHORTEST = 1e-3  # m, of a wall
 FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below where the vehicle stands
+THROWN = 5.0  # times its sinkage
 SOFT = 2.0  # times the sinkage that was asked for
 
 
 class Standing(NamedTuple):
-    """The floor, where the centre of mass is when the vehicle stands on it, and the lowest sole at t = 0, z [m]."""
+    """The floor and, as the vehicle really is, z [m] of its centre of mass where it stands, and its sinkage there [m].
+
+    `depth`: of its lowest sole in the floor at t = 0, beyond that sinkage [m].
+    """
 
     floor: Floor
     rests: float
-    lowest: float
+    sinkage: float
+    depth: float
 
 
 def check_surroundings(m: Mission) -> None:
@@ -66,9 +71,8 @@ def _check_without_floor(m: Mission) -> None:
 
 
 def _check_start(m: Mission) -> None:
-    standing = standing_of(m)
-    depth = standing.floor.height - standing.lowest
-    if not depth <= DEEP:
+    depth = standing_of(m).depth
+    if depth > DEEP:
         key, value, hint = "ground.height", m.ground.height, "must be lower, or initial.position higher"
         if value is None:
             key, hint = "initial.euler", "must be level, or ground.height lower"
@@ -77,23 +81,17 @@ def _check_start(m: Mission) -> None:
 
 
 def standing_of(m: Mission) -> Standing:
-    """How the vehicle stands on the floor of a mission, as it really is.
-
-    Raises:
-        InputError: the feet are too far away to compute with.
-    """
+    """How the vehicle stands on the floor of a mission."""
     vehicle, fleet = Vehicle.from_settings(m.vehicle), m.vehicle.quadrotors
     mass, z = vehicle.mass * m.plant.mass_scale, m.initial.position[2]
     soles = soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
     g = m.ground
-    try:
-        built = floor(soles, mass, vehicle.inertia, m.mission.step, friction=g.friction, sinkage=g.sinkage)
-    except np.linalg.LinAlgError:
-        raise InputError("vehicle.quadrotors: feet_spread or feet_depth are too large to compute with") from None
-    stands = standing_height(built, mass * GRAVITY)
+    built = floor(soles, mass, vehicle.inertia, m.mission.step, friction=g.friction, sinkage=g.sinkage)
+    stands, sinkage = standing_height(built, mass * GRAVITY), sinkage_of(built, mass * GRAVITY)
     height = z - stands if g.height is None else g.height
     down = np.array(rotation_from_euler(vec3(m.initial.euler)).z)
-    return Standing(built._replace(height=height), height + stands, z + float((soles @ down).min()))
+    lowest = z + float((soles @ down).min())
+    return Standing(built._replace(height=height), height + stands, sinkage, height - lowest - sinkage)
 
 
 def doubts_of_surroundings(m: Mission) -> Iterator[str]:
@@ -108,27 +106,21 @@ def doubts_of_surroundings(m: Mission) -> Iterator[str]:
 
 
 def _of_floor(m: Mission, standing: Standing) -> Iterator[str]:
-    sinkage, asked = sinkage_of(standing.floor, weight_on(m)), m.ground.sinkage
-    if sinkage > SOFT * asked:
+    if standing.sinkage > SOFT * m.ground.sinkage:
         yield (
-            f"ground.sinkage = {asked} m: with mission.step = {m.mission.step} s the floor must be softer, and the "
-            f"standing vehicle sinks by {sinkage:.2g} m"
+            f"ground.sinkage = {m.ground.sinkage} m: with mission.step = {m.mission.step} s the floor must be softer, "
+            f"and the standing vehicle sinks by {standing.sinkage:.2g} m"
         )
     soles = min(q.position[2] - q.feet_depth for q in m.vehicle.quadrotors)
     if soles > -(m.vehicle.payload.radius or 0.0):
         yield "the payload hangs lower than the feet, and nothing but the feet touches the floor"
 
 
-def weight_on(m: Mission) -> float:
-    """What the floor bears [N]."""
-    return Vehicle.from_settings(m.vehicle).weight * m.plant.mass_scale
-
-
 def _of_start(m: Mission, standing: Standing) -> Iterator[str]:
-    depth, p = standing.floor.height - standing.lowest, m.phases
-    if depth > 5.0 * m.ground.sinkage:
-        thrown = f"throws the vehicle up by as much as {depth**2 / (2.0 * m.ground.sinkage):.2g} m"
-        yield f"the feet start {depth:.2g} m deep in the floor, which {thrown}"
+    depth, p = standing.depth, m.phases
+    if depth > THROWN * standing.sinkage:
+        height = f"{depth**2 / (2.0 * standing.sinkage):.2g} m"  # of springs, undamped
+        yield f"the feet start {depth:.2g} m deep in the floor, which throws the vehicle up by as much as {height}"
     if p.rotors == "flight" and p.lift_start > 0.0 and -depth > FAR_DOWN:
         yield f"the vehicle starts {-depth:.3g} m above the floor, with its rotors stopped until {p.lift_start:g} s"
 
