@@ -32,9 +32,8 @@ METRICS = [
     "wall_s",
 ]
 OURS = {"mission.toml", "flight.npz", "metrics.json", "figures", "report.html"}
-DRAWN = {
-    f"{name}.{kind}" for name in ("reference", "path", "tracking", "inputs", "interaction", "joints") for kind in ("png", "pdf")
-}
+ALWAYS = ("reference", "path", "tracking", "inputs", "interaction", "joints")
+DRAWN = {f"{name}.{kind}" for name in ALWAYS for kind in ("png", "pdf")}
 SHORT = ("--no-figures", "--set", "mission.duration=0.5")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")
 

@@ -10,6 +10,7 @@ from hypothesis import given
 from scipy.integrate import solve_ivp
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
+
 from tandemlift.constants import GRAVITY
 from tandemlift.laws.body import State
 from tandemlift.laws.loads import frame_of, resultant

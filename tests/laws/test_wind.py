@@ -18,6 +18,7 @@ from scipy.integrate import quad, quad_vec
 from scipy.linalg import expm, solve_continuous_lyapunov
 from scipy.signal import welch
 from scipy.spatial.transform import Rotation
+
 from tandemlift.jit import install, leaves, load, store, zeroed
 from tandemlift.laws.body import State
 from tandemlift.laws.loads import frame_of
