@@ -1,4 +1,6 @@
 import re
+import subprocess
+import sys
 import tomllib
 import warnings
 
@@ -261,3 +263,16 @@ def test_toml_keeps_every_bit_of_a_float_and_lists_of_numbers_on_one_line():
     assert "rows = [\n    [1.0, 2.0],\n    [3.0, 4.0],\n]\n" in text
     assert f"row = [[{', '.join(map(repr, numbers))}]]\n" in text
     assert "\n".join(["[[list]]", "a = [1.0, 2.0]"]) in text
+
+
+def test_every_built_in_mission_loads_without_a_compiler():
+    code = "\n".join(
+        [
+            "import sys",
+            "from tandemlift.missions import built_in, load_mission",
+            "[load_mission(name) for name in built_in()]",
+            "print([m for m in ('numba', 'scipy', 'mujoco', 'matplotlib') if m in sys.modules])",
+        ]
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

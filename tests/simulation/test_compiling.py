@@ -78,7 +78,7 @@ def block_code(tmp_path_factory):
         from tandemlift.kernels import Kernels
 
         p = Prepared(tl.load_mission("one-push", {"mission.duration": 0.1}))
-        prepared.KERNELS[p.variant] = Kernels(p.flying, p.push)
+        prepared.KERNELS[p.variant] = Kernels(p.flying, p.given)
         tl.fly_many([p.mission] * 2)
         block = prepared.KERNELS.pop(p.variant).block
         return block, next(iter(block.inspect_llvm().values()))

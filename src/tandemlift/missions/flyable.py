@@ -37,7 +37,7 @@ def check_flyable(m: Mission) -> None:
 def row_of(m: Mission) -> int:
     """Bytes of a logged sample."""
     count = len(m.vehicle.quadrotors)
-    numbers = 52 + 10 * count
+    numbers = 51 + 10 * count
     numbers += (5 + 4 * count) * (m.actuators.model == "rotors") + 6 * (m.wind.model == "air")
     numbers += 3 * (m.ground.model == "floor") + (42 + 6 * count) * (m.sensors.model == "simulated")
     return 8 * numbers

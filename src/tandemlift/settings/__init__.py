@@ -11,7 +11,24 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, SerializeAsAny
 
-from tandemlift.settings.leaves import AtLeastOne6, NonNegative6, Positive, Positive6, Table, divisor, must
+from tandemlift.settings.leaves import (
+    AtLeastOne,
+    AtLeastOne6,
+    Axes,
+    Axes3,
+    Exactly3,
+    NonNegative,
+    NonNegative3,
+    NonNegative6,
+    Positive,
+    Positive3,
+    Positive6,
+    Scale,
+    Table,
+    Triple,
+    divisor,
+    must,
+)
 from tandemlift.settings.parts import Drag, Payload, Quadrotor, VehicleTable
 from tandemlift.settings.pilot import (
     AdmittanceTable,
@@ -37,18 +54,28 @@ from tandemlift.settings.world import (
 
 __all__ = [
     "AdmittanceTable",
+    "AtLeastOne",
     "AtLeastOne6",
+    "Axes",
+    "Axes3",
     "ControllerTable",
     "Drag",
+    "Exactly3",
     "InertialSensor",
     "Mission",
     "MissionTable",
+    "NonNegative",
+    "NonNegative3",
     "NonNegative6",
     "Payload",
     "PhasesTable",
+    "Positive",
+    "Positive3",
     "Positive6",
     "Quadrotor",
+    "Scale",
     "Table",
+    "Triple",
     "VehicleTable",
 ]
 

@@ -49,7 +49,7 @@ class NFTSMCSettings(ControllerTable):
     switching: Literal["sign", "saturation", "tanh"] = "tanh"
     boundary_layer: Positive6 = (0.1, 0.1, 0.1, 0.1, 0.1, 0.1)  # m/s, rad/s: Φ
     attitude_reference_derivatives: Literal["zero", "filtered"] = "zero"
-    filter_bandwidth: Annotated[float, Field(gt=0.0)] = 60.0  # rad/s
+    filter_bandwidth: Annotated[float, Field(gt=0.0, le=1e4)] = 60.0  # rad/s
     euler_rates: Literal["exact", "body"] = "exact"
     tilt_inverse: Literal["zxy", "printed"] = "zxy"
     human_force_feedforward: bool = False

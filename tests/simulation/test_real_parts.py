@@ -1,0 +1,200 @@
+"""A flight with all parts is the same however it is flown: alone, in a block, step by step, or in plain Python."""
+
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+import pytest
+from storm import COMMAND, DT, MOTION, UNIT, storm, storms
+
+import tandemlift as tl
+from tandemlift.assembly import assemble
+from tandemlift.jit import flat, install, leaves, load, store, unflat, zeroed
+from tandemlift.kernels import GAUSSIAN, GUST, SPAN, WALL
+from tandemlift.laws.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
+from tandemlift.laws.push import Hand, push_of
+from tandemlift.laws.random import normals
+from tandemlift.laws.sensing import Readings
+from tandemlift.laws.walls import consider
+from tandemlift.laws.wind import gust_velocity
+from tandemlift.loop import Inputs, move
+from tandemlift.vector import ZERO
+
+
+def different(a: tl.Flight, b: tl.Flight) -> list[str]:
+    """Names of channels and metrics in which two flights differ by a bit."""
+    metrics = [name for name, value in a.metrics().items() if name != "wall_s" and value != b.metrics()[name]]
+    return metrics + [name for name in a if not np.array_equal(a[name], b[name])] + sorted(set(a) ^ set(b))
+
+
+@pytest.fixture(scope="module")
+def alone():
+    return [tl.fly(mission) for mission in storms(8)]
+
+
+def test_the_storm_has_everything_in_it(alone):
+    """So that what is proven with it is proven for all parts."""
+    flight = tl.fly(storm())
+    t, limits = flight.time, flight["rotor_commands"]
+    assert flight.divergence is None
+    assert flight["contact_force"][0, 2] > 30.0  # N: the floor
+    assert flight["contact_force"][(t > 1.0) & (t < 3.5), 0].min() < -1.0  # a wall
+    assert flight["contact_force"][-10:, 2].max() > 30.0  # landed
+    assert np.any((limits > 0.0) & (limits < 7.06), axis=0).all()
+    assert np.any((limits[t > 0.31] <= 0.0) | (limits[t > 0.31] >= 7.06))  # at a limit in flight
+    assert np.abs(flight["wind_force"]).max() > 1.0
+    assert np.abs(flight["push_estimate"]).max() > 1.0
+    assert sum(f.divergence is None for f in alone) == 8
+
+
+def test_eight_flights_in_a_block_are_the_flights_alone_to_the_last_bit(alone):
+    together = tl.fly_many(storms(8))
+    assert [different(a, b) for a, b in zip(alone, together, strict=True)] == [[]] * 8
+
+
+def test_a_flight_is_the_same_again_and_another_seed_makes_another(alone):
+    assert different(tl.fly(storms(1)[0]), alone[0]) == []
+    assert "measured_joint_force" in different(tl.fly(storm({"mission.seed": 1})), tl.fly(storm()))
+
+
+class Handed(NamedTuple):
+    """What a compiled controller is handed."""
+
+    gains: Any
+    memory: Any
+    measured: Any
+    reference: Any
+
+
+class ByHand(NamedTuple):
+    """Gains of a controller that Python calls, which calls the paper's law compiled by itself."""
+
+    gains: Any
+
+
+@pytest.fixture
+def by_hand():
+    """The paper's controller as a function that the loop does not know how to compile."""
+    install()
+    laws: dict[str, Any] = {}
+
+    def compiled(like, answer):
+        @numba.njit(error_model="numpy")
+        def law(a, y):
+            x = load(a, like)
+            store(y, control(x.gains, x.memory, x.measured, x.reference))
+
+        return law, np.zeros(leaves(answer))
+
+    @control.register(ByHand, compiled=False)
+    def call(k: ByHand, memory: Any, measured: Measured, reference: Reference) -> Any:
+        handed = Handed(k.gains, memory, measured, reference)
+        answer = control(*handed)
+        if "law" not in laws:
+            laws["law"], laws["y"] = compiled(zeroed(handed), answer)
+        laws["law"](np.array(flat(handed)), laws["y"])
+        return unflat(laws["y"], answer)
+
+    class Settings(nftsmc.NFTSMCSettings):
+        name: str = "by-hand"
+
+    @register("by-hand", Settings)
+    def start(settings, vehicle, step):
+        """The paper's controller, called from Python."""
+        gains, memory = nftsmc.start(settings, vehicle, step)
+        return ByHand(gains), memory
+
+    yield
+    CONTROLLERS.pop("by-hand")
+    control.table.pop(ByHand)
+    control.interpreted.discard(ByHand)
+
+
+def test_step_by_step_with_a_controller_in_python_it_is_the_same_to_the_last_bit(by_hand):
+    compiled = storm()
+    settings = {**compiled.controller.model_dump(mode="json"), "name": "by-hand"}
+    assert different(tl.fly(storm({"controller": settings})), tl.fly(compiled)) == []
+
+
+def given_at(k: int, like: Inputs, tables: Any, seeds: Any) -> Inputs:
+    """What step k is given, in plain Python."""
+
+    def push(t):
+        felt = like.hand.start
+        for row in tables.pushes:
+            felt = felt + push_of(felt, unflat(row, GAUSSIAN), t)
+        return felt
+
+    gust = ZERO
+    for row in tables.gusts:
+        gust = gust + gust_velocity(unflat(row, GUST), k * DT)
+    chance = [x for group in range(-(-leaves(like.noise) // 4)) for x in normals(k, group, *seeds)]
+    return Inputs(Hand(push(k * DT), push((k + 0.5) * DT), push((k + 1) * DT)), gust, unflat(chance, like.noise))
+
+
+def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
+    """The samples of a flight whose commands stay within limits, with delays as lists."""
+    flying, like, tables, _, seeds = assemble(mission)
+    first, nowhere = flying.moving, flying.moving.near
+    units, motions, commands, samples = [], [], [], []
+
+    def late(values, delay, start):
+        return values[-1 - delay] if len(values) > delay else start
+
+    for k in range(steps):
+        if k % SPAN == 0:
+            near, plant = nowhere, flying.plant
+            for row in tables.walls:
+                near = consider(plant.walls, unflat(row, WALL), near, plant.frame, flying.moving.state)
+            flying = flying._replace(moving=flying.moving._replace(near=near))
+        moving, sample = move(flying, given_at(k, like, tables, seeds), k * DT, DT)
+        units.append(moving.readings.unit)
+        motions.append(moving.readings.motion)
+        commands.append(moving.rotors.arriving)
+        readings = Readings(late(units, UNIT, first.readings.unit), late(motions, MOTION, first.readings.motion))
+        arriving = late(commands, COMMAND - 1, first.rotors.arriving)
+        moving = moving._replace(readings=readings, rotors=moving.rotors._replace(arriving=arriving))
+        flying = flying._replace(moving=moving)
+        samples.append(sample)
+    return samples
+
+
+def shown(sample: Any, name: str) -> np.ndarray:
+    """A channel's row of a sample."""
+    for group in (sample, sample.actuated, sample.air, sample.contact, sample.measured, sample.estimated):
+        if name in group._fields:
+            return np.array(getattr(group, name), dtype=float).T.ravel()
+    raise KeyError(name)
+
+
+def test_its_first_steps_are_those_of_plain_python():
+    changes = {
+        "mission.log_interval": DT,
+        "mission.duration": 0.12,
+        "actuators.start": "hover",
+        "phases.lift_start": 0.0,
+        "phases.height": 0.0,
+        "phases.rotors": "flight",
+        "initial.euler": [0.01, -0.01, 0.02],
+        "initial.velocity": [0.1, 0.0, -0.05],
+        "ground.height": -0.2245,  # m: one foot touches
+        "walls.0": {"start": [0.42, -3.0], "end": [0.4, 3.0]},
+        "initial.position": 0.0,
+        "estimator.tare_start": 0.02,
+        "estimator.tare_duration": 0.03,
+        "faults.0.time": 0.07,
+        "pushes.0.time": 0.06,
+        "pushes.0.sigma": 0.02,
+        "wind.gusts.0.start": 0.03,
+    }
+    flight = tl.fly(storm(changes))
+    samples = in_plain_python(storm(changes), 120)
+    commands = flight["rotor_commands"]
+    assert commands.min() > 0.0
+    assert commands.max() < 7.06  # N: no limit is met, so laws.limits has nothing to do
+    assert flight["contact_force"][:, 0].min() < -0.1
+    assert flight["contact_force"][:, 2].max() > 0.1
+    for name in flight:
+        rows = np.array([shown(s, name) for s in samples])
+        recorded = flight[name].reshape(len(flight.time), -1)[: len(rows)]
+        np.testing.assert_allclose(recorded, rows, rtol=1e-8, atol=1e-8, err_msg=name)  # roundings differ
