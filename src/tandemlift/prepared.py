@@ -10,7 +10,7 @@ import numpy as np
 
 from tandemlift.assembly import assemble
 from tandemlift.jit import flat
-from tandemlift.kernels import Kernels
+from tandemlift.kernels import Aside, Kernels
 from tandemlift.laws.controllers import NoMemory, control
 from tandemlift.settings import Mission
 from tandemlift.tally import LATE
@@ -40,7 +40,7 @@ class Prepared:
         self.interpreted = pilot.controller, moving.memory.controller
         memory = moving.memory._replace(controller=NoMemory())
         self.flying = self.flying._replace(
-            moving=moving._replace(memory=memory), pilot=pilot._replace(controller=NoMemory())
+            moving=moving._replace(memory=memory), pilot=pilot._replace(controller=Aside())
         )
 
     @cached_property

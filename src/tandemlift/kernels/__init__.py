@@ -15,7 +15,7 @@ import numba
 
 from tandemlift.jit import cached_in, folder, install, leaves
 from tandemlift.kernels.block import Regions, block_loop
-from tandemlift.kernels.likes import likes_of
+from tandemlift.kernels.likes import Aside, likes_of
 from tandemlift.kernels.limiting import scratch_size
 from tandemlift.kernels.outside import COMPILE, GAUSSIAN, GUST, HALVES, LANES, SPAN, WALL, Tables, draws
 from tandemlift.kernels.places import place, stretches_of
@@ -23,7 +23,20 @@ from tandemlift.kernels.single import single_loop
 from tandemlift.kernels.stepped import COMMAND, GIVEN, Parts, parts_of
 from tandemlift.loop import Flying, Inputs
 
-__all__ = ["COMMAND", "GAUSSIAN", "GIVEN", "GUST", "HALVES", "LANES", "SPAN", "WALL", "Kernels", "Tables", "place"]
+__all__ = [
+    "COMMAND",
+    "GAUSSIAN",
+    "GIVEN",
+    "GUST",
+    "HALVES",
+    "LANES",
+    "SPAN",
+    "WALL",
+    "Aside",
+    "Kernels",
+    "Tables",
+    "place",
+]
 
 
 class Kernels:

@@ -7,8 +7,19 @@ from typing import Any, NamedTuple
 from tandemlift.delays import Ends, departing
 from tandemlift.jit import zeroed
 from tandemlift.laws.allocation import Constrained
+from tandemlift.laws.body import Wrench
+from tandemlift.laws.controllers import Command, control
 from tandemlift.loop import Flying, Inputs, act, advance, observe, think
-from tandemlift.vector import Nothing
+from tandemlift.vector import ZERO, Nothing
+
+
+class Aside(NamedTuple):
+    """Stands where a controller is that Python calls, between the parts of a step; the loops ask it for nothing."""
+
+
+@control.register(Aside)
+def _layout_of_command(gains, memory, measured, reference):
+    return Command(Wrench(0.0, ZERO), ZERO), memory
 
 
 class Likes(NamedTuple):
