@@ -40,7 +40,7 @@ def mixer_inverse(quadrotor: Quadrotor) -> Array:
     if np.linalg.cond(A) > 1e9:
         raise InputError(
             f"vehicle.quadrotors: rotors at {[list(r) for r in quadrotor.rotors]} with spins {list(quadrotor.spins)} "
-            "cannot make every thrust and moment: no three may stand in a line, and spins must not all be alike"
+            "cannot make every thrust and moment: they may not all stand in a line, and their spins must differ"
         )
     return np.asarray(np.linalg.inv(A), dtype=np.float64)
 

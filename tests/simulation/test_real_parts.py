@@ -66,6 +66,13 @@ class Handed(NamedTuple):
     reference: Any
 
 
+class Answered(NamedTuple):
+    """What it answers."""
+
+    command: Any
+    memory: Any
+
+
 class ByHand(NamedTuple):
     """Gains of a controller that Python calls, which calls the paper's law compiled by itself."""
 
@@ -89,7 +96,7 @@ def by_hand():
     @control.register(ByHand, compiled=False)
     def call(k: ByHand, memory: Any, measured: Measured, reference: Reference) -> Any:
         handed = Handed(k.gains, memory, measured, reference)
-        answer = control(*handed)
+        answer = Answered(*control(*handed))
         if "law" not in laws:
             laws["law"], laws["y"] = compiled(zeroed(handed), answer)
         laws["law"](np.array(flat(handed)), laws["y"])

@@ -17,6 +17,7 @@ from tandemlift.ops import clip, maximum, sqrt, where
 from tandemlift.vector import Vec3, each, spread
 from tandemlift.vehicle import Vehicle
 
+REST = 1e-100  # rad/s, lost in any speed; one that dies ends at 0, not in slow denormal numbers
 NEAREST = 0.5  # rotor radii: the theory of ground effect holds no nearer to the floor
 
 
@@ -95,6 +96,12 @@ def lagged(command, speed, up, down):
     return where(command > speed, up, down)
 
 
+@elementwise
+def drawn(command, away, left):
+    """The speed [rad/s] that is left of one `away` from its command, at the end of a step."""
+    return (command + away * left + REST) - REST
+
+
 @law
 def spin(r: Rotors, speed: Any, thrust: Any) -> Any:
     """(mean of Ω² over the step, Ω at its end [rad/s]) from a speed and a thrust wanted [N]."""
@@ -103,7 +110,7 @@ def spin(r: Rotors, speed: Any, thrust: Any) -> Any:
     left = lagged(command, speed, r.up.left, r.down.left)
     mean = lagged(command, speed, r.up.mean, r.down.mean)
     mean_square = lagged(command, speed, r.up.mean_square, r.down.mean_square)
-    return command * command + away * (command * mean * 2.0 + away * mean_square), command + away * left
+    return command * command + away * (command * mean * 2.0 + away * mean_square), drawn(command, away, left)
 
 
 @drive.register(Rotors)
@@ -173,8 +180,12 @@ def _near(surface, state):
 def lag(time_constants: list[float], step: float) -> Lag:
     """The lag of each rotor over a step [s] with these time constants [s], 0 for none."""
     ratio = np.array([step / tau if tau > 0.0 else np.inf for tau in time_constants])
-    left, cls = np.exp(-ratio), each(len(time_constants))
-    return Lag(*[cls(*map(float, row)) for row in (left, (1.0 - left) / ratio, (1.0 - left**2) / (2.0 * ratio))])
+    cls, mean, mean_square = (
+        each(len(time_constants)),
+        -np.expm1(-ratio) / ratio,
+        -np.expm1(-2.0 * ratio) / (2.0 * ratio),
+    )
+    return Lag(*[cls(*map(float, row)) for row in (np.exp(-ratio), mean, mean_square)])
 
 
 def ground_effect(vehicle: Vehicle, floor: float) -> GroundEffect:

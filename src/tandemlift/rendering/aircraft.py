@@ -25,7 +25,7 @@ SPINNING = 40.0  # rad/s at which blades are shown to turn; true ones would be a
 class Aircraft(NamedTuple):
     """Meshes in body axes: what is solid, the blurs of the rotors (one each), and a blade pair to turn about z.
 
-    `hubs` (4 N, 3): the rotors' centres [m]; `spins` (4 N): ±1; `radii` (4 N) [m].
+    `hubs` (4 N, 3): the rotors' centres [m]; `spins` (4 N): ±1, of the reaction torque; `radii` (4 N) [m].
     """
 
     solid: Mesh
@@ -38,7 +38,7 @@ class Aircraft(NamedTuple):
         """The blades at a time [s]."""
         pairs = []
         for hub, spin, radius in zip(self.hubs, self.spins, self.radii, strict=True):
-            angle = spin * SPINNING * time + 0.7
+            angle = 0.7 - spin * SPINNING * time  # the reaction torque is against the turning
             c, s = np.cos(angle), np.sin(angle)
             R = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
             pairs.append(box(hub, [1.9 * radius, 0.16 * radius, 0.02 * radius], CARBON, R))
