@@ -1,146 +1,122 @@
-"""Rotors: the answer to a step of command, its impulse, delay, limits, faults, and thrust near the floor."""
+"""Real rotors: lag, limits, delay, faults and ground effect against their closed forms."""
 
-from __future__ import annotations
+import math
 
-from typing import Any, NamedTuple
-
-import numba
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.spatial.transform import Rotation
 
-from tandemlift.jit import flat, install, load, store, zeroed
 from tandemlift.laws.body import State
-from tandemlift.laws.rotors import Faults, FreeAir, Sound, Spinning, drive, ground_effect, near_ground, rotors_of
-from tandemlift.vector import ZERO, Quat, Vec3, each
+from tandemlift.laws.limits import share_scale
+from tandemlift.laws.rotors import (
+    Faults,
+    FreeAir,
+    IdealRotors,
+    Sound,
+    Spinning,
+    drive,
+    ground_effect,
+    near_ground,
+    rotors_of,
+)
+from tandemlift.missions import load_mission
+from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.vehicle import Vehicle
 
-from .helpers import BEAM, quadrotor
-
-K, UP, DOWN, FASTEST = 5.84e-6, 0.0125, 0.025, 1100.0  # N/(rad/s)², s, s, rad/s
-MOST = K * FASTEST**2
-LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
-ABOVE = State(Vec3(0.0, 0.0, 9.0), ZERO, LEVEL, ZERO)
-ROTORS = each(4)
-RADIUS = 0.128  # m
+VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)
+UP, DOWN, CONSTANT, MOST = 0.0125, 0.025, 5.84e-6, 5.84e-6 * 1100.0**2
+LEVEL = State(Vec3(0.0, 0.0, 5.0), ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
+EIGHT = each(8)
 
 
-class Driven(NamedTuple):
-    """What a step of the rotors depends on."""
-
-    rotors: Any
-    memory: Any
-    state: State
+def rotors(step=0.001, *, late=False, faults=None, surface=None):
+    scale = share_scale(VEHICLE.effect)
+    return rotors_of(VEHICLE, step, late=late, faults=faults or Sound(), surface=surface or FreeAir(), per_reach=scale)
 
 
-def lone(**changes: Any) -> Vehicle:
-    return Vehicle(BEAM, [quadrotor((0.0, 0.0, 0.075), rotor_radius=RADIUS, **changes)])
+def spun(command, speed, steps, step=0.001):
+    """Thrusts and speeds over steps under a held command [N], all rotors alike."""
+    r, memory = rotors(step), Spinning(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
+    thrusts, speeds = [], []
+    for k in range(steps):
+        thrust, memory = drive(r, memory, EIGHT(*(command,) * 8), LEVEL, k * step)
+        thrusts.append(thrust[3])
+        speeds.append(memory.speed[3])
+    return np.array(thrusts), np.array(speeds)
 
 
-def rotors(step: float, vehicle: Vehicle | None = None, **changes: Any) -> Any:
-    plain = {"late": False, "faults": Sound(), "surface": FreeAir(), "per_reach": None}
-    return rotors_of(vehicle or lone(), step, **{**plain, **changes})._replace(per_reach=0.0)
+@pytest.mark.parametrize("step", [0.0005, 0.001, 0.01])
+@pytest.mark.parametrize(("first", "last", "tau"), [(0.0, 900.0, UP), (1000.0, 300.0, DOWN)])
+def test_speed_follows_its_closed_form_up_and_down_at_any_step(step, first, last, tau):
+    _, speeds = spun(CONSTANT * last**2, first, 40, step)
+    t = step * np.arange(1, 41)
+    assert speeds == pytest.approx(last + (first - last) * np.exp(-t / tau), rel=1e-12)
 
 
-def flown(made: Any, start: Any, commands: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
-    """(thrusts, speeds after each step) of four rotors in a compiled loop; one row of commands [N] a step."""
-    install()
-    like = zeroed(Driven(made, start, ABOVE))
+@pytest.mark.parametrize(("first", "last", "tau"), [(0.0, 900.0, UP), (1000.0, 300.0, DOWN)])
+def test_the_impulse_of_a_step_is_that_of_the_lag(first, last, tau):
+    thrusts, _ = spun(CONSTANT * last**2, first, 5, 0.004)
 
-    @numba.njit(error_model="numpy")
-    def loop(a, commands, thrusts, speeds, dt):
-        x = load(a, like)
-        memory = x.memory
-        for k in range(len(commands)):
-            thrust, memory = drive(x.rotors, memory, load(commands[k], memory.speed), x.state, k * dt)
-            store(thrusts[k], thrust)
-            store(speeds[k], memory.speed)
+    def thrust(t):
+        return CONSTANT * (last + (first - last) * math.exp(-t / tau)) ** 2
 
-    thrusts, speeds = np.zeros((len(commands), 4)), np.zeros((len(commands), 4))
-    loop(np.array(flat(Driven(made, start, ABOVE))), commands, thrusts, speeds, step)
-    return thrusts, speeds
+    for k, mean in enumerate(thrusts):
+        impulse, _ = quad(thrust, 0.004 * k, 0.004 * (k + 1), epsabs=1e-14)
+        assert mean * 0.004 == pytest.approx(impulse, rel=1e-11)
 
 
-def spinning(speed: float, command: float = 0.0) -> Spinning:
-    return Spinning(ROTORS(*[speed] * 4), ROTORS(*[command] * 4))
-
-
-@pytest.mark.parametrize("step", [0.001, 0.004])
-@pytest.mark.parametrize(("start", "end", "tau"), [(0.0, 800.0, UP), (500.0, 800.0, UP), (900.0, 300.0, DOWN)])
-def test_a_step_of_command_is_answered_by_an_exponential_of_the_speed_and_its_exact_impulse(start, end, tau, step):
-    commands = np.full((60, 4), K * end**2)
-    thrusts, speeds = flown(rotors(step), spinning(start), commands, step)
-    times = step * np.arange(1, 61)
-
-    def speed(t):
-        return end + (start - end) * np.exp(-t / tau)
-
-    np.testing.assert_allclose(speeds, speed(times)[:, None] * np.ones(4), rtol=1e-12)
-    for thrust, t in zip(thrusts[:20], times, strict=False):
-        impulse, _ = quad(lambda s: K * speed(s) ** 2, t - step, t, epsabs=1e-14)
-        np.testing.assert_allclose(thrust * step, impulse, rtol=1e-11)
-
-
-def test_a_rotor_without_lag_gives_its_command_at_once():
-    commands = np.array([[1.0, 2.0, 3.0, 4.0], [4.0, 0.0, 2.0, 1.0]])
-    thrusts, _ = flown(rotors(0.001, lone(lag_up=0.0, lag_down=0.0)), spinning(300.0), commands, 0.001)
-    np.testing.assert_allclose(thrusts, commands, rtol=1e-14, atol=1e-14)
-
-
-def test_no_command_drives_a_rotor_beyond_its_limits():
-    commands = np.array([[1e9, -1e9, MOST, 0.0]] * 2000)
-    thrusts, speeds = flown(rotors(0.001), spinning(600.0), commands, 0.001)
+@pytest.mark.parametrize("command", [-5.0, 0.0, 3.0, MOST, 50.0, 1e9])
+def test_thrust_stays_within_limits_and_settles_there(command):
+    thrusts, _ = spun(command, 500.0, 800)
     assert thrusts.min() >= 0.0
-    assert thrusts.max() <= MOST * (1.0 + 1e-15)
-    np.testing.assert_allclose(thrusts[-1], [MOST, 0.0, MOST, 0.0], atol=1e-12)
-    np.testing.assert_allclose(speeds[-1], [FASTEST, 0.0, FASTEST, 0.0], atol=1e-12)
+    assert thrusts.max() <= MOST * (1.0 + 1e-12)
+    assert thrusts[-1] == pytest.approx(min(max(command, 0.0), MOST), abs=1e-9)
 
 
-def test_a_late_command_acts_when_it_arrives():
-    commands = np.full((3, 4), 5.0)
-    made = rotors(0.001, lone(lag_up=0.0, lag_down=0.0), late=True)
-    thrusts, memory = drive(made, spinning(0.0, 2.0), ROTORS(*commands[0]), ABOVE, 0.0)
-    np.testing.assert_allclose(thrusts, 2.0, rtol=1e-14)  # what was on its way
-    np.testing.assert_allclose(memory.arriving, 5.0)  # and what is now
+def test_a_stopped_rotor_ends_at_rest_and_not_in_denormal_numbers():
+    _, speeds = spun(0.0, 1000.0, 12_000)
+    assert speeds[-1] < 1e-100
+    assert speeds.min() > 1e-150
 
 
-def test_a_failing_rotor_keeps_its_share_of_thrust_from_its_time_on():
-    faults = Faults(ROTORS(0.01, 1e18, 0.02, 0.0), ROTORS(0.0, 0.5, 0.4, 0.9))
-    thrusts, _ = flown(
-        rotors(0.001, lone(lag_up=0.0, lag_down=0.0), faults=faults), spinning(0.0), np.full((30, 4), 3.0), 0.001
+def test_a_late_command_is_the_one_that_arrives():
+    r = rotors(late=True)
+    arriving, given = EIGHT(*(5.0,) * 8), EIGHT(*(1.0,) * 8)
+    late, after = drive(r, Spinning(EIGHT(*(800.0,) * 8), arriving), given, LEVEL, 0.0)
+    at_once, _ = drive(rotors(), Spinning(EIGHT(*(800.0,) * 8), given), arriving, LEVEL, 0.0)
+    assert late == at_once
+    assert after.arriving == given
+
+
+def test_a_rotor_fails_at_its_time_and_keeps_its_share():
+    times, left = (
+        EIGHT(*[2.0 if i == 4 else 1e18 for i in range(8)]),
+        EIGHT(*[0.3 if i == 4 else 1.0 for i in range(8)]),
     )
-    for rotor, (first, share) in enumerate([(10, 0.0), (31, 0.5), (20, 0.4), (0, 0.9)]):
-        np.testing.assert_allclose(thrusts[:first, rotor], 3.0, rtol=1e-13)
-        np.testing.assert_allclose(thrusts[first:, rotor], 3.0 * share, rtol=1e-13)
+    speed = math.sqrt(4.0 / CONSTANT)
+    r, memory = rotors(faults=Faults(times, left)), Spinning(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
+    before, _ = drive(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 1.999)
+    after, _ = drive(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 2.0)
+    assert list(before) == pytest.approx([4.0] * 8, rel=1e-12)
+    assert list(after) == pytest.approx([4.0] * 4 + [1.2] + [4.0] * 3, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("heights", "ratio"),  # z/R and T/T∞ by Cheeseman and Bennett, to the digits of a hand calculation
-    [(0.5, 4.0 / 3.0), (1.0, 16.0 / 15.0), (1.5, 36.0 / 35.0), (2.0, 64.0 / 63.0), (4.0, 256.0 / 255.0)],
-)
-def test_thrust_near_the_floor_is_that_of_cheeseman_and_bennett(heights, ratio):
-    vehicle, floor = lone(), -0.7
-    surface = ground_effect(vehicle, floor)
-    above = heights * RADIUS - vehicle.lever_arms[0, 2]
-    state = State(Vec3(3.0, -2.0, floor + above), ZERO, LEVEL, ZERO)
-    np.testing.assert_allclose(near_ground(surface, state), ratio, rtol=1e-12)
+@pytest.mark.parametrize("height", [0.1, 0.2, 0.5, 2.0])
+def test_thrust_near_the_floor_is_that_of_cheeseman_and_bennett(height):
+    surface, radius = ground_effect(VEHICLE, -1.0), 0.128
+    low = LEVEL._replace(position=Vec3(0.0, 0.0, height - 1.0 - float(VEHICLE.lever_arms[0, 2])))
+    assert list(near_ground(surface, low)) == pytest.approx(
+        [1.0 / (1.0 - (radius / (4.0 * height)) ** 2)] * 8, rel=1e-12
+    )
 
 
-def test_the_theory_is_not_followed_nearer_than_half_a_radius():
-    surface = ground_effect(lone(), 0.0)
-    for z in (0.03, 0.0, -1.0):
-        state = State(Vec3(0.0, 0.0, z), ZERO, LEVEL, ZERO)
-        np.testing.assert_allclose(near_ground(surface, state), 4.0 / 3.0, rtol=1e-12)
+def test_ground_effect_is_bounded_on_the_floor_and_gone_high_up():
+    surface = ground_effect(VEHICLE, 0.0)
+    on_it = near_ground(surface, LEVEL._replace(position=ZERO))
+    assert max(on_it) == pytest.approx(4.0 / 3.0, rel=1e-12)
+    assert max(near_ground(surface, LEVEL)) < 1.0001
 
 
-def test_of_a_tilted_vehicle_every_rotor_has_its_own_height():
-    vehicle = lone()
-    turn = Rotation.from_euler("zxy", [0.4, 0.3, -0.2])
-    q = np.roll(turn.as_quat(), 1)
-    state = State(Vec3(0.0, 0.0, 0.3), ZERO, Quat(*map(float, q)), ZERO)
-    ratios = np.array(near_ground(ground_effect(vehicle, 0.0), state))
-    hubs = np.array([[x, y, vehicle.lever_arms[0, 2]] for x, y in vehicle.quadrotors[0].rotors])
-    heights = 0.3 + turn.apply(hubs)[:, 2]
-    np.testing.assert_allclose(1.0 - 1.0 / ratios, (RADIUS / (4.0 * heights)) ** 2, rtol=1e-12)
-    assert np.ptp(ratios) > 0.01
+def test_ideal_rotors_give_any_thrust_at_once():
+    command = EIGHT(-3.0, 0.0, 100.0, *(1.0,) * 5)
+    assert drive(IdealRotors(), Nothing(), command, LEVEL, 0.0) == (command, Nothing())

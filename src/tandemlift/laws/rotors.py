@@ -17,7 +17,7 @@ from tandemlift.ops import clip, maximum, sqrt, where
 from tandemlift.vector import Vec3, each, spread
 from tandemlift.vehicle import Vehicle
 
-REST = 1e-100  # rad/s, lost in any speed; one that dies ends at 0, not in slow denormal numbers
+REST = 1e-100  # rad/s, lost in any speed; one that dies ends near 1e-115, not in slow denormal numbers
 NEAREST = 0.5  # rotor radii: the theory of ground effect holds no nearer to the floor
 
 

@@ -1,0 +1,128 @@
+"""What the joints carry in flight, against Newton and Euler, and the person's push that is read out of it."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from storm import DT, UNIT, calm
+
+import tandemlift as tl
+from tandemlift.constants import GRAVITY
+
+EVERY = {"mission.log_interval": DT}
+SIGMA_F, SIGMA_A = 0.05, 0.03  # N, m/s²
+KNOWN = UNIT + 1  # steps from a reading to the row in which the pilot has it
+
+
+def rotations(q):
+    """Body to world."""
+    return Rotation.from_quat(np.roll(q, -1, axis=1))
+
+
+def joints(flight, name):
+    """A channel of the joints as (T, N, 3)."""
+    return flight[name].reshape(len(flight.time), -1, 3)
+
+
+def test_in_hover_each_joint_carries_half_of_the_payload():
+    flight = tl.fly(tl.load_mission("hover"))
+    force, torque = joints(flight, "joint_force")[-1], joints(flight, "joint_torque")[-1]
+    np.testing.assert_allclose(force, [[0.0, 0.0, 0.25 * GRAVITY]] * 2, atol=1e-6)
+    about_joint = np.array([[0.25 * GRAVITY, 0.0, 0.0], [-0.25 * GRAVITY, 0.0, 0.0]])  # they hold it at ±1 m
+    np.testing.assert_allclose(torque.sum(axis=0), 0.0, atol=1e-6)
+    assert np.abs(torque).max() < np.abs(about_joint).max()
+
+
+PUSHED = {
+    **EVERY,
+    "mission.duration": 8.0,
+    "vehicle.drag.force": 0.0,
+    "vehicle.drag.moment": 0.0,
+    "phases.lift_start": 0.5,
+    "phases.lift_duration": 1.5,
+    "pushes": [
+        {"force": [2.0, 1.0, -1.5], "time": 3.0, "sigma": 0.2, "point": [0.0, 0.4, -0.0642857]},
+        {"force": [-1.0, 1.5, 1.0], "time": 5.0, "sigma": 0.3, "point": [0.0, -0.5, -0.0642857]},
+    ],
+}
+
+
+def test_joints_push_and_gravity_make_the_motion_of_the_payload():
+    """Finite differences of the recorded velocities know nothing of the joints; their error is jerk × dt/2."""
+    flight = tl.fly(tl.load_mission("flight-ready", PUSHED))
+    vehicle = tl.Vehicle.from_settings(tl.load_mission("flight-ready").vehicle)
+    payload, r = vehicle.payload, -vehicle.center_of_mass
+    R, w = rotations(flight["attitude"]), flight["rates"]
+    velocity = flight["velocity"] + R.apply(np.cross(w, r))
+    acceleration, angular = np.diff(velocity, axis=0) / DT, np.diff(w, axis=0) / DT
+    force, torque = joints(flight, "joint_force"), joints(flight, "joint_torque")
+    on_payload = R.apply(force.sum(axis=1)) + flight["push_force"] - [0.0, 0.0, payload.mass * GRAVITY]
+    error = on_payload[:-1] - payload.mass * acceleration
+    assert np.abs(acceleration).max() > 1.0
+    assert np.abs(error).max() < 5e-3  # N
+    arms = np.array([q.joint_position for q in vehicle.quadrotors])
+    at_payload = (torque + np.cross(arms, force)).sum(axis=1)
+    pushed = flight["push_moment"] - np.cross(r, R.inv().apply(flight["push_force"]))
+    J, at_start = np.array(payload.moments), w[:-1]
+    turning = J * angular + np.cross(at_start, J * at_start)
+    assert np.abs(turning).max() > 0.1
+    assert np.abs((at_payload + pushed)[:-1] - turning).max() < 5e-3  # N m
+
+
+CALM = {
+    **EVERY,
+    "pushes": [
+        {"force": [2.0, 1.0, -1.0], "time": 2.8, "sigma": 0.15, "point": [0.0, 0.6, -0.06]},
+        {"force": [-1.0, 0.5, 1.0], "time": 3.3, "sigma": 0.2, "point": [0.02, -0.4, -0.06]},
+    ],
+}
+
+
+def measured_and_true(flight):
+    """The push as measured and as it is, of the same steps, each in the body axes that it was taken in."""
+    believed, truth = rotations(flight["estimated_attitude"]), rotations(flight["attitude"])
+    measured = believed[:-KNOWN].inv().apply(flight["push_measured"][KNOWN:])
+    return measured, truth[:-KNOWN].inv().apply(flight["push_force"][:-KNOWN])
+
+
+def test_perfect_sensors_measure_the_push_as_soon_as_their_delay_allows():
+    flight = tl.fly(calm(CALM))
+    measured, true = measured_and_true(flight)
+    settled = flight.time[KNOWN:] > 2.4  # s: the tare is over
+    assert flight.divergence is None
+    assert np.abs(flight["wind_force"][settled[:-KNOWN].nonzero()]).max() < 1.0
+    assert np.abs(true[settled]).max() > 2.0
+    assert np.abs(measured - true)[settled].max() < 1e-9  # N
+
+
+def test_they_measure_no_push_where_the_floor_carries_the_vehicle():
+    flight = tl.fly(calm(CALM))
+    standing = flight["contact_force"][:, 2] > 1.0
+    assert standing.sum() > 200
+    assert np.abs(flight["push_measured"][:300]).max() < 1e-9  # N, at rest and before any push
+
+
+def test_noise_of_the_sensors_makes_the_noise_of_the_push_that_theory_says():
+    noisy = {"sensors.joints.force_noise": SIGMA_F, "sensors.accelerometer.noise": SIGMA_A}
+    longer = {"mission.duration": 8.0, "phases.land_start": 7.0, "phases.land_duration": 0.9}
+    flight = tl.fly(calm(CALM | noisy | longer))
+    measured, true = measured_and_true(flight)
+    error = (measured - true)[(flight.time[KNOWN:] > 2.41) & (flight.time[KNOWN:] < 6.9)]
+    expected = np.sqrt(2.0 * SIGMA_F**2 + (0.5 * SIGMA_A) ** 2)
+    np.testing.assert_allclose(error.std(axis=0), expected, rtol=0.05)
+    successive = np.sum(error[1:] * error[:-1], axis=0) / np.sum(error**2, axis=0)
+    assert np.abs(successive).max() < 0.05  # and white
+
+
+@pytest.mark.parametrize("place", [0.7, -0.35])
+def test_real_sensors_find_where_the_hand_is_to_two_centimetres_while_it_presses(place):
+    vehicle = tl.Vehicle.from_settings(calm().vehicle)
+    center = vehicle.center_of_mass
+    sensors = {f"sensors.{k}": v for k, v in tl.load_mission("iris").sensors.model_dump(mode="json").items()}
+    hand = {"force": [0.0, 0.0, 4.0], "time": 6.5, "sigma": 1.2, "point": [-center[0], place - center[1], -center[2]]}
+    times = {"mission.duration": 9.0, "phases.land_start": 20.0, "estimator.tare_duration": 1.0}
+    flight = tl.fly(calm(EVERY | times | sensors | {"pushes": [hand]}))
+    pressing = np.linalg.norm(flight["push_force"], axis=1) >= 3.0
+    assert flight.divergence is None
+    assert pressing.sum() > 1000
+    assert np.abs(flight["push_point_estimate"][pressing] - place).max() < 0.02  # m
+    np.testing.assert_allclose(flight["push_estimate"][pressing], flight["push_force"][pressing], atol=0.5)
