@@ -1,5 +1,6 @@
 """Compiled loops: what is loaded when, what the cache sees, what the machine code is made of."""
 
+import inspect
 import os
 import shutil
 import subprocess
@@ -10,7 +11,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.jit.cache import sources
 from tandemlift.kernels import LANES
+from tandemlift.law import LAWS
 from tandemlift.prepared import Prepared
 
 PACKAGE = Path(tl.__file__).parent
@@ -104,3 +107,10 @@ def test_the_block_loop_calls_no_function_of_the_c_library(block_code, name):
 def test_the_block_loop_is_compiled_without_python_objects(block_code):
     block, _ = block_code
     assert all(not overload.objectmode for overload in block.overloads.values())
+
+
+def test_every_law_that_a_loop_may_be_made_of_is_in_the_key_of_its_cache():
+    known = set(sources(()))
+    own = {function for function in LAWS if function.__module__.startswith("tandemlift.")}
+    assert len(own) > 200
+    assert {Path(inspect.getfile(function)) for function in own} <= known

@@ -23,7 +23,10 @@ from tandemlift.jit.layout import is_value
 
 PACKAGE = Path(__file__).resolve().parent.parent
 GROUND = ("vector", "ops", "law", "constants")
-LOOP = ("laws/", "jit/", "engines/", "pilot", "onboard", "tally", "loop", "kernels")
+LOOP = (
+    *("laws/", "jit/", "engines/", "kernels/"),
+    *("pilot", "onboard", "tally", "loop", "sample", "perception", "weather", "delays"),
+)
 
 
 def root() -> Path:
