@@ -250,7 +250,11 @@ def test_a_crooked_landing_goes_as_in_the_compiled_engine():
     ],
 )
 def test_a_vehicle_pressed_against_a_wall_yields_by_the_force_over_the_stiffness(wall, force, touching):
-    changes = {"vehicle.drag.force": 20.0, "walls": [{"start": wall[0], "end": wall[1], "top": 2.0}]}
+    changes = {
+        "vehicle.drag.force": 20.0,
+        "ground.model": "floor",
+        "walls": [{"start": wall[0], "end": wall[1], "top": 2.0}],
+    }
     mission = tl.load_mission("paper", {"initial.position": 0.0, "initial.euler": 0.0} | changes)
     vehicle = Vehicle.from_settings(mission.vehicle)
     J, look = vehicle.inertia, {"friction": 0.0, "beam": (2.0, 0.05), "payload": -vehicle.center_of_mass}

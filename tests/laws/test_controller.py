@@ -8,6 +8,7 @@ from hypothesis import given
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
+from tandemlift.assembly import assemble
 from tandemlift.constants import GRAVITY
 from tandemlift.laws.admittance import Trajectory
 from tandemlift.laws.body import State
@@ -29,7 +30,6 @@ from tandemlift.laws.controllers.nftsmc import (
 from tandemlift.laws.expanded import Axes, euler_dynamics, expanded_dynamics
 from tandemlift.laws.rotation import euler_from_quaternion, euler_rates_from_rates, quaternion_from_euler
 from tandemlift.laws.sliding import Saturation, sliding_surface, switching, wanted_acceleration
-from tandemlift.loop import start
 from tandemlift.vector import ZERO, Quat, Vec3
 
 from .helpers import IRIS, array, free_body, random_state, random_vec3, seeds
@@ -37,9 +37,14 @@ from .helpers import IRIS, array, free_body, random_state, random_vec3, seeds
 DRAG = Vec3(0.1, 0.2, 0.3)
 
 
+MEMORY = assemble(tl.load_mission("paper")).flying.moving.memory.controller
+
+
 def paper_controller(**changes) -> NFTSMC:
     """The paper's gains on the paper's vehicle, with more drag, so that a missing term shows."""
-    k = start(tl.load_mission("paper", {f"controller.{key}": value for key, value in changes.items()})).pilot.controller
+    k = assemble(
+        tl.load_mission("paper", {f"controller.{key}": value for key, value in changes.items()})
+    ).flying.pilot.controller
     return k._replace(drag_force=DRAG, drag_moment=DRAG)
 
 
@@ -93,7 +98,9 @@ def test_the_whole_controller_lifts_and_turns_the_model_as_wanted(seed):
     e = euler_from_quaternion(quaternion_from_euler(random_vec3(rng, 0.3)))
     state = random_state(rng)._replace(attitude=quaternion_from_euler(e.angles))
     reference = Reference(random_reference(rng), 0.0)
-    command, _ = control(K, start(tl.load_mission("paper")).moving.memory.controller, Measured(state, ZERO), reference)
+    command, _ = control(
+        K, assemble(tl.load_mission("paper")).flying.moving.memory.controller, Measured(state, ZERO), reference
+    )
     rates = euler_rates_from_rates(e, state.rates)
     moved = euler_dynamics(BODY, e, state.velocity, rates, command.wrench)
     T = reference.trajectory
@@ -172,7 +179,9 @@ def test_the_settings_pick_the_types():
 def test_at_rest_on_its_reference_the_vehicle_gets_its_weight_and_no_moment():
     state = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
     reference = Reference(Trajectory(ZERO, ZERO, ZERO), 0.0)
-    command, _ = control(K, start(tl.load_mission("paper")).moving.memory.controller, Measured(state, ZERO), reference)
+    command, _ = control(
+        K, assemble(tl.load_mission("paper")).flying.moving.memory.controller, Measured(state, ZERO), reference
+    )
     assert command.wrench.thrust == pytest.approx(3.5 * GRAVITY)
     assert command.wrench.moment == ZERO
     assert sliding_surface(K.position, ZERO, ZERO) == ZERO

@@ -10,6 +10,7 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 import tandemlift as tl
+from tandemlift.assembly import assemble
 from tandemlift.laws.rotation import euler_from_quaternion, euler_rates_from_rates
 from tandemlift.laws.sliding import (
     Cubic,
@@ -25,7 +26,6 @@ from tandemlift.laws.sliding import (
     surface_rate,
     wanted_acceleration,
 )
-from tandemlift.loop import start
 from tandemlift.vector import Quat, Vec3
 
 from .helpers import numbers, seeds
@@ -183,7 +183,7 @@ def disturbed_start():
     """S of all axes at every step of the first second of the paper's mission: (6, 1001)."""
     mission = tl.load_mission("paper", {"mission.duration": 1.0, "mission.log_interval": 0.001})
     flight = tl.fly(mission)
-    k = start(mission).pilot.controller
+    k = assemble(mission).flying.pilot.controller
     position = sliding_surface(k.position, columns(flight["position_error"]), columns(flight["velocity_error"]))
     e = euler_from_quaternion(Quat(*flight["attitude"].T))
     rates = euler_rates_from_rates(e, columns(flight["rates"]))

@@ -1,17 +1,15 @@
 """A flight with all parts is the same however it is flown: alone, in a block, step by step, or in plain Python."""
 
-from typing import Any, NamedTuple
+from typing import Any
 
-import numba
 import numpy as np
 import pytest
 from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 
 import tandemlift as tl
 from tandemlift.assembly import assemble
-from tandemlift.jit import flat, install, leaves, load, store, unflat, zeroed
+from tandemlift.jit import leaves, unflat
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN, WALL
-from tandemlift.laws.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
 from tandemlift.laws.push import Hand, push_of
 from tandemlift.laws.random import normals
 from tandemlift.laws.sensing import Readings
@@ -57,70 +55,8 @@ def test_a_flight_is_the_same_again_and_another_seed_makes_another(alone):
     assert "measured_joint_force" in different(tl.fly(storm({"mission.seed": 1})), tl.fly(storm()))
 
 
-class Handed(NamedTuple):
-    """What a compiled controller is handed."""
-
-    gains: Any
-    memory: Any
-    measured: Any
-    reference: Any
-
-
-class Answered(NamedTuple):
-    """What it answers."""
-
-    command: Any
-    memory: Any
-
-
-class ByHand(NamedTuple):
-    """Gains of a controller that Python calls, which calls the paper's law compiled by itself."""
-
-    gains: Any
-
-
-@pytest.fixture
-def by_hand():
-    """The paper's controller as a function that the loop does not know how to compile."""
-    install()
-    laws: dict[str, Any] = {}
-
-    def compiled(like, answer):
-        @numba.njit(error_model="numpy")
-        def law(a, y):
-            x = load(a, like)
-            store(y, control(x.gains, x.memory, x.measured, x.reference))
-
-        return law, np.zeros(leaves(answer))
-
-    @control.register(ByHand, compiled=False)
-    def call(k: ByHand, memory: Any, measured: Measured, reference: Reference) -> Any:
-        handed = Handed(k.gains, memory, measured, reference)
-        answer = Answered(*control(*handed))
-        if "law" not in laws:
-            laws["law"], laws["y"] = compiled(zeroed(handed), answer)
-        laws["law"](np.array(flat(handed)), laws["y"])
-        return unflat(laws["y"], answer)
-
-    class Settings(nftsmc.NFTSMCSettings):
-        name: str = "by-hand"
-
-    @register("by-hand", Settings)
-    def start(settings, vehicle, step):
-        """The paper's controller, called from Python."""
-        gains, memory = nftsmc.start(settings, vehicle, step)
-        return ByHand(gains), memory
-
-    yield
-    CONTROLLERS.pop("by-hand")
-    control.table.pop(ByHand)
-    control.interpreted.discard(ByHand)
-
-
 def test_step_by_step_with_a_controller_in_python_it_is_the_same_to_the_last_bit(by_hand):
-    compiled = storm()
-    settings = {**compiled.controller.model_dump(mode="json"), "name": "by-hand"}
-    assert different(tl.fly(storm({"controller": settings})), tl.fly(compiled)) == []
+    assert different(tl.fly(storm(by_hand)), tl.fly(storm())) == []
 
 
 def given_at(k: int, like: Inputs, tables: Any, seeds: Any) -> Inputs:
