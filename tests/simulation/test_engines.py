@@ -1,84 +1,130 @@
-"""Two engines fly the same missions: a compiled rigid body, and MuJoCo, which shares no equation with it."""
+"""Whole flights in MuJoCo beside the compiled engine: the same pilot, bodies that share no equation."""
 
 import sys
+from importlib import metadata
 
 import numpy as np
 import pytest
+from storm import DT, storm
 
 import tandemlift as tl
 from tandemlift.engines import ENGINES
-from tandemlift.errors import InputError
 
-mujoco = pytest.importorskip("mujoco")
+HALF_MINUTE = {"mission.duration": 30.0}
+WEAK = {
+    "controller.gains.lambda_1": 0.0,
+    "controller.gains.lambda_2": 0.0,
+    "controller.gains.xi": [4.0, 2.0, 11.0, 0.1, 0.1, 0.1],
+}
+FAR = {"walls": [{"start": [900.0, 0.0], "end": [900.0, 1.0]}]}
 
 
-def turned(a, b):
-    same = np.sign(np.sum(a * b, axis=1))[:, None]
-    return 4.0 * np.arcsin(0.5 * np.linalg.norm(a - same * b, axis=1)).max()
+def both(mission):
+    """A mission flown in both engines."""
+    pytest.importorskip("mujoco")
+    return tl.fly(mission), tl.fly(mission, engine="mujoco")
 
 
-@pytest.fixture(scope="module")
-def paper():
-    mission = tl.load_mission("paper", {"mission.duration": 30.0})
-    return tl.fly(mission), tl.fly(mission, "mujoco")
+def apart(a, b, name, part=slice(None)):
+    return np.abs(a[name][part] - b[name][part]).max()
+
+
+def take_off(flight):
+    """When the floor first carries nothing [s]."""
+    return flight.time[np.flatnonzero(flight["contact_force"][:, 2] == 0.0)[0]]
 
 
 @pytest.fixture(scope="module")
 def iris():
-    mission = tl.load_mission("iris", {"mission.duration": 14.0, "mission.log_interval": 0.001})
-    return tl.fly(mission), tl.fly(mission, "mujoco")
+    return both(tl.load_mission("iris", {"mission.duration": 20.0, "mission.log_interval": DT}))
 
 
-def test_both_fly_the_paper_alike(paper):
-    ours, theirs = paper
-    assert np.abs(ours["position"] - theirs["position"]).max() < 5e-5
-    assert turned(ours["attitude"], theirs["attitude"]) < 2e-4
-    for channel in ("joint_force", "joint_torque"):
-        assert np.abs(ours[channel] - theirs[channel]).max() < 1e-3
-    assert theirs.metrics()["position_rmse_after_10s_m"] == pytest.approx(
-        ours.metrics()["position_rmse_after_10s_m"], abs=1e-7
-    )
+DIFFERENT = {"plant.mass_scale": 0.9, "plant.inertia_scale": [0.7, 1.3, 1.5], "disturbance.moment": [0.1, 0.05, 0.02]}
 
 
-def test_a_flight_says_which_engine_flew_it(paper):
-    ours, theirs = paper
-    assert ours.version["engine"] == "compiled"
-    assert theirs.version["engine"] == "mujoco"
-    assert theirs.version["mujoco"] == mujoco.__version__
-    assert list(ours) == list(theirs)
+@pytest.mark.parametrize("changes", [{}, DIFFERENT], ids=["as known", "as it really is"])
+def test_half_a_minute_of_the_papers_mission_is_the_same_in_both(changes):
+    a, b = both(tl.load_mission("paper", HALF_MINUTE | changes))
+    assert np.abs(a["rates"]).max() > 0.2  # rad/s
+    assert apart(a, b, "position") < 1e-6  # m
+    assert apart(a, b, "attitude") < 1e-6
+    assert apart(a, b, "joint_force") < 1e-3  # N: MuJoCo feels the push's mean over a step, we its start
+    assert apart(a, b, "joint_torque") < 1e-3  # N m
+    rmse = [f.metrics()["position_rmse_after_10s_m"] for f in (a, b)]
+    np.testing.assert_allclose(*rmse, atol=1e-7)
 
 
-def test_both_stand_alike_and_take_off_at_the_same_time(iris):
-    def off(flight):
-        carried = flight["contact_force"][:, 2] > 0.0
-        return flight.time[np.flatnonzero(carried[:-1] & ~carried[1:])[0] + 1]
-
-    ours, theirs = iris
-    standing = ours.time < 1.9
-    assert np.abs(ours["position"][standing] - theirs["position"][standing]).max() < 1e-4
-    assert off(ours) == pytest.approx(off(theirs), abs=5e-3)
-    assert off(ours) > 2.0
+def test_a_vehicle_rests_at_the_same_height_and_takes_off_at_the_same_time(iris):
+    a, b = iris
+    standing = a.time < 1.9
+    assert apart(a, b, "position", standing) < 1e-9  # m
+    assert apart(a, b, "contact_force", standing) < 1e-6  # N
+    assert 2.0 < take_off(a) < 3.0
+    assert abs(take_off(a) - take_off(b)) < 5e-3  # s
 
 
-def test_both_feel_the_same_push_behind_the_same_noise(iris):
-    ours, theirs = iris
-    late = ours.time > 12.5
-    assert np.abs(ours["push_estimate"][late] - theirs["push_estimate"][late]).max() < 0.01
-    assert np.abs(theirs["push_estimate"][late] - theirs["push_force"][late]).max() < 0.25
+def test_a_flight_on_sensors_and_real_rotors_is_the_same_in_both(iris):
+    a, b = iris
+    assert a.divergence is None
+    assert b.divergence is None
+    assert apart(a, b, "position") < 1e-3  # m: the push is felt half a step apart
+    assert apart(a, b, "attitude") < 2e-4
+    flying = a.time > take_off(a) + 0.5
+    assert apart(a, b, "joint_force", flying) < 1e-2  # N
+    assert apart(a, b, "push_estimate") < 1e-2  # N
+    felt = np.abs(b["push_estimate"] - b["push_force"])[b.time > 12.5]
+    assert b["push_force"].max() > 1.0
+    assert felt.max() < 0.25  # N
 
 
-def test_an_unknown_engine_is_refused_with_what_there_is():
-    with pytest.raises(InputError, match=r"unknown engine 'mujuco'.*compiled, mujoco.*mean 'mujoco'"):
-        tl.fly(tl.load_mission("hover"), "mujuco")
+def test_a_flight_has_the_same_channels_in_both_and_says_which_engine_it_flew_in(iris):
+    a, b = iris
+    assert [(name, a[name].shape) for name in a] == [(name, b[name].shape) for name in b]
+    assert (a.version["engine"], b.version["engine"]) == ("compiled", "mujoco")
+    assert b.version["mujoco"] == metadata.version("mujoco")
+    assert np.array_equal(a.time, b.time)
+    assert set(a.metrics()) == set(b.metrics())
 
 
-def test_an_engine_that_is_not_installed_says_how_to_get_it(monkeypatch):
-    for name in [n for n in sys.modules if n.startswith("tandemlift.engines.mujoco")]:
-        monkeypatch.delitem(sys.modules, name)
+def test_a_controller_in_plain_python_flies_in_mujoco_too(by_hand):
+    pytest.importorskip("mujoco")
+    a, b = tl.fly(storm(FAR)), tl.fly(storm(FAR | by_hand), engine="mujoco")
+    assert a.divergence is None
+    assert b.divergence is None
+    assert apart(a, b, "position", a.time < 4.5) < 1e-3  # m, through wind, a fault and a push
+    assert apart(a, b, "position") < 0.02  # m, at the end of a landing with a skid
+    assert abs(take_off(a) - take_off(b)) <= 0.01 + 1e-9  # s, the interval of the log
+
+
+def test_a_vehicle_pressed_against_a_wall_by_the_wind_is_so_in_both(by_hand):
+    pytest.importorskip("mujoco")
+    a, b = tl.fly(storm()), tl.fly(storm(by_hand), engine="mujoco")
+    pressed = (a.time > 1.0) & (a.time < 2.4)
+    mean = [f["contact_force"][pressed].mean(axis=0) for f in (a, b)]
+    assert mean[0][0] < -0.5  # N
+    np.testing.assert_allclose(*mean, atol=0.1)
+    assert apart(a, b, "position", pressed) < 3e-3  # m: friction holds and yields differently
+
+
+def test_a_flight_that_is_lost_is_lost_in_both_at_the_same_time():
+    a, b = both(tl.load_mission("paper", WEAK))
+    assert b.divergence.quantity == a.divergence.quantity
+    assert b.divergence.time == pytest.approx(a.divergence.time, abs=0.02)
+    assert b.metrics()["steps"] == round(b.divergence.time / DT)
+    assert all(np.isfinite(b[name]).all() for name in b)
+
+
+def test_an_engine_that_is_not_known_is_refused_with_those_that_are():
+    with pytest.raises(
+        tl.InputError, match=r"^unknown engine 'mujoko'; there are compiled, mujoco\. Did you mean"
+    ) as e:
+        tl.fly(tl.load_mission("hover"), engine="mujoko")
+    assert all(name in str(e.value) and engine.summary for name, engine in ENGINES.items())
+
+
+def test_without_the_package_the_error_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    with pytest.raises(InputError, match=r"pip install 'tandemlift\[mujoco\]'"):
-        tl.fly(tl.load_mission("hover", {"mission.duration": 0.1}), "mujoco")
-
-
-def test_every_engine_has_a_summary():
-    assert all(engine.summary for engine in ENGINES.values())
+    for name in ("tandemlift.engines.mujoco", "tandemlift.engines.mujoco_model"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs the package mujoco: pip install 'tandemlift\["):
+        tl.fly(tl.load_mission("hover", {"mission.duration": 1.0}), engine="mujoco")
