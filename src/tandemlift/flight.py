@@ -77,6 +77,15 @@ CHANNELS: dict[str, Channel] = {
     "payload_mass_estimate": Channel("kg", "", "of the payload, identified during the tare if so asked"),
     "sensor_disagreement": Channel("N", "body", "by which one joint sensor alone would have to be wrong"),
     "push_usable": Channel("1", "", "1 while the push is estimated and the joint sensors agree, else 0"),
+    "disturbance_force": Channel("N", "world", "what the observer finds besides rotors, weight and person"),
+    "disturbance_moment": Channel("N m", "body", "likewise, about the centre of mass"),
+    "disturbance_residual": Channel("m/s2", "world", "by which it is behind: δ − δ̂ of the condition on λ₂"),
+    "disturbance_turning_residual": Channel("rad/s2", "body", "likewise, of turning"),
+    "phase": Channel("1", "", "0 idle, 1 lift, 2 guided, 3 land"),
+    "push_heard": Channel("N", "world", "the push as the pilot hears it: low-passed, less its bias"),
+    "push_on": Channel("1", "world", "1 while a push is heard along an axis, else 0"),
+    "added_damping": Channel("N s/m", "", "that keeps the compliance passive"),
+    "reference_yaw_rate": Channel("rad/s", "world", "of the heading that is tracked"),
 }
 
 TIME = Channel("s", "", "time")

@@ -14,16 +14,16 @@ from tandemlift.delays import Ends
 from tandemlift.engines.compiled import Moved, Plant, advance, aloft
 from tandemlift.law import law
 from tandemlift.laws.body import State
-from tandemlift.laws.controllers import Measured
-from tandemlift.laws.push import Hand
+from tandemlift.laws.partner import asks_to_land, lend
+from tandemlift.laws.push import Hand, Push
 from tandemlift.laws.rotation import sine_of_roll
 from tandemlift.laws.rotors import drive
 from tandemlift.ops import absolute, maximum, where
-from tandemlift.perception import estimate_all, read_push, read_state, sensed
-from tandemlift.pilot import Decision, PilotMemory, PilotParameters, decide
+from tandemlift.perception import all_sensed, estimate_all, read_push, read_state, sensed
+from tandemlift.pilot import Decision, Heard, PilotMemory, PilotParameters, decide
 from tandemlift.sample import errors_of, show
 from tandemlift.tally import Tally, count
-from tandemlift.vector import Vec3, dot
+from tandemlift.vector import Quat, dot
 from tandemlift.weather import weather
 
 SIN_ROLL_LIMIT = 0.9998476951563913  # sin 89°
@@ -42,6 +42,7 @@ class Moving(NamedTuple):
     estimator: Any
     rotors: Any
     readings: Any
+    partner: Any
     tally: Tally
     lost: Any
 
@@ -57,29 +58,32 @@ class Flying(NamedTuple):
     sensors: Any
     estimator: Any
     reads: Any
+    partner: Any
     delays: Any
 
 
 class Noise(NamedTuple):
-    """Standard normals of one step: of the wind, of the sensors."""
+    """Standard normals of one step: of the wind, of the sensors, of the person."""
 
     wind: Any
     sensors: Any
+    partner: Any
 
 
 class Inputs(NamedTuple):
-    """What a step is given from outside: the push, gusts [m/s], standard normals."""
+    """What a step is given from outside: the push, gusts [m/s], standard normals; a person's memory, once they push."""
 
     hand: Hand
     gust: Any
     noise: Any
+    partner: Any
 
 
 class Thought(NamedTuple):
-    """The pilot's part of a step: what is estimated, what the pilot read, what it decided, and what it remembers."""
+    """The pilot's part of a step: what is estimated, the attitude believed in, the decision, what is remembered."""
 
     known: Any
-    measured: Measured
+    believed: Quat
     decision: Decision
     memory: PilotMemory
     estimator: Any
@@ -97,55 +101,79 @@ class Acting(NamedTuple):
 def delayed(m: Moving, line: Ends) -> Moving:
     """What moves, with what has come out of the delay lines."""
     return Moving(
-        m.state, m.memory, m.wind, m.grip, m.near, m.sensing, m.estimator, line.rotors, line.readings, m.tally, m.lost
+        m.state,
+        m.memory,
+        m.wind,
+        m.grip,
+        m.near,
+        m.sensing,
+        m.estimator,
+        line.rotors,
+        line.readings,
+        line.partner,
+        m.tally,
+        m.lost,
     )
 
 
 @law
-def neared(m: Moving, near: Any) -> Moving:
-    """What moves, with the walls that are now nearest to it."""
+def located(m: Moving, near: Any, partner: Any) -> Moving:
+    """What moves, with the walls that are now nearest to it, and the leg of the path that a person is on."""
     return Moving(
-        m.state, m.memory, m.wind, m.grip, near, m.sensing, m.estimator, m.rotors, m.readings, m.tally, m.lost
+        m.state,
+        m.memory,
+        m.wind,
+        m.grip,
+        near,
+        m.sensing,
+        m.estimator,
+        m.rotors,
+        m.readings,
+        partner,
+        m.tally,
+        m.lost,
     )
 
 
 @law
-def continued(flying: Flying, moving: Moving) -> Flying:
+def continued(f: Flying, moving: Moving) -> Flying:
     """A flight with what has changed."""
-    return Flying(
-        moving,
-        flying.pilot,
-        flying.plant,
-        flying.rotors,
-        flying.weather,
-        flying.sensors,
-        flying.estimator,
-        flying.reads,
-        flying.delays,
-    )
+    return Flying(moving, f.pilot, f.plant, f.rotors, f.weather, f.sensors, f.estimator, f.reads, f.partner, f.delays)
 
 
 @law
 def lifted_off(f: Flying) -> Flying:
     """A flight whose feet cannot touch the floor for some steps."""
-    return Flying(f.moving, f.pilot, aloft(f.plant), f.rotors, f.weather, f.sensors, f.estimator, f.reads, f.delays)
+    return Flying(
+        f.moving, f.pilot, aloft(f.plant), f.rotors, f.weather, f.sensors, f.estimator, f.reads, f.partner, f.delays
+    )
 
 
 @law
-def perceive(flying: Flying, push: Vec3, t: Any, dt: Any) -> Any:
-    """(what is estimated, what the pilot reads, the estimators' memory) at time t [s]; `push`: the true one."""
+def joined(flying: Flying, given: Inputs, t: Any, dt: Any) -> Inputs:
+    """What a step is given, with the push of the person who guides the vehicle."""
+    before, noise = flying.moving, given.noise.partner
+    lent = lend(flying.partner, before.partner, given.hand, before.state, noise, t, dt)
+    return Inputs(lent.hand, given.gust, given.noise, lent.memory)
+
+
+@law
+def perceive(flying: Flying, push: Push, t: Any, dt: Any) -> Any:
+    """(what is estimated, what the pilot hears, the estimators' memory) at time t [s]; `push`: the true one."""
     before, reads = flying.moving, flying.reads
     known, memory = estimate_all(flying.estimator, before.estimator, before.readings, t, dt)
     state = read_state(reads.state, before.state, before.readings, known)
-    return known, Measured(state, read_push(reads.push, push, known)), memory
+    touch = read_push(reads.push, push, state.attitude, known)
+    sees = all_sensed(before.readings, known)
+    return known, Heard(state, touch.force, touch.moment, asks_to_land(before.partner), sees), memory
 
 
 @law
-def think(flying: Flying, push: Vec3, t: Any, dt: Any) -> Thought:
+def think(flying: Flying, push: Push, t: Any, dt: Any) -> Thought:
     """The pilot's part of a step."""
-    known, measured, estimator = perceive(flying, push, t, dt)
-    decision, memory = decide(flying.pilot, flying.moving.memory, measured, t, dt)
-    return Thought(known, measured, decision, memory, estimator)
+    known, heard, estimator = perceive(flying, push, t, dt)
+    decision, memory = decide(flying.pilot, flying.moving.memory, heard, t, dt)
+    return Thought(known, heard.state.attitude, decision, memory, estimator)
 
 
 @law
@@ -167,7 +195,7 @@ def unsound(state: State) -> Any:
 @law
 def observe(flying: Flying, thought: Thought, acting: Acting, moved: Moved, given: Inputs) -> Any:
     """What a step comes to once the body has moved: (Moving after it, the Sample at its start)."""
-    before, believed = flying.moving, thought.measured.state.attitude
+    before, believed = flying.moving, thought.believed
     readings, sensing = sensed(flying.sensors, before.sensing, before.state, moved.felt, believed, given.noise.sensors)
     sample = show(flying, thought, acting, moved, given.hand)
     tally = count(before.tally, errors_of(flying, thought, sample))
@@ -182,6 +210,7 @@ def observe(flying: Flying, thought: Thought, acting: Acting, moved: Moved, give
         thought.estimator,
         acting.rotors,
         readings,
+        given.partner,
         tally,
         lost,
     )
@@ -205,4 +234,5 @@ def finish(flying: Flying, thought: Thought, given: Inputs, t: Any, dt: Any) -> 
 @law
 def move(flying: Flying, given: Inputs, t: Any, dt: Any) -> Any:
     """One step of a flight from time t [s] by dt [s]: (Moving after it, the Sample at its start)."""
-    return finish(flying, think(flying, given.hand.start.force, t, dt), given, t, dt)
+    given = joined(flying, given, t, dt)
+    return finish(flying, think(flying, given.hand.start, t, dt), given, t, dt)

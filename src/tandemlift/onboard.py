@@ -16,15 +16,16 @@ from tandemlift.kernels import COMPILE
 from tandemlift.kernels.limiting import limit, scratch_size
 from tandemlift.laws.allocation import Constrained
 from tandemlift.laws.body import State
-from tandemlift.laws.controllers import Measured, control
-from tandemlift.pilot import PilotMemory, PilotParameters, decide, start_pilot
+from tandemlift.laws.controllers import control
+from tandemlift.pilot import Heard, PilotMemory, PilotParameters, decide
+from tandemlift.pilot.start import start_pilot
 from tandemlift.settings import Mission
-from tandemlift.vector import ZERO, Quat
+from tandemlift.vector import ZERO, Nothing, Quat
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
-MEASURED = Measured(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO)
-SHAPE, FLOAT64 = (leaves(MEASURED),), np.dtype(np.float64)
+HEARD = Heard(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing())
+SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
 
 
 class Onboard(NamedTuple):
@@ -58,7 +59,7 @@ class Pilot:
         self._dt = mission.mission.step
         self._numbers = np.array(flat(self._start))
         self.thrusts: Array = np.zeros(vehicle.rotor_count)
-        self._scratch = np.zeros(scratch_size(vehicle.rotor_count))
+        self._scratch, self._heard = np.zeros(scratch_size(vehicle.rotor_count)), np.zeros(leaves(HEARD))
 
     @cached_property
     def _sample(self) -> Callable[..., None]:
@@ -68,7 +69,7 @@ class Pilot:
         def sample(a, x, thrusts, scratch):
             pilot = load(a, like)
             t, how, held = pilot.samples * dt, pilot.parameters.allocation, pilot.memory.allocation
-            decision, memory = decide(pilot.parameters, pilot.memory, load(x, MEASURED), t, dt)
+            decision, memory = decide(pilot.parameters, pilot.memory, load(x, HEARD), t, dt)
             if constrained:
                 decision, memory = limit(scratch, how, held, decision, memory, t)
             store(thrusts, decision.thrusts)
@@ -77,13 +78,15 @@ class Pilot:
         with cached_in(folder(zeroed(self._start))):
             return numba.njit(cache=True, **COMPILE)(sample)
 
-    def step(self, measurement: Array) -> Array:
+    def step(self, measurement: Array, moment: Array | None = None, *, land: bool = False) -> Array:
         """Take one sample.
 
         Args:
             measurement: float64 (16,): position [m] and velocity [m/s] of the centre of mass in world axes, attitude
                 quaternion w, x, y, z (body to world), rates [rad/s] in body axes, force of the person [N] in world
                 axes.
+            moment: of the person [N·m] (3,) about the centre of mass, body axes; none if not given.
+            land: whether the person asks to land; heard by a pilot that is guided by hand.
 
         Returns:
             Thrust of every rotor [N] (4N,), the same array each time.
@@ -94,7 +97,9 @@ class Pilot:
         if type(measurement) is not np.ndarray or measurement.shape != SHAPE or measurement.dtype != FLOAT64:
             given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
             raise InputError(f"measurement is {given}: must be a float64 array of shape {SHAPE}")
-        self._sample(self._numbers, measurement, self.thrusts, self._scratch)
+        heard = self._heard
+        heard[:16], heard[16:19], heard[19] = measurement, 0.0 if moment is None else moment, land
+        self._sample(self._numbers, heard, self.thrusts, self._scratch)
         return self.thrusts
 
     def reset(self) -> None:

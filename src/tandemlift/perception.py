@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.law import choice
+from tandemlift.law import choice, law
 from tandemlift.laws.body import State
 from tandemlift.laws.estimation import Push, PushEstimator, estimate
 from tandemlift.laws.navigation import Navigator, navigate
+from tandemlift.laws.push import moment_of
+from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.laws.sensing import Readings, Sensors, sense
-from tandemlift.vector import Nothing, Quat, Vec3
+from tandemlift.vector import Nothing, Quat, Vec3, apply_transposed, cross
 
 
 class Truth(NamedTuple):
@@ -24,6 +26,20 @@ class Estimate(NamedTuple):
     """The pilot reads what is estimated."""
 
 
+class Touch(NamedTuple):
+    """A push: force [N, world axes] and moment about the system's centre of mass [N·m, body axes]."""
+
+    force: Vec3
+    moment: Vec3
+
+
+class Sensed(NamedTuple):
+    """What sensors read and what estimators know."""
+
+    readings: Any
+    known: Any
+
+
 class Reads(NamedTuple):
     """What the pilot reads of the state, and of the push."""
 
@@ -32,10 +48,11 @@ class Reads(NamedTuple):
 
 
 class Estimators(NamedTuple):
-    """Of the push, and of the state."""
+    """Of the push, and of the state; the payload's centre of mass from the system's [m, body axes]."""
 
     push: PushEstimator
     state: Navigator
+    payload: Vec3
 
 
 class Remembered(NamedTuple):
@@ -46,10 +63,11 @@ class Remembered(NamedTuple):
 
 
 class Known(NamedTuple):
-    """What is estimated."""
+    """What is estimated; and the payload's centre of mass from the system's [m, body axes]."""
 
     push: Push
     state: State
+    payload: Vec3
 
 
 class MeasuredChannels(NamedTuple):
@@ -109,7 +127,7 @@ def _unknowing(estimators, memory, readings, t, dt):
 def _estimated(estimators, memory, readings, t, dt):
     push, push_memory = estimate(estimators.push, memory.push, readings.unit, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
-    return Known(push, state), Remembered(push_memory, state_memory)
+    return Known(push, state, estimators.payload), Remembered(push_memory, state_memory)
 
 
 @choice
@@ -134,23 +152,48 @@ def _estimated_state(reads, true, readings, known):
 
 
 @choice
-def read_push(reads: Any, true: Vec3, known: Any) -> Any:
-    """The push as the pilot reads it [N, world axes]."""
+def read_push(reads: Any, true: Any, attitude: Quat, known: Any) -> Any:
+    """The push as the pilot reads it: a `Touch`. `true`: as it is, for an attitude that is believed in."""
 
 
 @read_push.register(Truth)
-def _true_push(reads, true, known):
-    return true
+def _true_push(reads, true, attitude, known):
+    return Touch(true.force, moment_of(true, attitude))
 
 
 @read_push.register(Measurement)
-def _measured_push(reads, true, known):
-    return known.push.measured
+def _measured_push(reads, true, attitude, known):
+    p = known.push
+    heard = p.trusted * p.armed
+    return Touch(p.measured * heard, about_centre(known, attitude, p.measured, p.measured_moment) * heard)
 
 
 @read_push.register(Estimate)
-def _estimated_push(reads, true, known):
-    return known.push.usable
+def _estimated_push(reads, true, attitude, known):
+    p = known.push
+    return Touch(p.usable, about_centre(known, attitude, p.usable, p.moment * (p.trusted * p.armed)))
+
+
+@law
+def about_centre(known: Known, attitude: Quat, force: Vec3, moment: Vec3) -> Vec3:
+    """A push's moment about the system's centre of mass from that about the payload's [N·m, body axes]."""
+    R = rotation_from_quaternion(attitude)
+    return moment + cross(known.payload, apply_transposed(R, force))
+
+
+@choice
+def all_sensed(readings: Any, known: Any) -> Any:
+    """What is sensed, or `Nothing`."""
+
+
+@all_sensed.register(Nothing)
+def _nothing_sensed(readings, known):
+    return readings
+
+
+@all_sensed.register(Readings)
+def _some_sensed(readings, known):
+    return Sensed(readings, known)
 
 
 @choice

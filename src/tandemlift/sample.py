@@ -14,8 +14,9 @@ from tandemlift.laws.body import Wrench
 from tandemlift.laws.contact import Floor
 from tandemlift.laws.limits import given_share
 from tandemlift.laws.loads import Felt, Loads, total_of_each
+from tandemlift.laws.observer import Observer, Unmodelled
 from tandemlift.laws.push import Hand, moment_of
-from tandemlift.laws.rotation import euler_from_quaternion
+from tandemlift.laws.rotation import euler_from_quaternion, turned_least
 from tandemlift.laws.rotors import IdealRotors, Rotors
 from tandemlift.ops import clip, minimum, where
 from tandemlift.perception import shown_estimate, shown_readings
@@ -51,6 +52,8 @@ class Sample(NamedTuple):
     contact: Any
     measured: Any
     estimated: Any
+    disturbed: Any
+    guided: Any
 
 
 class Actuated(NamedTuple):
@@ -73,6 +76,30 @@ class Contact(NamedTuple):
     """Of floor and walls: their force on all parts together."""
 
     contact_force: Vec3
+
+
+class Disturbed(NamedTuple):
+    """Of an observer: what it estimates, and how far it is behind."""
+
+    disturbance_force: Vec3
+    disturbance_moment: Vec3
+    disturbance_residual: Vec3
+    disturbance_turning_residual: Vec3
+
+
+@choice
+def disturbed(observer: Any, unknown: Unmodelled) -> Any:
+    """What an observer shows."""
+
+
+@disturbed.register(Nothing)
+def _no_observer(observer, unknown):
+    return observer
+
+
+@disturbed.register(Observer)
+def _an_observer(observer, unknown):
+    return Disturbed(unknown.force, unknown.moment, unknown.residual, unknown.turning_residual)
 
 
 @choice
@@ -176,6 +203,8 @@ def show(flying: Any, thought: Any, acting: Any, moved: Any, hand: Hand) -> Samp
         contact_of(flying.plant.floor, felt),
         shown_readings(flying.moving.readings),
         shown_estimate(thought.known),
+        disturbed(flying.pilot.observer, read.unknown),
+        guidance.shown,
     )
 
 
@@ -185,7 +214,7 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
     return Errors(
         x.reference_position - x.position,
         x.reference_velocity - x.velocity,
-        x.reference_euler - x.euler,
+        turned_least(x.reference_euler - x.euler),
         x.euler,
         x.thrust,
         x.moment,

@@ -19,7 +19,7 @@ from tandemlift.errors import InputError
 from tandemlift.flight import Flight
 from tandemlift.flown import Flown, flight_of, metrics_of, take_tallies
 from tandemlift.jit import flat, leaves, unflat
-from tandemlift.kernels import GAUSSIAN, GUST, LANES, WALL, Tables
+from tandemlift.kernels import GAUSSIAN, GUST, LANES, LEG, WALL, Tables
 from tandemlift.prepared import Prepared
 from tandemlift.settings import Mission
 from tandemlift.stepwise import fly_stepwise
@@ -29,7 +29,7 @@ from tandemlift.vehicle import Vehicle
 Array = NDArray[np.float64]
 
 Progress = Callable[[int, int], None]
-IDLE = Tables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL)  # rows without effect
+IDLE = Tables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL, LEG)  # rows without effect
 
 
 def _fly_single(p: Prepared, rows: int, every: int, progress: Progress | None = None) -> Flown:

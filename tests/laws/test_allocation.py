@@ -14,7 +14,7 @@ from tandemlift.laws.allocation import Constrained, allocate, beyond, commanded,
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.rotors import Faults
 from tandemlift.missions import load_mission
-from tandemlift.pilot import mixer_value, start_pilot
+from tandemlift.pilot.start import mixer_value, start_pilot
 from tandemlift.vector import each, vec3
 from tandemlift.vehicle import Vehicle
 

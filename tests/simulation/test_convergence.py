@@ -8,10 +8,9 @@ import tandemlift as tl
 from tandemlift.assembly import assemble
 from tandemlift.laws.allocation import wrench
 from tandemlift.laws.body import State, motion
-from tandemlift.laws.controllers import Measured
 from tandemlift.laws.push import CentralPush
-from tandemlift.pilot import decide
-from tandemlift.vector import ZERO, Quat, Vec3, hamilton
+from tandemlift.pilot import Heard, decide
+from tandemlift.vector import ZERO, Nothing, Quat, Vec3, hamilton
 
 DURATION = 6.0  # s: the lift of `paper`, from 2 to 8 s
 
@@ -40,7 +39,7 @@ def continuous():
 
     def rate(t, y):
         state = State(Vec3(*y[0:3]), Vec3(*y[3:6]), Quat(*y[6:10]), Vec3(*y[10:13]))
-        decision, _ = decide(flying.pilot, flying.moving.memory, Measured(state, ZERO), t, 1.0)
+        decision, _ = decide(flying.pilot, flying.moving.memory, Heard(state, ZERO, ZERO, 0.0, Nothing()), t, 1.0)
         u = wrench(flying.plant.effect, decision.thrusts)
         return np.concatenate(motion(flying.plant.body, state, u, CentralPush(ZERO)))
 

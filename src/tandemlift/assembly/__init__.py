@@ -23,7 +23,7 @@ from tandemlift.laws.random import keys_of
 from tandemlift.laws.sensing import start_sensing
 from tandemlift.loop import Flying, Inputs, Moving, Noise
 from tandemlift.perception import READS, Reads
-from tandemlift.pilot import start_pilot
+from tandemlift.pilot.start import start_pilot
 from tandemlift.settings import Mission
 from tandemlift.tally import EMPTY
 from tandemlift.vector import ZERO, Nothing
@@ -31,7 +31,7 @@ from tandemlift.vehicle import Vehicle
 
 
 class Assembled(NamedTuple):
-    """A flight at t = 0, its inputs' layout, its tables, the delays of unit, motion and command in steps, its key."""
+    """A flight at t = 0, its inputs' layout, its tables, the delays in steps, its key."""
 
     flying: Flying
     given: Inputs
@@ -41,12 +41,13 @@ class Assembled(NamedTuple):
 
 
 def delays_of(mission: Mission) -> NDArray[np.int64]:
-    """Delays of the unit on board, the motion measurement and the rotors' commands, in steps."""
+    """Delays of the unit on board, the motion measurement, the rotors' commands and a person's sight, in steps."""
     simulated, real = mission.sensors.model == "simulated", mission.actuators.model == "rotors"
     seconds = [
         mission.sensors.delay * simulated,
         mission.sensors.motion.delay * simulated,
         mission.actuators.delay * real,
+        0.0,
     ]
     return np.array([round(s / mission.mission.step) for s in seconds], dtype=np.int64)
 
@@ -75,9 +76,9 @@ def assemble(mission: Mission) -> Assembled:
         sensing = start_sensing(devices, state, felt, state.attitude)
     readings = Nothing() if isinstance(devices, Nothing) else sensing.readings
     estimators, known = start_estimators(mission, vehicle, state, readings)
-    moving = Moving(state, memory, eddies, grip, near, sensing, known, spinning, readings, EMPTY, 0.0)
+    moving = Moving(state, memory, eddies, grip, near, sensing, known, spinning, readings, Nothing(), EMPTY, 0.0)
     reads = Reads(READS[mission.pilot.state], READS[mission.pilot.push])
     late = Lines(*[Late() if d else Nothing() for d in delays]) if delays.any() else Nothing()
-    flying = Flying(moving, pilot, plant, rotors, weather, devices, estimators, reads, late)
-    given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss))
+    flying = Flying(moving, pilot, plant, rotors, weather, devices, estimators, reads, Nothing(), late)
+    given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss, Nothing()), Nothing())
     return Assembled(flying, given, tables_of(mission), delays, np.array(keys_of(mission.mission.seed)))

@@ -6,7 +6,7 @@ from typing import Any
 
 from tandemlift.laws.limits import share_scale
 from tandemlift.laws.rotors import FreeAir, IdealRotors, Spinning, ground_effect, rotors_of
-from tandemlift.pilot import faults_of
+from tandemlift.pilot.start import faults_of
 from tandemlift.settings import Mission
 from tandemlift.vector import Nothing, each
 from tandemlift.vehicle import Vehicle

@@ -14,7 +14,7 @@ from tandemlift.laws.navigation import navigator, start_navigation
 from tandemlift.laws.sensing import Hiss, sensors
 from tandemlift.perception import Estimators, Remembered
 from tandemlift.settings import InertialSensor, Mission
-from tandemlift.vector import ZERO, Nothing, Vec3, each
+from tandemlift.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.vehicle import Vehicle
 
 
@@ -99,4 +99,5 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         attitude_bandwidth=e.attitude_bandwidth,
         age=s.motion.delay - s.delay,
     )
-    return Estimators(push, observer), Remembered(start_push(push, readings.unit), start_navigation(observer, state))
+    known = Estimators(push, observer, vec3(-vehicle.center_of_mass))
+    return known, Remembered(start_push(push, readings.unit), start_navigation(observer, state))

@@ -12,6 +12,7 @@ from tandemlift.constants import GRAVITY
 from tandemlift.jit import flat, leaves
 from tandemlift.kernels.outside import GAUSSIAN, GUST, Tables
 from tandemlift.laws.contact import floor, soles_below, standing_height
+from tandemlift.laws.partner import LEG
 from tandemlift.laws.push import CentralPush, Gaussian, PointPush
 from tandemlift.laws.rectangle import WALL, wall
 from tandemlift.laws.walls import nowhere, walls
@@ -37,7 +38,7 @@ def tables_of(mission: Mission) -> Tables:
     gusts = mission.wind.gusts if mission.wind.model == "air" else ()
     blows = [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
     upright = [wall(w.start, w.end, w.top) for w in mission.walls]
-    return Tables(_table(pushes, GAUSSIAN), _table(blows, GUST), _table(upright, WALL))
+    return Tables(_table(pushes, GAUSSIAN), _table(blows, GUST), _table(upright, WALL), _table([], LEG))
 
 
 def _table(rows: list[Any], like: Any) -> NDArray[np.float64]:

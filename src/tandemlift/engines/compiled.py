@@ -21,7 +21,7 @@ from tandemlift.laws.parts import Acceleration
 from tandemlift.laws.push import Hand
 from tandemlift.laws.rotation import quaternion_from_euler
 from tandemlift.laws.walls import Walls, press
-from tandemlift.pilot import mixer_value
+from tandemlift.pilot.start import mixer_value
 from tandemlift.settings import Mission, VehicleTable
 from tandemlift.vector import ZERO, Nothing, vec3
 from tandemlift.vehicle import Vehicle

@@ -17,7 +17,7 @@ from tandemlift.jit import cached_in, folder, install, leaves
 from tandemlift.kernels.block import Regions, block_loop
 from tandemlift.kernels.likes import Aside, likes_of
 from tandemlift.kernels.limiting import scratch_size
-from tandemlift.kernels.outside import COMPILE, GAUSSIAN, GUST, HALVES, LANES, SPAN, WALL, Tables, draws
+from tandemlift.kernels.outside import COMPILE, GAUSSIAN, GUST, HALVES, LANES, LEG, SPAN, WALL, Tables, draws
 from tandemlift.kernels.places import place, stretches_of
 from tandemlift.kernels.single import single_loop
 from tandemlift.kernels.stepped import COMMAND, GIVEN, Parts, parts_of
@@ -30,6 +30,7 @@ __all__ = [
     "GUST",
     "HALVES",
     "LANES",
+    "LEG",
     "SPAN",
     "WALL",
     "Aside",

@@ -23,13 +23,14 @@ from tandemlift.kernels.outside import (
     draw_block,
     draws,
     feel_block,
+    guided_block,
     gusting_block,
     inlined,
 )
 from tandemlift.kernels.places import Stretches, carry, place
 from tandemlift.law import choice
 from tandemlift.laws.contact import may_touch
-from tandemlift.loop import Flying, Inputs, Thought, finish, lifted_off, think
+from tandemlift.loop import Flying, Inputs, Thought, finish, joined, lifted_off, think
 from tandemlift.vector import ZERO, Nothing
 
 
@@ -82,13 +83,11 @@ class Layouts(NamedTuple):
 
 
 @inlined
-def given_to(a, lane, at_hand, r, x):
+def given_to(a, lane, flying, at_hand, r, x, t, dt):
     """What a lane is given; `x`: layouts."""
-    return Inputs(
-        load_lane(a, at_hand + lane, LANES, x.hand),
-        load_lane(a, r.gust + lane, LANES, ZERO),
-        load_lane(a, r.noise + lane, LANES, x.noise),
-    )
+    hand, noise = load_lane(a, at_hand + lane, LANES, x.hand), load_lane(a, r.noise + lane, LANES, x.noise)
+    outer = Inputs(hand, load_lane(a, r.gust + lane, LANES, ZERO), noise, flying.moving.partner)
+    return joined(flying, outer, t, dt)
 
 
 class Low(NamedTuple):
@@ -106,12 +105,12 @@ def stepping(where: Any, flying: Flying, thought: Any, given: Inputs, t: Any, dt
 
 @stepping.register(Low)
 def _near_the_floor(where, flying, thought, given, t, dt):
-    return finish(flying, thinking(thought, flying, given.hand.start.force, t, dt), given, t, dt)
+    return finish(flying, thinking(thought, flying, given.hand.start, t, dt), given, t, dt)
 
 
 @stepping.register(High)
 def _in_the_air(where, flying, thought, given, t, dt):
-    return finish(lifted_off(flying), thinking(thought, flying, given.hand.start.force, t, dt), given, t, dt)
+    return finish(lifted_off(flying), thinking(thought, flying, given.hand.start, t, dt), given, t, dt)
 
 
 @choice
@@ -137,14 +136,16 @@ def fly_lanes(a, where, at_hand, r, x, t, dt, shown):
     """A step of all lanes; their samples too, if shown. `x`: layouts."""
     if shown:
         for lane in range(LANES):
-            flying, given = load_lane(a, lane, LANES, x.flying), given_to(a, lane, at_hand, r, x)
+            flying = load_lane(a, lane, LANES, x.flying)
+            given = given_to(a, lane, flying, at_hand, r, x, t, dt)
             thought = load_lane(a, r.thought + lane, LANES, x.thought)
             moving, sample = stepping(where, flying, thought, given, t, dt)
             store_lane(a, lane, LANES, moving)
             store_lane(a, r.sample + lane, LANES, sample)
     else:
         for lane in range(LANES):
-            flying, given = load_lane(a, lane, LANES, x.flying), given_to(a, lane, at_hand, r, x)
+            flying = load_lane(a, lane, LANES, x.flying)
+            given = given_to(a, lane, flying, at_hand, r, x, t, dt)
             thought = load_lane(a, r.thought + lane, LANES, x.thought)
             moving, _ = stepping(where, flying, thought, given, t, dt)
             store_lane(a, lane, LANES, moving)
@@ -164,9 +165,9 @@ def any_low(a, like, time):
 def think_within_limits(a, at_hand, r, at_limits, x, t, dt):
     """The pilots of all lanes think; a lane whose thrusts leave the limits is solved for alone."""
     for lane in range(LANES):
-        push = load_lane(a, at_hand + lane, LANES, x.hand).start.force
         flying = load_lane(a, lane, LANES, x.flying)
-        thought = think(flying, push, t, dt)
+        given = given_to(a, lane, flying, at_hand, r, x, t, dt)
+        thought = think(flying, given.hand.start, t, dt)
         how, decision = flying.pilot.allocation, thought.decision
         settled = as_wished(how, decision.thrusts, t)
         store_lane(a, r.thought + lane, LANES, thought)
@@ -200,7 +201,9 @@ def block_loop(likes: Likes, lines: Stretches, regions: Regions) -> Callable[...
         place(likes.thought, "decision", "thrusts").at * LANES,
         place(likes.thought, "memory", "allocation").at * LANES,
     )
-    grounded = likes.grounded
+    grounded, accompanied = likes.grounded, likes.accompanied
+    at_partner = place(likes.flying, "moving", "partner").at * LANES
+    partner_like = Layout(likes.flying.moving.partner)
     r, at = regions, lines.numbers(LANES)
 
     def block(a, tables, ring, delays, log, k, stop, steps, every, dt):
@@ -214,6 +217,8 @@ def block_loop(likes: Likes, lines: Stretches, regions: Regions) -> Callable[...
                     low = any_low(a, like, SPAN * dt)
                 if walled:
                     approach_block(a, at_near, r.row, tables.walls, like, nowhere)
+                if accompanied:
+                    guided_block(a, at_partner, tables.legs, partner_like)
             draw_block(a, r.noise, groups, r.keys, k)
             gusting_block(a, r.gust, r.row, tables.gusts, t)
             at_hand = r.hands + 2 * (k % SPAN) * width * LANES

@@ -9,7 +9,7 @@ from tandemlift.jit import zeroed
 from tandemlift.laws.allocation import Constrained
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.controllers import Command, control
-from tandemlift.loop import Flying, Inputs, act, advance, observe, think
+from tandemlift.loop import Flying, Inputs, act, advance, joined, observe, think
 from tandemlift.vector import ZERO, Nothing
 
 
@@ -47,10 +47,19 @@ class Likes(NamedTuple):
         return not isinstance(self.nowhere, Nothing)
 
     @property
+    def accompanied(self) -> bool:
+        """Whether a person guides the vehicle."""
+        return not isinstance(self.flying.partner, Nothing)
+
+    @property
     def line(self) -> Any:
         """What goes through the delay lines."""
         moving = self.flying.moving
-        return departing(self.flying.delays, Ends(moving.rotors, moving.readings)) if self.late else Nothing()
+        return (
+            departing(self.flying.delays, Ends(moving.rotors, moving.readings, moving.partner))
+            if self.late
+            else Nothing()
+        )
 
     @property
     def grounded(self) -> bool:
@@ -66,7 +75,8 @@ class Likes(NamedTuple):
 def likes_of(flying: Flying, given: Inputs) -> Likes:
     """The layouts of a flight's steps, from its first."""
     before = flying.moving
-    thought = think(flying, given.hand.start.force, 0.0, 0.001)
+    given = joined(flying, given, 0.0, 0.001)
+    thought = think(flying, given.hand.start, 0.0, 0.001)
     acting = act(flying, thought.decision.thrusts, given, 0.0)
     air = acting.weather.loads
     moved = advance(flying.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)

@@ -14,7 +14,7 @@ from tandemlift.kernels.outside import COMPILE, LANES, inlined
 from tandemlift.laws.allocation import Working, beyond, commanded, limits_at
 from tandemlift.laws.limits import PARTS, limited
 from tandemlift.loop import Thought
-from tandemlift.pilot import Decision, PilotMemory
+from tandemlift.pilot import with_allocation, with_thrusts
 from tandemlift.vector import total
 
 GAMMA = 1e-3  # of thrusts away from the pseudo-inverse's, against the weighted wrench
@@ -92,8 +92,7 @@ def within(s, how, held, wrench, wished, t):
 def limit(s, how, held, decision, memory, t):
     """(Decision, memory) of a pilot, its commands kept within limits; `held`: the allocation's memory before."""
     settled = within(s, how, held, decision.command.wrench, decision.thrusts, t)
-    limited_memory = PilotMemory(memory.yielding, memory.controller, settled.memory)
-    return Decision(decision.guidance, decision.command, settled.commands), limited_memory
+    return with_thrusts(decision, settled.commands), with_allocation(memory, settled.memory)
 
 
 @inlined
@@ -101,7 +100,7 @@ def limit_thought(s, flying, thought, t):
     """What a pilot thinks, its commands kept within limits."""
     how, held = flying.pilot.allocation, flying.moving.memory.allocation
     decision, memory = limit(s, how, held, thought.decision, thought.memory, t)
-    return Thought(thought.known, thought.measured, decision, memory, thought.estimator)
+    return Thought(thought.known, thought.believed, decision, memory, thought.estimator)
 
 
 class Excess(NamedTuple):

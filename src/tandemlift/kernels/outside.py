@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from numba.extending import register_jitable
 
 from tandemlift.jit import leaves, load, load_lane, store_lane
+from tandemlift.laws.partner import LEG, on_leg
 from tandemlift.laws.push import SUPPORT, Gaussian, push_of
 from tandemlift.laws.random import normals
 from tandemlift.laws.rectangle import WALL
@@ -31,11 +32,12 @@ inlined = register_jitable(forceinline=True, **COMPILE)
 
 
 class Tables(NamedTuple):
-    """Data of any number: an array each of pushes, gusts and walls, a row each."""
+    """Data of any number: an array each of pushes, gusts, walls and legs of a person's path, a row each."""
 
     pushes: Any
     gusts: Any
     walls: Any
+    legs: Any
 
 
 def draws(noise: Any) -> int:
@@ -141,3 +143,18 @@ def approach_block(a, at_near, at_row, walls, like, nowhere):
             flying, wall = load_lane(a, lane, LANES, like), load_lane(a, at_row + lane, LANES, WALL)
             moving, plant = flying.moving, flying.plant
             store_lane(a, at_near + lane, LANES, consider(plant.walls, wall, moving.near, plant.frame, moving.state))
+
+
+@inlined
+def guided(legs, partner):
+    """A person's memory with the leg of the path that they are on."""
+    return on_leg(partner, load(legs[min(max(int(partner.index), 0), legs.shape[0] - 1)], LEG))
+
+
+@inlined
+def guided_block(a, at_partner, legs, like):
+    """`guided` for LANES flights, whose persons' memory stands in `a` from `at_partner` on."""
+    for lane in range(LANES):
+        partner = load_lane(a, at_partner + lane, LANES, like)
+        row = legs[min(max(int(partner.index), 0), legs.shape[0] - 1)]
+        store_lane(a, at_partner + lane, LANES, on_leg(partner, load_lane(row, lane, LANES, LEG)))

@@ -12,10 +12,10 @@ from tandemlift.engines.compiled import aloft
 from tandemlift.jit import Layout, leaves, load, load_lane, store
 from tandemlift.kernels.likes import Likes
 from tandemlift.kernels.limiting import limit_thought
-from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
+from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, guided, gusting
 from tandemlift.kernels.places import Stretches, carry
 from tandemlift.laws.contact import may_touch
-from tandemlift.loop import Inputs, act, continued, delayed, neared, observe, swing, think
+from tandemlift.loop import Inputs, act, continued, delayed, joined, located, observe, swing, think
 
 
 def single_loop(likes: Likes, lines: Stretches) -> Callable[..., Any]:
@@ -31,7 +31,7 @@ def single_loop(likes: Likes, lines: Stretches) -> Callable[..., Any]:
     n_hands = HALVES * width
     n_work = n_hands + 4 * SPAN * draws(given.noise)
     walled, late, constrained, grounded = likes.walled, likes.late, likes.constrained, likes.grounded
-    line_like = Layout(likes.line)
+    line_like, accompanied = Layout(likes.line), likes.accompanied
     at, n_line = lines.packed(), lines.size
 
     def single(a, tables, work, ring, delays, seeds, log, last, k, stop, steps, every, dt):
@@ -47,19 +47,23 @@ def single_loop(likes: Likes, lines: Stretches) -> Callable[..., Any]:
                 draw(table, k, seeds[0], seeds[1])
                 if grounded:
                     low = may_touch(flying.plant.floor, flying.moving.state, SPAN * dt)
+                near, partner = flying.moving.near, flying.moving.partner
                 if walled:
                     near = approach(tables.walls, flying.plant, flying.moving.state, nowhere)
-                    flying = continued(flying, neared(flying.moving, near))
+                if accompanied:
+                    partner = guided(tables.legs, partner)
+                flying = continued(flying, located(flying.moving, near, partner))
             hand = load_lane(hands, 2 * (k % SPAN) * width, 1, hand_like)
-            given = Inputs(hand, gusting(tables.gusts, k * dt), load_lane(table, k % SPAN, SPAN, noise_like))
-            thought = think(flying, hand.start.force, k * dt, dt)
+            noise, partner = load_lane(table, k % SPAN, SPAN, noise_like), flying.moving.partner
+            given = joined(flying, Inputs(hand, gusting(tables.gusts, k * dt), noise, partner), k * dt, dt)
+            thought = think(flying, given.hand.start, k * dt, dt)
             if constrained:
                 thought = limit_thought(scratch, flying, thought, k * dt)
             acting = act(flying, thought.decision.thrusts, given, k * dt)
             if grounded and not low:
-                moved = swing(aloft(flying.plant), flying.moving, acting, hand, dt)
+                moved = swing(aloft(flying.plant), flying.moving, acting, given.hand, dt)
             else:
-                moved = swing(flying.plant, flying.moving, acting, hand, dt)
+                moved = swing(flying.plant, flying.moving, acting, given.hand, dt)
             moving, sample = observe(flying, thought, acting, moved, given)
             if k % every == 0:
                 store(log[k // every], sample)
@@ -67,7 +71,7 @@ def single_loop(likes: Likes, lines: Stretches) -> Callable[..., Any]:
                 store(last, sample)
                 break
             if late:
-                ends = Ends(moving.rotors, moving.readings)
+                ends = Ends(moving.rotors, moving.readings, moving.partner)
                 store(line, departing(flying.delays, ends))
                 carry(line, ring, delays, k, at)
                 moving = delayed(moving, arrived(flying.delays, load(line, line_like), ends))

@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 from tandemlift.jit import Layout, leaves, load, load_lane, store
 from tandemlift.kernels.likes import Likes
 from tandemlift.kernels.limiting import limit_thought
-from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, gusting
+from tandemlift.kernels.outside import HALVES, SPAN, approach, draw, draws, feel, guided, gusting
 from tandemlift.kernels.places import Stretches, carry
 from tandemlift.laws.admittance import Trajectory
 from tandemlift.laws.body import State, Wrench
 from tandemlift.laws.controllers import Command, Measured, Reference
 from tandemlift.laws.push import moment_of
-from tandemlift.loop import Inputs, Thought, act, neared, observe, perceive, swing, think
-from tandemlift.pilot import conclude, guide
+from tandemlift.loop import Inputs, Thought, act, joined, located, observe, perceive, swing, think
+from tandemlift.pilot import brief, conclude
 from tandemlift.vector import ZERO, Quat
 
 COMMAND = Command(Wrench(0.0, ZERO), ZERO)
@@ -63,7 +63,7 @@ def parts_of(likes: Likes, lines: Stretches) -> Parts:
     hand_like, noise_like, width = Layout(given.hand), Layout(given.noise), leaves(push_like)
     n_hands = HALVES * width
     n_work = n_hands + 4 * SPAN * draws(given.noise)
-    walled, late, constrained = likes.walled, likes.late, likes.constrained
+    walled, late, constrained, accompanied = likes.walled, likes.late, likes.constrained, likes.accompanied
     at = lines.numbers(1)
 
     def outside(a, tables, work, seeds, g, k, dt):
@@ -71,36 +71,41 @@ def parts_of(likes: Likes, lines: Stretches) -> Parts:
         if k % SPAN == 0:
             feel(hands, tables.pushes, k, dt, push_like)
             draw(table, k, seeds[0], seeds[1])
+            flying = load(a, like)
+            near, partner = flying.moving.near, flying.moving.partner
             if walled:
-                flying = load(a, like)
                 near = approach(tables.walls, flying.plant, flying.moving.state, nowhere)
-                store(a, neared(flying.moving, near))
+            if accompanied:
+                partner = guided(tables.legs, partner)
+            store(a, located(flying.moving, near, partner))
         hand, noise = (
             load_lane(hands, 2 * (k % SPAN) * width, 1, hand_like),
             load_lane(table, k % SPAN, SPAN, noise_like),
         )
-        store(g, Inputs(hand, gusting(tables.gusts, k * dt), noise))
+        flying = load(a, like)
+        outer = Inputs(hand, gusting(tables.gusts, k * dt), noise, flying.moving.partner)
+        store(g, joined(flying, outer, k * dt, dt))
 
     def before(a, g, x, k, dt):
-        flying, given = load(a, like), load(g, given_like)
-        _, measured, _ = perceive(flying, given.hand.start.force, k * dt, dt)
-        guidance = guide(flying.pilot, flying.moving.memory.yielding, measured.push, k * dt)
-        store(x, Given(measured, guidance.reference))
+        flying, given, t = load(a, like), load(g, given_like), k * dt
+        _, heard, _ = perceive(flying, given.hand.start, t, dt)
+        briefed = brief(flying.pilot, flying.moving.memory, heard, t, dt)
+        store(x, Given(briefed.measured, briefed.guidance.reference))
 
     def after(a, g, y, m, scratch, k, dt):
         flying, given, t = load(a, like), load(g, given_like), k * dt
-        known, measured, estimator = perceive(flying, given.hand.start.force, t, dt)
+        known, heard, estimator = perceive(flying, given.hand.start, t, dt)
         memory = flying.moving.memory
-        guidance = guide(flying.pilot, memory.yielding, measured.push, t)
-        decision, memory = conclude(flying.pilot, memory, guidance, load(y, COMMAND), memory.controller, t, dt)
-        thought = Thought(known, measured, decision, memory, estimator)
+        briefed = brief(flying.pilot, memory, heard, t, dt)
+        decision, memory = conclude(flying.pilot, memory, briefed, load(y, COMMAND), memory.controller)
+        thought = Thought(known, heard.state.attitude, decision, memory, estimator)
         if constrained:
             thought = limit_thought(scratch, flying, thought, t)
         store(m, thought)
 
     def whole(a, g, m, scratch, k, dt):
         flying, given = load(a, like), load(g, given_like)
-        thought = think(flying, given.hand.start.force, k * dt, dt)
+        thought = think(flying, given.hand.start, k * dt, dt)
         if constrained:
             thought = limit_thought(scratch, flying, thought, k * dt)
         store(m, thought)

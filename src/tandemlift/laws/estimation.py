@@ -105,14 +105,15 @@ class PushMemory(NamedTuple):
 class Push(NamedTuple):
     """The push as estimated.
 
-    `measured` [N, world axes]: the last sample less the tare; `force` [N, world axes] and `moment` [N·m, body axes,
-    about the payload's centre of mass]: low-passed, zero until the tare is over; `point` [m]: where on body y the force
-    acts, 0 if it is too small; `payload_mass` [kg]; `disagreement` [N]: the horizontal force by which one joint sensor
-    alone would have to be wrong; `trusted` is 1 while that is below its limit, `armed` once the tare is over, else 0;
-    `usable`: `force` where trusted, else zero.
+    `measured` [N, world axes] and `measured_moment` [N·m, body axes, about the payload's centre of mass]: the last
+    sample less the tare; `force` and `moment`, likewise: low-passed, zero until the tare is over; `point` [m]: where on
+    body y the force acts, 0 if it is too small; `payload_mass` [kg]; `disagreement` [N]: the horizontal force by which
+    one joint sensor alone would have to be wrong; `trusted` is 1 while that is below its limit, `armed` once the tare
+    is over, else 0; `usable`: `force` where trusted, else zero.
     """
 
     measured: Vec3
+    measured_moment: Vec3
     force: Vec3
     moment: Vec3
     point: Any
@@ -202,18 +203,21 @@ def estimate(k: PushEstimator, memory: PushMemory, unit: Unit, t: Any) -> Any:
         smooth(k.low_pass, memory.x, (unequal.x - tare.sides.x) * armed),
         smooth(k.low_pass, memory.y, (unequal.y - tare.sides.y) * armed),
     )
-    return concluded(k, unit, force, after, tare.mass, armed), after
+    return concluded(k, unit, force, moment - tare.moment, after, tare.mass, armed), after
 
 
 @law
-def concluded(k: PushEstimator, unit: Unit, force: Vec3, after: PushMemory, mass: Any, armed: Any) -> Push:
-    """The push from the sample's `force` [N, body axes] and what is low-passed."""
+def concluded(
+    k: PushEstimator, unit: Unit, force: Vec3, turning: Vec3, after: PushMemory, mass: Any, armed: Any
+) -> Push:
+    """The push from the sample's `force` [N] and `turning` moment [N·m], body axes, and what is low-passed."""
     R = rotation_from_quaternion(unit.frame)
     smoothed, moment = apply(R, after.force.value), after.moment.value
     wrong = disagreement(k, after.x.value, after.y.value)
     trusted = where(wrong < k.limit, 1.0, 0.0)
     return Push(
         measured=apply(R, force),
+        measured_moment=turning,
         force=smoothed,
         moment=moment,
         point=point_of_application(k, after.force.value, moment),

@@ -5,9 +5,11 @@ R = Rz(ψ) Rx(φ) Ry(θ) maps body axes to world axes. The Euler rates are singu
 
 from typing import Any, NamedTuple
 
-from tandemlift.law import law
-from tandemlift.ops import atan2, atan_ratio, clip, cos, maximum, sin, sqrt
+from tandemlift.law import elementwise, law
+from tandemlift.ops import atan2, atan_ratio, clip, cos, maximum, sin, sqrt, where
 from tandemlift.vector import Mat3, Quat, Vec3, hamilton
+
+PI = 3.141592653589793
 
 
 class Euler(NamedTuple):
@@ -21,6 +23,12 @@ class Euler(NamedTuple):
     cos_yaw: Any
     sin_yaw: Any
     sec_roll: Any
+
+
+@elementwise
+def turned_least(angle):
+    """The same angle within half a turn, for angles within one and a half turns [rad]."""
+    return angle - where(angle > PI, 2.0 * PI, where(angle < -PI, -2.0 * PI, 0.0))
 
 
 @law

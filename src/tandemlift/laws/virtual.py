@@ -1,11 +1,12 @@
 """Virtual inputs: the force that the position law wants, and the thrust and tilt that give it."""
 
+import math
 from typing import Any, NamedTuple
 
 from tandemlift.law import choice, law
 from tandemlift.laws.rotation import Euler
-from tandemlift.ops import atan_ratio, cos, sin, sqrt, where
-from tandemlift.vector import Vec3
+from tandemlift.ops import atan_ratio, cos, maximum, minimum, sin, sqrt, where
+from tandemlift.vector import Nothing, Vec3
 
 
 class TiltZXY(NamedTuple):
@@ -14,6 +15,34 @@ class TiltZXY(NamedTuple):
 
 class TiltPrinted(NamedTuple):
     """The inverse as the paper prints it (that of Z-Y-X angles), at the desired yaw."""
+
+
+class MostTilt(NamedTuple):
+    """The tangent of the greatest angle between the force and the vertical."""
+
+    tangent: Any
+
+
+@choice
+def within_tilt(limit: Any, u: Any) -> Any:
+    """The force (u_x, u_y, u_z) [N, world axes], its horizontal part shortened to keep within a tilt."""
+
+
+@within_tilt.register(Nothing)
+def _any_tilt(limit, u):
+    return u
+
+
+@within_tilt.register(MostTilt)
+def _tilted(limit, u):
+    across = sqrt(maximum(u.x * u.x + u.y * u.y, 1e-24))
+    share = minimum(limit.tangent * maximum(u.z, 0.0) / across, 1.0)
+    return Vec3(u.x * share, u.y * share, u.z)
+
+
+def most_tilt(angle: float | None) -> Any:
+    """The limit of a tilt [rad], or of none."""
+    return Nothing() if angle is None else MostTilt(math.tan(angle))
 
 
 @law

@@ -11,6 +11,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, SerializeAsAny
 
+from tandemlift.settings.guided import ComplianceTable, ObserverTable
 from tandemlift.settings.leaves import (
     AtLeastOne,
     AtLeastOne6,
@@ -25,6 +26,7 @@ from tandemlift.settings.leaves import (
     Positive6,
     Scale,
     Table,
+    Tilt,
     Triple,
     divisor,
     must,
@@ -58,6 +60,7 @@ __all__ = [
     "AtLeastOne6",
     "Axes",
     "Axes3",
+    "ComplianceTable",
     "ControllerTable",
     "Drag",
     "Exactly3",
@@ -75,6 +78,7 @@ __all__ = [
     "Quadrotor",
     "Scale",
     "Table",
+    "Tilt",
     "Triple",
     "VehicleTable",
 ]
@@ -121,6 +125,8 @@ class Mission(Table):
     plant: Plant = Plant()
     pilot: PilotTable = PilotTable()
     estimator: Estimator = Estimator()
+    compliance: ComplianceTable = ComplianceTable()
+    observer: ObserverTable = ObserverTable()
     actuators: Actuators = Actuators()
     faults: tuple[Fault, ...] = ()
     sensors: Sensors = Sensors()

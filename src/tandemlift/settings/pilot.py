@@ -83,8 +83,9 @@ class PhasesTable(Table):
 
 
 class PilotTable(Table):
-    """`[pilot]`: whether the pilot reads the truth, what sensors measure, or what is estimated from them."""
+    """`[pilot]`: what guides it; whether it reads the truth, what sensors measure, or what is estimated from them."""
 
+    guidance: Literal["clock", "hand"] = "clock"
     state: Reading = "truth"
     push: Reading = "truth"
 

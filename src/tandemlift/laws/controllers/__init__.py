@@ -10,15 +10,25 @@ function will do, at a few microseconds a step.
 """
 
 from tandemlift.laws.controllers import nftsmc  # registers itself
-from tandemlift.laws.controllers.interface import Command, Measured, NoMemory, Reference, control
+from tandemlift.laws.controllers.interface import (
+    CALM,
+    Command,
+    Disturbance,
+    Measured,
+    NoMemory,
+    Reference,
+    control,
+)
 from tandemlift.laws.controllers.loading import load_controller
 from tandemlift.laws.controllers.registry import CONTROLLERS, Controller, controller, file_of, register
 from tandemlift.laws.controllers.trial import told
 
 __all__ = [
+    "CALM",
     "CONTROLLERS",
     "Command",
     "Controller",
+    "Disturbance",
     "Measured",
     "NoMemory",
     "Reference",

@@ -23,10 +23,17 @@ from tandemlift.laws.body import UP, Wrench
 from tandemlift.laws.controllers.interface import Command, NoMemory, control
 from tandemlift.laws.controllers.registry import register
 from tandemlift.laws.inertia import gyroscopic, inertia_value, turn_by
-from tandemlift.laws.rotation import Euler, euler_from_quaternion, euler_rates_from_rates
+from tandemlift.laws.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.sliding import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration
-from tandemlift.laws.virtual import TiltPrinted, TiltZXY, desired_orientation, total_thrust
-from tandemlift.settings import AtLeastOne6, ControllerTable, NonNegative6, Positive6, Table
+from tandemlift.laws.virtual import (
+    TiltPrinted,
+    TiltZXY,
+    desired_orientation,
+    most_tilt,
+    total_thrust,
+    within_tilt,
+)
+from tandemlift.settings import AtLeastOne6, ControllerTable, NonNegative6, Positive6, Table, Tilt
 from tandemlift.vector import ZERO, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
@@ -53,6 +60,7 @@ class NFTSMCSettings(ControllerTable):
     euler_rates: Literal["exact", "body"] = "exact"
     tilt_inverse: Literal["zxy", "printed"] = "zxy"
     human_force_feedforward: bool = False
+    max_tilt: Tilt | None = None  # rad, of the force wanted; no limit if not given
 
 
 class ExactRates(NamedTuple):
@@ -110,6 +118,7 @@ class NFTSMC(NamedTuple):
     derivatives: Any
     rates: Any
     inverse: Any
+    tilt: Any
     feedforward: Any
 
 
@@ -150,6 +159,15 @@ def _filtered(kind, memory, desired):
 
 
 @law
+def with_heading(tracked: AttitudeReference, reference: Any) -> AttitudeReference:
+    """What the attitude law tracks, with the yaw and its derivatives as the reference has them."""
+    a, r, c = tracked.angles, tracked.rates, tracked.accelerations
+    return AttitudeReference(
+        Vec3(a.x, a.y, reference.yaw), Vec3(r.x, r.y, reference.yaw_rate), Vec3(c.x, c.y, reference.yaw_acceleration)
+    )
+
+
+@law
 def position_law(k: NFTSMC, state: Any, desired: Any, push: Vec3) -> Vec3:
     """The force (u_x, u_y, u_z) [N, world axes] that the position surface wants.
 
@@ -168,7 +186,7 @@ def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -
     Errata: J is the whole vehicle's; sat(S_ψ/Φ), not sat(S_ψ)/Φ.
     """
     # paper: orient_cont_equ, control_final_equ, error_equ
-    error, error_rate = desired.angles - e.angles, desired.rates - rates
+    error, error_rate = turned_least(desired.angles - e.angles), desired.rates - rates
     acceleration = desired.accelerations + wanted_acceleration(k.attitude, error, error_rate)
     return turn_by(k.inertia, acceleration) - gyroscopic(k.inertia, rates) + k.drag_moment * rates
 
@@ -177,11 +195,13 @@ def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -
 def nftsmc(k, memory, measured, reference):
     """The whole controller at one sample."""
     e = euler_from_quaternion(measured.state.attitude)
-    u = position_law(k, measured.state, reference.trajectory, measured.push)
+    wished = position_law(k, measured.state, reference.trajectory, measured.push)
+    u = within_tilt(k.tilt, wished + reference.lead * k.mass - measured.disturbance.force)
     desired, memory = shape(k.derivatives, memory, desired_orientation(k.inverse, u, e, reference.yaw))
+    tracked = with_heading(desired, reference)
     rates = euler_rates(k.rates, e, measured.state.rates)
-    moment = attitude_law(k, e, rates, desired)
-    return Command(Wrench(total_thrust(e, u), moment), desired.angles), memory
+    moment = attitude_law(k, e, rates, tracked) - measured.disturbance.moment
+    return Command(Wrench(total_thrust(e, u), moment), tracked.angles), memory
 
 
 def command_filter(bandwidth: float, step: float) -> CommandFilter:
@@ -234,6 +254,7 @@ def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, Any
         derivatives=command_filter(s.filter_bandwidth, step) if filtered else Unfiltered(),
         rates=ExactRates() if s.euler_rates == "exact" else BodyRates(),
         inverse=TiltZXY() if s.tilt_inverse == "zxy" else TiltPrinted(),
+        tilt=most_tilt(s.max_tilt),
         feedforward=1.0 if s.human_force_feedforward else 0.0,
     )
     return gains, Filtered(ZERO, ZERO) if filtered else NoMemory()

@@ -11,15 +11,19 @@ from typing import Any
 from tandemlift.errors import InputError
 from tandemlift.laws.admittance import Trajectory
 from tandemlift.laws.body import State, Wrench
-from tandemlift.laws.controllers.interface import Command, Measured, Reference, control
+from tandemlift.laws.controllers.interface import Command, Disturbance, Measured, Reference, control
 from tandemlift.vector import ZERO, Quat, Vec3, layout
 
 COMMAND = Command(Wrench(0.0, ZERO), ZERO)
 SAMPLE = (  # something ordinary to try a law on
     Measured(
-        State(Vec3(0.1, -0.2, 0.3), Vec3(0.1, 0.2, -0.1), Quat(0.98, 0.1, -0.1, 0.14), ZERO), Vec3(0.5, -0.4, 0.3)
+        State(Vec3(0.1, -0.2, 0.3), Vec3(0.1, 0.2, -0.1), Quat(0.98, 0.1, -0.1, 0.14), ZERO),
+        Vec3(0.5, -0.4, 0.3),
+        Disturbance(Vec3(0.2, 0.1, -0.3), Vec3(0.01, 0.02, -0.03)),
     ),
-    Reference(Trajectory(Vec3(0.2, 0.1, 0.5), Vec3(0.1, 0.0, 0.2), Vec3(0.0, 0.1, 0.3)), 0.1),
+    Reference(
+        Trajectory(Vec3(0.2, 0.1, 0.5), Vec3(0.1, 0.0, 0.2), Vec3(0.0, 0.1, 0.3)), 0.1, 0.2, 0.1, Vec3(0.1, 0.0, -0.1)
+    ),
 )
 
 _tried: set[Any] = set()

@@ -1,0 +1,112 @@
+"""The pilot: from a measurement to rotor thrusts, the same for every body that it flies.
+
+measured push → guidance (gate, admittance, phases) → reference → controller → wrench → allocation → thrusts, and beside
+it the observer of what else acts on the vehicle. It is sampled every `mission.step`; everything that it computes is
+held until the next sample. `pilot.start` makes one from a mission.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.law import choice, law
+from tandemlift.laws.allocation import Working, allocate
+from tandemlift.laws.controllers import Command, Disturbance, Measured, control
+from tandemlift.laws.guidance import Guidance, Heard, guide, running
+from tandemlift.laws.observer import Unmodelled, last_known, observe
+from tandemlift.vector import Nothing
+
+__all__ = ["Briefed", "Decision", "Heard", "PilotMemory", "PilotParameters", "brief", "conclude", "decide"]
+
+
+class PilotParameters(NamedTuple):
+    """Numbers of the pilot; the types of its members pick the laws."""
+
+    guidance: Any
+    observer: Any
+    controller: Any
+    allocation: Any
+
+
+class PilotMemory(NamedTuple):
+    """What the pilot carries from sample to sample."""
+
+    guidance: Any
+    observer: Any
+    controller: Any
+    allocation: Any
+
+
+class Briefed(NamedTuple):
+    """What the pilot knows before it controls: what it measured, where to, what disturbs; and its parts' memories."""
+
+    measured: Measured
+    guidance: Guidance
+    unknown: Unmodelled
+    guidance_memory: Any
+    observer_memory: Any
+
+
+class Decision(NamedTuple):
+    """One sample of the pilot: guidance, what disturbs, command, and the thrust of every rotor [N]."""
+
+    guidance: Guidance
+    unknown: Unmodelled
+    command: Command
+    thrusts: Any
+
+
+@choice
+def given_thrusts(allocation: Any) -> Any:
+    """The thrusts [N] that the allocation gave at the last sample, from its memory."""
+
+
+@given_thrusts.register(Nothing)
+def _not_known(allocation):
+    return allocation
+
+
+@given_thrusts.register(Working)
+def _within_limits(allocation):
+    return allocation.thrusts
+
+
+@law
+def brief(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) -> Briefed:
+    """What there is to know at time t [s] before the controller is asked."""
+    before = last_known(p.observer, m.observer)
+    guidance, guided = guide(p.guidance, m.guidance, heard, before, t, dt)
+    unknown, observing = observe(p.observer, m.observer, heard, given_thrusts(m.allocation), guidance.flying, dt)
+    disturbance = Disturbance(unknown.force, unknown.moment + guidance.moment)
+    return Briefed(Measured(heard.state, guidance.push, disturbance), guidance, unknown, guided, observing)
+
+
+@law
+def conclude(p: PilotParameters, m: PilotMemory, briefed: Briefed, command: Command, memory: Any) -> Any:
+    """(Decision, the new memory) once the controller has commanded; `memory` is the controller's."""
+    thrusts = running(briefed.guidance.running, allocate(p.allocation, command.wrench))
+    decision = Decision(briefed.guidance, briefed.unknown, command, thrusts)
+    return decision, PilotMemory(briefed.guidance_memory, briefed.observer_memory, memory, m.allocation)
+
+
+@law
+def decide(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) -> Any:
+    """One sample of the pilot at time t [s], held for dt [s]: (Decision, the new memory).
+
+    Thrusts are not limited yet where the allocation is `Constrained`.
+    """
+    briefed = brief(p, m, heard, t, dt)
+    command, memory = control(p.controller, m.controller, briefed.measured, briefed.guidance.reference)
+    return conclude(p, m, briefed, command, memory)
+
+
+@law
+def with_allocation(m: PilotMemory, allocation: Any) -> PilotMemory:
+    """A pilot's memory with that of an allocation within limits."""
+    return PilotMemory(m.guidance, m.observer, m.controller, allocation)
+
+
+@law
+def with_thrusts(d: Decision, thrusts: Any) -> Decision:
+    """A decision with other thrusts [N]."""
+    return Decision(d.guidance, d.unknown, d.command, thrusts)

@@ -1,0 +1,96 @@
+"""The guidance by hand of a mission."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from tandemlift.laws.admittance import Admittance
+from tandemlift.laws.compliance import Compliance, Compliant, DeadBand, Hearing, Limits
+from tandemlift.laws.guidance import Guided, GuidedMemory
+from tandemlift.laws.lowpass import Smoothed, low_pass
+from tandemlift.laws.phases import IDLE, Phase, Phasing
+from tandemlift.laws.tank import Filled, Tank
+from tandemlift.laws.turning import Heading, Held, Turning
+from tandemlift.settings import ComplianceTable, Mission
+from tandemlift.vector import ZERO, Nothing, Vec3, vec3
+from tandemlift.vehicle import Vehicle
+
+NEVER = 1e18  # s
+SILENT = Smoothed(ZERO, ZERO)
+STILL = Smoothed(0.0, 0.0)
+
+
+def _phasing(mission: Mission) -> Phasing:
+    p, c = mission.phases, mission.compliance
+    return Phasing(
+        height=p.height,
+        lift_start=p.lift_start,
+        lift_rate=1.0 / p.lift_duration,
+        land_start=NEVER if p.land_start is None else p.land_start,
+        land_rate=1.0 / p.land_duration,
+        press=c.press,
+        spool=c.spool,
+        always=1.0 if p.rotors == "always" else 0.0,
+        descent=c.max_descent,
+    )
+
+
+def _compliance(mission: Mission, admittance: Admittance) -> Compliance:
+    c, step = mission.compliance, mission.mission.step
+    threshold = vec3(mission.admittance.threshold)
+    limits = Limits(vec3(c.max_speed), vec3(c.max_acceleration), vec3(c.max_jerk), c.braking)
+    return Compliance(
+        hearing=low_pass(c.hearing, step),
+        band=DeadBand(threshold, threshold * c.release, c.dwell, 1.0 / c.forget),
+        easing=low_pass(c.easing, step),
+        admittance=admittance,
+        limits=limits,
+        force_lead=c.force_lead,
+        lead=c.lead,
+    )
+
+
+def _tank(c: ComplianceTable) -> tuple[Any, Any]:
+    if c.tank.model == "none":
+        return Nothing(), Nothing()
+    return Tank(c.tank.size, c.tank.low, c.tank.max_damping, c.tank.refill), Filled(c.tank.size)
+
+
+def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
+    c, y, step = mission.compliance, mission.compliance.yaw, mission.mission.step
+    start = 0.0 if mission.phases.rotors == "always" else mission.initial.euler[2]
+    if y.model == "held":
+        return Held(start), Nothing()
+    turning = Turning(
+        hearing=low_pass(c.hearing, step),
+        band=DeadBand(y.threshold, y.threshold * c.release, c.dwell, 1.0 / c.forget),
+        easing=low_pass(c.easing, step),
+        inverse_inertia=1.0 / (y.inertia or float(vehicle.inertia[2, 2])),
+        damping=y.damping,
+        most=y.max_moment,
+        leash=y.leash,
+    )
+    return turning, Heading(STILL, Hearing(0.0, 0.0, 0.0), STILL, start, 0.0, 0.0)
+
+
+def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance) -> tuple[Guided, GuidedMemory]:
+    """The guidance by hand of a mission before its first sample, and its memory."""
+    c = mission.compliance
+    tank, filled = _tank(c)
+    heading, turned = _heading(mission, vehicle)
+    guided = Guided(
+        phasing=_phasing(mission),
+        compliance=_compliance(mission, admittance),
+        tank=tank,
+        heading=heading,
+        moment=low_pass(c.hearing, mission.mission.step),
+        moment_lead=c.moment_lead,
+        mass=vehicle.mass,
+        most_thrust=vehicle.max_thrust * c.thrust_share,
+        tangent=math.tan(c.max_tilt),
+    )
+    hearing = Hearing(ZERO, ZERO, ZERO)
+    at = ZERO if mission.phases.rotors == "always" else Vec3(*mission.initial.position)
+    compliant = Compliant(SILENT, hearing, SILENT, at, ZERO, ZERO, ZERO, at)
+    return guided, GuidedMemory(Phase(IDLE, 0.0, at.z, 0.0), compliant, filled, turned, SILENT)
