@@ -19,10 +19,14 @@ from tandemlift.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.vector import Vec3, dot
 
 
+QUIET = 2.0  # s
+FAINT = 0.3  # of the threshold: what is louder counts no more for the bias
+
+
 class DeadBand(NamedTuple):
     """Threshold [N] above which a push is heard, and `release` [N] below which it is over; `dwell` [s] before it is.
 
-    `forget`: one over the time [s] over which the mean is taken for a bias while nothing is heard.
+    `forget`: one over the time [s] over which the mean is taken for a bias, once nothing was heard for `QUIET`.
     """
 
     threshold: Any
@@ -32,10 +36,11 @@ class DeadBand(NamedTuple):
 
 
 class Hearing(NamedTuple):
-    """Memory of a dead-band: 1 while a push is heard, else 0; for how long it has been above [s]; the bias."""
+    """Memory: 1 while a push is heard, else 0; for how long it has been above and not heard [s]; the bias."""
 
     on: Any
     above: Any
+    off: Any
     bias: Any
 
 
@@ -89,14 +94,27 @@ def time_above(above, force, threshold, dt):
     return where(absolute(force) > threshold, above + dt, 0.0)
 
 
+@elementwise
+def silent_for(off, on, dt):
+    """For how long nothing has been heard [s]."""
+    return (off + dt) * (1.0 - on)
+
+
+@elementwise
+def drawn(force, most, off):
+    """What draws the bias: the force, held within a most, once nothing was heard for `QUIET`."""
+    return where(off < QUIET, 0.0, clip(force, -most, most))
+
+
 @law
 def hear(k: DeadBand, m: Hearing, force: Any, listening: Any, dt: Any) -> Any:
     """(what of a force exceeds the threshold while it is heard, the new memory); not `listening` (0), nothing is."""
     f = force - m.bias
     above = time_above(m.above, f, k.threshold, dt) * listening
     on = still_on(m.on, above, f, k.threshold, k.release, k.dwell) * listening
-    bias = m.bias + (f - f * on) * (k.forget * dt * listening)
-    return soft(f, k.threshold) * on, Hearing(on, above, bias)
+    off = silent_for(m.off, on, dt) * listening
+    bias = m.bias + drawn(f, k.threshold * FAINT, off) * (k.forget * dt)
+    return soft(f, k.threshold) * on, Hearing(on, above, off, bias)
 
 
 @elementwise

@@ -100,6 +100,7 @@ def orders_of(k: Phasing, m: Phase, t: Any) -> Orders:
     idle, lift, land = is_in(m, IDLE), is_in(m, LIFT), is_in(m, LAND)
     up = smoothstep(t, m.since + k.spool, k.lift_rate)
     down = smoothstep(t, m.since, m.land_rate)
+    landed = idle * where(m.land_rate > 0.0, 1.0, 0.0)
     begun = where(t - m.since < k.spool, 0.0, 1.0)
     return Orders(
         phase=m.phase,
@@ -107,7 +108,7 @@ def orders_of(k: Phasing, m: Phase, t: Any) -> Orders:
         listening=is_in(m, GUIDED),
         running=maximum(1.0 - idle, k.always),
         flying=maximum(1.0 - idle - lift * (1.0 - begun), k.always),
-        lift=Ramp(lift * up.value + (1.0 - idle - lift), lift * up.rate, lift * up.curvature),
-        land=Ramp(land * down.value, land * down.rate, land * down.curvature),
+        lift=Ramp(lift * up.value + (1.0 - idle - lift) + landed, lift * up.rate, lift * up.curvature),
+        land=Ramp(land * down.value + landed, land * down.rate, land * down.curvature),
         end=m.ground - k.press,
     )
