@@ -27,6 +27,7 @@ def check_equipment(m: Mission) -> None:
     _check_delays(m)
     _check_readings(m)
     _check_tare(m)
+    _check_observer(m)
 
 
 def weight_of(m: Mission) -> float:
@@ -96,6 +97,14 @@ def _check_tare(m: Mission) -> None:
     if e.tare_start is not None and e.tare_duration < interval:
         raise InputError(
             f"estimator.tare_duration = {e.tare_duration}: a tare must hold a sample: they come every {interval:g} s"
+        )
+
+
+def _check_observer(m: Mission) -> None:
+    if m.observer.model != "none" and m.allocation.method != "constrained":
+        raise InputError(
+            f'observer.model = "{m.observer.model}": must be "none" unless allocation.method is "constrained", '
+            "which tells it what the rotors could give"
         )
 
 

@@ -54,7 +54,8 @@ def _compliance(mission: Mission, admittance: Admittance) -> Compliance:
 def _tank(c: ComplianceTable) -> tuple[Any, Any]:
     if c.tank.model == "none":
         return Nothing(), Nothing()
-    return Tank(c.tank.size, c.tank.low, c.tank.max_damping, c.tank.refill), Filled(c.tank.size)
+    t = c.tank
+    return Tank(t.size, t.low, t.max_damping, t.refill, 1.0 / t.fade), Filled(t.size, 0.0)
 
 
 def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
