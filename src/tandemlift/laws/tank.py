@@ -2,7 +2,9 @@
 
 A vehicle that yields late can hand a stiff arm more energy than it got, and the two then swing each other up. The tank
 holds what the person's force did to the vehicle and a share of what the virtual damping burned; the emptier it gets,
-the more damping is added. A swing empties it only where it turns round, so the damping stays for a while. Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002;
+the more damping is added. A swing empties it only where it turns round, so the damping stays for a while.
+
+Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002;
 Ferraguti et al., An energy tank-based interactive control architecture, 2015.
 """
 
