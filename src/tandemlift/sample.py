@@ -12,6 +12,7 @@ from tandemlift.law import choice, elementwise, law
 from tandemlift.laws.allocation import wrench
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.contact import Floor
+from tandemlift.laws.guidance import share_of
 from tandemlift.laws.limits import given_share
 from tandemlift.laws.loads import Felt, Loads, total_of_each
 from tandemlift.laws.observer import Observer, Unmodelled
@@ -220,5 +221,5 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
         x.moment,
         x.push_force,
         dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
-        saturated(flying.rotors, thought.decision.thrusts),
+        saturated(flying.rotors, thought.decision.thrusts) * share_of(thought.decision.guidance.running),
     )

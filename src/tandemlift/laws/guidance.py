@@ -138,6 +138,21 @@ def _a_share(rotors, thrusts):
 
 
 @choice
+def share_of(rotors: Any) -> Any:
+    """The share of every thrust that is commanded."""
+
+
+@share_of.register(Running)
+def _all_of_it(rotors):
+    return 1.0
+
+
+@share_of.register(Share)
+def _its_value(rotors):
+    return rotors.value
+
+
+@choice
 def run(rotors: Any, t: Any) -> Any:
     """Whether rotors run at time t [s], for `running`."""
 
