@@ -12,6 +12,7 @@ import click
 from tandemlift import __version__
 from tandemlift.cli.render import render
 from tandemlift.cli.run import run, say
+from tandemlift.cli.validate import validate
 from tandemlift.errors import FlightWarning, InputError, suggestion
 
 BAD_INPUT = 2
@@ -50,6 +51,7 @@ def cli() -> None:
 
 cli.add_command(run)
 cli.add_command(render)
+cli.add_command(validate)
 
 
 def _print_table(rows: Mapping[str, str]) -> None:
