@@ -119,8 +119,8 @@ def _tare_watched(estimators, guidance, t):
 def _watched(k, m, readings, t, dt):
     clean, report, watching = watch(k.watchdog, m.watching, readings, predicted(k.estimators, m.remembered), dt)
     known, remembered = estimate_all(k.estimators, m.remembered, clean, t, dt)
-    state = at_best(known.state, clean, report, watching.rates)
-    return Checked(if_felt(known.push, report), state, known.payload, clean, report), WatchedMemory(watching, remembered)
+    push, state = if_felt(known.push, report), at_best(known.state, clean, report, watching.rates)
+    return Checked(push, state, known.payload, clean, report), WatchedMemory(watching, remembered)
 
 
 @usable.register(Checked)

@@ -87,7 +87,9 @@ def watched(mission: Mission, estimators: Any, memory: Any, readings: Any) -> tu
         forgets=min(interval / w.window, 1.0),
         attitude=w.attitude_gap,
         way=w.position_gap,
-        share=1.0 - math.exp(-w.turn_bandwidth * interval),
+        speed=w.speed_gap,
+        turn_share=1.0 - math.exp(-w.turn_bandwidth * interval),
+        way_share=1.0 - math.exp(-w.way_bandwidth * interval),
         per_interval=1.0 / interval,
     )
     return Watched(watchdog, estimators), WatchedMemory(start_watching(readings), memory)

@@ -31,6 +31,7 @@ FAULTS = (
     "turning too fast",
     "too far from the reference",
     "rotor lost",
+    "accelerometer disagrees with velocity",
 )
 CHECKS = (
     "unit not heard",
@@ -68,6 +69,7 @@ class Faults(NamedTuple):
     rates: Any
     error: Any
     rotor: Any
+    speed_apart: Any
 
 
 class Worst(NamedTuple):
@@ -103,6 +105,7 @@ def worst_of(f: Faults, r: Faults) -> Worst:
     w = worse(w, f.joints_apart, r.joints_apart, 90.0)
     w = worse(w, f.attitude_apart, r.attitude_apart, 100.0)
     w = worse(w, f.velocity_apart, r.velocity_apart, 110.0)
+    w = worse(w, f.speed_apart, r.speed_apart, 200.0)
     w = worse(w, f.rotor, r.rotor, 190.0)
     w = worse(w, f.tilt, r.tilt, 160.0)
     w = worse(w, f.rates, r.rates, 170.0)

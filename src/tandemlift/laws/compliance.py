@@ -18,7 +18,6 @@ from tandemlift.laws.lowpass import LowPass, Smoothed, smooth
 from tandemlift.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.vector import Vec3, dot
 
-
 QUIET = 2.0  # s
 FAINT = 0.3  # of the threshold: what is louder counts no more for the bias
 

@@ -14,7 +14,7 @@ from tandemlift.laws.compliance import Compliance, Compliant, comply, countered
 from tandemlift.laws.controllers.interface import Reference
 from tandemlift.laws.lowpass import LowPass, Smoothed, smooth
 from tandemlift.laws.observer import Unmodelled
-from tandemlift.laws.phases import Orders, Phase, Phasing, follow, later, more, orders_of, wants_lift
+from tandemlift.laws.phases import LAND, Orders, Phase, Phasing, follow, is_in, later, more, orders_of, wants_lift
 from tandemlift.laws.reference import Phases, reference
 from tandemlift.laws.requests import NOBODY, UNAWARE, Operator, Own, also, asked_until
 from tandemlift.laws.rotation import euler_from_quaternion, rotation_from_quaternion
@@ -230,9 +230,7 @@ def lifted(g: Guided, T: Trajectory, orders: Orders) -> Trajectory:
 
 
 @law
-def channels_of(
-    orders: Orders, compliant: Compliant, damping: Any, course: Course, supervised: Any
-) -> GuidedChannels:
+def channels_of(orders: Orders, compliant: Compliant, damping: Any, course: Course, supervised: Any) -> GuidedChannels:
     """What is shown of a step; `supervised`: of the supervision."""
     heard = compliant.heard.value - compliant.hearing.bias
     return GuidedChannels(orders.phase, heard, compliant.hearing.on, damping, course.rate, supervised)
@@ -265,7 +263,7 @@ def _guided(g, m, heard, unknown, t, dt):
     course, heading = turn(g.heading, m.heading, about, yaw, orders, dt)
     moment = smooth(g.moment, m.moment, heard.moment)
     motion = Trajectory(now.position, now.velocity, after.acceleration)
-    target = given_up(g.supervision, lifted(g, motion, orders), state, supervised.blind, orders.land.value)
+    target = given_up(g.supervision, lifted(g, motion, orders), state, supervised.blind, is_in(phase, LAND))
     shown, supervision = concluded(g.supervision, supervising, phase, target.position, t)
     guidance = Guidance(
         after.eased.value,

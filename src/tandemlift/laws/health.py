@@ -95,9 +95,7 @@ def judged(m: Health, fresh: Any, blank: Any, far: Any, alike: Any, dt: Any) -> 
     new = fresh > 0.0
     wrong = where(blank > 0.0, NO_NUMBER, where(far > 0.0, OUT_OF_RANGE, 0.0))
     bad = where(new, where(wrong > 0.0, 1.0, 0.0), 1.0)
-    return Health(
-        where(new, (m.same + 1.0) * alike, m.same), (m.silent + dt) * bad, where(new, wrong, m.wrong)
-    )
+    return Health(where(new, (m.same + 1.0) * alike, m.same), (m.silent + dt) * bad, where(new, wrong, m.wrong))
 
 
 @law

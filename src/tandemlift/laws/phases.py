@@ -60,7 +60,7 @@ class Phase(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """What supervision forbids or demands, 1 or 0: a lift, to listen; to land, to stop; to hold.
+    """What supervision allows, 1 or 0: a lift, to listen; what it demands: to hold, land, stop; 1 once landed.
 
     `deep` [m]: how much farther down a landing that begins now ends.
     """
@@ -70,6 +70,7 @@ class Bounds(NamedTuple):
     hold: Any
     land: Any
     stop: Any
+    landed: Any
     deep: Any
 
 
@@ -124,7 +125,7 @@ def next_phase(k: Phasing, m: Phase, asked: Asked, bounds: Bounds, lifts: Any, w
     listens = asked.enabled * bounds.clear * (1.0 - bounds.hold)
     demanded = maximum(maximum(wants_land, bounds.land), lift * bounds.hold)
     lands = (lift + is_in(m, GUIDED) + is_in(m, HOLD)) * demanded
-    landed = is_in(m, LAND) * where((t - m.since) * m.land_rate >= 1.0, 1.0, 0.0)
+    landed = is_in(m, LAND) * maximum(where((t - m.since) * m.land_rate >= 1.0, 1.0, 0.0), bounds.landed)
     phase = where(lifts > 0.0, LIFT, m.phase)
     phase = where(up > 0.0, where(listens > 0.0, GUIDED, HOLD), phase)
     phase = where(lands > 0.0, LAND, where(landed > 0.0, IDLE, phase))

@@ -22,8 +22,8 @@ class Operator(NamedTuple):
 class Own(NamedTuple):
     """What the pilot knows of its vehicle at a sample.
 
-    `rotor_lost` is 1 if one is found to be lost, else 0; `thrust` [N] of all rotors as allocated at the last sample, 0 if
-    that is not known; `blank` is 1 if the state that it is told has no numbers, else 0.
+    `rotor_lost` is 1 if one is found to be lost, else 0; `thrust` [N] of all rotors as allocated at the last sample, 0
+    if that is not known; `blank` is 1 if the state that it is told has no numbers, else 0.
     """
 
     rotor_lost: Any

@@ -90,7 +90,8 @@ def spoil_joints(f: SensorFault, x: Vec3, given: Vec3, size: Vec3, step: Any) ->
 @law
 def spoil_attitude(f: SensorFault, x: Quat, given: Quat, step: Any) -> Quat:
     """An attitude's reading under a fault."""
-    q, off = turned(x, f.size * f.keep), f.size.x * (1.0 - f.keep)
+    off = f.size.x * (1.0 - f.keep)
+    q = turned(x, f.size * (f.keep * during(f.start, f.end, step)))
     return Quat(
         spoiled(q.w, given.w, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
         spoiled(q.x, given.x, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
@@ -174,7 +175,9 @@ def together(faults: list[SensorFault]) -> SensorFault:
     """The faults of all joints as one, of sets."""
     cls = each(len(faults))
     size = Vec3(*[cls(*[f.size[i] for f in faults]) for i in range(3)])
-    start, end, frozen, keep, _, poison = (cls(*column) for column in zip(*[f._replace(size=0.0) for f in faults]))
+    start, end, frozen, keep, poison = (
+        cls(*[getattr(f, name) for f in faults]) for name in ("start", "end", "frozen", "keep", "poison")
+    )
     return SensorFault(start, end, frozen, keep, size, poison)
 
 

@@ -43,16 +43,16 @@ class Sound(NamedTuple):
 
 
 @law
-def reacted(k: Supervision, m: Supervising, w: Worst, timers: Timers, state: State, flying: Any, dt: Any) -> Supervising:
-    """The memory with the worst fault of now; `flying` is 1 in flight, else 0."""
+def reacted(k: Supervision, m: Supervising, w: Worst, timers: Timers, state: State, idle: Any, dt: Any) -> Supervising:
+    """The memory with the worst fault of now; `idle` is 1 on the ground, else 0."""
     raised = where(w.reaction > m.reaction, 1.0, 0.0)
     well = where(w.reaction > 0.0, 0.0, m.well + dt)
-    over = where(well < k.calm, 0.0, where(m.reaction > HOLDS, 1.0 - flying, 1.0))
+    over = where(well < k.calm, 0.0, where(m.reaction > HOLDS, idle, 1.0))
     reaction = where(raised > 0.0, w.reaction, m.reaction * (1.0 - over))
     alarm = where(raised > 0.0, w.alarm, m.alarm * (1.0 - over))
-    held = (m.held + dt) * flying * where(reaction == HOLDS, 1.0, 0.0)
+    held = (m.held + dt) * (1.0 - idle) * where(reaction == HOLDS, 1.0, 0.0)
     reaction = where(held > k.patience, maximum(reaction, LANDS), reaction)
-    return Supervising(reaction, alarm, held, well, timers, state, m.reference, m.refused, m.events)
+    return Supervising(reaction, alarm, held, well, timers, state, m.reference, m.refused, m.deaf, m.events)
 
 
 @choice
@@ -70,19 +70,18 @@ def _supervised(k, m, heard, phase, wants, t, dt):
     state, own, senses = heard.state, heard.own, senses_of(heard.sensed, k.payload)
     most = total(k.limits * efficiency_at(k.known, t))
     timers = timed(k, m, senses, state, own.thrust / maximum(most, 1e-9), phase.phase, dt)
-    grounded = where(phase.phase == IDLE, 1.0, where(phase.phase == STOPPED, 1.0, 0.0))
+    idle = where(phase.phase == IDLE, 1.0, 0.0)
+    grounded = maximum(idle, where(phase.phase == STOPPED, 1.0, 0.0))
     faults = faults_of(k, senses, timers, state, own, phase.phase)
-    after = reacted(k, m, worst_of(faults, k.reactions), timers, state, 1.0 - grounded, dt)
+    after = reacted(k, m, worst_of(faults, k.reactions), timers, state, idle, dt)
     refused = refusal_to_lift(k, senses, state, own, most), refusal_to_listen(k, senses)
-    waits = where(phase.phase == HOLD, where(after.reaction > 0.0, 0.0, 1.0), 0.0)
-    now = where(wants > 0.0, refused[0], refused[1] * waits)
-    return bounds_of(k, senses, after, refused, grounded), with_refusal(after, now)
+    return bounds_of(k, senses, after, refused, grounded), with_refusals(after, refused[0] * wants, refused[1])
 
 
 @law
-def with_refusal(m: Supervising, refused: Any) -> Supervising:
-    """The memory with the check that refuses."""
-    return Supervising(m.reaction, m.alarm, m.held, m.well, m.timers, m.state, m.reference, refused, m.events)
+def with_refusals(m: Supervising, refused: Any, deaf: Any) -> Supervising:
+    """The memory with the checks that refuse to lift, and to listen."""
+    return Supervising(m.reaction, m.alarm, m.held, m.well, m.timers, m.state, m.reference, refused, deaf, m.events)
 
 
 @elementwise
@@ -120,9 +119,11 @@ def _nothing_to_conclude(k, m, phase, reference, t):
 
 @concluded.register(Supervision)
 def _concluded(k, m, phase, reference, t):
-    events = recorded(k, m.events, phase.phase, m.alarm, m.refused, t)
-    after = Supervising(m.reaction, m.alarm, m.held, m.well, m.timers, m.state, reference, m.refused, events)
-    return SupervisedChannels(m.alarm, m.refused), after
+    waits = where(phase.phase == HOLD, where(m.reaction > 0.0, 0.0, m.deaf), 0.0)
+    refused = where(phase.phase == IDLE, m.refused, waits)
+    events = recorded(k, m.events, phase.phase, m.alarm, refused, t)
+    after = Supervising(m.reaction, m.alarm, m.held, m.well, m.timers, m.state, reference, m.refused, m.deaf, events)
+    return SupervisedChannels(m.alarm, refused), after
 
 
 @choice
@@ -173,19 +174,19 @@ def _fenced(k, compliance, m, up):
 
 
 @choice
-def given_up(k: Any, target: Trajectory, state: State, blind: Any, land: Any) -> Any:
-    """The reference of a vehicle that knows nothing of its motion (`blind` 1): level, and a little less than hover."""
+def given_up(k: Any, target: Trajectory, state: State, blind: Any, lands: Any) -> Any:
+    """The reference; that of a vehicle `blind` to its motion (1): level, and less than hover as it `lands` (1)."""
 
 
 @given_up.register(Nothing)
-def _never_given_up(k, target, state, blind, land):
+def _never_given_up(k, target, state, blind, lands):
     return target
 
 
 @given_up.register(Supervision)
-def _given_up(k, target, state, blind, land):
+def _given_up(k, target, state, blind, lands):
     return Trajectory(
         chosen(blind, state.position, target.position),
         chosen(blind, state.velocity, target.velocity),
-        chosen(blind, Vec3(0.0, 0.0, -k.sinking * land), target.acceleration),
+        chosen(blind, Vec3(0.0, 0.0, -k.sinking * lands), target.acceleration),
     )

@@ -1,9 +1,9 @@
 """Supervision of a flight by hand: checks before a lift and before a hand is listened to, limits, and reactions.
 
-The checks: `refusal_to_lift`, `refusal_to_listen`. The limits: a fence about the vehicle, the share of its thrust, tilt,
-rates, distance from the reference. What the watchdogs report and what leaves a limit are the faults; each calls for a
-reaction: to hold the position and not to listen, to land, to stop the rotors. A hold ends when all has been well for a
-time, or in a landing when it has lasted too long; a landing and a stop are not taken back.
+The checks: `refusal_to_lift`, `refusal_to_listen`. The limits: a fence about the vehicle, the share of its thrust,
+tilt, rates, distance from the reference. What the watchdogs report and what leaves a limit are the faults; each calls
+for a reaction: to hold the position and not to listen, to land, to stop the rotors. A hold ends when all has been well
+for a time, or in a landing when it has lasted too long; a landing and a stop are not taken back.
 """
 
 from typing import Any, NamedTuple
@@ -12,13 +12,12 @@ from tandemlift.constants import GRAVITY
 from tandemlift.law import choice, law
 from tandemlift.laws.alarms import HOLDS, LANDS, STOPS, Faults
 from tandemlift.laws.body import State
-from tandemlift.laws.phases import GUIDED, HOLD, IDLE, LAND, STOPPED, Bounds, Phase
+from tandemlift.laws.phases import GUIDED, HOLD, IDLE, LAND, STOPPED, Bounds
 from tandemlift.laws.requests import Own
 from tandemlift.laws.rotation import body_z_axis
-from tandemlift.laws.rotors import efficiency_at
 from tandemlift.laws.watchdog import WELL, Report
 from tandemlift.ops import maximum, where
-from tandemlift.vector import Nothing, Vec3, dot, total
+from tandemlift.vector import Nothing, Vec3, dot
 
 
 class Checks(NamedTuple):
@@ -70,7 +69,8 @@ class Supervision(NamedTuple):
     Masses as believed [kg]; the rotors' limits [N] and the faults that are known of them; `reactions` to each fault. A
     hold lasts at most `patience` [s] and ends once all has been well for `calm` [s]. `deeper` [m]: how much farther
     down a landing ends that cannot know its height; `sinking` [m/s²]: how one begins that knows no motion at all.
-    `slots`: numbers of the events, from 0, a set.
+    `touch` [m]: how far above a landing's reference it stands on something. `slots`: numbers of the events, from 0, a
+    set.
     """
 
     mass: Any
@@ -85,17 +85,19 @@ class Supervision(NamedTuple):
     calm: Any
     deeper: Any
     sinking: Any
+    touch: Any
     slots: Any
 
 
 class Timers(NamedTuple):
-    """For how long each limit has been left [s]."""
+    """For how long each limit has been left, and a landing has been stuck [s]."""
 
     apart: Any
     thrust: Any
     tilt: Any
     rates: Any
     error: Any
+    stuck: Any
 
 
 class Events(NamedTuple):
@@ -111,7 +113,7 @@ class Events(NamedTuple):
 class Supervising(NamedTuple):
     """Memory: reaction and alarm, how long it has held and been well [s], timers, the last sound state and reference.
 
-    `refused`: the number of the check that refuses (`alarms.CHECKS`, from 1), 0 for none.
+    `refused` and `deaf`: the number of the check that refuses to lift, and to listen (`alarms.CHECKS`, from 1), or 0.
     """
 
     reaction: Any
@@ -122,6 +124,7 @@ class Supervising(NamedTuple):
     state: State
     reference: Vec3
     refused: Any
+    deaf: Any
     events: Events
 
 
@@ -148,7 +151,8 @@ class SupervisedChannels(NamedTuple):
     refused: Any
 
 
-FREE = Supervised(Bounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0), 0.0)
+FREE = Supervised(Bounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0)
+STUCK = 0.2  # s
 
 
 @choice
@@ -220,7 +224,8 @@ def timed(k: Supervision, m: Supervising, s: Senses, state: State, share: Any, p
     """For how long limits have been left; those of flight only in flight, thrust and distance not while it lands."""
     b, t = k.bounds, m.timers
     flying = where(phase == IDLE, 0.0, where(phase == STOPPED, 0.0, 1.0))
-    aloft = flying * where(phase == LAND, 0.0, 1.0)
+    landing = where(phase == LAND, 1.0, 0.0)
+    aloft = flying * (1.0 - landing)
     off = m.reference - state.position
     return Timers(
         lasting(t.apart, s.apart, dt),
@@ -228,6 +233,7 @@ def timed(k: Supervision, m: Supervising, s: Senses, state: State, share: Any, p
         lasting(t.tilt, flying * where(body_z_axis(state.attitude).z < b.upright, 1.0, 0.0), dt),
         lasting(t.rates, flying * where(dot(state.rates, state.rates) > b.rates * b.rates, 1.0, 0.0), dt),
         lasting(t.error, aloft * where(dot(off, off) > b.error * b.error, 1.0, 0.0), dt),
+        lasting(t.stuck, landing * where(-off.z > k.touch, 1.0, 0.0), dt),
     )
 
 
@@ -257,6 +263,7 @@ def faults_of(k: Supervision, s: Senses, timers: Timers, state: State, own: Own,
         rates=too_long(timers.rates, b.rates_time),
         error=too_long(timers.error, b.error_time),
         rotor=own.rotor_lost,
+        speed_apart=r.speed_apart,
     )
 
 
@@ -273,6 +280,7 @@ def bounds_of(k: Supervision, s: Senses, m: Supervising, refused: Any, grounded:
             hold=where(m.reaction >= HOLDS, 1.0, 0.0),
             land=where(m.reaction >= LANDS, flying, 0.0),
             stop=where(m.reaction >= STOPS, flying, 0.0),
+            landed=too_long(m.timers.stuck, STUCK),
             deep=k.deeper * unknown,
         ),
         unmoved,

@@ -4,11 +4,14 @@ A sensor's sample is good if it is fresh, finite and within its range. What is n
 good value stands in its place or, in the motion measurement, what the navigator predicts. A sensor is *lost* once its
 samples were not good for a time, or were exactly alike too often although noise is expected, or its device has sent
 nothing for a time. For a lost accelerometer stands that of a vehicle that does not accelerate; for a lost gyroscope,
-how fast the measured attitude turns, low-passed.
+how fast the measured attitude turns, and for a lost velocity, how fast the position changes, low-passed. Where the
+navigator must go on without the motion measurement, it does so with the mean of the biases that it has found, which is
+quieter than their last value.
 
-Two measurements that should tell the same are compared over a window: the turn that the gyroscope and the attitude
-tell of, and the way that velocity and position do. With ε what they differ by from one motion sample to the next,
-d ← λ d + ε forgets over the window τ = T / (1 − λ): a jump shows as it is, a constant error b as b τ.
+Measurements that should tell the same are compared over a window: the turn that gyroscope and attitude tell of, the way
+that velocity and position do, the speed that accelerometer and velocity do. With ε what they differ by from one motion
+sample to the next, d ← λ d + ε forgets over the window τ = T / (1 − λ): a jump shows as it is, a constant error b as
+b τ.
 """
 
 from typing import Any, NamedTuple
@@ -21,15 +24,17 @@ from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.laws.sensing import Motion, Readings, Unit
 from tandemlift.laws.sensor_faults import chosen, chosen_attitude
 from tandemlift.laws.turns import turn_left, turned
-from tandemlift.ops import maximum, where
-from tandemlift.vector import ZERO, Quat, Vec3, apply_transposed, dot
+from tandemlift.ops import clip, maximum, where
+from tandemlift.vector import ZERO, Quat, Vec3, apply, apply_transposed, dot
+
+EARLY, LONG = 2.0, 5.0  # s: before biases are looked at, and over which their mean is taken
 
 
 class Watchdog(NamedTuple):
     """Limits: no fresh sample for `stale` [s], none good for `invalid` [s]; `forgets` is 1 − λ.
 
-    `attitude` [rad] and `way` [m]: by how much measurements may differ. `share` of a new turn in the rates from it, and
-    one over the time between motion samples [1/s].
+    `attitude` [rad], `way` [m] and `speed` [m/s]: by how much measurements may differ. `turn_share` of a new turn in
+    the rates from it, `way_share` of a new way in the velocity, and one over the time between motion samples [1/s].
     """
 
     stale: Any
@@ -39,21 +44,36 @@ class Watchdog(NamedTuple):
     forgets: Any
     attitude: Any
     way: Any
-    share: Any
+    speed: Any
+    turn_share: Any
+    way_share: Any
     per_interval: Any
 
 
 class Apart(NamedTuple):
-    """Memory of what two measurements differ by: attitude [rad, body axes] and way [m]; what the first says since."""
+    """Memory of what measurements differ by: attitude [rad, body axes], way [m], speed [m/s]; what one tells since."""
 
     attitude: Vec3
     way: Vec3
+    speed: Vec3
     turned: Quat
     reached: Vec3
+    gained: Vec3
+
+
+class Biases(NamedTuple):
+    """Mean of the biases [rad/s, m/s²], and how long they have been looked at, less `EARLY` [s]."""
+
+    gyroscope: Vec3
+    accelerometer: Vec3
+    time: Any
 
 
 class Watching(NamedTuple):
-    """Memory: readings as last given and as last found good, ages of both devices [s], 1 once both were heard."""
+    """Memory: readings as last given and as last found good, ages of both devices [s], 1 once each was heard.
+
+    The rates as they are believed, the velocity as the position tells it, and means of the navigator's biases.
+    """
 
     last: Readings
     good: Readings
@@ -63,6 +83,8 @@ class Watching(NamedTuple):
     unit_seen: Any
     motion_seen: Any
     rates: Vec3
+    velocity: Vec3
+    mean: Biases
     apart: Apart
 
 
@@ -82,10 +104,11 @@ class Report(NamedTuple):
     attitude: Any
     attitude_apart: Any
     velocity_apart: Any
+    speed_apart: Any
     seen: Any
 
 
-WELL = Report(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+WELL = Report(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 class Predicted(NamedTuple):
@@ -99,7 +122,8 @@ class Predicted(NamedTuple):
 @law
 def wrong_with(k: Watchdog, h: Health, alike: Any) -> Any:
     """What is wrong with a sensor for too long (`KINDS`), or 0."""
-    return where(h.same >= alike, FROZEN, where(h.silent >= k.invalid, h.wrong, 0.0))
+    bad = where(h.silent >= k.invalid, h.wrong, 0.0)
+    return where(h.wrong > 0.0, bad, where(h.same >= alike, FROZEN, 0.0))
 
 
 @law
@@ -117,12 +141,15 @@ def kept_unit(good: Unit, u: Unit, h: Healths) -> Unit:
 
 
 @law
-def replaced_unit(u: Unit, r: Report, rates: Vec3, p: Predicted) -> Unit:
-    """A unit's sample in which something stands for lost sensors."""
+def replaced_unit(u: Unit, r: Report, rates: Vec3, p: Predicted, mean: Biases) -> Unit:
+    """A unit's sample in which something stands for lost sensors, and for biases that are no longer corrected."""
     still = apply_transposed(rotation_from_quaternion(p.state.attitude), UP * GRAVITY) + p.accelerometer_bias
+    turns, moves = maximum(r.motion, r.attitude), maximum(r.motion, maximum(r.position, r.velocity))
+    force = u.specific_force + chosen(moves, p.accelerometer_bias - mean.accelerometer, ZERO)
+    turning = u.rates + chosen(turns, p.gyroscope_bias - mean.gyroscope, ZERO)
     return Unit(
-        chosen(maximum(r.accelerometer, r.unit), still, u.specific_force),
-        chosen(maximum(r.gyroscope, r.unit), rates + p.gyroscope_bias, u.rates),
+        chosen(maximum(r.accelerometer, r.unit), still, force),
+        chosen(maximum(r.gyroscope, r.unit), rates + p.gyroscope_bias, turning),
         u.joint_force,
         u.joint_torque,
         u.frame,
@@ -131,15 +158,15 @@ def replaced_unit(u: Unit, r: Report, rates: Vec3, p: Predicted) -> Unit:
 
 
 @law
-def replaced_motion(v: Motion, h: Healths, r: Report, p: Predicted) -> Motion:
-    """A motion sample in which what is predicted stands for what is not good or lost."""
+def replaced_motion(v: Motion, h: Healths, r: Report, velocity: Vec3, p: Predicted) -> Motion:
+    """A motion sample in which what is predicted stands for what is not good or lost; `velocity`: from the position."""
     position = maximum(maximum(r.position, h.position.wrong), r.motion)
-    velocity = maximum(maximum(r.velocity, h.velocity.wrong), r.motion)
+    blurred = maximum(maximum(r.velocity, h.velocity.wrong), r.motion)
     attitude = maximum(maximum(r.attitude, h.attitude.wrong), r.motion)
-    left = where(position > 0.0, where(velocity > 0.0, where(attitude > 0.0, 0.0, 1.0), 1.0), 1.0)
+    left = where(position > 0.0, where(blurred > 0.0, where(attitude > 0.0, 0.0, 1.0), 1.0), 1.0)
     return Motion(
         chosen(position, p.state.position, v.position),
-        chosen(velocity, p.state.velocity, v.velocity),
+        chosen(blurred, chosen(position, p.state.velocity, velocity), v.velocity),
         chosen_attitude(attitude, p.state.attitude, v.attitude),
         v.fresh * left,
     )
@@ -149,14 +176,18 @@ def replaced_motion(v: Motion, h: Healths, r: Report, p: Predicted) -> Motion:
 def apart_after(k: Watchdog, m: Apart, u: Unit, v: Motion, lost: Any, dt: Any) -> Apart:
     """What measurements differ by, with a sample; `lost` is 1 if one of them is, and nothing is compared."""
     so_far, reached = turned(m.turned, u.rates * dt), m.reached + v.velocity * dt
+    pull = apply(rotation_from_quaternion(v.attitude), u.specific_force) - UP * GRAVITY
+    gained = m.gained + pull * dt
     new, none = v.fresh, maximum(v.fresh, lost)
     keep = (1.0 - k.forgets * new) * (1.0 - lost)
     taken = new * (1.0 - lost)
     return Apart(
         m.attitude * keep + turn_left(so_far, v.attitude) * taken,
         m.way * keep + (v.position - reached) * taken,
+        m.speed * keep + (v.velocity - gained) * taken,
         chosen_attitude(none, v.attitude, so_far),
         chosen(none, v.position, reached),
+        chosen(none, v.velocity, gained),
     )
 
 
@@ -174,6 +205,7 @@ def reported(k: Watchdog, h: Healths, unit_age: Any, motion_age: Any, seen: Any,
         wrong_with(k, h.attitude, k.alike.attitude),
         where(dot(apart.attitude, apart.attitude) > k.attitude * k.attitude, 1.0, 0.0),
         where(dot(apart.way, apart.way) > k.way * k.way, 1.0, 0.0),
+        where(dot(apart.speed, apart.speed) > k.speed * k.speed, 1.0, 0.0),
         seen,
     )
 
@@ -182,19 +214,42 @@ def reported(k: Watchdog, h: Healths, unit_age: Any, motion_age: Any, seen: Any,
 def turning_of(k: Watchdog, m: Watching, u: Unit, attitude: Quat, fresh: Any, heard: Any, p: Predicted) -> Vec3:
     """The rates [rad/s]: of the gyroscope while it is `heard` (1), else as the measured attitude turns."""
     seen = turn_left(m.good.motion.attitude, attitude) * k.per_interval
-    return chosen(heard, u.rates - p.gyroscope_bias, m.rates + (seen - m.rates) * (k.share * fresh))
+    return chosen(heard, u.rates - p.gyroscope_bias, m.rates + (seen - m.rates) * (k.turn_share * fresh))
+
+
+@law
+def velocity_of(k: Watchdog, m: Watching, v: Motion, h: Healths, r: Report) -> Vec3:
+    """The velocity [m/s]: as measured while that is well, else as the position changes."""
+    well = passing(h.velocity) * where(r.velocity > 0.0, 0.0, 1.0)
+    position = chosen(passing(h.position), v.position, m.good.motion.position)
+    seen = (position - m.good.motion.position) * k.per_interval
+    return chosen(well, v.velocity, m.velocity + (seen - m.velocity) * (k.way_share * v.fresh * passing(h.position)))
+
+
+@law
+def mean_of(m: Biases, p: Predicted, wrong: Any, dt: Any) -> Biases:
+    """The mean of the biases, with what the navigator has found now unless something is wrong (1)."""
+    time = m.time + dt * (1.0 - wrong)
+    share = dt / clip(time, dt, LONG) * (1.0 - wrong)
+    return Biases(
+        m.gyroscope + (p.gyroscope_bias - m.gyroscope) * share,
+        m.accelerometer + (p.accelerometer_bias - m.accelerometer) * share,
+        time,
+    )
 
 
 @law
 def any_wrong(h: Healths) -> Any:
     """1 if any of what is compared was not good in its last sample, else 0."""
-    return 1.0 - passing(h.gyroscope) * passing(h.attitude) * passing(h.position) * passing(h.velocity)
+    motion = passing(h.attitude) * passing(h.position) * passing(h.velocity)
+    return 1.0 - passing(h.gyroscope) * passing(h.accelerometer) * motion
 
 
 @law
 def any_lost(r: Report) -> Any:
     """1 if any of what is compared is lost, else 0."""
-    return where(r.unit + r.motion + r.gyroscope + r.attitude + r.position + r.velocity > 0.0, 1.0, 0.0)
+    unit = r.unit + r.gyroscope + r.accelerometer
+    return where(unit + r.motion + r.attitude + r.position + r.velocity > 0.0, 1.0, 0.0)
 
 
 @law
@@ -208,10 +263,13 @@ def watch(k: Watchdog, m: Watching, readings: Readings, p: Predicted, dt: Any) -
     seen_attitude = chosen_attitude(attitude, v.attitude, m.good.motion.attitude)
     heard = where(before.gyroscope + before.unit > 0.0, 0.0, 1.0)
     rates = turning_of(k, m, kept, seen_attitude, v.fresh * attitude, heard, p)
-    unit, motion = replaced_unit(kept, before, rates, p), replaced_motion(v, health, before, p)
-    apart = apart_after(k, m.apart, unit, motion, maximum(any_wrong(health), any_lost(before)), dt)
-    good = Readings(kept, Motion(motion.position, motion.velocity, seen_attitude, motion.fresh))
-    after = Watching(readings, good, health, unit_age, motion_age, seen[0], seen[1], rates, apart)
+    wrong, velocity = maximum(any_wrong(health), any_lost(before)), velocity_of(k, m, v, health, before)
+    mean = mean_of(m.mean, p, wrong, dt)
+    unit, motion = replaced_unit(kept, before, rates, p, mean), replaced_motion(v, health, before, velocity, p)
+    apart = apart_after(k, m.apart, unit, motion, wrong, dt)
+    position = chosen(passing(health.position), v.position, m.good.motion.position)
+    good = Readings(kept, Motion(position, motion.velocity, seen_attitude, motion.fresh))
+    after = Watching(readings, good, health, unit_age, motion_age, seen[0], seen[1], rates, velocity, mean, apart)
     report = reported(k, health, unit_age, motion_age, seen[0] * seen[1], apart)
     return Readings(unit, motion), report, after
 
@@ -220,8 +278,8 @@ def start_watching(readings: Readings) -> Watching:
     """The memory before the first step, in which both devices say `readings`, not fresh."""
     none, v = Health(0.0, 0.0, 0.0), readings.motion
     health = Healths(none, none, none, none, none, none)
-    apart = Apart(ZERO, ZERO, v.attitude, v.position)
-    return Watching(readings, readings, health, 0.0, 0.0, 0.0, 0.0, ZERO, apart)
+    apart, mean = Apart(ZERO, ZERO, ZERO, v.attitude, v.position, v.velocity), Biases(ZERO, ZERO, -EARLY)
+    return Watching(readings, readings, health, 0.0, 0.0, 0.0, 0.0, ZERO, v.velocity, mean, apart)
 
 
 @law

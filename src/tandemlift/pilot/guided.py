@@ -75,9 +75,7 @@ def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     return turning, Heading(STILL, Hearing(0.0, 0.0, 0.0, 0.0), STILL, start, 0.0, 0.0)
 
 
-def start_guided(
-    mission: Mission, vehicle: Vehicle, admittance: Admittance, known: Any
-) -> tuple[Guided, GuidedMemory]:
+def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance, known: Any) -> tuple[Guided, GuidedMemory]:
     """The guidance by hand of a mission before its first sample, and its memory; `known`: faults of rotors."""
     c = mission.compliance
     supervision, supervising = start_supervision(mission, vehicle, known)

@@ -88,9 +88,10 @@ def start_supervision(mission: Mission, vehicle: Vehicle, known: Any) -> tuple[A
         calm=s.calm,
         deeper=s.deeper,
         sinking=s.sinking,
+        touch=s.touch,
         slots=slots(*map(float, range(SLOTS))),
     )
     at, empty = Vec3(*i.position), slots(*(0.0,) * SLOTS)
     state = State(at, vec3(i.velocity), quaternion_from_euler(vec3(i.euler)), vec3(i.rates))
-    timers, events = Timers(0.0, 0.0, 0.0, 0.0, 0.0), Events(empty, empty, 0.0, 0.0, 0.0)
-    return supervision, Supervising(0.0, 0.0, 0.0, 0.0, timers, state, at, 0.0, events)
+    timers, events = Timers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Events(empty, empty, 0.0, 0.0, 0.0)
+    return supervision, Supervising(0.0, 0.0, 0.0, 0.0, timers, state, at, 0.0, 0.0, events)

@@ -41,8 +41,10 @@ class WatchTable(Table):
     window: Positive = 0.5  # s, over which measurements are compared
     attitude_gap: Positive = 0.1  # rad, between attitude and gyroscope
     position_gap: Positive = 0.1  # m, between position and velocity
+    speed_gap: Positive = 0.3  # m/s, between velocity and accelerometer
     joints_time: NonNegative = 0.1  # s, for which joints may disagree
     turn_bandwidth: Positive = 60.0  # rad/s, of rates from the attitude, for a lost gyroscope
+    way_bandwidth: Positive = 10.0  # rad/s, of velocity from the position, for a lost velocity
 
 
 class FenceTable(Table):
@@ -81,6 +83,7 @@ class ReactionsTable(Table):
     joints_apart: Reaction = "hold"
     attitude_apart: Reaction = "land"
     velocity_apart: Reaction = "land"
+    speed_apart: Reaction = "land"
     state: Reaction = "stop"
     orientation: Reaction = "stop"
     fence: Reaction = "hold"
@@ -98,6 +101,7 @@ class SupervisionTable(Table):
     patience: Positive = 5.0  # s, that a fault may hold before it lands
     calm: Positive = 1.0  # s, without a fault before a hold ends
     deeper: NonNegative = 0.5  # m, farther down, where a landing ends that does not know its height
+    touch: Positive = 0.12  # m, above its reference, of a landing that stands on something
     sinking: NonNegative = 0.2  # m/s2, of one that knows nothing of its motion
     checks: ChecksTable = ChecksTable()
     watch: WatchTable = WatchTable()
