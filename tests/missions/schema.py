@@ -25,6 +25,9 @@ def next_table(table, part):
 EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and all that is left out by default
     "faults": [{"quadrotor": 1, "rotor": 1, "time": 60.0}],
     "wind": {"model": "air", "gusts": [{"velocity": [1.0, 0.0, 0.0], "start": 15.0, "rise": 1.0}]},
+    "pilot": {"guidance": "hand"},
+    "requests": [{"time": 60.0, "action": "land"}],
+    "sensor_faults": [{"sensor": "joints", "quadrotor": 1, "kind": "bias", "time": 60.0, "until": 61.0}],
     "walls": [{"start": [20.0, -3.0], "end": [20.0, 3.0]}],
 }
 SCHEMA = dict(reversed(list(schema_keys())))  # of `controller.name`, what every mission asks for

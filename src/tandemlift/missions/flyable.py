@@ -11,6 +11,7 @@ import numpy as np
 from tandemlift.errors import FlightWarning, InputError
 from tandemlift.missions.equipment import check_equipment, doubts_of_equipment
 from tandemlift.missions.explain import shown
+from tandemlift.missions.supervised import check_supervised
 from tandemlift.missions.surroundings import check_surroundings, doubts_of_surroundings
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
@@ -32,6 +33,7 @@ def check_flyable(m: Mission) -> None:
     _check_admittance(m)
     check_equipment(m)
     check_surroundings(m)
+    check_supervised(m)
 
 
 def row_of(m: Mission) -> int:
