@@ -113,7 +113,11 @@ class Pilot:
             given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
             raise InputError(f"measurement is {given}: must be a float64 array of shape {SHAPE}")
         heard = self._heard
-        heard[:16], heard[16:19], heard[19:23] = measurement, 0.0 if moment is None else moment, (land, lift, stop, enabled)
+        heard[:16], heard[16:19], heard[19:23] = (
+            measurement,
+            0.0 if moment is None else moment,
+            (land, lift, stop, enabled),
+        )
         self._sample(self._numbers, heard, self.thrusts, self._scratch)
         return self.thrusts
 

@@ -116,7 +116,9 @@ def test_a_stop_ends_every_phase_for_good(phase):
     assert m.phase == STOPPED
 
 
-@pytest.mark.parametrize(("bounds", "expected"), [({"hold": 1.0}, "hold"), ({"land": 1.0}, "land"), ({"stop": 1.0}, "stopped")])
+@pytest.mark.parametrize(
+    ("bounds", "expected"), [({"hold": 1.0}, "hold"), ({"land": 1.0}, "land"), ({"stop": 1.0}, "stopped")]
+)
 def test_a_reaction_leads_to_its_phase(bounds, expected):
     story, _, _ = flown(5.0, bounds=lambda t: FREE._replace(**bounds) if t >= 4.0 else FREE)
     assert story[2] == (4.0, expected)

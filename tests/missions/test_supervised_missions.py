@@ -19,7 +19,10 @@ FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
         ({"requests": [{"time": 1.0, "action": "land"}]}, 'requests.0.action = "land": must be left out'),
         ({"estimator.tare": "hover"}, 'estimator.tare = "hover": must be "clock"'),
         ({**BY_HAND, "requests": [{"time": 1.0, "action": "jump"}]}, 'requests.0.action = "jump": must be'),
-        ({"sensors.model": "none", "pilot": {"state": "truth", "push": "truth"}, "sensor_faults": [FROZEN]}, "sensors.model"),
+        (
+            {"sensors.model": "none", "pilot": {"state": "truth", "push": "truth"}, "sensor_faults": [FROZEN]},
+            "sensors.model",
+        ),
         ({"sensor_faults": [FROZEN, FROZEN]}, "fails already in sensor_faults.0"),
         ({"sensor_faults": [FROZEN, {**FROZEN, "sensor": "unit", "kind": "nan"}]}, "fails already in sensor_faults.0"),
         ({"sensor_faults": [{**FROZEN, "kind": "stale"}]}, "must be of a device"),
@@ -40,7 +43,11 @@ def test_what_cannot_be_is_refused(changes, message):
 
 def test_two_joints_may_fail_each_on_its_own_and_a_device_be_silent_besides():
     joint = {"sensor": "joints", "kind": "frozen", "time": 5.0}
-    faults = [{**joint, "quadrotor": 1}, {**joint, "quadrotor": 2, "time": 6.0}, {**FROZEN, "sensor": "unit", "kind": "stale"}]
+    faults = [
+        {**joint, "quadrotor": 1},
+        {**joint, "quadrotor": 2, "time": 6.0},
+        {**FROZEN, "sensor": "unit", "kind": "stale"},
+    ]
     assert len(load_mission("iris", {"sensor_faults": faults}).sensor_faults) == 3
 
 

@@ -40,8 +40,8 @@ def with_faults(mission: Mission, devices: Any, sensing: Any) -> tuple[Any, Any]
     if not mission.sensor_faults or not isinstance(sensing, Sensing):
         return devices, sensing
     step, count = mission.mission.step, len(mission.vehicle.quadrotors)
-    silence = {name: Silence(NEVER, NEVER) for name in ON}
-    faults: dict[str, SensorFault] = dict.fromkeys((*ON["unit"], *ON["motion"]), SOUND)
+    silence: dict[str, Any] = {name: Silence(NEVER, NEVER) for name in ON}
+    faults: dict[str, Any] = dict.fromkeys((*ON["unit"], *ON["motion"]), SOUND)
     joints = [SOUND] * count
     for f in mission.sensor_faults:
         if f.kind == "stale":
@@ -53,7 +53,7 @@ def with_faults(mission: Mission, devices: Any, sensing: Any) -> tuple[Any, Any]
                 joints = [faults[name] if f.quadrotor in (None, i) else old for i, old in enumerate(joints, 1)]
     faults["joints"] = together(joints)
     memory = FailingMemory(sensing, Spoiling(sensing.readings, 0.0))
-    return Failing(devices, SensorFaults(**silence, **faults)), memory
+    return Failing(devices, SensorFaults(**faults, **silence)), memory
 
 
 def _alike(mission: Mission) -> Alike:

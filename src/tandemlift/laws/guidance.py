@@ -263,7 +263,9 @@ def _guided(g, m, heard, unknown, t, dt):
     course, heading = turn(g.heading, m.heading, about, yaw, orders, dt)
     moment = smooth(g.moment, m.moment, heard.moment)
     motion = Trajectory(now.position, now.velocity, after.acceleration)
-    target = given_up(g.supervision, lifted(g, motion, orders), state, supervised.blind, is_in(phase, LAND))
+    target = given_up(
+        g.supervision, lifted(g, motion, orders), state, supervised.blind, is_in(phase, LAND), orders.land.value
+    )
     shown, supervision = concluded(g.supervision, supervising, phase, target.position, t)
     guidance = Guidance(
         after.eased.value,

@@ -30,6 +30,7 @@ from tandemlift.laws.watchdog import unsound
 from tandemlift.ops import clip, maximum, where
 from tandemlift.vector import ZERO, Nothing, Vec3, total
 
+PRESSING = 8.0
 PHASE, ALARM = 1e6, 1e2  # of the numbers in the code of an event: phase, alarm, check that refuses
 
 
@@ -69,12 +70,12 @@ def _unsupervised(k, m, heard, phase, wants, t, dt):
 def _supervised(k, m, heard, phase, wants, t, dt):
     state, own, senses = heard.state, heard.own, senses_of(heard.sensed, k.payload)
     most = total(k.limits * efficiency_at(k.known, t))
-    timers = timed(k, m, senses, state, own.thrust / maximum(most, 1e-9), phase.phase, dt)
+    timers = timed(k, m, senses, state, own, own.thrust / maximum(most, 1e-9), phase.phase, dt)
     idle = where(phase.phase == IDLE, 1.0, 0.0)
     grounded = maximum(idle, where(phase.phase == STOPPED, 1.0, 0.0))
     faults = faults_of(k, senses, timers, state, own, phase.phase)
     after = reacted(k, m, worst_of(faults, k.reactions), timers, state, idle, dt)
-    refused = refusal_to_lift(k, senses, state, own, most), refusal_to_listen(k, senses)
+    refused = refusal_to_lift(k, senses, state, own, after.reaction, most), refusal_to_listen(k, senses)
     return bounds_of(k, senses, after, refused, grounded), with_refusals(after, refused[0] * wants, refused[1])
 
 
@@ -174,19 +175,23 @@ def _fenced(k, compliance, m, up):
 
 
 @choice
-def given_up(k: Any, target: Trajectory, state: State, blind: Any, lands: Any) -> Any:
-    """The reference; that of a vehicle `blind` to its motion (1): level, and less than hover as it `lands` (1)."""
+def given_up(k: Any, target: Trajectory, state: State, blind: Any, lands: Any, share: Any) -> Any:
+    """The reference; that of a vehicle `blind` to its motion (1): level, and less than hover as it `lands` (1).
+
+    `share` of the landing's time step that is over: in its second half the feet should press.
+    """
 
 
 @given_up.register(Nothing)
-def _never_given_up(k, target, state, blind, lands):
+def _never_given_up(k, target, state, blind, lands, share):
     return target
 
 
 @given_up.register(Supervision)
-def _given_up(k, target, state, blind, lands):
+def _given_up(k, target, state, blind, lands, share):
+    down = maximum(share - 0.5, 0.0)
     return Trajectory(
         chosen(blind, state.position, target.position),
         chosen(blind, state.velocity, target.velocity),
-        chosen(blind, Vec3(0.0, 0.0, -k.sinking * lands), target.acceleration),
+        chosen(blind, Vec3(0.0, 0.0, -k.sinking * lands * (1.0 + PRESSING * down)), target.acceleration),
     )

@@ -49,7 +49,8 @@ class Fence(NamedTuple):
 class Limits(NamedTuple):
     """Greatest share of the thrust, least cosine of the tilt, rates [rad/s], distance from the reference [m].
 
-    Each may be left for a time [s]; `apart_time` is that of joints which disagree.
+    Each may be left for a time [s]; `apart_time` is that of joints which disagree, `blank_time` of a state without
+    numbers.
     """
 
     thrust: Any
@@ -61,6 +62,7 @@ class Limits(NamedTuple):
     rates_time: Any
     error_time: Any
     apart_time: Any
+    blank_time: Any
 
 
 class Supervision(NamedTuple):
@@ -97,6 +99,7 @@ class Timers(NamedTuple):
     tilt: Any
     rates: Any
     error: Any
+    blank: Any
     stuck: Any
 
 
@@ -193,8 +196,11 @@ def first_check(number: Any, fails: Any, others: Any) -> Any:
 
 
 @law
-def refusal_to_lift(k: Supervision, s: Senses, state: State, own: Own, most: Any) -> Any:
-    """The number of the first check that refuses a lift, or 0; `most`: the thrust that the rotors have [N]."""
+def refusal_to_lift(k: Supervision, s: Senses, state: State, own: Own, reaction: Any, most: Any) -> Any:
+    """The number of the first check that refuses a lift, or 0; `most`: the thrust that the rotors have [N].
+
+    `reaction` is above 0 while a fault, or one that was just there, is reacted to.
+    """
     r, c = s.report, k.checks
     ill = r.joints + r.accelerometer + r.gyroscope + r.position + r.velocity + r.attitude + own.blank
     weight = (k.mass + s.payload - k.payload) * GRAVITY
@@ -204,7 +210,7 @@ def refusal_to_lift(k: Supervision, s: Senses, state: State, own: Own, most: Any
     n = first_check(6.0, moving + turning, n)
     n = first_check(5.0, where(body_z_axis(state.attitude).z < c.upright, 1.0, 0.0), n)
     n = first_check(4.0, where(weight > c.share * most, 1.0, 0.0), n)
-    n = first_check(3.0, ill + s.apart, n)
+    n = first_check(3.0, ill + s.apart + reaction, n)
     n = first_check(2.0, maximum(r.motion, 1.0 - r.seen), n)
     return first_check(1.0, maximum(r.unit, 1.0 - r.seen), n)
 
@@ -220,7 +226,7 @@ def refusal_to_listen(k: Supervision, s: Senses) -> Any:
 
 
 @law
-def timed(k: Supervision, m: Supervising, s: Senses, state: State, share: Any, phase: Any, dt: Any) -> Timers:
+def timed(k: Supervision, m: Supervising, s: Senses, state: State, own: Own, share: Any, phase: Any, dt: Any) -> Timers:
     """For how long limits have been left; those of flight only in flight, thrust and distance not while it lands."""
     b, t = k.bounds, m.timers
     flying = where(phase == IDLE, 0.0, where(phase == STOPPED, 0.0, 1.0))
@@ -233,6 +239,7 @@ def timed(k: Supervision, m: Supervising, s: Senses, state: State, share: Any, p
         lasting(t.tilt, flying * where(body_z_axis(state.attitude).z < b.upright, 1.0, 0.0), dt),
         lasting(t.rates, flying * where(dot(state.rates, state.rates) > b.rates * b.rates, 1.0, 0.0), dt),
         lasting(t.error, aloft * where(dot(off, off) > b.error * b.error, 1.0, 0.0), dt),
+        lasting(t.blank, own.blank, dt),
         lasting(t.stuck, landing * where(-off.z > k.touch, 1.0, 0.0), dt),
     )
 
@@ -255,7 +262,7 @@ def faults_of(k: Supervision, s: Senses, timers: Timers, state: State, own: Own,
         joints_apart=too_long(timers.apart, b.apart_time),
         attitude_apart=r.attitude_apart,
         velocity_apart=r.velocity_apart,
-        state=own.blank,
+        state=too_long(timers.blank, b.blank_time),
         orientation=no_attitude,
         fence=listening * outside(k.fence, state.position),
         thrust=too_long(timers.thrust, b.thrust_time),

@@ -60,6 +60,7 @@ def _limits(mission: Mission) -> Limits:
         rates_time=b.rates_time,
         error_time=b.error_time,
         apart_time=w.joints_time,
+        blank_time=w.invalid,
     )
 
 
@@ -93,5 +94,5 @@ def start_supervision(mission: Mission, vehicle: Vehicle, known: Any) -> tuple[A
     )
     at, empty = Vec3(*i.position), slots(*(0.0,) * SLOTS)
     state = State(at, vec3(i.velocity), quaternion_from_euler(vec3(i.euler)), vec3(i.rates))
-    timers, events = Timers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Events(empty, empty, 0.0, 0.0, 0.0)
+    timers, events = Timers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Events(empty, empty, 0.0, 0.0, 0.0)
     return supervision, Supervising(0.0, 0.0, 0.0, 0.0, timers, state, at, 0.0, 0.0, events)
