@@ -71,11 +71,12 @@ def test_every_fault_has_the_reaction_of_the_table_and_ends_safely(row, fly):
     assert {int(a) // 10 for a in flight["alarm"]} - {0} == {int(number)}
     assert flight.divergence is None
     assert NAMES[int(flight["phase"][-1])] == ("stopped" if reaction == "stop" else "idle"), events
-    assert flight["rotor_thrusts"][-1].max() == 0.0
+    assert flight["rotor_thrusts"][-1].max() < 1e-6
     assert flight["position"][-1, 2] == pytest.approx(STANDS, abs=0.02)
     assert np.abs(flight["euler"][-1, :2]).max() < 0.02
     if reaction != "stop":
-        assert flight["velocity"][:, 2].min() > -0.4  # never faster than the landing's 0.3 m/s, and noise
+        assert flight["velocity"][flight["phase"] == 3.0, 2].min() > -0.4  # the landing's 0.3 m/s, and noise
+        assert flight["velocity"][:, 2].min() > -0.8  # from where its rotors stop, 3 cm at most
         assert np.abs(flight["euler"][:, :2]).max() < 0.2
     if reaction == "hold":
         assert f"{fault} -> land" in events, events  # after its patience
@@ -136,7 +137,7 @@ def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
         ({"sensor_faults": [{"sensor": "unit", "kind": "stale", "time": 0.0}]}, 1),
         ({"sensor_faults": [{"sensor": "accelerometer", "kind": "frozen", "time": 0.1}]}, 3),
         ({"supervision.checks.thrust_share": 0.5}, 4),
-        ({"supervision.checks.tilt": 1e-5}, 5),
+        ({"supervision.checks.tilt": 1e-7}, 5),
         ({"supervision.checks.rates": 1e-5}, 6),
         ({"supervision.checks.payload_least": 1.5}, 9),
     ],
@@ -150,9 +151,10 @@ def test_a_check_that_fails_refuses(changes, check, fly):
         assert flight["rotor_thrusts"].max() == 0.0
 
 
-def in_plain_python(seconds, heard_at, changes=None):
+def in_plain_python(seconds, heard_at):
     """Names of the phases of a guidance by hand that is told a state at rest, and what `heard_at` makes of it."""
-    flying = assemble(tl.load_mission("iris", {**FLOWN, **(changes or {})})).flying
+    changes = {**FLOWN, "supervision.limits.error": 100.0}  # the state at rest does not follow the lift
+    flying = assemble(tl.load_mission("iris", changes)).flying
     guidance, memory, dt, names = flying.pilot.guidance, flying.moving.memory.guidance, 0.01, []
     for i in range(round(seconds / dt)):
         heard = Heard(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)

@@ -42,6 +42,7 @@ def row_of(m: Mission) -> int:
     numbers = 51 + 10 * count
     numbers += (5 + 4 * count) * (m.actuators.model == "rotors") + 6 * (m.wind.model == "air")
     numbers += 3 * (m.ground.model == "floor") + (42 + 6 * count) * (m.sensors.model == "simulated")
+    numbers += 2 * (m.supervision.model == "watch")
     return 8 * numbers
 
 
