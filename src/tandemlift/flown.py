@@ -15,8 +15,12 @@ from numpy.typing import NDArray
 from tandemlift.flight import Divergence, Flight
 from tandemlift.jit import flat, leaves, unflat
 from tandemlift.kernels import place
+from tandemlift.laws.alarms import CHECKS, alarm_name
 from tandemlift.laws.body import State
+from tandemlift.laws.phases import IDLE, NAMES
 from tandemlift.laws.rotation import sine_of_roll
+from tandemlift.laws.supervising import ALARM, PHASE
+from tandemlift.laws.supervision import Supervising
 from tandemlift.loop import FAR, SIN_ROLL_LIMIT, Flying, Moving
 from tandemlift.missions import tables_of
 from tandemlift.prepared import Prepared
@@ -83,7 +87,31 @@ def metrics_of(p: Prepared, flown: Flown) -> dict[str, Any]:
     formed["final_reference_m"] = list(last.reference_position)
     formed["command_at_start"] = [first.thrust, *first.moment]
     formed = {name: _formed(value) for name, value in formed.items()}
-    return {**formed, "steps": flown.step, "wall_s": flown.wall}
+    return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.moving)}
+
+
+def events_of(moving: Moving) -> list[list[Any]]:
+    """What a supervision saw happen: [time [s], what], in the order of time; none without one."""
+    supervising = getattr(moving.memory.guidance, "supervision", None)
+    if not isinstance(supervising, Supervising):
+        return []
+    happened = list(zip(supervising.events.time, supervising.events.code, strict=True))[: int(supervising.events.count)]
+    story, before = [], (0, 0, 0)
+    for at, code in happened:
+        now = (int(code // PHASE), int(code % PHASE // ALARM), int(code % ALARM))
+        story.append([round(float(at), 6), _told(now, before)])
+        before = now
+    return story
+
+
+def _told(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
+    """An event in words, from phase, alarm and the check that refuses; now, and in the event before."""
+    phase, alarm, refused = now
+    if alarm and (alarm != before[1] or phase not in (IDLE, before[0])):
+        return f"{alarm_name(alarm)} -> {NAMES[phase]}"
+    if phase != before[0] or not refused:
+        return NAMES[phase] + (f": {CHECKS[refused - 1]}" if refused else "")
+    return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1]}"
 
 
 @cache

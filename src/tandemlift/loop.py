@@ -16,10 +16,11 @@ from tandemlift.law import law
 from tandemlift.laws.body import State
 from tandemlift.laws.partner import asks_to_land, lend
 from tandemlift.laws.push import Hand, Push
+from tandemlift.laws.requests import NOBODY, UNAWARE
 from tandemlift.laws.rotation import sine_of_roll
 from tandemlift.laws.rotors import drive
 from tandemlift.ops import absolute, maximum, where
-from tandemlift.perception import all_sensed, estimate_all, read_push, read_state, sensed
+from tandemlift.perception import all_sensed, estimate_all, read_push, read_state, sensed, tare_time, usable
 from tandemlift.pilot import Decision, Heard, PilotMemory, PilotParameters, decide
 from tandemlift.sample import errors_of, show
 from tandemlift.tally import Tally, count
@@ -161,11 +162,13 @@ def joined(flying: Flying, given: Inputs, t: Any, dt: Any) -> Inputs:
 def perceive(flying: Flying, push: Push, t: Any, dt: Any) -> Any:
     """(what is estimated, what the pilot hears, the estimators' memory) at time t [s]; `push`: the true one."""
     before, reads = flying.moving, flying.reads
-    known, memory = estimate_all(flying.estimator, before.estimator, before.readings, t, dt)
-    state = read_state(reads.state, before.state, before.readings, known)
+    since = tare_time(flying.estimator, before.memory.guidance, t)
+    known, memory = estimate_all(flying.estimator, before.estimator, before.readings, since, dt)
+    readings = usable(known, before.readings)
+    state = read_state(reads.state, before.state, readings, known)
     touch = read_push(reads.push, push, state, known)
-    sees = all_sensed(before.readings, known)
-    return known, Heard(state, touch.force, touch.moment, asks_to_land(before.partner), sees), memory
+    land, sees = asks_to_land(before.partner), all_sensed(readings, known)
+    return known, Heard(state, touch.force, touch.moment, land, sees, NOBODY, UNAWARE), memory
 
 
 @law

@@ -17,6 +17,7 @@ from tandemlift.kernels.limiting import limit, scratch_size
 from tandemlift.laws.allocation import Constrained
 from tandemlift.laws.body import State
 from tandemlift.laws.controllers import control
+from tandemlift.laws.requests import NOBODY, UNAWARE
 from tandemlift.pilot import Heard, PilotMemory, PilotParameters, decide
 from tandemlift.pilot.start import start_pilot
 from tandemlift.settings import Mission
@@ -24,7 +25,7 @@ from tandemlift.vector import ZERO, Nothing, Quat
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
-HEARD = Heard(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing())
+HEARD = Heard(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
 SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
 
 
@@ -78,7 +79,16 @@ class Pilot:
         with cached_in(folder(zeroed(self._start))):
             return numba.njit(cache=True, **COMPILE)(sample)
 
-    def step(self, measurement: Array, moment: Array | None = None, *, land: bool = False) -> Array:
+    def step(
+        self,
+        measurement: Array,
+        moment: Array | None = None,
+        *,
+        lift: bool = False,
+        land: bool = False,
+        stop: bool = False,
+        enabled: bool = True,
+    ) -> Array:
         """Take one sample.
 
         Args:
@@ -86,7 +96,12 @@ class Pilot:
                 quaternion w, x, y, z (body to world), rates [rad/s] in body axes, force of the person [N] in world
                 axes.
             moment: of the person [N·m] (3,) about the centre of mass, body axes; none if not given.
-            land: whether the person asks to land; heard by a pilot that is guided by hand.
+            lift: whether a lift is asked for, besides `phases.lift_start`.
+            land: whether the person asks to land.
+            stop: whether the rotors must stop at once, and stay so until `reset`.
+            enabled: whether the pilot may listen to the person; it holds its position while it may not.
+
+        What is asked is heard by a pilot that is guided by hand.
 
         Returns:
             Thrust of every rotor [N] (4N,), the same array each time.
@@ -98,7 +113,11 @@ class Pilot:
             given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
             raise InputError(f"measurement is {given}: must be a float64 array of shape {SHAPE}")
         heard = self._heard
-        heard[:16], heard[16:19], heard[19] = measurement, 0.0 if moment is None else moment, land
+        heard[:16], heard[16:19], heard[19:23] = (
+            measurement,
+            0.0 if moment is None else moment,
+            (land, lift, stop, enabled),
+        )
         self._sample(self._numbers, heard, self.thrusts, self._scratch)
         return self.thrusts
 

@@ -60,11 +60,20 @@ class Believed(NamedTuple):
 
 
 class Estimators(NamedTuple):
-    """Of the push, and of the state; and what is believed of the vehicle."""
+    """Of the push, and of the state; what is believed of the vehicle; when to tare."""
 
     push: PushEstimator
     state: Navigator
     vehicle: Believed
+    tare: Any
+
+
+class ByClock(NamedTuple):
+    """The tare begins at a set time."""
+
+
+class InHover(NamedTuple):
+    """The tare begins in steady hover."""
 
 
 class Remembered(NamedTuple):
@@ -126,6 +135,36 @@ def _sensed(sensors, memory, state, felt, believed, noise):
 
 
 @choice
+def tare_begun(tare: Any, guidance: Any, t: Any) -> Any:
+    """The time [s] on the clock of the tare; `guidance`: its memory."""
+
+
+@tare_begun.register(ByClock)
+def _by_clock(tare, guidance, t):
+    return t
+
+
+@tare_begun.register(InHover)
+def _in_hover(tare, guidance, t):
+    return guidance.phase.hovered
+
+
+@choice
+def tare_time(estimators: Any, guidance: Any, t: Any) -> Any:
+    """The time [s] by which the estimators tare."""
+
+
+@tare_time.register(Nothing)
+def _no_tare(estimators, guidance, t):
+    return t
+
+
+@tare_time.register(Estimators)
+def _tare(estimators, guidance, t):
+    return tare_begun(estimators.tare, guidance, t)
+
+
+@choice
 def estimate_all(estimators: Any, memory: Any, readings: Any, t: Any, dt: Any) -> Any:
     """(what is known from readings, the estimators' memory) at time t [s]."""
 
@@ -140,6 +179,21 @@ def _estimated(estimators, memory, readings, t, dt):
     push, push_memory = estimate(estimators.push, memory.push, readings.unit, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
     return Known(push, state, estimators.vehicle), Remembered(push_memory, state_memory)
+
+
+@choice
+def usable(known: Any, readings: Any) -> Any:
+    """The readings that may be used."""
+
+
+@usable.register(Nothing)
+def _as_unknown(known, readings):
+    return readings
+
+
+@usable.register(Known)
+def _as_given(known, readings):
+    return readings
 
 
 @choice

@@ -26,6 +26,9 @@ EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and
     "admittance": {"feel": {"force": 2.7, "speed": 1.5}},
     "faults": [{"quadrotor": 1, "rotor": 1, "time": 60.0}],
     "wind": {"model": "air", "gusts": [{"velocity": [1.0, 0.0, 0.0], "start": 15.0, "rise": 1.0}]},
+    "pilot": {"guidance": "hand"},
+    "requests": [{"time": 60.0, "action": "land"}],
+    "sensor_faults": [{"sensor": "joints", "quadrotor": 1, "kind": "bias", "time": 60.0, "until": 61.0}],
     "walls": [{"start": [20.0, -3.0], "end": [20.0, 3.0]}],
 }
 SCHEMA = dict(reversed(list(schema_keys())))  # of `controller.name`, what every mission asks for

@@ -33,3 +33,13 @@ def test_it_gives_the_thrusts_of_the_flight_to_the_last_bit_and_again_after_a_re
 def test_what_is_no_measurement_is_refused(measurement):
     with pytest.raises(tl.InputError, match=r"must be a float64 array of shape \(16,\)"):
         tl.Pilot(tl.load_mission("hover")).step(measurement)
+
+
+def test_by_hand_it_stops_its_rotors_for_good_when_asked():
+    pilot, level = tl.Pilot(tl.load_mission("hover", {"pilot.guidance": "hand"})), np.zeros(16)
+    level[6] = 1.0
+    assert pilot.step(level).sum() > 0.0
+    assert not pilot.step(level, stop=True).any()
+    assert not pilot.step(level, lift=True).any()
+    pilot.reset()
+    assert pilot.step(level, enabled=False).sum() > 0.0

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from tandemlift.assembly.actuation import start_rotors
 from tandemlift.assembly.senses import sensors_of, start_estimators
 from tandemlift.assembly.surroundings import floor_of, near_of, push_kind, start_weather, tables_of, walls_of, whiffs_of
+from tandemlift.assembly.watching import watched, with_faults
 from tandemlift.delays import Late, Lines
 from tandemlift.engines.compiled import felt_at_rest, start_plant, start_state
 from tandemlift.kernels.outside import Tables
@@ -75,7 +76,8 @@ def assemble(mission: Mission) -> Assembled:
         felt = felt_at_rest(plant, state, grip, near, thrusts, hand)
         sensing = start_sensing(devices, state, felt, state.attitude)
     readings = Nothing() if isinstance(devices, Nothing) else sensing.readings
-    estimators, known = start_estimators(mission, vehicle, state, readings)
+    estimators, known = watched(mission, *start_estimators(mission, vehicle, state, readings), readings)
+    devices, sensing = with_faults(mission, devices, sensing)
     moving = Moving(state, memory, eddies, grip, near, sensing, known, spinning, readings, Nothing(), EMPTY, 0.0)
     reads = Reads(READS[mission.pilot.state], READS[mission.pilot.push])
     late = Lines(*[Late() if d else Nothing() for d in delays]) if delays.any() else Nothing()

@@ -12,7 +12,7 @@ from tandemlift.laws.estimation import push_estimator, start_push
 from tandemlift.laws.meters import Grade
 from tandemlift.laws.navigation import navigator, start_navigation
 from tandemlift.laws.sensing import Hiss, sensors
-from tandemlift.perception import Believed, Estimators, Remembered
+from tandemlift.perception import Believed, ByClock, Estimators, InHover, Remembered
 from tandemlift.settings import InertialSensor, Mission
 from tandemlift.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.vehicle import Vehicle
@@ -85,7 +85,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         length=payload.length or math.inf,
         bandwidth=e.push_bandwidth,
         least_force=e.least_force,
-        tare_start=e.tare_start,
+        tare_start=0.0 if e.tare == "hover" else e.tare_start,
         tare_duration=e.tare_duration,
         identify_mass=e.identify_mass,
         disagreement_limit=e.disagreement_limit,
@@ -101,5 +101,6 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
     )
     drag = vehicle.drag
     believed = Believed(vec3(-vehicle.center_of_mass), vec3(drag.force), vec3(drag.moment))
-    known = Estimators(push, observer, believed)
+    tare = InHover() if e.tare == "hover" else ByClock()
+    known = Estimators(push, observer, believed, tare)
     return known, Remembered(start_push(push, readings.unit), start_navigation(observer, state))

@@ -153,6 +153,8 @@ def _print_summary(flight: Flight, seconds: float) -> None:
     for label, value, unit in rows:
         if value:
             say(f"  {label:36}{value} {unit}")
+    for at, what in m["events"]:
+        say(f"  {at:.2f} s: {what}")
 
 
 def _list(values: list[float | None] | None, digits: int, scale: float = 1.0) -> str:

@@ -13,7 +13,9 @@ MISSED = 1
 @click.command()
 @click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
 @click.option("--draws", type=click.IntRange(1, 100_000), help="Of all that is drawn.  [default: 200; 10 elsewhere]")
-@click.option("--chapter", "chapters", multiple=True, metavar="NAME", help="Only this chapter. May be given many times.")
+@click.option(
+    "--chapter", "chapters", multiple=True, metavar="NAME", help="Only this chapter. May be given many times."
+)
 @click.option("--out", metavar="FILE", help="Write the table there too.")
 def validate(engine: str, draws: int | None, chapters: tuple[str, ...], out: str | None) -> None:
     """Fly what the pilot is held to, and put what is measured beside its targets.

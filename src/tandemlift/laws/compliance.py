@@ -183,6 +183,13 @@ def comply(k: Compliance, m: Compliant, push: Vec3, listening: Any, damping: Any
 
 
 @law
+def with_speed(k: Compliance, speed: Vec3) -> Compliance:
+    """A compliance with another greatest speed along each axis [m/s]."""
+    limits = Limits(speed, k.limits.acceleration, k.limits.jerk, k.limits.braking)
+    return Compliance(k.hearing, k.band, k.easing, k.admittance, limits, k.force_lead, k.lead)
+
+
+@law
 def countered(k: Compliance, m: Compliant) -> Vec3:
     """The push that is to be countered when the vehicle answers [N, world axes]."""
     return m.heard.value + m.heard.rate * k.force_lead

@@ -14,9 +14,11 @@ from tandemlift.laws.compliance import Compliance, Compliant, comply, countered
 from tandemlift.laws.controllers.interface import Reference
 from tandemlift.laws.lowpass import LowPass, Smoothed, smooth
 from tandemlift.laws.observer import Unmodelled
-from tandemlift.laws.phases import Orders, Phase, Phasing, follow, orders_of
+from tandemlift.laws.phases import LAND, Orders, Phase, Phasing, follow, is_in, later, more, orders_of, wants_lift
 from tandemlift.laws.reference import Phases, reference
+from tandemlift.laws.requests import NOBODY, UNAWARE, Operator, Own, also, asked_until
 from tandemlift.laws.rotation import euler_from_quaternion, rotation_from_quaternion
+from tandemlift.laws.supervising import concluded, given_up, kept_inside, made_sound, supervise
 from tandemlift.laws.tank import damp
 from tandemlift.laws.turning import Course, turn
 from tandemlift.ops import maximum, sqrt, where
@@ -27,7 +29,8 @@ class Heard(NamedTuple):
     """What the pilot is told at a sample.
 
     The state; the person's push: force [N, world axes] and moment about the centre of mass [N·m, body axes]; 1 if the
-    person asks to land, else 0; and what sensors read and estimators know, or `Nothing`.
+    person asks to land, else 0; what sensors read and estimators know, or `Nothing`; what an operator asks, and what
+    the pilot knows of its vehicle.
     """
 
     state: State
@@ -35,6 +38,8 @@ class Heard(NamedTuple):
     moment: Vec3
     land: Any
     sensed: Any
+    operator: Operator = NOBODY
+    own: Own = UNAWARE
 
 
 class Running(NamedTuple):
@@ -78,6 +83,7 @@ class Guided(NamedTuple):
     mass: Any
     most_thrust: Any
     tangent: Any
+    supervision: Any
 
 
 class GuidedMemory(NamedTuple):
@@ -88,6 +94,7 @@ class GuidedMemory(NamedTuple):
     tank: Any
     heading: Any
     moment: Smoothed
+    supervision: Any
 
 
 class GuidedChannels(NamedTuple):
@@ -98,6 +105,7 @@ class GuidedChannels(NamedTuple):
     push_on: Vec3
     added_damping: Any
     reference_yaw_rate: Any
+    supervised: Any
 
 
 class Guidance(NamedTuple):
@@ -120,6 +128,22 @@ class Guidance(NamedTuple):
 @choice
 def guide(g: Any, m: Any, heard: Any, unknown: Any, t: Any, dt: Any) -> Any:
     """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`."""
+
+
+@choice
+def attend(g: Any, m: Any, heard: Heard, thrust: Any, rotor_lost: Any) -> Any:
+    """What the pilot is told, made fit for use; with the thrust of all rotors [N], and 1 if one is found to be lost."""
+
+
+@attend.register(Clocked)
+def _told(g, m, heard, thrust, rotor_lost):
+    return heard
+
+
+@attend.register(Guided)
+def _attentive(g, m, heard, thrust, rotor_lost):
+    sound = made_sound(g.supervision, m.supervision, heard, thrust, rotor_lost)
+    return Heard(sound.state, sound.push, sound.moment, heard.land, heard.sensed, heard.operator, sound.own)
 
 
 @choice
@@ -221,38 +245,51 @@ def lifted(g: Guided, T: Trajectory, orders: Orders) -> Trajectory:
 
 
 @law
-def channels_of(orders: Orders, compliant: Compliant, damping: Any, course: Course) -> GuidedChannels:
-    """What is shown of a step."""
+def channels_of(orders: Orders, compliant: Compliant, damping: Any, course: Course, supervised: Any) -> GuidedChannels:
+    """What is shown of a step; `supervised`: of the supervision."""
     heard = compliant.heard.value - compliant.hearing.bias
-    return GuidedChannels(orders.phase, heard, compliant.hearing.on, damping, course.rate)
+    return GuidedChannels(orders.phase, heard, compliant.hearing.on, damping, course.rate, supervised)
+
+
+@law
+def phased(g: Guided, m: GuidedMemory, heard: Heard, t: Any, dt: Any) -> Any:
+    """(the phase, what the supervision comes to, its memory) at time t [s]."""
+    k, operator = g.phasing, heard.operator
+    asked = also(asked_until(k.requests, t), operator, later(t, k.lift_start), later(t, k.land_start))
+    lands = maximum(heard.land, more(asked.lands, m.phase.lands))
+    lifts = wants_lift(k, m.phase, asked, operator.lift, lands)
+    supervised, supervising = supervise(g.supervision, m.supervision, heard, m.phase, lifts, t, dt)
+    phase = follow(k, m.phase, heard.state, asked, (lifts, lands), supervised.bounds, t, dt)
+    return phase, supervised, supervising
 
 
 @guide.register(Guided)
 def _guided(g, m, heard, unknown, t, dt):
     state = heard.state
-    phase = follow(g.phasing, m.phase, state.position.z, heard.land, 1.0, t)
+    phase, supervised, supervising = phased(g, m, heard, t, dt)
     orders = orders_of(g.phasing, phase, t)
     now = grounded_at(orders, m.compliant, state)
     burned = dot(now.velocity * g.compliance.admittance.damping, now.velocity)
     damping, tank = damp(g.tank, m.tank, now.heard.value, state.velocity, burned, dt)
-    after = comply(g.compliance, now, heard.push, orders.listening, damping, still_able(g, unknown), dt)
+    how = kept_inside(g.supervision, g.compliance, now, g.phasing.height * orders.lift.value)
+    after = comply(how, now, heard.push, orders.listening, damping, still_able(g, unknown), dt)
     about = apply(rotation_from_quaternion(state.attitude), heard.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
     course, heading = turn(g.heading, m.heading, about, yaw, orders, dt)
     moment = smooth(g.moment, m.moment, heard.moment)
     motion = Trajectory(now.position, now.velocity, after.acceleration)
-    target = Reference(
-        lifted(g, motion, orders), course.angle, course.rate, course.acceleration, after.jerk * g.compliance.lead
+    target = given_up(
+        g.supervision, lifted(g, motion, orders), state, supervised.blind, is_in(phase, LAND), orders.land.value
     )
-    shown = channels_of(orders, after, damping, course)
+    shown, supervision = concluded(g.supervision, supervising, phase, target.position, t)
     guidance = Guidance(
         after.eased.value,
         motion,
-        target,
-        countered(g.compliance, after),
-        moment.value + moment.rate * g.moment_lead,
+        Reference(target, course.angle, course.rate, course.acceleration, after.jerk * g.compliance.lead),
+        countered(g.compliance, after) * orders.countering,
+        (moment.value + moment.rate * g.moment_lead) * orders.countering,
         Share(orders.running),
-        orders.flying,
-        shown,
+        orders.flying * (1.0 - supervised.blind),
+        channels_of(orders, after, damping, course, shown),
     )
-    return guidance, GuidedMemory(phase, after, tank, heading, moment)
+    return guidance, GuidedMemory(phase, after, tank, heading, moment, supervision)

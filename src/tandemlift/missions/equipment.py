@@ -88,13 +88,13 @@ def _check_readings(m: Mission) -> None:
 
 def _check_tare(m: Mission) -> None:
     e, step = m.estimator, m.mission.step
-    if e.identify_mass and e.tare_start is None:
+    if e.identify_mass and e.tare_start is None and e.tare == "clock":
         raise InputError(
             "estimator.identify_mass = true: the payload's mass is identified during the tare: "
             "give estimator.tare_start, or do not identify"
         )
     interval = step * max(1, round(m.sensors.interval / step))
-    if e.tare_start is not None and e.tare_duration < interval:
+    if (e.tare_start is not None or e.tare == "hover") and e.tare_duration < interval:
         raise InputError(
             f"estimator.tare_duration = {e.tare_duration}: a tare must hold a sample: they come every {interval:g} s"
         )
@@ -168,6 +168,8 @@ def _of_mass(m: Mission) -> Iterator[str]:
 
 def _of_tare(m: Mission) -> Iterator[str]:
     e, p, joints = m.estimator, m.phases, m.sensors.joints
+    if e.tare == "hover":
+        return
     if e.tare_start is None:
         if m.pilot.push != "truth" and joints.force_bias > 0.0:
             bias = f"sensors.joints.force_bias = {joints.force_bias}"

@@ -11,6 +11,7 @@ import numpy as np
 from tandemlift.errors import FlightWarning, InputError
 from tandemlift.missions.equipment import check_equipment, doubts_of_equipment
 from tandemlift.missions.explain import shown
+from tandemlift.missions.supervised import check_supervised
 from tandemlift.missions.surroundings import check_surroundings, doubts_of_surroundings
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
@@ -32,6 +33,7 @@ def check_flyable(m: Mission) -> None:
     _check_admittance(m)
     check_equipment(m)
     check_surroundings(m)
+    check_supervised(m)
 
 
 def row_of(m: Mission) -> int:
@@ -41,6 +43,7 @@ def row_of(m: Mission) -> int:
     numbers += (5 + 4 * count) * (m.actuators.model == "rotors") + 6 * (m.wind.model == "air")
     numbers += 12 * (m.observer.model != "none") + 9 * (m.pilot.guidance == "hand")
     numbers += 3 * (m.ground.model == "floor") + (42 + 6 * count) * (m.sensors.model == "simulated")
+    numbers += 2 * (m.supervision.model == "watch")
     return 8 * numbers
 
 

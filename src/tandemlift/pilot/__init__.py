@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 from tandemlift.law import choice, law
 from tandemlift.laws.allocation import Working, allocate
 from tandemlift.laws.controllers import Command, Disturbance, Measured, control
-from tandemlift.laws.guidance import Guidance, Heard, guide, running
+from tandemlift.laws.guidance import Guidance, Heard, attend, guide, running
 from tandemlift.laws.observer import Unmodelled, last_known, observe
-from tandemlift.vector import Nothing
+from tandemlift.vector import Nothing, total
 
 __all__ = ["Briefed", "Decision", "Heard", "PilotMemory", "PilotParameters", "brief", "conclude", "decide"]
 
@@ -71,10 +71,26 @@ def _within_limits(allocation):
     return allocation.thrusts
 
 
+@choice
+def given_thrust(allocation: Any) -> Any:
+    """The thrust of all rotors [N] that the allocation gave at the last sample; 0 if it does not keep it."""
+
+
+@given_thrust.register(Nothing)
+def _no_thrust_known(allocation):
+    return 0.0
+
+
+@given_thrust.register(Working)
+def _all_together(allocation):
+    return total(allocation.thrusts)
+
+
 @law
 def brief(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) -> Briefed:
     """What there is to know at time t [s] before the controller is asked."""
     before = last_known(p.observer, m.observer)
+    heard = attend(p.guidance, m.guidance, heard, given_thrust(m.allocation), 0.0)
     guidance, guided = guide(p.guidance, m.guidance, heard, before, t, dt)
     unknown, observing = observe(p.observer, m.observer, heard, given_thrusts(m.allocation), guidance.flying, dt)
     disturbance = Disturbance(unknown.force, unknown.moment + guidance.moment)

@@ -9,14 +9,14 @@ from tandemlift.laws.admittance import Admittance
 from tandemlift.laws.compliance import Compliance, Compliant, DeadBand, Hearing, Limits
 from tandemlift.laws.guidance import Guided, GuidedMemory
 from tandemlift.laws.lowpass import Smoothed, low_pass
-from tandemlift.laws.phases import IDLE, Phase, Phasing
+from tandemlift.laws.phases import IDLE, SETTLE, Phase, Phasing
 from tandemlift.laws.tank import Filled, Tank
 from tandemlift.laws.turning import Heading, Held, Turning
+from tandemlift.pilot.supervised import NEVER, start_requests, start_supervision
 from tandemlift.settings import ComplianceTable, Mission
 from tandemlift.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
-NEVER = 1e18  # s
 SILENT = Smoothed(ZERO, ZERO)
 STILL = Smoothed(0.0, 0.0)
 
@@ -33,6 +33,7 @@ def _phasing(mission: Mission) -> Phasing:
         spool=c.spool,
         always=1.0 if p.rotors == "always" else 0.0,
         descent=c.max_descent,
+        requests=start_requests(mission),
     )
 
 
@@ -75,9 +76,10 @@ def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     return turning, Heading(STILL, Hearing(0.0, 0.0, 0.0, 0.0, 0.0), STILL, start, 0.0, 0.0)
 
 
-def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance) -> tuple[Guided, GuidedMemory]:
-    """The guidance by hand of a mission before its first sample, and its memory."""
+def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance, known: Any) -> tuple[Guided, GuidedMemory]:
+    """The guidance by hand of a mission before its first sample, and its memory; `known`: faults of rotors."""
     c = mission.compliance
+    supervision, supervising = start_supervision(mission, vehicle, known)
     tank, filled = _tank(c)
     heading, turned = _heading(mission, vehicle)
     guided = Guided(
@@ -90,8 +92,10 @@ def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance) -> 
         mass=vehicle.mass,
         most_thrust=vehicle.max_thrust * c.thrust_share,
         tangent=math.tan(c.max_tilt),
+        supervision=supervision,
     )
     hearing = Hearing(ZERO, ZERO, ZERO, ZERO, ZERO)
     at = ZERO if mission.phases.rotors == "always" else Vec3(*mission.initial.position)
     compliant = Compliant(SILENT, hearing, SILENT, at, ZERO, ZERO, ZERO, at)
-    return guided, GuidedMemory(Phase(IDLE, 0.0, at.z, 0.0), compliant, filled, turned, SILENT)
+    phase = Phase(IDLE, 0.0, at.z, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLE)
+    return guided, GuidedMemory(phase, compliant, filled, turned, SILENT, supervising)

@@ -96,7 +96,7 @@ def _guidance(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     """The guidance of a mission and its memory."""
     admittance = admittance_of(mission.admittance)
     if mission.pilot.guidance == "hand":
-        return start_guided(mission, vehicle, admittance)
+        return start_guided(mission, vehicle, admittance, faults_of(mission, vehicle, known=True))
     return Clocked(admittance, _phases(mission.phases), 0.0, _rotors(mission.phases)), Yielding(ZERO, ZERO, ZERO)
 
 

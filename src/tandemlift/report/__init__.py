@@ -89,13 +89,22 @@ def _metrics(metrics: Mapping[str, Any]) -> str:
     """The metrics as a table, a row each."""
     rows = []
     for name, value in metrics.items():
+        if name == "events":
+            continue
         words, unit = split_unit(name)
         head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'
         rows.append(f"<tr>{head}{_cells(name, value, unit)}<td>{unit}</td></tr>")
     columns = "".join(f'<th scope="col">{c}</th>' for c in ("Metric", "x or φ", "y or θ", "z or ψ", "Unit"))
     note = f"From every step, not from the log. Errors are desired minus actual. A dash ({DASH}): could not be formed."
     table = f"<table>\n<thead><tr>{columns}</tr></thead>\n<tbody>\n"
-    return f'<p class="soft">{note}</p>\n<div class="table">\n{table}{chr(10).join(rows)}\n</tbody>\n</table>\n</div>'
+    shown = f'<p class="soft">{note}</p>\n<div class="table">\n{table}{chr(10).join(rows)}\n</tbody>\n</table>\n</div>'
+    return shown + _events(metrics.get("events", []))
+
+
+def _events(events: Iterable[tuple[float, str]]) -> str:
+    """What happened, a line each; nothing without a supervision."""
+    lines = "".join(f"<li>{at:.2f} s: {escape(what)}</li>" for at, what in events)
+    return f"\n<p>Phases and alarms:</p>\n<ul>{lines}</ul>" if lines else ""
 
 
 def _verdict(flight: Flight) -> str:

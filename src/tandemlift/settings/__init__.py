@@ -40,6 +40,7 @@ from tandemlift.settings.pilot import (
     PhasesTable,
     PilotTable,
 )
+from tandemlift.settings.supervision import RequestTable, SensorFaultTable, SupervisionTable
 from tandemlift.settings.world import (
     Actuators,
     Disturbance,
@@ -77,6 +78,8 @@ __all__ = [
     "Positive6",
     "Quadrotor",
     "Scale",
+    "SensorFaultTable",
+    "SupervisionTable",
     "Table",
     "Tilt",
     "Triple",
@@ -127,9 +130,12 @@ class Mission(Table):
     estimator: Estimator = Estimator()
     compliance: ComplianceTable = ComplianceTable()
     observer: ObserverTable = ObserverTable()
+    supervision: SupervisionTable = SupervisionTable()
+    requests: tuple[RequestTable, ...] = ()
     actuators: Actuators = Actuators()
     faults: tuple[Fault, ...] = ()
     sensors: Sensors = Sensors()
+    sensor_faults: tuple[SensorFaultTable, ...] = ()
     wind: WindTable = WindTable()
     ground: Ground = Ground()
     walls: tuple[WallTable, ...] = ()

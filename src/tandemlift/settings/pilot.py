@@ -121,6 +121,7 @@ class Estimator(Table):
     """`[estimator]`: the push from the joint sensors, and the state from inertial and motion sensors."""
 
     push_bandwidth: Bandwidth = 36.0  # rad/s, of the second-order low-pass on the push
+    tare: Literal["clock", "hover"] = "clock"  # at `tare_start`, or once it hovers steadily
     tare_start: NonNegative | None = None  # s, in hover; no tare if not given
     tare_duration: Positive = 2.0  # s
     identify_mass: bool = False  # of the payload, while taring

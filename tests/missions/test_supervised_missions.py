@@ -1,0 +1,77 @@
+"""Supervision, requests and failing sensors in a mission: what is refused, and how it says so."""
+
+import pytest
+
+import tandemlift as tl
+from tandemlift.laws.alarms import CHECKS, FAULTS, Faults, alarm_name
+from tandemlift.missions import load_mission
+from tandemlift.pilot.supervised import start_requests
+from tandemlift.settings.supervision import ReactionsTable
+
+BY_HAND = {"pilot.guidance": "hand"}
+FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"supervision.model": "watch"}, 'supervision.model = "watch": must be "none"'),
+        ({"requests": [{"time": 1.0, "action": "land"}]}, 'requests.0.action = "land": must be left out'),
+        ({"estimator.tare": "hover"}, 'estimator.tare = "hover": must be "clock"'),
+        ({**BY_HAND, "requests": [{"time": 1.0, "action": "jump"}]}, 'requests.0.action = "jump": must be'),
+        (
+            {"sensors.model": "none", "pilot": {"state": "truth", "push": "truth"}, "sensor_faults": [FROZEN]},
+            "sensors.model",
+        ),
+        ({"sensor_faults": [FROZEN, FROZEN]}, "fails already in sensor_faults.0"),
+        ({"sensor_faults": [FROZEN, {**FROZEN, "sensor": "unit", "kind": "nan"}]}, "fails already in sensor_faults.0"),
+        ({"sensor_faults": [{**FROZEN, "kind": "stale"}]}, "must be of a device"),
+        ({"sensor_faults": [{**FROZEN, "sensor": "unit", "kind": "bias"}]}, "must be of a sensor"),
+        ({"sensor_faults": [{**FROZEN, "quadrotor": 1}]}, 'unless the sensor is "joints"'),
+        ({"sensor_faults": [{**FROZEN, "sensor": "joints", "quadrotor": 3}]}, "must be from 1 to 2"),
+        ({"sensor_faults": [{**FROZEN, "until": 5.0}]}, "must be after sensor_faults.0.time"),
+        ({**BY_HAND, "supervision": {"model": "watch", "fence": {"low": 2.0, "high": 1.0}}}, "supervision.fence.low"),
+        ({**BY_HAND, "supervision": {"model": "watch", "watch": {"stale": 0.004}}}, "supervision.watch.stale = 0.004"),
+        ({**BY_HAND, "supervision": {"model": "watch", "checks": {"payload_least": 3.0}}}, "payload_least = 3.0"),
+    ],
+)
+def test_what_cannot_be_is_refused(changes, message):
+    with pytest.raises(tl.InputError, match=r".") as refused:
+        load_mission("iris", changes)
+    assert message in str(refused.value)
+
+
+def test_two_joints_may_fail_each_on_its_own_and_a_device_be_silent_besides():
+    joint = {"sensor": "joints", "kind": "frozen", "time": 5.0}
+    faults = [
+        {**joint, "quadrotor": 1},
+        {**joint, "quadrotor": 2, "time": 6.0},
+        {**FROZEN, "sensor": "unit", "kind": "stale"},
+    ]
+    assert len(load_mission("iris", {"sensor_faults": faults}).sensor_faults) == 3
+
+
+def asked(*requests):
+    told = [{"time": t, "action": a} for t, a in requests]
+    return start_requests(load_mission("iris", {**BY_HAND, "requests": told}))
+
+
+def test_it_starts_disabled_if_enable_is_asked_first_and_else_enabled():
+    assert asked((1.0, "enable")).enabled == 0.0
+    assert asked((1.0, "disable"), (2.0, "enable")).enabled == 1.0
+    assert asked((1.0, "lift")).enabled == 1.0
+
+
+def test_whatever_is_asked_the_vehicle_is_enabled_or_not():
+    r = asked((1.0, "disable"), (2.0, "disable"), (3.0, "enable"), (4.0, "land"), (5.0, "enable"))
+    levels = [r.enabled + sum(c for t, c in zip(r.time, r.change, strict=True) if t <= now) for now in range(7)]
+    assert levels == [1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0]
+
+
+def test_every_fault_has_a_name_and_a_reaction_and_every_alarm_is_told_in_words():
+    assert len(FAULTS) == len(Faults._fields) == 20
+    assert set(ReactionsTable.model_fields) == set(Faults._fields)
+    assert alarm_name(41.0) == "gyroscope frozen"
+    assert alarm_name(62.0) == "position not a number"
+    assert alarm_name(190.0) == "rotor lost"
+    assert len(set(CHECKS)) >= 9

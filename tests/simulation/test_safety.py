@@ -1,0 +1,213 @@
+"""docs/safety.md is what happens: every row of its table of faults is flown, in one compiled loop."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.assembly import assemble
+from tandemlift.laws.alarms import CHECKS, FAULTS, REACTIONS, alarm_name
+from tandemlift.laws.guidance import Heard, attend, guide
+from tandemlift.laws.observer import NONE
+from tandemlift.laws.phases import NAMES
+from tandemlift.laws.requests import NOBODY, UNAWARE
+from tandemlift.settings.supervision import SupervisionTable
+from tandemlift.vector import ZERO, Nothing
+
+TEXT = (Path(__file__).parents[2] / "docs" / "safety.md").read_text("utf-8")
+AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle
+QUIET = [{"sensor": "position", "kind": "bias", "time": 1000.0}]  # no fault, in the same compiled loop
+FLOWN = {
+    "mission": {"duration": 21.0, "log_interval": 0.02},
+    "pilot": {"guidance": "hand", "state": "estimate", "push": "estimate"},
+    "phases": {"lift_start": 0.5, "lift_duration": 2.0, "height": 1.0, "land_start": 1000.0, "land_duration": 3.0},
+    "estimator": {"tare": "hover", "tare_duration": 1.0},
+    "pushes": [{"force": [2.0, 0.0, 0.0], "time": 7.0, "sigma": 0.4}],
+    "requests": [{"time": 1000.0, "action": "land"}],
+    "supervision.model": "watch",
+    "sensor_faults": QUIET,
+}
+
+
+def rows(heading):
+    """The rows of the table under a heading, as lists of cells."""
+    lines = TEXT.partition(f"## {heading}\n")[2].partition("\n## ")[0].splitlines()
+    return [[c.strip() for c in line.strip("| ").split(" | ")] for line in lines if re.match(r"\| \d", line)]
+
+
+def tried_with(cell):
+    """The changes of a mission that a cell tells."""
+    changes = {}
+    for text in re.findall(r"`([^`]+)`", cell):
+        if text.startswith("sensor"):
+            fault = tomllib.loads(f"x = {{{text}}}")["x"]
+            changes.setdefault("sensor_faults", []).append({**fault, "time": AT})
+        else:
+            key, _, value = text.partition(" = ")
+            changes[key] = tomllib.loads(f"x = {value}")["x"]
+    return changes
+
+
+TABLE = rows("Faults and reactions")
+TRIED = [row for row in TABLE if row[5] != "no flight"]
+
+
+@pytest.fixture(scope="module")
+def fly():
+    """Flies the mission with changes."""
+    return lambda changes: tl.fly(tl.load_mission("iris", {**FLOWN, **changes}))
+
+
+@pytest.mark.parametrize("row", TRIED, ids=lambda row: row[1])
+def test_every_fault_has_the_reaction_of_the_table_and_ends_safely(row, fly):
+    number, fault, _, _, reaction, tried = row
+    flight = fly(tried_with(tried))
+    events = [what for _, what in flight.metrics()["events"]]
+    entered = {"hold": "hold", "land": "land", "stop": "stopped"}[reaction]
+    assert f"{fault} -> {entered}" in events, events
+    assert {int(a) // 10 for a in flight["alarm"]} - {0} == {int(number)}
+    assert flight.divergence is None
+    assert NAMES[int(flight["phase"][-1])] == ("stopped" if reaction == "stop" else "idle"), events
+    assert flight["rotor_thrusts"][-1].max() < 1e-6
+    assert flight["position"][-1, 2] == pytest.approx(STANDS, abs=0.02)
+    assert np.abs(flight["euler"][-1, :2]).max() < 0.02
+    if reaction != "stop":
+        assert flight["velocity"][flight["phase"] == 3.0, 2].min() > -0.4  # the landing's 0.3 m/s, and noise
+        assert flight["velocity"][:, 2].min() > -0.8  # from where its rotors stop, 3 cm at most
+        assert np.abs(flight["euler"][:, :2]).max() < 0.2
+    if reaction == "hold":
+        assert f"{fault} -> land" in events, events  # after its patience
+
+
+def test_without_a_fault_nothing_alarms_and_it_listens(fly):
+    flight = fly({})
+    assert flight.metrics()["events"] == [
+        [0.5, "lift"],
+        [2.8, "hold: no tare yet"],
+        [pytest.approx(4.8, abs=0.1), "guided"],
+    ]
+    assert flight["position"][-1, 0] > 0.5  # it went where it was pushed
+
+
+def test_a_sensor_that_comes_back_ends_the_hold(fly):
+    flight = fly({"sensor_faults": [{"sensor": "joints", "kind": "nan", "time": AT, "until": AT + 1.0}]})
+    assert [w for _, w in flight.metrics()["events"]][-2:] == ["joints not a number -> hold", "guided"]
+
+
+def test_knowing_nothing_of_its_motion_it_comes_down_level_and_gently(fly):
+    lost = [{"sensor": "motion", "kind": "stale", "time": AT}, {"sensor": "accelerometer", "kind": "nan", "time": AT}]
+    flight = fly({"sensor_faults": lost})
+    assert flight["velocity"][:, 2].min() > -1.2
+    assert flight["position"][-1, 2] == pytest.approx(STANDS, abs=0.02)
+    assert np.abs(flight["euler"][:, :2]).max() < 0.2
+
+
+def test_the_reference_and_the_vehicle_stay_inside_the_fence(fly):
+    flight = fly({"supervision.fence.high": [0.4, 1000.0, 1000.0]})
+    assert flight["reference_position"][:, 0].max() < 0.4
+    assert flight["reference_position"][-1, 0] > 0.3
+    assert not flight["alarm"].any()
+
+
+@pytest.mark.parametrize("action", ["disable", "land", "stop"])
+def test_an_operator_is_obeyed(action, fly):
+    flight = fly({"requests": [{"time": AT, "action": action}]})
+    after = flight["phase"][flight.time > AT + 0.05]
+    assert NAMES[int(after[0])] == {"disable": "hold", "land": "land", "stop": "stopped"}[action]
+    if action == "disable":
+        assert set(after) == {4.0}
+
+
+def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
+    push = [{"force": [2.0, 0.0, 0.0], "time": t, "sigma": 0.4} for t in (7.0, 19.0)]
+    flight = fly({"requests": [{"time": AT, "action": "land"}], "pushes": push})
+    down = flight["phase"] == 0.0
+    landed = down & (flight.time > 10.0)
+    assert landed.any()
+    assert not flight["admittance_force"][landed & (flight.time > 17.0)].any()
+    assert not flight["push_on"][landed].any()
+
+
+@pytest.mark.parametrize(
+    ("changes", "check"),
+    [
+        ({"sensor_faults": [{"sensor": "unit", "kind": "stale", "time": 0.0}]}, 1),
+        ({"sensor_faults": [{"sensor": "accelerometer", "kind": "frozen", "time": 0.1}]}, 3),
+        ({"supervision.checks.thrust_share": 0.5}, 4),
+        ({"supervision.checks.tilt": 1e-7}, 5),
+        ({"supervision.checks.rates": 1e-5}, 6),
+        ({"supervision.checks.payload_least": 1.5}, 9),
+    ],
+)
+def test_a_check_that_fails_refuses(changes, check, fly):
+    flight = fly(changes)
+    assert check in flight["refused"]
+    assert "guided" not in [what for _, what in flight.metrics()["events"]]
+    if check < 8:
+        assert flight["phase"].max() == 0.0
+        assert flight["rotor_thrusts"].max() == 0.0
+
+
+def in_plain_python(seconds, heard_at):
+    """Names of the phases of a guidance by hand that is told a state at rest, and what `heard_at` makes of it."""
+    changes = {**FLOWN, "supervision.limits.error": 100.0}  # the state at rest does not follow the lift
+    flying = assemble(tl.load_mission("iris", changes)).flying
+    guidance, memory, dt, names = flying.pilot.guidance, flying.moving.memory.guidance, 0.01, []
+    for i in range(round(seconds / dt)):
+        heard = Heard(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
+        heard, lost = heard_at(heard, i * dt)
+        decided, memory = guide(guidance, memory, attend(guidance, memory, heard, 0.0, lost), NONE, i * dt, dt)
+        names.append(NAMES[int(decided.shown.phase)])
+    return list(dict.fromkeys(names)), memory
+
+
+def test_a_rotor_that_is_found_lost_lands_the_vehicle():
+    names, memory = in_plain_python(5.0, lambda heard, t: (heard, float(t > 4.0)))
+    assert names == ["idle", "lift", "guided", "land"]
+    assert alarm_name(memory.supervision.alarm) == "rotor lost"
+
+
+def test_a_rotor_that_is_lost_on_the_ground_refuses_the_lift():
+    names, _ = in_plain_python(2.0, lambda heard, t: (heard, 1.0))
+    assert names == ["idle"]
+
+
+@pytest.mark.parametrize(
+    ("last", "names"), [(0.04, ["idle", "lift", "guided"]), (1.0, ["idle", "lift", "guided", "stopped"])]
+)
+def test_a_state_without_numbers_is_bridged_for_a_moment_and_then_stops(last, names):
+    def heard_at(heard, t):
+        blank = heard.state._replace(position=ZERO * float("nan"))
+        return (heard._replace(state=blank, push=ZERO * float("nan")) if 4.0 <= t < 4.0 + last else heard), 0.0
+
+    found, memory = in_plain_python(5.5, heard_at)
+    assert found == names
+    assert np.isfinite([*memory.compliant.position, *memory.compliant.heard.value]).all()
+
+
+def test_the_table_has_every_fault_with_its_key_and_default():
+    reactions = dict(SupervisionTable().reactions)
+    told = {row[3].strip("`"): row[4] for row in TABLE}
+    assert told == reactions
+    assert set(told.values()) <= set(REACTIONS)
+    for number, fault, *_ in TABLE:
+        assert fault.startswith(FAULTS[int(number) - 1]), fault
+
+
+def test_the_tables_of_checks_and_phases_are_those_of_the_code():
+    assert [int(row[0]) for row in rows("Checks")] == list(range(1, len(CHECKS) + 1))
+    told = re.findall(r"^\| (\w+) \| (\d) \|", TEXT.partition("## Phases")[2].partition("\n## ")[0], flags=re.M)
+    assert {name: int(number) for name, number in told} == {name: i for i, name in enumerate(NAMES)}
+
+
+def test_every_key_that_the_document_names_is_one():
+    keys = set(re.findall(r"`(supervision\.[a-z_.]+?)`", TEXT))
+    for key in keys:
+        place = SupervisionTable().model_dump()
+        for part in key.split(".")[1:]:
+            if part == "model":
+                break
+            place = place[part]
