@@ -14,6 +14,7 @@ from tandemlift.laws.supervision import Senses, senses_of
 from tandemlift.laws.watchdog import Predicted, Report, Watchdog, Watching, watch
 from tandemlift.ops import maximum, where
 from tandemlift.perception import (
+    Believed,
     Estimators,
     Known,
     Remembered,
@@ -61,7 +62,7 @@ class Checked(NamedTuple):
 
     push: Push
     state: State
-    payload: Vec3
+    vehicle: Believed
     readings: Readings
     report: Report
 
@@ -120,7 +121,7 @@ def _watched(k, m, readings, t, dt):
     clean, report, watching = watch(k.watchdog, m.watching, readings, predicted(k.estimators, m.remembered), dt)
     known, remembered = estimate_all(k.estimators, m.remembered, clean, t, dt)
     push, state = if_felt(known.push, report), at_best(known.state, clean, report, watching.rates)
-    return Checked(push, state, known.payload, clean, report), WatchedMemory(watching, remembered)
+    return Checked(push, state, known.vehicle, clean, report), WatchedMemory(watching, remembered)
 
 
 @usable.register(Checked)
@@ -130,7 +131,7 @@ def _checked_readings(known, readings):
 
 @shown_estimate.register(Checked)
 def _shown_checked(known):
-    return shown_estimate(Known(known.push, known.state, known.payload))
+    return shown_estimate(Known(known.push, known.state, known.vehicle))
 
 
 @choice
