@@ -15,16 +15,18 @@ from tandemlift.laws.body import State
 from tandemlift.laws.controllers import Measured, Reference, control
 from tandemlift.laws.controllers.nftsmc import (
     NFTSMC,
-    AttitudeReference,
     BodyRates,
-    CommandFilter,
     ExactRates,
-    Filtered,
-    Unfiltered,
     attitude_law,
-    command_filter,
     euler_rates,
     position_law,
+)
+from tandemlift.laws.controllers.shaping import (
+    AttitudeReference,
+    CommandFilter,
+    Filtered,
+    Unfiltered,
+    command_filter,
     shape,
 )
 from tandemlift.laws.expanded import Axes, euler_dynamics, expanded_dynamics
