@@ -91,9 +91,7 @@ def product(a: Moved, b: Moved) -> Moved:
     """a × b, with its derivatives."""
     rate = cross(a.rate, b.value) + cross(a.value, b.rate)
     twice = cross(a.rate, b.rate) * 2.0
-    return Moved(
-        cross(a.value, b.value), rate, cross(a.acceleration, b.value) + twice + cross(a.value, b.acceleration)
-    )
+    return Moved(cross(a.value, b.value), rate, cross(a.acceleration, b.value) + twice + cross(a.value, b.acceleration))
 
 
 @law

@@ -21,7 +21,14 @@ from tandemlift.law import choice, law
 from tandemlift.laws.body import UP, Wrench
 from tandemlift.laws.controllers.interface import Command, NoMemory, control
 from tandemlift.laws.controllers.registry import register
-from tandemlift.laws.controllers.shaping import AttitudeReference, Filtered, Unfiltered, command_filter, shape, with_heading
+from tandemlift.laws.controllers.shaping import (
+    AttitudeReference,
+    Filtered,
+    Unfiltered,
+    command_filter,
+    shape,
+    with_heading,
+)
 from tandemlift.laws.inertia import gyroscopic, inertia_value, turn_by
 from tandemlift.laws.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.sliding import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration

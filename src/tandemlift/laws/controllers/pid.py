@@ -47,12 +47,12 @@ class PIDSettings(CascadeTable):
     position_p: Positive3 = (1.0, 1.0, 2.0)  # 1/s
     velocity_p: Positive3 = (2.0, 2.0, 4.0)  # 1/s
     velocity_i: NonNegative3 = (0.3, 0.3, 0.5)  # 1/s²
-    velocity_d: NonNegative3 = 0.0
+    velocity_d: NonNegative3 = (0.05, 0.05, 0.05)
     velocity_i_limit: NonNegative3 = (2.0, 2.0, 2.0)  # m/s²
     attitude_p: Positive3 = (3.0, 4.0, 1.0)  # 1/s
     rate_p: Positive3 = (10.0, 10.0, 2.0)  # 1/s
     rate_i: NonNegative3 = (3.0, 3.0, 0.1)  # 1/s²
-    rate_d: NonNegative3 = 0.0
+    rate_d: NonNegative3 = (0.05, 0.05, 0.05)
     rate_i_limit: NonNegative3 = (2.0, 2.0, 0.3)  # rad/s²
     derivative_bandwidth: Bandwidth = 30.0  # rad/s, of the low-pass in both derivatives
     tracking: Bandwidth = 2.0  # 1/s, of the back-calculation
