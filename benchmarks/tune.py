@@ -1,7 +1,7 @@
 """Tune a controller on the trial: `python benchmarks/tune.py CONTROLLER [--budget N] [--seed S]`.
 
-Prints the best settings as TOML. Every controller gets the same vehicle, mission, scenes, targets, budget and search, so
-that none is ahead because more time was spent on it. The cost of a setting is the worst RMSE of position after 10 s,
+Prints the best settings as TOML. Every controller gets the same vehicle, mission, scenes, targets, budget and search,
+so that none is ahead because more time was spent on it. The cost of a setting is the worst RMSE of position after 10 s,
 over scenes and axes, each over its target, and a little of their mean, so that the other axes do not drift.
 
 The search keeps the best so far and tries eight changes of it at a time (a (1+8) evolution strategy: Rechenberg,
@@ -70,7 +70,7 @@ def changed(settings: dict[str, Any], step: float, rng: np.random.Generator) -> 
 
 
 def flown(controller: str, candidates: list[dict[str, Any]], seed: int = SEED) -> np.ndarray:
-    """RMSE [mm] of every candidate in every scene along x, y, z: (candidates, scenes, 3); infinite where one is lost."""
+    """RMSE [mm] of every candidate in every scene: (candidates, scenes, 3 axes); infinite where one is lost."""
     missions = [
         tl.load_mission(TRIAL, {**s.changes, **c, "mission.seed": seed}, controller=controller)
         for s in SCENES.values()

@@ -6,6 +6,7 @@ reference's acceleration is led, yaw rate and yaw acceleration are fed forward. 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, Any, NamedTuple
 
 from pydantic import Field
@@ -86,6 +87,11 @@ def believed(s: CascadeTable, vehicle: Vehicle, step: float) -> Believed:
         shaping=command_filter(s.filter_bandwidth, step),
         feedforward=1.0 if s.human_force_feedforward else 0.0,
     )
+
+
+def halves(*sixes: Sequence[float]) -> tuple[list[Sequence[float]], list[Sequence[float]]]:
+    """The first three numbers of each, those of position, and the last three, those of attitude."""
+    return [six[:3] for six in sixes], [six[3:] for six in sixes]
 
 
 LEVEL = Filtered(ZERO, ZERO)

@@ -10,7 +10,7 @@ Tune first: λ (the bandwidth on the surface), then K/Φ (that of reaching it) a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.law import elementwise, law
 from tandemlift.laws.controllers.cascade import (
@@ -19,6 +19,7 @@ from tandemlift.laws.controllers.cascade import (
     CascadeTable,
     believed,
     commanded,
+    halves,
     tracked_attitude,
     wanted_force,
 )
@@ -83,13 +84,13 @@ def smc(k, memory, measured, reference):
     return commanded(k.vehicle, e, u, turn, tracked.angles, measured), memory
 
 
-def _linear(slope: Sequence[float], gain: Sequence[float], width: Sequence[float]) -> Linear:
+def linear(slope: Sequence[float], gain: Sequence[float], width: Sequence[float]) -> Linear:
+    """The gains of three axes by λ [1/s], K and Φ."""
     return Linear(vec3(slope), vec3(gain), vec3(1.0 / w for w in width))
 
 
 @register("smc", SMCSettings)
 def start(s: SMCSettings, vehicle: Vehicle, step: float) -> tuple[SMC, Filtered]:
     """Conventional sliding mode control: linear surfaces with a boundary layer (Slotine and Li)."""
-    three = slice(0, 3), slice(3, 6)
-    position, attitude = (_linear(s.slope[i], s.gain[i], s.boundary_layer[i]) for i in three)
+    position, attitude = (linear(*three) for three in halves(s.slope, s.gain, s.boundary_layer))
     return SMC(believed(s, vehicle, step), position, attitude), LEVEL

@@ -23,6 +23,7 @@ from tandemlift.laws.controllers.cascade import (
     CascadeTable,
     believed,
     commanded,
+    halves,
     tracked_attitude,
     wanted_force,
 )
@@ -122,8 +123,6 @@ def twisting(
 @register("super-twisting", SuperTwistingSettings)
 def start(s: SuperTwistingSettings, vehicle: Vehicle, step: float) -> tuple[SuperTwisting, Twisted]:
     """Super-twisting control on linear surfaces, with its integral (Levant)."""
-    position, attitude = (
-        twisting(s.slope[i], s.disturbance_slope[i], s.boundary_layer[i], s.integral_limit[i], step)
-        for i in (slice(0, 3), slice(3, 6))
-    )
+    sixes = halves(s.slope, s.disturbance_slope, s.boundary_layer, s.integral_limit)
+    position, attitude = (twisting(*three, step=step) for three in sixes)
     return SuperTwisting(believed(s, vehicle, step), position, attitude), Twisted(LEVEL, ZERO, ZERO)
