@@ -40,10 +40,10 @@ LEAST = 0.1  # of the weight: the force that R_d points along never has less upw
 class GeometricSettings(CascadeTable):
     """`[controller]` of geometric tracking control: position in world axes, attitude in body axes."""
 
-    position_stiffness: Positive3 = (2.0, 2.0, 9.0)  # 1/s²: k_x/m
-    position_damping: Positive3 = (2.0, 2.0, 6.0)  # 1/s: k_v/m
-    attitude_stiffness: Positive3 = (30.0, 40.0, 1.0)  # 1/s²: k_R/J
-    attitude_damping: Positive3 = (10.0, 12.0, 2.0)  # 1/s: k_Ω/J
+    position_stiffness: Positive3 = (5.0, 3.1, 32.0)  # 1/s²: k_x/m
+    position_damping: Positive3 = (4.7, 3.8, 15.0)  # 1/s: k_v/m
+    attitude_stiffness: Positive3 = (21.0, 53.0, 0.7)  # 1/s²: k_R/J
+    attitude_damping: Positive3 = (10.0, 14.7, 2.0)  # 1/s: k_Ω/J
 
 
 class Geometric(NamedTuple):

@@ -51,8 +51,8 @@ from tandemlift.vehicle import Vehicle
 class LQRSettings(CascadeTable):
     """`[controller]` of the linear-quadratic regulator: x, y, z; roll, pitch, yaw. Only ratios of weights count."""
 
-    position_weight: Positive3 = (10.0, 10.0, 50.0)  # 1/m²
-    velocity_weight: NonNegative3 = (1.0, 1.0, 1.0)  # (s/m)²
+    position_weight: Positive3 = (10.0, 10.0, 400.0)  # 1/m²
+    velocity_weight: NonNegative3 = (1.0, 1.0, 20.0)  # (s/m)²
     attitude_weight: Positive3 = (1.0, 1.0, 1.0)  # 1/rad²
     rates_weight: NonNegative3 = (0.1, 0.1, 0.1)  # (s/rad)²
     thrust_weight: Positive = 1.0  # (s²/m)²

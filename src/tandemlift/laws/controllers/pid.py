@@ -44,14 +44,14 @@ Bandwidth = Annotated[float, Field(gt=0.0, le=1e4)]
 class PIDSettings(CascadeTable):
     """`[controller]` of the cascaded PID: x, y, z in world axes; roll, pitch, yaw; rates in body axes."""
 
-    position_p: Positive3 = (1.0, 1.0, 2.0)  # 1/s
-    velocity_p: Positive3 = (2.0, 2.0, 4.0)  # 1/s
-    velocity_i: NonNegative3 = (0.3, 0.3, 0.5)  # 1/s²
+    position_p: Positive3 = (1.1, 0.8, 2.0)  # 1/s
+    velocity_p: Positive3 = (4.0, 3.8, 12.0)  # 1/s
+    velocity_i: NonNegative3 = (0.3, 0.3, 1.0)  # 1/s²
     velocity_d: NonNegative3 = (0.05, 0.05, 0.05)
     velocity_i_limit: NonNegative3 = (2.0, 2.0, 2.0)  # m/s²
-    attitude_p: Positive3 = (3.0, 4.0, 1.0)  # 1/s
-    rate_p: Positive3 = (10.0, 10.0, 2.0)  # 1/s
-    rate_i: NonNegative3 = (3.0, 3.0, 0.1)  # 1/s²
+    attitude_p: Positive3 = (2.1, 3.6, 0.4)  # 1/s
+    rate_p: Positive3 = (10.0, 14.0, 2.0)  # 1/s
+    rate_i: NonNegative3 = (1.0, 1.0, 0.05)  # 1/s²
     rate_d: NonNegative3 = (0.05, 0.05, 0.05)
     rate_i_limit: NonNegative3 = (2.0, 2.0, 0.3)  # rad/s²
     derivative_bandwidth: Bandwidth = 30.0  # rad/s, of the low-pass in both derivatives

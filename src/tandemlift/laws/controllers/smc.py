@@ -38,9 +38,9 @@ from tandemlift.vehicle import Vehicle
 class SMCSettings(CascadeTable):
     """`[controller]` of conventional sliding mode control, per axis x, y, z, φ, θ, ψ."""
 
-    slope: Positive6 = (1.2, 1.2, 3.0, 6.0, 8.0, 0.8)  # 1/s: λ
-    gain: Positive6 = (2.0, 2.0, 4.0, 5.0, 6.0, 0.4)  # m/s², rad/s²: K
-    boundary_layer: Positive6 = (1.0, 1.0, 1.0, 1.0, 1.0, 0.4)  # m/s, rad/s: Φ
+    slope: Positive6 = (2.9, 1.2, 2.5, 3.0, 8.0, 0.45)  # 1/s: λ
+    gain: Positive6 = (1.8, 2.6, 6.5, 5.0, 4.5, 0.45)  # m/s², rad/s²: K
+    boundary_layer: Positive6 = (1.0, 1.0, 0.5, 0.7, 0.7, 0.3)  # m/s, rad/s: Φ
 
 
 class Linear(NamedTuple):

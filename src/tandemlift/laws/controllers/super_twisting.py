@@ -44,9 +44,9 @@ ROOT, SIGN = 1.5, 1.1  # of √L and of L: Levant, 1998
 class SuperTwistingSettings(CascadeTable):
     """`[controller]` of super-twisting control, per axis x, y, z, φ, θ, ψ."""
 
-    slope: Positive6 = (1.2, 1.2, 3.0, 6.0, 8.0, 0.8)  # 1/s: λ
-    disturbance_slope: Positive6 = (1.0, 1.0, 2.0, 10.0, 10.0, 0.3)  # m/s³, rad/s³: L
-    boundary_layer: Positive6 = (1.0, 1.0, 1.0, 1.0, 1.0, 0.4)  # m/s, rad/s: Φ
+    slope: Positive6 = (2.9, 1.2, 2.5, 3.0, 8.0, 0.45)  # 1/s: λ
+    disturbance_slope: Positive6 = (1.4, 3.0, 15.0, 10.0, 10.0, 0.3)  # m/s³, rad/s³: L
+    boundary_layer: Positive6 = (1.0, 1.0, 0.4, 0.5, 0.5, 0.3)  # m/s, rad/s: Φ
     integral_limit: Positive6 = (2.0, 2.0, 2.0, 2.0, 2.0, 0.5)  # m/s², rad/s²: of v
 
 
@@ -107,9 +107,9 @@ def super_twisting(k, memory, measured, reference):
 
 
 def twisting(
-    slope: Sequence[float], growth: Sequence[float], width: Sequence[float], limit: Sequence[float], step: float
+    step: float, slope: Sequence[float], growth: Sequence[float], width: Sequence[float], limit: Sequence[float]
 ) -> Twisting:
-    """The gains of three axes by λ [1/s], L, Φ and the limit of v, for samples every `step` [s]."""
+    """The gains of three axes for samples every `step` [s], by λ [1/s], L, Φ and the limit of v."""
     return Twisting(
         slope=vec3(slope),
         root=vec3(ROOT * L**0.5 for L in growth),
@@ -124,5 +124,5 @@ def twisting(
 def start(s: SuperTwistingSettings, vehicle: Vehicle, step: float) -> tuple[SuperTwisting, Twisted]:
     """Super-twisting control on linear surfaces, with its integral (Levant)."""
     sixes = halves(s.slope, s.disturbance_slope, s.boundary_layer, s.integral_limit)
-    position, attitude = (twisting(*three, step=step) for three in sixes)
+    position, attitude = (twisting(step, *three) for three in sixes)
     return SuperTwisting(believed(s, vehicle, step), position, attitude), Twisted(LEVEL, ZERO, ZERO)
