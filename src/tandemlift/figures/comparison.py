@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from tandemlift.figures.panels import extent, fit, line, time_axis, value_ticks
 from tandemlift.figures.series import drawable
+from tandemlift.figures.start import LONG, START
 from tandemlift.figures.style import BLACK, BLUE, GREEN, GREY, LIGHT_BLUE, PAGE, VERMILLION, styled
 from tandemlift.flight import Flight
 from tandemlift.tally import LATE
@@ -53,6 +55,7 @@ def _column(axes: Any, flights: Mapping[str, Flight], first: float, last: float)
         ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
         time_axis(ax, max(flights.values(), key=lambda f: len(f.time)), label=i == 2)
         ax.set_xlim(first, last)
+        ax.xaxis.set_major_locator(MaxNLocator(nbins=7 if last > 1.5 * LATE else 5, steps=[1, 2, 5, 10]))
 
 
 def _names(figure: Figure, flights: Mapping[str, Flight]) -> None:
@@ -97,14 +100,23 @@ def _rotors(ax: Any, flight: Flight) -> None:
     ax.plot(time, mean, color=BLUE, lw=0.9)
 
 
+def _beyond_the_start(flight: Flight) -> Array:
+    """The thrusts of the rotors [N] after the first second, of all of a flight that is hardly longer."""
+    long = len(flight.time) and flight.time[-1] >= LONG
+    return flight["rotor_thrusts"][flight.time > (START if long else -1.0)]
+
+
 @styled
 def draw_thrusts(flights: Mapping[str, Flight]) -> Figure:
-    """Draw, for each controller, the mean thrust of the rotors [N] over the least to the greatest of any of them."""
+    """Draw, for each controller, the mean thrust of the rotors [N] over the least to the greatest of any of them.
+
+    Scaled to what follows the first second.
+    """
     rows = -(-len(flights) // 2)
     figure = Figure(figsize=(PAGE, 0.55 + 1.25 * rows), layout="constrained")
     axes = figure.subplots(rows, 2, squeeze=False, sharex=True, sharey=True)
     longest = max(flights.values(), key=lambda f: len(f.time))
-    low, high = extent(*[f["rotor_thrusts"] for f in _settled(flights)])
+    low, high = extent(*[_beyond_the_start(f) for f in _settled(flights)])
     for place, (ax, (name, flight)) in enumerate(zip(axes.flat, flights.items(), strict=False)):
         if len(flight.time):
             _rotors(ax, flight)

@@ -46,13 +46,14 @@ CAPTIONS = {
     ),
     "thrusts": Caption(
         "Thrusts",
-        "What the rotors give: the mean thrust of all rotors as a line, over the least to the greatest of any of them.",
+        "What the rotors give: the mean thrust of all rotors as a line, over the least to the greatest of any of them; "
+        "scaled to what follows the first second.",
         "A panel over time for each controller: mean thrust of the rotors, and the band of the least to the greatest.",
     ),
 }
 
 
-def _row(entry: Entry, best: Sequence[float]) -> str:
+def _row(entry: Entry, best: Sequence[float | None]) -> str:
     """A controller's row of the table; what is the best of its column is set in bold."""
     head = f'<th scope="row">{escape(entry.name)}</th>'
     if entry.flight is None:
@@ -60,16 +61,18 @@ def _row(entry: Entry, best: Sequence[float]) -> str:
     found = scores(entry.flight)
     values = [value(found) for _, _, value in COLUMNS]
     cells = "".join(
-        f"<td><b>{number(v)}</b></td>" if v == least and not found["diverged"] else f"<td>{number(v)}</td>"
+        f"<td><b>{number(v)}</b></td>"
+        if v is not None and v == least and not found["diverged"]
+        else f"<td>{number(v)}</td>"
         for v, least in zip(values, best, strict=True)
     )
     return f"<tr>{head}{cells}<td>{escape(found['diverged'] or 'flown to the end')}</td></tr>"
 
 
-def _least(entries: Sequence[Entry], value: Callable[[dict[str, Any]], Any]) -> float:
-    """The least of a column, of those that did not diverge."""
-    found = [value(scores(e.flight)) for e in entries if e.flight and not e.flight.divergence]
-    return min((v for v in found if v is not None), default=float("nan"))
+def _least(entries: Sequence[Entry], value: Callable[[dict[str, Any]], Any]) -> float | None:
+    """The least of a column, of those that did not diverge; None if they are all alike."""
+    found = {value(scores(e.flight)) for e in entries if e.flight and not e.flight.divergence} - {None}
+    return min(found) if len(found) > 1 else None
 
 
 def _table(entries: Sequence[Entry]) -> str:
