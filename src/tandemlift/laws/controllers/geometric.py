@@ -1,6 +1,6 @@
 """Geometric tracking control on SE(3): the attitude error is formed of rotation matrices, not of Euler angles.
 
-Source: Lee, Leok and McClamroch, Geometric tracking control of a quadrotor UAV on SE(3), CDC 2010, equations 10 to 19:
+Source: Lee, Leok and McClamroch, Geometric tracking control of a quadrotor UAV on SE(3), CDC 2010:
 
     f = A · R e₃,   A = m (ẍ_d + k_x e + k_v ė + g e₃),   b₃ = A/|A|,   b₂ ∥ b₃ × b₁d,   b₁ = b₂ × b₃,
     e_R = ½ (R_dᵀR − RᵀR_d)^∨,   e_Ω = Ω − RᵀR_d Ω_d,
@@ -11,7 +11,7 @@ axes by 50 times; and A passes a command filter on its way to R_d, which gives �
 first axis b₁d points along the reference yaw, which makes R_d that of the Z-X-Y angles.
 
 Without filter and limits the tracking error vanishes exponentially, from attitudes within 90° of the desired one, and
-attitude errors do from almost everywhere (propositions 1 to 4 there, with one k_R for all axes).
+attitude errors do from almost everywhere (proven there with one k_R for all axes).
 
 Tune first: k_R and k_Ω against the rotors' lag, then k_x and k_v.
 """

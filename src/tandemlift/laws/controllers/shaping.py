@@ -1,8 +1,8 @@
 """The attitude reference: the desired orientation as it is, or shaped by a command filter that gives its derivatives.
 
 Differences of a desired orientation are too rough to be used as its derivatives. The command filter is critically
-damped, ẍ = ω_f²(Θ_d − x) − 2ω_f ẋ (Farrell and Polycarpou, Adaptive Approximation Based Control, 2006, ch. 6); the
-attitude law tracks its output, whose derivatives are exact.
+damped, ẍ = ω_f²(Θ_d − x) − 2ω_f ẋ (Farrell and Polycarpou, Adaptive Approximation Based Control, 2006); the attitude
+law tracks its output, whose derivatives are exact.
 """
 
 from __future__ import annotations
