@@ -24,10 +24,13 @@ from tandemlift.vector import ZERO, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
 
+Bandwidth = Annotated[float, Field(gt=0.0, le=1e4)]  # rad/s
+
+
 class CascadeTable(ControllerTable):
     """`[controller]`: the keys that the baselines share."""
 
-    filter_bandwidth: Annotated[float, Field(gt=0.0, le=1e4)] = 15.0  # rad/s, of the filter of the attitude reference
+    filter_bandwidth: Bandwidth = 15.0  # rad/s, of the filter of the attitude reference
     max_tilt: Tilt = 0.5  # rad, of the force wanted
     human_force_feedforward: bool = True
 

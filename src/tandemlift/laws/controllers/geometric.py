@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 from tandemlift.constants import GRAVITY
 from tandemlift.law import law
 from tandemlift.laws.body import Wrench
-from tandemlift.laws.controllers.cascade import Believed, CascadeTable, believed, wanted_force, wanted_moment
+from tandemlift.laws.controllers.cascade import Bandwidth, Believed, CascadeTable, believed, wanted_force, wanted_moment
 from tandemlift.laws.controllers.interface import Command, control
 from tandemlift.laws.controllers.registry import register
 from tandemlift.laws.lowpass import LowPass, Smoothed, low_pass, smooth
@@ -40,10 +40,11 @@ LEAST = 0.1  # of the weight: the force that R_d points along never has less upw
 class GeometricSettings(CascadeTable):
     """`[controller]` of geometric tracking control: position in world axes, attitude in body axes."""
 
-    position_stiffness: Positive3 = (5.0, 3.1, 32.0)  # 1/s²: k_x/m
-    position_damping: Positive3 = (4.7, 3.8, 15.0)  # 1/s: k_v/m
-    attitude_stiffness: Positive3 = (21.0, 53.0, 0.7)  # 1/s²: k_R/J
-    attitude_damping: Positive3 = (10.0, 14.7, 2.0)  # 1/s: k_Ω/J
+    filter_bandwidth: Bandwidth = 14.0  # rad/s
+    position_stiffness: Positive3 = (5.35, 2.83, 40.0)  # 1/s²: k_x/m
+    position_damping: Positive3 = (3.34, 2.75, 20.5)  # 1/s: k_v/m
+    attitude_stiffness: Positive3 = (24.9, 26.8, 5.41)  # 1/s²: k_R/J
+    attitude_damping: Positive3 = (14.3, 19.6, 2.57)  # 1/s: k_Ω/J
 
 
 class Geometric(NamedTuple):

@@ -13,13 +13,12 @@ Tune from the inside: rates, attitude, velocity, position; integrals last.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, NamedTuple
-
-from pydantic import Field
+from typing import Any, NamedTuple
 
 from tandemlift.law import law
 from tandemlift.laws.controllers.cascade import (
     LEVEL,
+    Bandwidth,
     Believed,
     CascadeTable,
     believed,
@@ -38,23 +37,22 @@ from tandemlift.settings import NonNegative3, Positive3
 from tandemlift.vector import ZERO, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
-Bandwidth = Annotated[float, Field(gt=0.0, le=1e4)]
-
 
 class PIDSettings(CascadeTable):
     """`[controller]` of the cascaded PID: x, y, z in world axes; roll, pitch, yaw; rates in body axes."""
 
-    position_p: Positive3 = (1.1, 0.8, 2.0)  # 1/s
-    velocity_p: Positive3 = (4.0, 3.8, 12.0)  # 1/s
-    velocity_i: NonNegative3 = (0.3, 0.3, 1.0)  # 1/s²
-    velocity_d: NonNegative3 = (0.05, 0.05, 0.05)
+    filter_bandwidth: Bandwidth = 7.99  # rad/s
+    position_p: Positive3 = (1.82, 2.98, 1.53)  # 1/s
+    velocity_p: Positive3 = (5.12, 2.99, 14.3)  # 1/s
+    velocity_i: NonNegative3 = (0.97, 1.52, 4.1)  # 1/s²
+    velocity_d: NonNegative3 = (0.0269, 0.223, 0.0161)
     velocity_i_limit: NonNegative3 = (2.0, 2.0, 2.0)  # m/s²
-    attitude_p: Positive3 = (2.1, 3.6, 0.4)  # 1/s
-    rate_p: Positive3 = (10.0, 14.0, 2.0)  # 1/s
-    rate_i: NonNegative3 = (1.0, 1.0, 0.05)  # 1/s²
-    rate_d: NonNegative3 = (0.05, 0.05, 0.05)
+    attitude_p: Positive3 = (0.441, 3.0, 0.264)  # 1/s
+    rate_p: Positive3 = (7.27, 11.9, 1.95)  # 1/s
+    rate_i: NonNegative3 = (0.809, 2.26, 0.079)  # 1/s²
+    rate_d: NonNegative3 = (0.0475, 0.0281, 0.163)
     rate_i_limit: NonNegative3 = (2.0, 2.0, 0.3)  # rad/s²
-    derivative_bandwidth: Bandwidth = 30.0  # rad/s, of the low-pass in both derivatives
+    derivative_bandwidth: Bandwidth = 211.0  # rad/s, of the low-pass in both derivatives
     tracking: Bandwidth = 2.0  # 1/s, of the back-calculation
 
 

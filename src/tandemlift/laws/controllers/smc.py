@@ -15,6 +15,7 @@ from typing import NamedTuple
 from tandemlift.law import elementwise, law
 from tandemlift.laws.controllers.cascade import (
     LEVEL,
+    Bandwidth,
     Believed,
     CascadeTable,
     believed,
@@ -38,9 +39,10 @@ from tandemlift.vehicle import Vehicle
 class SMCSettings(CascadeTable):
     """`[controller]` of conventional sliding mode control, per axis x, y, z, φ, θ, ψ."""
 
-    slope: Positive6 = (2.9, 1.2, 2.5, 3.0, 8.0, 0.45)  # 1/s: λ
-    gain: Positive6 = (1.8, 2.6, 6.5, 5.0, 4.5, 0.45)  # m/s², rad/s²: K
-    boundary_layer: Positive6 = (1.0, 1.0, 0.5, 0.7, 0.7, 0.3)  # m/s, rad/s: Φ
+    filter_bandwidth: Bandwidth = 13.6  # rad/s
+    slope: Positive6 = (1.57, 3.2, 1.61, 2.09, 4.93, 0.225)  # 1/s: λ
+    gain: Positive6 = (2.02, 1.31, 9.67, 5.4, 2.24, 1.42)  # m/s², rad/s²: K
+    boundary_layer: Positive6 = (1.07, 1.87, 0.465, 1.27, 0.649, 0.122)  # m/s, rad/s: Φ
 
 
 class Linear(NamedTuple):

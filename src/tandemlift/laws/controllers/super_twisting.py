@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 from tandemlift.law import elementwise, law
 from tandemlift.laws.controllers.cascade import (
     LEVEL,
+    Bandwidth,
     Believed,
     CascadeTable,
     believed,
@@ -44,9 +45,10 @@ ROOT, SIGN = 1.5, 1.1  # of √L and of L: Levant, 1998
 class SuperTwistingSettings(CascadeTable):
     """`[controller]` of super-twisting control, per axis x, y, z, φ, θ, ψ."""
 
-    slope: Positive6 = (2.9, 1.2, 2.5, 3.0, 8.0, 0.45)  # 1/s: λ
-    disturbance_slope: Positive6 = (1.4, 3.0, 15.0, 10.0, 10.0, 0.3)  # m/s³, rad/s³: L
-    boundary_layer: Positive6 = (1.0, 1.0, 0.4, 0.5, 0.5, 0.3)  # m/s, rad/s: Φ
+    filter_bandwidth: Bandwidth = 8.54  # rad/s
+    slope: Positive6 = (5.48, 0.657, 2.5, 3.38, 12.9, 0.249)  # 1/s: λ
+    disturbance_slope: Positive6 = (1.09, 6.97, 36.1, 2.3, 6.3, 2.78)  # m/s³, rad/s³: L
+    boundary_layer: Positive6 = (0.932, 1.68, 1.13, 0.303, 0.516, 0.363)  # m/s, rad/s: Φ
     integral_limit: Positive6 = (2.0, 2.0, 2.0, 2.0, 2.0, 0.5)  # m/s², rad/s²: of v
 
 
