@@ -23,7 +23,6 @@ from tandemlift.settings import ControllerTable, Tilt
 from tandemlift.vector import ZERO, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
-
 Bandwidth = Annotated[float, Field(gt=0.0, le=1e4)]  # rad/s
 
 

@@ -51,13 +51,13 @@ from tandemlift.vehicle import Vehicle
 class LQRSettings(CascadeTable):
     """`[controller]` of the linear-quadratic regulator: x, y, z; roll, pitch, yaw. Only ratios of weights count."""
 
-    position_weight: Positive3 = (10.0, 10.0, 400.0)  # 1/m²
-    velocity_weight: NonNegative3 = (1.0, 1.0, 20.0)  # (s/m)²
-    attitude_weight: Positive3 = (1.0, 1.0, 1.0)  # 1/rad²
-    rates_weight: NonNegative3 = (0.1, 0.1, 0.1)  # (s/rad)²
-    thrust_weight: Positive = 1.0  # (s²/m)²
-    moment_weight: Positive3 = (0.01, 0.01, 1.0)  # (s²/rad)²
-    lag: Positive = 0.03  # s: τ
+    position_weight: Positive3 = (59.4, 22.3, 3100.0)  # 1/m²
+    velocity_weight: NonNegative3 = (0.0126, 0.0909, 519.0)  # (s/m)²
+    attitude_weight: Positive3 = (0.116, 3.58, 16.9)  # 1/rad²
+    rates_weight: NonNegative3 = (0.0139, 0.0421, 0.171)  # (s/rad)²
+    thrust_weight: Positive = 0.184  # (s²/m)²
+    moment_weight: Positive3 = (0.00654, 0.0039, 0.998)  # (s²/rad)²
+    lag: Positive = 0.08  # s: τ
 
 
 class LQR(NamedTuple):
