@@ -91,7 +91,7 @@ def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
     missions = [e.mission for e in entered if e.mission]
     if count := sum(map(needs_compiling, missions)):
         loops = "the flight loop" if count == 1 else f"{count} flight loops"
-        click.echo(f"Compiling {loops} for this machine (once, a few seconds each) …", err=True)
+        click.echo(f"Compiling {loops} for this machine (once, up to a minute each) …", err=True)
     with bar("Flying", len(missions), shown=sys.stderr.isatty()) as progress:
         return compare(entered, engine, progress)
 
