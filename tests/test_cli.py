@@ -90,7 +90,7 @@ def test_the_version_is_told(run):
 @pytest.mark.parametrize(
     ("arguments", "pieces"),
     [
-        (("rnu", "paper"), ["No such command 'rnu'", "run, render, missions", "Did you mean 'run'?"]),
+        (("rnu", "paper"), ["No such command 'rnu'", "run, compare, render, missions", "Did you mean 'run'?"]),
         (("misions",), ["Did you mean 'missions'?"]),
         (("xyz",), ["No such command 'xyz'; there are run, "]),
         (("run", "paper", "--ste", "a=1"), ["No such option", "--set"]),

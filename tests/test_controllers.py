@@ -133,3 +133,10 @@ def test_metrics_around_ten_seconds_are_those_of_the_law_compiled(duration, law,
             assert name == "wall_s" or interpreted[name] is None
         else:
             np.testing.assert_allclose(interpreted[name], value, rtol=1e-6, atol=1e-9, err_msg=name)
+
+
+@pytest.mark.parametrize("name", [name for name in REGISTERED if name != "nftsmc"])
+def test_every_key_of_a_baseline_is_in_the_guide_and_has_a_default(name):
+    fields = CONTROLLERS[name].settings.model_fields
+    assert [key for key in fields if key != "name" and f"`{key}`" not in GUIDE] == []
+    assert [key for key, field in fields.items() if key != "name" and field.is_required()] == []

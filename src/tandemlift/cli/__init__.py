@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from tandemlift import __version__
+from tandemlift.cli.compare import compare
 from tandemlift.cli.render import render
 from tandemlift.cli.run import run, say
 from tandemlift.cli.validate import validate
@@ -50,6 +51,7 @@ def cli() -> None:
 
 
 cli.add_command(run)
+cli.add_command(compare)
 cli.add_command(render)
 cli.add_command(validate)
 

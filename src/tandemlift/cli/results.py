@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,8 +23,8 @@ FILES = ("mission.toml", "flight.npz", "metrics.json", "report.html")
 
 
 @contextmanager
-def results_in(out: str | None, default: Path) -> Iterator[Path]:
-    """The folder for the results, made before the flight; unmade if nothing comes of it.
+def results_in(out: str | None, default: Path, files: Sequence[str] = FILES) -> Iterator[Path]:
+    """The folder for the results, made before the flight; unmade if nothing comes of it. `files` will be written.
 
     Raises:
         InputError: it cannot be made or written to.
@@ -33,7 +33,7 @@ def results_in(out: str | None, default: Path) -> Iterator[Path]:
     made: list[Path] = []
     try:
         _make(folder, made)
-        _check_room(folder)
+        _check_room(folder, files)
         yield folder
     except BaseException:
         for path in reversed(made):
@@ -55,12 +55,12 @@ def _make(folder: Path, made: list[Path]) -> None:
         raise InputError(f"--out {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
 
 
-def _check_room(folder: Path) -> None:
+def _check_room(folder: Path, files: Sequence[str]) -> None:
     if not os.access(folder, os.W_OK | os.X_OK):
         raise InputError(f"--out {folder}: the folder cannot be written to")
     figures = folder / "figures"
-    in_the_way = [path for path in (folder / name for name in FILES) if path.is_dir()]
-    if figures.exists() and not figures.is_dir():
+    in_the_way = [path for path in (folder / name for name in files) if path.is_dir()]
+    if files is FILES and figures.exists() and not figures.is_dir():
         in_the_way.append(figures)
     if in_the_way:
         raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")

@@ -70,7 +70,7 @@ def run(
 
     began = time.perf_counter()
     engine_named(engine)
-    chosen = _controller(controller)
+    chosen = None if controller is None else chosen_controller(controller)
     loaded = _load(mission, settings, chosen)
     with results_in(out, Path("out") / loaded.mission.name) as folder:
         flight = _fly(loaded, engine, chosen)
@@ -82,11 +82,14 @@ def run(
         sys.exit(DIVERGED)
 
 
-def _controller(given: str | None) -> Controller | None:
+def chosen_controller(given: str) -> Controller:
+    """The registered controller of a name, or the one of a Python file.
+
+    Raises:
+        InputError: there is none, or the file has none.
+    """
     from tandemlift.laws.controllers import controller, load_controller
 
-    if given is None:
-        return None
     return load_controller(given) if given.endswith(".py") or "/" in given else controller(given)
 
 

@@ -72,23 +72,35 @@ SETTINGS: dict[str, Any] = {
 }
 
 
-def journal(draw: Callable[[Flight], Figure]) -> Callable[[Flight], Figure]:
-    """Draw under the journal's style, say on the figure if the flight diverged, and lay the figure out once."""
+def styled(draw: Callable[..., Figure]) -> Callable[..., Figure]:
+    """Draw under the journal's style, and lay the figure out once."""
 
     @wraps(draw)
-    def styled(flight: Flight) -> Figure:
+    def drawn(*arguments: Any) -> Figure:
         # a flight that diverged may hold infinities, whose differences are no news
         with matplotlib.style.context(["default", SETTINGS]), np.errstate(invalid="ignore", over="ignore"):
-            figure = draw(flight)
-            if flight.divergence:
-                note = f"diverged at {flight.divergence.time:.5g} s"
-                figure.supxlabel(note, x=0.01, ha="left", fontsize=8, color=VERMILLION)
+            figure = draw(*arguments)
             if layout := figure.get_layout_engine():
                 layout.execute(figure)
                 figure.set_layout_engine("none")  # else every saving would lay it out again
         return figure
 
-    return styled
+    return drawn
+
+
+def journal(draw: Callable[[Flight], Figure]) -> Callable[[Flight], Figure]:
+    """Draw a flight under the journal's style, and say on the figure if it diverged."""
+
+    @styled
+    @wraps(draw)
+    def noted(flight: Flight) -> Figure:
+        figure = draw(flight)
+        if flight.divergence:
+            note = f"diverged at {flight.divergence.time:.5g} s"
+            figure.supxlabel(note, x=0.01, ha="left", fontsize=8, color=VERMILLION)
+        return figure
+
+    return noted
 
 
 def save(figure: Figure, path: Path) -> Path:

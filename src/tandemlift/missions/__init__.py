@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import copy
 import functools
+import itertools
 import os
 import re
 import tomllib
@@ -104,6 +105,12 @@ def _overlay(base: Tables, changes: Tables) -> Tables:
     return merge(base, changes)
 
 
+def _last_said_of(controller: str, folded: Sequence[Tables]) -> Any:
+    """The table of a controller in the last of some tables that name it, or one of its name alone."""
+    said = (t["controller"] for t in reversed(folded) if value_at(t, ("controller", "name")) == controller)
+    return next(said, {"name": controller})
+
+
 def _layers(path: Path, seen: tuple[Path, ...] = ()) -> Iterator[Layer]:
     """What the file says, after what the missions say that it extends."""
     tables = _read(path)
@@ -162,19 +169,21 @@ def load_mission(
         name: name of a built-in mission, or path of a TOML file.
         changes: values by dotted key, such as {"mission.duration": 5.0, "pushes.0.force": [1.0, 0.0, 0.0]}; tables
             merge into what is there.
-        controller: fly this controller instead of the mission's, with its own default settings.
+        controller: fly this controller, with the settings that the mission, or one that it extends, has for it; if
+            there are none, with its own defaults.
 
     Raises:
         InputError: the mission does not exist, cannot be read or cannot be flown; the message says what is allowed.
     """
     try:
         layers = list(_layers(_path_of(name, Path())))
-        tables: Tables = functools.reduce(_overlay, (layer.tables for layer in layers), {})
+        folded = list(itertools.accumulate((layer.tables for layer in layers), _overlay, initial=Tables()))
+        tables = folded[-1]
         if controller is not None:
             chosen = controller if isinstance(controller, str) else controller.name
             if not isinstance(controller, str) and CONTROLLERS.get(chosen) is not controller:
                 raise InputError(f"controller {chosen!r} is not the one registered last by that name; load it again")
-            tables = _overlay(tables, {"controller": {"name": chosen}})
+            tables = {**tables, "controller": _last_said_of(chosen, folded)}
         for key, value in (changes or {}).items():
             tables = _changed(tables, key, value, layers[-1].source)
         return check(tables, layers[-1].source, layers)

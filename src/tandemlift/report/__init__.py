@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.figures import figures_of
-from tandemlift.figures.captions import CAPTIONS
+from tandemlift.figures.captions import CAPTIONS, Caption
 from tandemlift.files import whole
 from tandemlift.flight import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
@@ -149,14 +149,22 @@ def _engine(flight: Flight) -> str:
     return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine not told"
 
 
+def table_of(head: str, rows: Iterable[str], look: str) -> str:
+    """A table of rows as HTML, that scrolls sideways where it is too wide; `head` is its first row, '' for none."""
+    top = f"<thead>{head}</thead>\n" if head else ""
+    body = f"<tbody>\n{chr(10).join(rows)}\n</tbody>"
+    return f'<div class="table">\n<table class="{look}">\n{top}{body}\n</table>\n</div>'
+
+
 def _setup(flight: Flight) -> str:
     """Vehicle, pilot, rotors, sensors and surroundings as a table, a row each."""
     rows = (f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>' for what, said in setup_of(flight))
-    return f'<div class="table">\n<table class="setup">\n<tbody>\n{chr(10).join(rows)}\n</tbody>\n</table>\n</div>'
+    return table_of("", rows, "setup")
 
 
-def _figure(place: int, name: str, png: Path) -> str:
-    data, caption = png.read_bytes(), CAPTIONS[name]
+def figure_of(place: int, name: str, png: Path, caption: Caption) -> str:
+    """A picture in the page, with its number and caption."""
+    data = png.read_bytes()
     width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
     source = f"data:image/png;base64,{base64.b64encode(data).decode()}"
     look = ' class="wide"' if width > WIDE else ""
@@ -191,7 +199,7 @@ def write_report(
         The path.
     """
     path = Path(path)
-    shown = [_figure(i, name, png) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
+    shown = [figure_of(i, name, png, CAPTIONS[name]) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
     text = PAGE.format(
         name=escape(flight.name),
         style=STYLE,

@@ -1,4 +1,4 @@
-"""The page of a report: its style, for screens of any size and for print, and its frame."""
+"""The pages: their style, for screens of any size and for print, and the frames of a report and of a comparison."""
 
 from __future__ import annotations
 
@@ -33,6 +33,8 @@ thead th, thead th:first-child { font-weight: 600; }
 td:last-child, thead th:last-child { text-align: left; }
 .setup td, .setup td:last-child { white-space: normal; text-align: left; }
 .setup th:first-child { width: 11rem; }
+.compared td:last-child { white-space: normal; min-width: 9rem; }
+.compared thead small { color: var(--soft); font-weight: 400; }
 td.one { text-align: center; white-space: normal; }
 td small { color: var(--soft); }
 sup { line-height: 0; }
@@ -84,6 +86,43 @@ PAGE = """<!DOCTYPE html>
 <section>
 <h2>How to fly it again</h2>
 {again}
+</section>
+<footer class="soft">Flown with {versions}.</footer>
+</main>
+</body>
+</html>
+"""
+
+COMPARISON = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{name}: controllers compared</title>
+<style>{style}</style>
+</head>
+<body>
+<main>
+<header>
+<p class="kind">Controllers compared</p>
+<h1>{name}</h1>
+<p class="kind">Flown in engine <b>{engine}</b></p>
+</header>
+<section>
+<h2>Comparison</h2>
+<p class="soft">Errors are desired minus actual position, {when}; the effort is the mean norm of the commanded moments
+over the same time; saturated is the share of all steps in which a rotor is at a limit. Bold: the least of those that
+did not diverge.</p>
+{table}
+</section>
+{figures}
+<section>
+<h2>Set-up</h2>
+{setup}
+</section>
+<section>
+<h2>Settings</h2>
+{settings}
 </section>
 <footer class="soft">Flown with {versions}.</footer>
 </main>

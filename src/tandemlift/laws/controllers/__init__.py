@@ -9,7 +9,7 @@ for its own type of gains. Written as a law it compiles into the loop; registere
 function will do, at a few microseconds a step.
 """
 
-from tandemlift.laws.controllers import nftsmc  # registers itself
+from tandemlift.laws.controllers import geometric, lqr, nftsmc, pid, smc, super_twisting  # register themselves
 from tandemlift.laws.controllers.interface import (
     CALM,
     Command,
@@ -35,8 +35,13 @@ __all__ = [
     "control",
     "controller",
     "file_of",
+    "geometric",
     "load_controller",
+    "lqr",
     "nftsmc",
+    "pid",
     "register",
+    "smc",
+    "super_twisting",
     "told",
 ]

@@ -9,7 +9,6 @@ Tune first: the boundary layer Φ against the step, then ξ (the bandwidth on th
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Sequence
 from typing import Annotated, Any, Literal, NamedTuple
@@ -22,6 +21,14 @@ from tandemlift.law import choice, law
 from tandemlift.laws.body import UP, Wrench
 from tandemlift.laws.controllers.interface import Command, NoMemory, control
 from tandemlift.laws.controllers.registry import register
+from tandemlift.laws.controllers.shaping import (
+    AttitudeReference,
+    Filtered,
+    Unfiltered,
+    command_filter,
+    shape,
+    with_heading,
+)
 from tandemlift.laws.inertia import gyroscopic, inertia_value, turn_by
 from tandemlift.laws.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.sliding import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration
@@ -71,38 +78,6 @@ class BodyRates(NamedTuple):
     """Euler rates taken to be the body rates (the paper's Assumption 4)."""
 
 
-class Unfiltered(NamedTuple):
-    """The attitude law tracks the desired orientation with derivatives taken as zero."""
-
-
-class CommandFilter(NamedTuple):
-    """Critically damped second-order filter ẍ = ω_f²(Θ_d − x) − 2ω_f ẋ, exact for Θ_d held over a step.
-
-    `bandwidth` ω_f [rad/s]; the rest is the transition of (x − Θ_d, ẋ) over one step.
-    """
-
-    bandwidth: Any
-    position_from_position: Any
-    position_from_velocity: Any
-    velocity_from_position: Any
-    velocity_from_velocity: Any
-
-
-class Filtered(NamedTuple):
-    """Memory of the command filter: angles [rad] and rates [rad/s]."""
-
-    angles: Vec3
-    rates: Vec3
-
-
-class AttitudeReference(NamedTuple):
-    """What the attitude law tracks: angles [rad], rates [rad/s], accelerations [rad/s²] of φ, θ, ψ."""
-
-    angles: Vec3
-    rates: Vec3
-    accelerations: Vec3
-
-
 class NFTSMC(NamedTuple):
     """Gains: the vehicle as the controller believes it to be, the two surfaces, and the variants by type.
 
@@ -135,36 +110,6 @@ def _exact(kind, e, rates):
 @euler_rates.register(BodyRates)
 def _body(kind, e, rates):
     return rates
-
-
-@choice
-def shape(kind: Any, memory: Any, desired: Any) -> Any:
-    """(what the attitude law tracks, the new memory), from the desired orientation [rad]."""
-
-
-@shape.register(Unfiltered)
-def _unfiltered(kind, memory, desired):
-    return AttitudeReference(desired, ZERO, ZERO), memory
-
-
-@shape.register(CommandFilter)
-def _filtered(kind, memory, desired):
-    x = memory.angles - desired
-    acceleration = -(x * (kind.bandwidth * kind.bandwidth) + memory.rates * (2.0 * kind.bandwidth))
-    after = Filtered(
-        desired + x * kind.position_from_position + memory.rates * kind.position_from_velocity,
-        x * kind.velocity_from_position + memory.rates * kind.velocity_from_velocity,
-    )
-    return AttitudeReference(memory.angles, memory.rates, acceleration), after
-
-
-@law
-def with_heading(tracked: AttitudeReference, reference: Any) -> AttitudeReference:
-    """What the attitude law tracks, with the yaw and its derivatives as the reference has them."""
-    a, r, c = tracked.angles, tracked.rates, tracked.accelerations
-    return AttitudeReference(
-        Vec3(a.x, a.y, reference.yaw), Vec3(r.x, r.y, reference.yaw_rate), Vec3(c.x, c.y, reference.yaw_acceleration)
-    )
 
 
 @law
@@ -202,13 +147,6 @@ def nftsmc(k, memory, measured, reference):
     rates = euler_rates(k.rates, e, measured.state.rates)
     moment = attitude_law(k, e, rates, tracked) - measured.disturbance.moment
     return Command(Wrench(total_thrust(e, u), moment), tracked.angles), memory
-
-
-def command_filter(bandwidth: float, step: float) -> CommandFilter:
-    """The command filter of bandwidth ω_f [rad/s], sampled every `step` [s]."""
-    wh = bandwidth * step
-    decay = math.exp(-wh)
-    return CommandFilter(bandwidth, (1.0 + wh) * decay, step * decay, -bandwidth * wh * decay, (1.0 - wh) * decay)
 
 
 def _surface(s: NFTSMCSettings, first: int) -> Surface:

@@ -1,0 +1,145 @@
+"""`tandemlift compare`: one mission with several controllers, as a table and a page."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tandemlift.cli.results import bar, results_in
+from tandemlift.cli.run import DIVERGED, chosen_controller, parse_setting, say
+from tandemlift.errors import InputError
+from tandemlift.files import whole
+
+if TYPE_CHECKING:
+    from tandemlift.comparison import Entrant, Entry
+    from tandemlift.laws.controllers import Controller
+
+FILES = ("compare.html", "compare.json")
+
+
+@click.command()
+@click.argument("mission")
+@click.option("--controllers", metavar="A,B,…", help="Names, or your .py files.  [default: all that are registered]")
+@click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of the mission, as in run.")
+@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
+def compare(mission: str, controllers: str | None, engine: str, settings: tuple[str, ...], out: str | None) -> None:
+    """Fly MISSION with several controllers, print a table and write a page.
+
+    Every controller flies with its own defaults, and the mission's own with the mission's settings. A change of a
+    `controller` key by --set is for the mission's own controller alone.
+
+    \b
+    Examples:
+      tandemlift compare iris
+      tandemlift compare iris --controllers nftsmc,pid,lqr --set 'disturbance.force=[3, 3, 0]'
+      tandemlift compare hover --controllers nftsmc,my_pd.py --out out/mine
+
+    \b
+    Written to the folder, replacing only files of these names:
+      compare.html   table, errors and thrusts on one page, needs no network
+      compare.json   the same in numbers, with all metrics and settings, SI units
+
+    \b
+    Exit code:
+      0   flown
+      2   bad input: one message, nothing is written
+      3   a controller diverged: its row says when and why, everything is written
+    """
+    from tandemlift.comparison import entrants
+    from tandemlift.engines import engine_named
+
+    engine_named(engine)
+    changes = dict(map(parse_setting, settings))
+    entered = entrants(mission, changes, _chosen(controllers))
+    name = next(e.mission.mission.name for e in entered if e.mission)
+    with results_in(out, Path("out") / name, FILES) as folder:
+        entries = _fly(entered, engine)
+        _print_table(name, entries)
+        _write(entries, folder, name, engine)
+        say(f"  page: {folder / 'compare.html'}")
+    lost = {e.name: e.flight.divergence for e in entries if e.flight and e.flight.divergence}
+    for controller, divergence in lost.items():
+        click.echo(f"{controller}: {divergence}", err=True)
+    if lost:
+        sys.exit(DIVERGED)
+
+
+def _chosen(given: str | None) -> list[Controller] | None:
+    """The controllers of a list with commas, each once; None for all.
+
+    Raises:
+        InputError: the list is empty, or one of them is not known.
+    """
+    if given is None:
+        return None
+    names = list(dict.fromkeys(part.strip() for part in given.split(",") if part.strip()))
+    if not names:
+        raise InputError("--controllers: must be names with commas between them, such as nftsmc,pid")
+    return [chosen_controller(name) for name in names]
+
+
+def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
+    from tandemlift.comparison import compare
+    from tandemlift.prepared import needs_compiling
+
+    missions = [e.mission for e in entered if e.mission]
+    if count := sum(map(needs_compiling, missions)):
+        loops = "the flight loop" if count == 1 else f"{count} flight loops"
+        click.echo(f"Compiling {loops} for this machine (once, up to a minute each) …", err=True)
+    with bar("Flying", len(missions), shown=sys.stderr.isatty()) as progress:
+        return compare(entered, engine, progress)
+
+
+def _cells(entry: Entry) -> list[str]:
+    from tandemlift.comparison import scores
+
+    if entry.flight is None:
+        return [entry.name, *[""] * 7, f"not flown: {entry.refusal}"]
+    s = scores(entry.flight)
+    return [
+        entry.name,
+        *(f"{1e3 * v:.2f}" for v in s["position_rmse_m"] or ()),
+        *([""] * (0 if s["position_rmse_m"] else 3)),
+        _printed(s["position_max_error_m"], 1e3, 1),
+        _printed(s["effort_n_m"], 1.0, 3),
+        _printed(s["rotor_saturated_share"], 1e2, 2),
+        _printed(s["step_ns"], 1.0, 0),
+        s["diverged"] or "",
+    ]
+
+
+def _printed(value: float | None, scale: float, digits: int) -> str:
+    return "" if value is None else f"{scale * value:.{digits}f}"
+
+
+def _print_table(name: str, entries: Sequence[Entry]) -> None:
+    """Print a row for each controller, and under it why it diverged or did not fly."""
+    from tandemlift.comparison import scores
+
+    late = any(scores(e.flight)["after_s"] for e in entries if e.flight)
+    say(f"{name}: position errors {'after 10 s' if late else 'of the whole flight'}")
+    heads = ("", "RMSE x", "y", "z (mm)", "most (mm)", "effort (N m)", "saturated (%)", "ns/step")
+    rows = [_cells(entry) for entry in entries]
+    width = max(len(row[0]) for row in rows) + 2
+    say("  " + heads[0].ljust(width) + "  ".join(head.rjust(max(9, len(head))) for head in heads[1:]))
+    for row in rows:
+        cells = (cell.rjust(max(9, len(head))) for cell, head in zip(row[1:-1], heads[1:], strict=True))
+        say(f"  {row[0].ljust(width)}{'  '.join(cells)}".rstrip())
+        if row[-1]:
+            say(f"  {'':{width}}{row[-1]}")
+
+
+def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> None:
+    from tandemlift.comparison import summary_of
+    from tandemlift.report.comparison import write_comparison
+
+    found: dict[str, Any] = {"mission": name, "engine": engine, "controllers": summary_of(entries)}
+    with whole(folder / "compare.json") as partial:
+        partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
+    write_comparison(entries, folder / "compare.html")

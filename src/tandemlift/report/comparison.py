@@ -1,0 +1,146 @@
+"""The page of a comparison of controllers: one HTML file that needs nothing else: table, errors, thrusts, settings."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from tandemlift.comparison import Entry, scores
+from tandemlift.figures.captions import Caption
+from tandemlift.files import whole
+from tandemlift.flight import Flight
+from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.missions import format_toml
+from tandemlift.report import DASH, figure_of, number, table_of
+from tandemlift.report.page import COMPARISON, STYLE
+from tandemlift.report.setup import setup_of
+
+Column = tuple[str, str, Callable[[dict[str, Any]], Any]]
+
+
+def _of_axis(i: int) -> Callable[[dict[str, Any]], Any]:
+    return lambda s: 1e3 * s["position_rmse_m"][i] if s["position_rmse_m"] else None
+
+
+def _scaled(name: str, factor: float) -> Callable[[dict[str, Any]], Any]:
+    return lambda s: None if s[name] is None else factor * s[name]
+
+
+COLUMNS: tuple[Column, ...] = (  # heading, unit, value; the least of each is the best
+    *((f"RMSE {axis}", "mm", _of_axis(i)) for i, axis in enumerate("xyz")),
+    ("Largest error", "mm", _scaled("position_max_error_m", 1e3)),
+    ("Effort", "N m", _scaled("effort_n_m", 1.0)),
+    ("Saturated", "%", _scaled("rotor_saturated_share", 1e2)),
+    ("Time a step", "ns", _scaled("step_ns", 1.0)),
+)
+CAPTIONS = {
+    "errors": Caption(
+        "Errors",
+        "Errors of position, desired minus actual, along x, y and z, of all controllers. The first 10 s, in which a "
+        "disturbed start is left behind, have a scale of their own. A controller that diverges does not set the scale.",
+        "Panels over time for x, y and z: the error of position of every controller, the first ten seconds apart.",
+    ),
+    "thrusts": Caption(
+        "Thrusts",
+        "What the rotors give: the mean thrust of all rotors as a line, over the least to the greatest of any of them; "
+        "scaled to what follows the first second.",
+        "A panel over time for each controller: mean thrust of the rotors, and the band of the least to the greatest.",
+    ),
+}
+
+
+def _row(entry: Entry, best: Sequence[float | None]) -> str:
+    """A controller's row of the table; what is the best of its column is set in bold."""
+    head = f'<th scope="row">{escape(entry.name)}</th>'
+    if entry.flight is None:
+        return f'<tr>{head}<td class="one" colspan="{len(COLUMNS)}">{DASH}</td><td>{escape(entry.refusal)}</td></tr>'
+    found = scores(entry.flight)
+    values = [value(found) for _, _, value in COLUMNS]
+    cells = "".join(
+        f"<td><b>{number(v)}</b></td>"
+        if v is not None and v == least and not found["diverged"]
+        else f"<td>{number(v)}</td>"
+        for v, least in zip(values, best, strict=True)
+    )
+    return f"<tr>{head}{cells}<td>{escape(found['diverged'] or 'flown to the end')}</td></tr>"
+
+
+def _least(entries: Sequence[Entry], value: Callable[[dict[str, Any]], Any]) -> float | None:
+    """The least of a column, of those that did not diverge; None if they are all alike."""
+    found = {value(scores(e.flight)) for e in entries if e.flight and not e.flight.divergence} - {None}
+    return min(found) if len(found) > 1 else None
+
+
+def _table(entries: Sequence[Entry]) -> str:
+    best = [_least(entries, value) for _, _, value in COLUMNS]
+    heads = "".join(f'<th scope="col">{head}<br><small>{unit}</small></th>' for head, unit, _ in COLUMNS)
+    head = f'<tr><th scope="col">Controller</th>{heads}<th scope="col">Outcome</th></tr>'
+    return table_of(head, (_row(entry, best) for entry in entries), "compared")
+
+
+def _figures(flights: Mapping[str, Flight]) -> str:
+    """The figures as HTML."""
+    from tandemlift.figures.comparison import draw_errors, draw_thrusts
+    from tandemlift.figures.style import save
+
+    shown = []
+    with tempfile.TemporaryDirectory() as folder:
+        for place, (name, draw) in enumerate((("errors", draw_errors), ("thrusts", draw_thrusts)), 1):
+            png = save(draw(flights), Path(folder) / f"{name}.png")
+            shown.append(figure_of(place, name, png, CAPTIONS[name]))
+    return f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>"
+
+
+def _setup(flight: Flight) -> str:
+    """What was flown, but for the controller."""
+    rows = [
+        f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>'
+        for what, said in setup_of(flight)
+        if what != "Pilot"
+    ]
+    return table_of("", rows, "setup")
+
+
+def _settings(flights: Mapping[str, Flight]) -> str:
+    shown = []
+    for name, flight in flights.items():
+        about = CONTROLLERS[name].summary if name in CONTROLLERS else ""
+        text = format_toml({"controller": flight.mission["controller"]})
+        shown.append(
+            f"<details>\n<summary>{escape(name)}: {escape(about)}</summary>\n<pre><code>{escape(text)}</code></pre>\n"
+            "</details>"
+        )
+    return "\n".join(shown)
+
+
+def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> Path:
+    """Write a comparison of controllers as one HTML file without references; it appears whole or not at all.
+
+    Args:
+        entries: from `compare`; at least one has flown.
+        path: of the HTML file; its folder is there.
+
+    Returns:
+        The path.
+    """
+    path, flights = Path(path), {e.name: e.flight for e in entries if e.flight}
+    first = next(iter(flights.values()))
+    late = any(scores(flight)["after_s"] for flight in flights.values())
+    text = COMPARISON.format(
+        name=escape(first.name),
+        style=STYLE,
+        engine=escape(first.version.get("engine", "")),
+        when="after 10 s" if late else "of the whole flight",
+        table=_table(entries),
+        figures=_figures(flights),
+        setup=_setup(first),
+        settings=_settings(flights),
+        versions=escape(", ".join(f"{name} {version}" for name, version in first.version.items())),
+    )
+    with whole(path) as partial:
+        partial.write_text(text, "utf-8")
+    return path
