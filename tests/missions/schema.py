@@ -26,5 +26,6 @@ EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and
     "faults": [{"quadrotor": 1, "rotor": 1, "time": 60.0}],
     "wind": {"model": "air", "gusts": [{"velocity": [1.0, 0.0, 0.0], "start": 15.0, "rise": 1.0}]},
     "walls": [{"start": [20.0, -3.0], "end": [20.0, 3.0]}],
+    "partner": {"path": [{"point": [1.0, 0.0], "heading": 0.0}]},
 }
 SCHEMA = dict(reversed(list(schema_keys())))  # of `controller.name`, what every mission asks for

@@ -6,7 +6,7 @@ from typing import Any
 
 from tandemlift.laws.body import State
 from tandemlift.laws.lowpass import Smoothed, low_pass
-from tandemlift.laws.partner import Arm, Hold, Leg, Partner, Partnering, Pull, Steer, TwoHands, Walk, sight, steered
+from tandemlift.laws.partner import Arm, Leg, Manner, Partner, Partnering, Walk, sight, steered
 from tandemlift.laws.tremor import STILL, TWITCH, tremor
 from tandemlift.settings import Mission
 from tandemlift.settings.partner import PartnerTable, WaypointTable
@@ -14,11 +14,11 @@ from tandemlift.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
 
-def manner_of(p: PartnerTable) -> Any:
+def manner_of(p: PartnerTable) -> Manner:
     """How a person of a mission leads."""
-    return {"pull": Pull(), "steer": Steer(), "two-hands": TwoHands(p.turn_gain, p.turn_damping), "hold": Hold()}[
-        p.model
-    ]
+    hands = 1.0 if p.model == "two-hands" else 0.0
+    at_grip, stays = 0.0 if p.model == "steer" else 1.0, 1.0 if p.model == "hold" else 0.0
+    return Manner(at_grip, hands * p.turn_gain, hands * p.turn_damping, stays)
 
 
 def waypoints_of(mission: Mission) -> tuple[WaypointTable, ...]:
@@ -67,7 +67,7 @@ def start_partner(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any
     )
     height = mission.initial.position[2] + p.height_share * mission.phases.height
     last = float(len(waypoints_of(mission)) - 1)
-    walk = Walk(p.speed, p.gain, p.look_ahead, p.approach, p.slow, p.start, height, last)
+    walk = Walk(p.speed, p.gain, p.look_ahead, p.approach, p.breakaway, p.slow, p.start, height, last)
     partner = Partner(grip, arm, walk, manner_of(p))
     seen = sight(grip, state)
     quiet = Smoothed(0.0, 0.0)

@@ -94,7 +94,7 @@ class Walk(NamedTuple):
     """How a person goes along the path.
 
     Speed aimed at [m/s], force over the speed that lacks [N·s/m], how far ahead they look [m], speed over the way left
-    to a stop [1/s], speed [m/s] below which they let it land; time [s] and height [m] from which on they push; the
+    to a stop [1/s], force [N] below which the vehicle does not move, which is added; speed [m/s] below which they let it land; time [s] and height [m] from which on they push; the
     number of the last leg.
     """
 
@@ -102,38 +102,34 @@ class Walk(NamedTuple):
     gain: Any
     look_ahead: Any
     approach: Any
+    breakaway: Any
     slow: Any
     start: Any
     height: Any
     last: Any
 
 
-class Pull(NamedTuple):
-    """One hand leads the grip along the path."""
+class Manner(NamedTuple):
+    """How a person leads, as numbers, so that one compiled loop serves them all.
 
+    `at_grip`: 1 to lead the grip along the path, 0 to lead the centre of mass. Couple of two hands over angle [N·m/rad]
+    and over rate [N·m·s], 0 of one hand. `stays`: 1 for a hand that goes to the ends of the legs and stays there,
+    whatever the vehicle does.
+    """
 
-class Steer(NamedTuple):
-    """One hand at the grip leads the vehicle's centre along the path."""
-
-
-class TwoHands(NamedTuple):
-    """Two hands about the payload's centre lead it, and turn it: couple over angle [N·m/rad] and over rate [N·m·s]."""
-
-    gain: Any
-    damping: Any
-
-
-class Hold(NamedTuple):
-    """One hand goes to the ends of the legs and stays there, whatever the vehicle does."""
+    at_grip: Any
+    turn_gain: Any
+    turn_damping: Any
+    stays: Any
 
 
 class Partner(NamedTuple):
-    """A person: the grip [m, body axes, from the centre of mass], the arm, the walk; the type of `manner` is theirs."""
+    """A person: the grip [m, body axes, from the centre of mass], the arm, the walk and the manner."""
 
     grip: Vec3
     arm: Arm
     walk: Walk
-    manner: Any
+    manner: Manner
 
 
 class Aim(NamedTuple):
@@ -174,56 +170,27 @@ def pursue(w: Walk, leg: Leg, p: Vec3, v: Vec3) -> Vec3:
     way = leg.start + along * ahead - p
     slower = minimum(w.speed, w.approach * sqrt(maximum(dot(left, left), TINY)))
     speed = where(leg.stops > 0.0, slower, w.speed)
-    return (way * (speed / sqrt(maximum(dot(way, way), TINY))) - v) * w.gain
-
-
-@choice
-def steered(manner: Any, seen: Sight) -> Any:
-    """(place [m], velocity [m/s]) of what is led along the path."""
-
-
-@steered.register(Pull)
-@steered.register(Hold)
-@steered.register(TwoHands)
-def _the_grip(manner, seen):
-    return seen.grip, seen.grip_velocity
-
-
-@steered.register(Steer)
-def _the_centre(manner, seen):
-    return seen.position, seen.velocity
+    force = (way * (speed / sqrt(maximum(dot(way, way), TINY))) - v) * w.gain
+    return force * (1.0 + w.breakaway / sqrt(dot(force, force) + maximum(w.breakaway * w.breakaway, TINY)))
 
 
 @law
-def led(k: Partner, m: Partnering) -> Vec3:
-    """Where the hand is to be to lead what is steered [m, world axes]."""
-    seen, ahead = m.seen, k.arm.horizon
-    p, v = steered(k.manner, seen)
-    force = bounded(pursue(k.walk, m.leg, p + v * ahead, v), k.arm.most)
-    return seen.grip + seen.grip_velocity * ahead + force / k.arm.stiffness
+def steered(manner: Manner, seen: Sight) -> Any:
+    """(place [m], velocity [m/s]) of what is led along the path."""
+    grip, centre = manner.at_grip, 1.0 - manner.at_grip
+    return seen.grip * grip + seen.position * centre, seen.grip_velocity * grip + seen.velocity * centre
 
 
-@choice
-def aim(manner: Any, k: Partner, m: Partnering) -> Aim:
+@law
+def aim(k: Partner, m: Partnering) -> Aim:
     """What a person intends, by what they see."""
-
-
-@aim.register(Pull)
-@aim.register(Steer)
-def _by_one_hand(manner, k, m):
-    return Aim(led(k, m), 0.0)
-
-
-@aim.register(TwoHands)
-def _by_two_hands(manner, k, m):
-    off = turned_least(m.leg.heading - m.seen.yaw - m.seen.yaw_rate * k.arm.horizon)
-    couple = off * manner.gain - m.seen.yaw_rate * manner.damping
-    return Aim(led(k, m), clip(couple, -k.arm.most_couple, k.arm.most_couple))
-
-
-@aim.register(Hold)
-def _at_the_end(manner, k, m):
-    return Aim(m.leg.end, 0.0)
+    seen, ahead, manner = m.seen, k.arm.horizon, k.manner
+    p, v = steered(manner, seen)
+    force = bounded(pursue(k.walk, m.leg, p + v * ahead, v), k.arm.most)
+    led = seen.grip + seen.grip_velocity * ahead + force / k.arm.stiffness
+    off = turned_least(m.leg.heading - seen.yaw - seen.yaw_rate * ahead)
+    couple = clip(off * manner.turn_gain - seen.yaw_rate * manner.turn_damping, -k.arm.most_couple, k.arm.most_couple)
+    return Aim(m.leg.end * manner.stays + led * (1.0 - manner.stays), couple)
 
 
 @law
@@ -268,7 +235,7 @@ def _nobody(partner, memory, hand, state, noise, t, dt):
 @lend.register(Partner)
 def _somebody(partner, memory, hand, state, noise, t, dt):
     m, now = gone_on(partner, memory, t, dt), sight(partner.grip, state)
-    intent, holding, lag = aim(partner.manner, partner, m), m.begun * (1.0 - m.landing), partner.arm.lag
+    intent, holding, lag = aim(partner, m), m.begun * (1.0 - m.landing), partner.arm.lag
     idle = m.seen.grip + m.seen.grip_velocity * partner.arm.horizon
     place = smooth(lag, m.place, intent.place * holding + idle * (1.0 - holding))
     couple, grasp = smooth(lag, m.couple, intent.couple * holding), smooth(lag, m.grasp, holding)

@@ -11,7 +11,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, SerializeAsAny
 
-from tandemlift.settings.corridor import CorridorTable, WallTable
+from tandemlift.settings.corridor import CorridorTable, WallTable, wall_tables
 from tandemlift.settings.guided import ComplianceTable, ObserverTable
 from tandemlift.settings.leaves import (
     AtLeastOne,
@@ -85,6 +85,7 @@ __all__ = [
     "Triple",
     "VehicleTable",
     "WallTable",
+    "wall_tables",
 ]
 
 

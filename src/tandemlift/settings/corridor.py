@@ -7,9 +7,9 @@ centreline's: so each wall keeps its distance of half the width all along.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,3 +77,9 @@ class CorridorTable(Table):
         if self.ends == "closed":
             lines += [(left[0], right[0]), (left[-1], right[-1])]
         return tuple(WallTable(start=tuple(a), end=tuple(b), top=self.height) for a, b in lines)
+
+
+def wall_tables(mission: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """All walls of a mission given as nested tables: those of `walls`, then the corridor's."""
+    corridor = CorridorTable.model_validate(mission.get("corridor", {}))
+    return [*mission.get("walls", []), *(w.model_dump(mode="json") for w in corridor.walls)]

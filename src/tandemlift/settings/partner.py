@@ -34,12 +34,13 @@ class PartnerTable(Table):
     tremor: NonNegative = 0.05  # N, standard deviation along each axis, 8 to 12 Hz
     max_force: Positive = 8.0  # N
     max_couple: NonNegative = 0.8  # N m, of two hands about the vertical
-    speed: Positive = 0.9  # m/s, that is aimed at
+    speed: Positive = 1.0  # m/s, that is aimed at
     gain: Positive = 3.0  # N s/m, force over what the speed lacks
     look_ahead: Positive = 1.0  # m, along the path
     approach: Positive = 0.8  # 1/s, speed aimed at over the way that is left to a stop
+    breakaway: NonNegative = 0.3  # N, that it takes to move the vehicle: known to the person, who adds it
     corner: Positive = 0.5  # m, before a waypoint, where the next leg is taken up
-    arrive: Positive = 0.2  # m, from a waypoint with a dwell, and from the last one, where it is reached
+    arrive: Positive = 0.3  # m, from a waypoint with a dwell, and from the last one, where it is reached
     slow: Positive = 0.1  # m/s, below which the person lets it land
     turn_gain: NonNegative = 1.5  # N m/rad, of two hands
     turn_damping: NonNegative = 2.0  # N m s
