@@ -72,9 +72,7 @@ def _nobody(effort, more):
 
 @added.register(Effort)
 def _somebody(effort, more):
-    return Effort(
-        effort.steps + more.steps, effort.force_sum + more.force_sum, effort.speed_sum + more.speed_sum
-    )
+    return Effort(effort.steps + more.steps, effort.force_sum + more.force_sum, effort.speed_sum + more.speed_sum)
 
 
 @law

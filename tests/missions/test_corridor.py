@@ -50,7 +50,7 @@ def test_every_wall_is_parallel_to_its_stretch_of_the_centreline_at_half_the_wid
 
 def test_open_ends_are_square_and_closed_ones_have_a_wall_across():
     table = CorridorTable(centreline=LINE, width=4.0, ends="closed", height=3.0)
-    assert [(w.start, w.end) for w in table.walls[-2:]][0] == ((0.0, 2.0), (0.0, -2.0))
+    assert (table.walls[-2].start, table.walls[-2].end) == ((0.0, 2.0), (0.0, -2.0))
     last = np.array([table.walls[-1].start, table.walls[-1].end])
     assert np.mean(last, axis=0) == pytest.approx(LINE[-1])
     assert np.diff(last, axis=0)[0] @ np.subtract(LINE[-1], LINE[-2]) == pytest.approx(0.0, abs=1e-12)
@@ -70,7 +70,12 @@ def test_a_corridor_that_is_accepted_has_walls_that_run_along_it(width, end):
 
 
 def test_the_file_keeps_the_centreline_and_the_loop_gets_walls_and_legs():
-    changes = {**WALKED, "corridor.centreline": LINE, "partner.model": "steer", "walls": [{"start": [0, 9], "end": [9, 9]}]}
+    changes = {
+        **WALKED,
+        "corridor.centreline": LINE,
+        "partner.model": "steer",
+        "walls": [{"start": [0, 9], "end": [9, 9]}],
+    }
     mission = tl.load_mission("hover", changes)
     tables = tables_of(mission)
     assert len(tables["walls"]) == 1

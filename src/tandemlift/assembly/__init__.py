@@ -92,4 +92,10 @@ def assemble(mission: Mission) -> Assembled:
     late = Lines(*[Late() if d else Nothing() for d in delays]) if delays.any() else Nothing()
     flying = Flying(moving, pilot, plant, rotors, weather, devices, estimators, reads, partner, late)
     given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss, twitch), company)
-    return Assembled(flying, given, tables_of(mission, legs_of(mission, partner, state)), delays, np.array(keys_of(mission.mission.seed)))
+    return Assembled(
+        flying,
+        given,
+        tables_of(mission, legs_of(mission, partner, state)),
+        delays,
+        np.array(keys_of(mission.mission.seed)),
+    )

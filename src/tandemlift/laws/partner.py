@@ -94,8 +94,8 @@ class Walk(NamedTuple):
     """How a person goes along the path.
 
     Speed aimed at [m/s], force over the speed that lacks [N·s/m], how far ahead they look [m], speed over the way left
-    to a stop [1/s], force [N] below which the vehicle does not move, which is added; speed [m/s] below which they let it land; time [s] and height [m] from which on they push; the
-    number of the last leg.
+    to a stop [1/s], force [N] below which the vehicle does not move, which is added; speed [m/s] below which they let
+    it land; time [s] and height [m] from which on they push; the number of the last leg.
     """
 
     speed: Any
@@ -263,14 +263,10 @@ def _asks(memory):
 @law
 def seeing(m: Partnering, seen: Any) -> Partnering:
     """A person's memory with what they see."""
-    return Partnering(
-        seen, m.index, m.leg, m.place, m.couple, m.grasp, m.waited, m.begun, m.landing, m.tremor
-    )
+    return Partnering(seen, m.index, m.leg, m.place, m.couple, m.grasp, m.waited, m.begun, m.landing, m.tremor)
 
 
 @law
 def on_leg(m: Partnering, leg: Leg) -> Partnering:
     """A person's memory with the leg that they are on."""
-    return Partnering(
-        m.seen, m.index, leg, m.place, m.couple, m.grasp, m.waited, m.begun, m.landing, m.tremor
-    )
+    return Partnering(m.seen, m.index, leg, m.place, m.couple, m.grasp, m.waited, m.begun, m.landing, m.tremor)

@@ -64,7 +64,9 @@ class CorridorTable(Table):
             raise must("corridor", f"turn by 150° or less at each corner: it turns by {worst:.0f}°")
         for side in sides(self.centreline, self.width):
             if np.any(np.sum(np.diff(side, axis=0) * along, axis=1) < SHORTEST * np.linalg.norm(along, axis=1)):
-                raise must("corridor", "have corners farther apart, or be narrower: a wall between two of them vanishes")
+                raise must(
+                    "corridor", "have corners farther apart, or be narrower: a wall between two of them vanishes"
+                )
         return self
 
     @property
