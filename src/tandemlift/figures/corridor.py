@@ -129,7 +129,7 @@ def _apart(ax: Any, flight: Flight) -> None:
     right = way[k] < 0.85 * way[-1]
     offset, side = ((5, -3), "left") if right else ((-5, -3), "right")
     ax.annotate(text, (way[k], least), offset, textcoords="offset points", ha=side, va="top", fontsize=7.5)
-    high = min(extent(*[v for v, _ in known])[1], 3.0 * max(least, 0.4))
+    high = 1.08 * min(extent(*[v for v, _ in known])[1], 4.0 * max(least, 0.3))
     ax.set_ylim(min(0.0, least) - 0.12 * high, high)
     ax.yaxis.set_major_locator(value_ticks())
     ax.axhline(0.0, color=BLACK, lw=1.2, zorder=2)
