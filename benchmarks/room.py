@@ -60,7 +60,7 @@ def room(mission: tl.Mission, heading: float | None = None) -> float:
     start, end = np.array(mission.initial.position[:2]), np.array(path[-1])
     walls = walls_of(mission)
     corners = np.array([start, end, *(p for ends in walls for p in ends)])
-    low, high = corners.min(axis=0) - [AROUND, 0.0], corners.max(axis=0) + [AROUND, 0.0]
+    low, high = corners.min(axis=0) - np.array([AROUND, 0.0]), corners.max(axis=0) + np.array([AROUND, 0.0])
     far = field(walls, low, high)
     headings = np.arange(TURNS) * np.pi / TURNS if heading is None else np.array([heading])
     cells = np.indices(far.shape)

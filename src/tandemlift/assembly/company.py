@@ -67,10 +67,10 @@ def start_partner(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any
     )
     height = mission.initial.position[2] + p.height_share * mission.phases.height
     last = float(len(waypoints_of(mission)) - 1)
-    walk = Walk(p.speed, p.gain, p.look_ahead, p.approach, p.breakaway, p.slow, p.start, height, last)
+    walk = Walk(p.speed, p.gain, p.look_ahead, p.approach, p.breakaway, p.trimming, p.slow, p.start, height, last)
     partner = Partner(grip, arm, walk, manner_of(p))
     seen = sight(grip, state)
     quiet = Smoothed(0.0, 0.0)
     leg = legs_of(mission, partner, state)[0]
-    memory = Partnering(seen, 0.0, leg, Smoothed(seen.grip, ZERO), quiet, quiet, 0.0, 0.0, 0.0, STILL)
+    memory = Partnering(seen, 0.0, leg, Smoothed(seen.grip, ZERO), quiet, quiet, ZERO, 0.0, 0.0, 0.0, STILL)
     return partner, memory, TWITCH

@@ -4,7 +4,8 @@ what is seen, a while ago → where it will be → the force wanted → the hand
 
 The person pursues a point ahead on the path: the force wanted is what the speed lacks of the one that is aimed at. The
 hand is where the grip will be, by how it was seen to move, and ahead of that by as much as makes this force; it gets
-there through the muscles' lag, two equal time constants. Between hand and grip are the arm's stiffness and damping,
+there through the muscles' lag, two equal time constants. What is wanted across the path for long, the person comes to
+add by habit: so a wind is met. Between hand and grip are the arm's stiffness and damping,
 which answer at once, whatever is seen. The force is bounded. World axes; the grip is a point of the body.
 
 Sources: the hand's impedance, Hogan, Impedance control, 1985; delay and neuromuscular lag, McRuer and Jex, A review of
@@ -24,6 +25,7 @@ from tandemlift.ops import clip, maximum, minimum, sqrt, where
 from tandemlift.vector import ZERO, Nothing, Vec3, apply, cross, dot, outer
 
 TINY = 1e-12  # m², N²: guards roots and divisions
+NEAR = 1.0  # m
 
 
 class Leg(NamedTuple):
@@ -59,8 +61,9 @@ class Sight(NamedTuple):
 class Partnering(NamedTuple):
     """Memory of a person: what they see, which leg of the path they are on, and where that is.
 
-    The hand's place [m] and the couple [N·m] behind the muscles' lag, how far they hold on (0 to 1); for how long they
-    have been at the leg's end [s]; 1 once they have begun, and once they ask to land; the tremor.
+    The hand's place [m] and the couple [N·m] behind the muscles' lag, how far they hold on (0 to 1); the force [N] that
+    they have come to add against what draws the vehicle off the path; for how long they have been at the leg's end [s];
+    1 once they have begun, and once they ask to land; the tremor.
     """
 
     seen: Any
@@ -69,6 +72,7 @@ class Partnering(NamedTuple):
     place: Smoothed
     couple: Smoothed
     grasp: Smoothed
+    trim: Vec3
     waited: Any
     begun: Any
     landing: Any
@@ -94,8 +98,9 @@ class Walk(NamedTuple):
     """How a person goes along the path.
 
     Speed aimed at [m/s], force over the speed that lacks [N·s/m], how far ahead they look [m], speed over the way left
-    to a stop [1/s], force [N] below which the vehicle does not move, which is added; speed [m/s] below which they let
-    it land; time [s] and height [m] from which on they push; the number of the last leg.
+    to a stop [1/s], force [N] below which the vehicle does not move, which is added; how fast they add what is wanted
+    across the path for good [1/s]; speed [m/s] below which they let it land; time [s] and height [m] from which on they
+    push; the number of the last leg.
     """
 
     speed: Any
@@ -103,6 +108,7 @@ class Walk(NamedTuple):
     look_ahead: Any
     approach: Any
     breakaway: Any
+    trimming: Any
     slow: Any
     start: Any
     height: Any
@@ -133,10 +139,11 @@ class Partner(NamedTuple):
 
 
 class Aim(NamedTuple):
-    """Where the hand is to be [m], and the couple that it is to give [N·m]."""
+    """Where the hand is to be [m], the couple that it is to give [N·m], and what of the force wanted is across [N]."""
 
     place: Vec3
     couple: Any
+    across: Vec3
 
 
 class Lent(NamedTuple):
@@ -175,6 +182,14 @@ def pursue(w: Walk, leg: Leg, p: Vec3, v: Vec3) -> Vec3:
 
 
 @law
+def across(leg: Leg, left: Vec3, force: Vec3) -> Vec3:
+    """The part of a force [N] across a leg; all of it where the vehicle is to stop within `NEAR`."""
+    along = leg.end - leg.start
+    onward = along * (dot(force, along) / maximum(dot(along, along), TINY))
+    return force - onward * where(dot(left, left) * leg.stops < NEAR * NEAR * leg.stops, 0.0, 1.0)
+
+
+@law
 def steered(manner: Manner, seen: Sight) -> Any:
     """(place [m], velocity [m/s]) of what is led along the path."""
     grip, centre = manner.at_grip, 1.0 - manner.at_grip
@@ -186,11 +201,13 @@ def aim(k: Partner, m: Partnering) -> Aim:
     """What a person intends, by what they see."""
     seen, ahead, manner = m.seen, k.arm.horizon, k.manner
     p, v = steered(manner, seen)
-    force = bounded(pursue(k.walk, m.leg, p + v * ahead, v), k.arm.most)
-    led = seen.grip + seen.grip_velocity * ahead + force / k.arm.stiffness
+    p = p + v * ahead
+    wanted = pursue(k.walk, m.leg, p, v)
+    led = seen.grip + seen.grip_velocity * ahead + bounded(wanted + m.trim, k.arm.most) / k.arm.stiffness
     off = turned_least(m.leg.heading - seen.yaw - seen.yaw_rate * ahead)
     couple = clip(off * manner.turn_gain - seen.yaw_rate * manner.turn_damping, -k.arm.most_couple, k.arm.most_couple)
-    return Aim(m.leg.end * manner.stays + led * (1.0 - manner.stays), couple)
+    place = m.leg.end * manner.stays + led * (1.0 - manner.stays)
+    return Aim(place, couple, across(m.leg, m.leg.end - p, wanted))
 
 
 @law
@@ -219,7 +236,7 @@ def gone_on(k: Partner, m: Partnering, t: Any, dt: Any) -> Partnering:
     last = where(m.index < w.last, 0.0, 1.0)
     landing = maximum(m.landing, over * last * there * where(stands, 1.0, 0.0))
     index = m.index + over * (1.0 - last)
-    return Partnering(seen, index, m.leg, m.place, m.couple, m.grasp, waited, begun, landing, m.tremor)
+    return Partnering(seen, index, m.leg, m.place, m.couple, m.grasp, m.trim, waited, begun, landing, m.tremor)
 
 
 @choice
@@ -239,8 +256,9 @@ def _somebody(partner, memory, hand, state, noise, t, dt):
     idle = m.seen.grip + m.seen.grip_velocity * partner.arm.horizon
     place = smooth(lag, m.place, intent.place * holding + idle * (1.0 - holding))
     couple, grasp = smooth(lag, m.couple, intent.couple * holding), smooth(lag, m.grasp, holding)
+    trim = bounded(m.trim + intent.across * (partner.walk.trimming * dt), partner.arm.most) * holding
     shaking = shake(partner.arm.tremor, m.tremor, noise)
-    after = Partnering(now, m.index, m.leg, place, couple, grasp, m.waited, m.begun, m.landing, shaking)
+    after = Partnering(now, m.index, m.leg, place, couple, grasp, trim, m.waited, m.begun, m.landing, shaking)
     push = push_by(partner, after, now, state)
     return Lent(Hand(hand.start + push, hand.middle + push, hand.end + push), after)
 
@@ -263,10 +281,10 @@ def _asks(memory):
 @law
 def seeing(m: Partnering, seen: Any) -> Partnering:
     """A person's memory with what they see."""
-    return Partnering(seen, m.index, m.leg, m.place, m.couple, m.grasp, m.waited, m.begun, m.landing, m.tremor)
+    return Partnering(seen, m.index, m.leg, m.place, m.couple, m.grasp, m.trim, m.waited, m.begun, m.landing, m.tremor)
 
 
 @law
 def on_leg(m: Partnering, leg: Leg) -> Partnering:
     """A person's memory with the leg that they are on."""
-    return Partnering(m.seen, m.index, leg, m.place, m.couple, m.grasp, m.waited, m.begun, m.landing, m.tremor)
+    return Partnering(m.seen, m.index, leg, m.place, m.couple, m.grasp, m.trim, m.waited, m.begun, m.landing, m.tremor)
