@@ -39,7 +39,7 @@ class PartnerTable(Table):
     look_ahead: Positive = 1.0  # m, along the path
     approach: Positive = 0.8  # 1/s, speed aimed at over the way that is left to a stop
     breakaway: NonNegative = 0.3  # N, that it takes to move the vehicle: known to the person, who adds it
-    trimming: NonNegative = 0.3  # 1/s, at which force wanted across the path becomes habit
+    trimming: NonNegative = 0.5  # 1/s, at which force wanted across the path becomes habit
     corner: Positive = 0.5  # m, before a waypoint, where the next leg is taken up
     arrive: Positive = 0.3  # m, from a waypoint with a dwell, and from the last one, where it is reached
     slow: Positive = 0.1  # m/s, below which the person lets it land
