@@ -51,8 +51,9 @@ def take_tallies(numbers: Array, like: Flying, lanes: int) -> list[Tally]:
     """Take the tallies out of a flight or a block of flights, and start them anew."""
     at, size = place(like, "moving", "tally")
     rows = numbers[at * lanes : (at + size) * lanes].reshape(-1, lanes)
-    tallies = [unflat(rows[:, lane], EMPTY) for lane in range(lanes)]
-    rows[:] = np.array(flat(EMPTY))[:, None]
+    empty = like.moving.tally
+    tallies = [unflat(rows[:, lane], empty) for lane in range(lanes)]
+    rows[:] = np.array(flat(empty))[:, None]
     return tallies
 
 

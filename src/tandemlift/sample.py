@@ -11,17 +11,19 @@ from tandemlift.engines.compiled import Above
 from tandemlift.law import choice, elementwise, law
 from tandemlift.laws.allocation import wrench
 from tandemlift.laws.body import Wrench
+from tandemlift.laws.clearance import clearance
 from tandemlift.laws.contact import Floor
 from tandemlift.laws.guidance import share_of
 from tandemlift.laws.limits import given_share
 from tandemlift.laws.loads import Felt, Loads, total_of_each
 from tandemlift.laws.observer import Observer, Unmodelled
+from tandemlift.laws.partner import Partnering
 from tandemlift.laws.push import Hand, moment_of
 from tandemlift.laws.rotation import euler_from_quaternion, turned_least
 from tandemlift.laws.rotors import IdealRotors, Rotors
 from tandemlift.ops import clip, minimum, where
 from tandemlift.perception import shown_estimate, shown_readings
-from tandemlift.tally import Errors
+from tandemlift.tally import Errors, effort_of
 from tandemlift.vector import Nothing, Quat, Vec3, dot, total
 
 
@@ -209,6 +211,21 @@ def show(flying: Any, thought: Any, acting: Any, moved: Any, hand: Hand) -> Samp
     )
 
 
+@choice
+def effort(partner: Any, x: Sample) -> Any:
+    """What a step costs the person who guides the vehicle."""
+
+
+@effort.register(Nothing)
+def _nobody(partner, x):
+    return partner
+
+
+@effort.register(Partnering)
+def _somebody(partner, x):
+    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+
+
 @law
 def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
     """What a sample adds to the tally."""
@@ -222,4 +239,6 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
         x.push_force,
         dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
         saturated(flying.rotors, thought.decision.thrusts) * share_of(thought.decision.guidance.running),
+        clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
+        effort(flying.moving.partner, x),
     )

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from tandemlift.law import law
-from tandemlift.ops import absolute, maximum, minimum
-from tandemlift.vector import ZERO, Vec3
+from tandemlift.law import choice, law
+from tandemlift.laws.clearance import nearer_of
+from tandemlift.ops import absolute, maximum, minimum, sqrt
+from tandemlift.vector import ZERO, Nothing, Vec3, dot
 
 LATE = 10.0  # s: "after 10 s" leaves the disturbed start out
 
@@ -24,6 +25,16 @@ class Errors(NamedTuple):
     push: Vec3
     power: Any
     saturated: Any
+    clearance: Any
+    effort: Any
+
+
+class Effort(NamedTuple):
+    """Of a person who guides the vehicle, while they hold on: steps, sums of |force| and of the way flown per step."""
+
+    steps: Any
+    force_sum: Any
+    speed_sum: Any
 
 
 class Tally(NamedTuple):
@@ -41,9 +52,34 @@ class Tally(NamedTuple):
     push_sum: Vec3
     power_sum: Any
     saturated: Any
+    clearance: Any
+    effort: Any
 
 
-EMPTY = Tally(0.0, ZERO, ZERO, ZERO, ZERO, ZERO, math.inf, -math.inf, ZERO, ZERO, 0.0, 0.0)
+EMPTY = Tally(0.0, ZERO, ZERO, ZERO, ZERO, ZERO, math.inf, -math.inf, ZERO, ZERO, 0.0, 0.0, Nothing(), Nothing())
+NO_EFFORT = Effort(0.0, 0.0, 0.0)
+
+
+@choice
+def added(effort: Any, more: Any) -> Any:
+    """A person's effort with that of one more step."""
+
+
+@added.register(Nothing)
+def _nobody(effort, more):
+    return effort
+
+
+@added.register(Effort)
+def _somebody(effort, more):
+    return Effort(effort.steps + more.steps, effort.force_sum + more.force_sum, effort.speed_sum + more.speed_sum)
+
+
+@law
+def effort_of(grasp: Any, force: Vec3, velocity: Vec3) -> Effort:
+    """A step's effort of a person who holds on (`grasp` 1) or not (0), with a force, at a velocity."""
+    strong, fast = sqrt(maximum(dot(force, force), 1e-24)), sqrt(maximum(dot(velocity, velocity), 1e-24))
+    return Effort(grasp, strong * grasp, fast * grasp)
 
 
 @law
@@ -62,6 +98,8 @@ def count(c: Tally, x: Errors) -> Tally:
         c.push_sum + x.push,
         c.power_sum + x.power,
         c.saturated + x.saturated,
+        nearer_of(c.clearance, x.clearance),
+        added(c.effort, x.effort),
     )
 
 
@@ -86,4 +124,33 @@ def summary(early: Tally, late: Tally, step: float) -> dict[str, Any]:
         "human_impulse_n_s": list((early.push_sum + late.push_sum) * step),
         "human_work_j": (early.power_sum + late.power_sum) * step,
         "rotor_saturated_share": (early.saturated + late.saturated) / steps if steps else None,
+        **_of_walls(early, late),
+        **_of_effort(early, late, step),
     }
+
+
+def _of_walls(early: Tally, late: Tally) -> dict[str, Any]:
+    """The metrics of a flight among walls."""
+    if isinstance(early.clearance, Nothing):
+        return {}
+    least = min(_numbers(early.clearance) + _numbers(late.clearance))
+    return {"clearance_min_m": least, "wall_contact": least < 0.0}
+
+
+def _of_effort(early: Tally, late: Tally, step: float) -> dict[str, Any]:
+    """The metrics of a person who guides the vehicle."""
+    if isinstance(early.effort, Nothing):
+        return {}
+    both = early.effort if isinstance(late.effort, Nothing) else added(early.effort, late.effort)
+    way, work = both.speed_sum * step, (early.power_sum + late.power_sum) * step
+    return {
+        "human_force_mean_n": both.force_sum / both.steps if both.steps else None,
+        "human_time_s": both.steps * step,
+        "human_path_m": way,
+        "human_work_per_path_j_m": work / way if way else None,
+    }
+
+
+def _numbers(value: Any) -> list[float]:
+    """The numbers in a nested value."""
+    return [n for part in value for n in _numbers(part)] if isinstance(value, tuple) else [float(value)]

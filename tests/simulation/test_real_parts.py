@@ -72,7 +72,9 @@ def given_at(k: int, like: Inputs, tables: Any, seeds: Any) -> Inputs:
     for row in tables.gusts:
         gust = gust + gust_velocity(unflat(row, GUST), k * DT)
     chance = [x for group in range(-(-leaves(like.noise) // 4)) for x in normals(k, group, *seeds)]
-    return Inputs(Hand(push(k * DT), push((k + 0.5) * DT), push((k + 1) * DT)), gust, unflat(chance, like.noise))
+    return Inputs(
+        Hand(push(k * DT), push((k + 0.5) * DT), push((k + 1) * DT)), gust, unflat(chance, like.noise), like.partner
+    )
 
 
 def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:

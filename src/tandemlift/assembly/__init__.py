@@ -12,12 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.assembly.actuation import start_rotors
+from tandemlift.assembly.company import legs_of, start_partner
 from tandemlift.assembly.senses import sensors_of, start_estimators
 from tandemlift.assembly.surroundings import floor_of, near_of, push_kind, start_weather, tables_of, walls_of, whiffs_of
 from tandemlift.assembly.watching import watched, with_faults
 from tandemlift.delays import Late, Lines
 from tandemlift.engines.compiled import felt_at_rest, start_plant, start_state
 from tandemlift.kernels.outside import Tables
+from tandemlift.laws.clearance import clearance
 from tandemlift.laws.contact import start_grip
 from tandemlift.laws.push import Hand
 from tandemlift.laws.random import keys_of
@@ -26,7 +28,7 @@ from tandemlift.loop import Flying, Inputs, Moving, Noise
 from tandemlift.perception import READS, Reads
 from tandemlift.pilot.start import start_pilot
 from tandemlift.settings import Mission
-from tandemlift.tally import EMPTY
+from tandemlift.tally import EMPTY, NO_EFFORT, Tally
 from tandemlift.vector import ZERO, Nothing
 from tandemlift.vehicle import Vehicle
 
@@ -48,9 +50,16 @@ def delays_of(mission: Mission) -> NDArray[np.int64]:
         mission.sensors.delay * simulated,
         mission.sensors.motion.delay * simulated,
         mission.actuators.delay * real,
-        0.0,
     ]
-    return np.array([round(s / mission.mission.step) for s in seconds], dtype=np.int64)
+    steps = [round(s / mission.mission.step) for s in seconds]
+    sight = round(mission.partner.delay / mission.mission.step) - 1  # what is seen is known a step later anyway
+    accompanied = mission.partner.model != "none"
+    return np.array([*steps, max(sight, 0) * accompanied], dtype=np.int64)
+
+
+def start_tally(far: Any, company: Any) -> Tally:
+    """The tally of a flight before its first step; `far`: the clearance before any wall was looked at."""
+    return EMPTY._replace(clearance=far, effort=company if isinstance(company, Nothing) else NO_EFFORT)
 
 
 def assemble(mission: Mission) -> Assembled:
@@ -78,9 +87,17 @@ def assemble(mission: Mission) -> Assembled:
     readings = Nothing() if isinstance(devices, Nothing) else sensing.readings
     estimators, known = watched(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
-    moving = Moving(state, memory, eddies, grip, near, sensing, known, spinning, readings, Nothing(), EMPTY, 0.0)
+    partner, company, twitch = start_partner(mission, vehicle, state)
+    tally = start_tally(clearance(walls, near, plant.frame, state), company)
+    moving = Moving(state, memory, eddies, grip, near, sensing, known, spinning, readings, company, tally, 0.0)
     reads = Reads(READS[mission.pilot.state], READS[mission.pilot.push])
     late = Lines(*[Late() if d else Nothing() for d in delays]) if delays.any() else Nothing()
-    flying = Flying(moving, pilot, plant, rotors, weather, devices, estimators, reads, Nothing(), late)
-    given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss, Nothing()), Nothing())
-    return Assembled(flying, given, tables_of(mission), delays, np.array(keys_of(mission.mission.seed)))
+    flying = Flying(moving, pilot, plant, rotors, weather, devices, estimators, reads, partner, late)
+    given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss, twitch), company)
+    return Assembled(
+        flying,
+        given,
+        tables_of(mission, legs_of(mission, partner, state)),
+        delays,
+        np.array(keys_of(mission.mission.seed)),
+    )

@@ -12,7 +12,7 @@ from tandemlift.constants import GRAVITY
 from tandemlift.jit import flat, leaves
 from tandemlift.kernels.outside import GAUSSIAN, GUST, Tables
 from tandemlift.laws.contact import floor, soles_below, standing_height
-from tandemlift.laws.partner import LEG
+from tandemlift.laws.partner import LEG, Leg
 from tandemlift.laws.push import CentralPush, Gaussian, PointPush
 from tandemlift.laws.rectangle import WALL, wall
 from tandemlift.laws.walls import nowhere, walls
@@ -28,17 +28,17 @@ NO_WHIFFS = Whiffs(0.0, 0.0, 0.0, 0.0, 0.0)
 
 def push_kind(mission: Mission) -> Any:
     """The zero push of the type that serves a mission's pushes: with a moment only if one has any."""
-    central = all(p.point == ZERO for p in mission.pushes)
+    central = all(p.point == ZERO for p in mission.pushes) and mission.partner.model == "none"
     return CentralPush(ZERO) if central else PointPush(ZERO, mat3([[0.0] * 3] * 3))
 
 
-def tables_of(mission: Mission) -> Tables:
-    """The tables of pushes, gusts and walls, a row each."""
+def tables_of(mission: Mission, legs: list[Leg]) -> Tables:
+    """The tables of pushes, gusts, walls and the legs of a person's path, a row each."""
     pushes = [Gaussian(vec3(p.force), p.time, 1.0 / p.sigma, vec3(p.point)) for p in mission.pushes]
     gusts = mission.wind.gusts if mission.wind.model == "air" else ()
     blows = [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
-    upright = [wall(w.start, w.end, w.top) for w in mission.walls]
-    return Tables(_table(pushes, GAUSSIAN), _table(blows, GUST), _table(upright, WALL), _table([], LEG))
+    upright = [wall(w.start, w.end, w.top) for w in mission.all_walls]
+    return Tables(_table(pushes, GAUSSIAN), _table(blows, GUST), _table(upright, WALL), _table(legs, LEG))
 
 
 def _table(rows: list[Any], like: Any) -> NDArray[np.float64]:
@@ -79,7 +79,7 @@ def floor_of(mission: Mission, vehicle: Vehicle) -> Any:
 
 def walls_of(mission: Mission, vehicle: Vehicle) -> Any:
     """What touches the walls of a mission and how they press, or `Nothing` where it has none."""
-    if not mission.walls:
+    if not mission.all_walls:
         return Nothing()
     payload, fleet = vehicle.payload, vehicle.quadrotors
     beam = (payload.length, payload.radius) if payload.length and payload.radius else None

@@ -67,7 +67,7 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
         TypeError: the mission has walls, but nothing says how they press.
     """
     spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
-    if mission.walls and not walled:
+    if mission.all_walls and not walled:
         raise TypeError("a mission with walls needs a laws.walls.Walls that says how they press")
     _set_options(spec, mission.mission.step, touching=standing or walled)
     _add_payload(spec, vehicle)
@@ -78,7 +78,7 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     if standing:
         _add_floor(spec, floor, vehicle)
     if walled:
-        _add_walls(spec, walls, mission.walls, vehicle)
+        _add_walls(spec, walls, mission.all_walls, vehicle)
     model = spec.compile()
     quadrotors = [(q.mass, q.inertia) for q in vehicle.quadrotors]
     _weigh(model, [(vehicle.payload.mass, vehicle.payload.moments), *quadrotors, *difference])

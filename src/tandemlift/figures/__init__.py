@@ -29,7 +29,7 @@ def _drawing(name: str) -> Draw:
 
 NAMES = (
     *("reference", "path", "tracking", "inputs", "interaction"),  # in the order of the paper
-    *("push", "joints", "rotors", "surroundings"),
+    *("push", "joints", "rotors", "surroundings", "corridor"),
 )
 FIGURES: dict[str, Draw] = {name: _drawing(name) for name in NAMES}
 """All figures that there are; a flight has those of `figures_of`."""
@@ -43,12 +43,19 @@ SHOWS: dict[str, tuple[str, ...]] = {
 """Channels that a figure is about: a flight has it if it has one of them. A figure without is every flight's."""
 
 
+def among_walls(flight: Flight) -> bool:
+    """Whether there were walls around a flight."""
+    mission = flight.mission
+    return bool(mission.get("walls") or mission.get("corridor", {}).get("centreline"))
+
+
 def figures_of(flight: Flight) -> dict[str, Draw]:
     """The figures that a flight has, in the order of `FIGURES`."""
     return {
         name: draw
         for name, draw in FIGURES.items()
         if name not in SHOWS or any(channel in flight.channels for channel in SHOWS[name])
+        if name != "corridor" or among_walls(flight)
     }
 
 

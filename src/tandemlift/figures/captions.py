@@ -84,4 +84,12 @@ CAPTIONS: dict[str, Caption] = {
         "Panels over time of the wind’s velocity and force, the contact force and the height over the floor, as far as "
         "there are wind and floor; shaded in contact.",
     ),
+    "corridor": Caption(
+        "Among walls",
+        "Top: walls, the way of the centre of mass and the path that the person was to follow, from above; the vehicle "
+        "to scale at even steps of the way, black at the start and at the end: its beam, and the guards about its "
+        "quadrotors; arrows where the person held on then, as long as the horizontal push was strong. Bottom: how far "
+        "guards and beam were from the nearest wall, over the way flown, with the least of it; below zero they press.",
+        "Two panels: view from above of walls, path, vehicle and pushes; clearance of guards and beam over the way.",
+    ),
 }

@@ -25,6 +25,7 @@ from tandemlift.figures.style import BLACK, BLUE, GREY, VERMILLION, journal
 from tandemlift.figures.walls import EDGE, GLASS, Wall, draw_walls, walls_near
 from tandemlift.flight import Flight
 from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.settings import wall_tables
 from tandemlift.vector import Quat
 
 Array = NDArray[np.float64]
@@ -138,7 +139,7 @@ def draw(flight: Flight) -> Figure:
     tips = np.array([p.point + per_newton * p.force for p in found]).reshape(-1, 3)
     around = np.concatenate([around, tips])
 
-    tables = flight.mission.get("walls", [])
+    tables = wall_tables(flight.mission)
     reach = np.concatenate([around, *(wall.rim for wall in walls_near(tables, around))])
     scene = Scene(reach, _floor(flight, around))
     handles = _draw_path(scene, path)

@@ -11,7 +11,7 @@ from matplotlib.collections import LineCollection
 from numpy.typing import NDArray
 
 from tandemlift.figures.scene import NEAR, Scene, on_paper
-from tandemlift.settings.world import WallTable
+from tandemlift.settings import WallTable
 
 Array = NDArray[np.float64]
 

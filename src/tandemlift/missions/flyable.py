@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.errors import FlightWarning, InputError
+from tandemlift.missions.company import check_company, doubts_of_company
 from tandemlift.missions.equipment import check_equipment, doubts_of_equipment
 from tandemlift.missions.explain import shown
 from tandemlift.missions.supervised import check_supervised
@@ -34,6 +35,7 @@ def check_flyable(m: Mission) -> None:
     check_equipment(m)
     check_surroundings(m)
     check_supervised(m)
+    check_company(m)
 
 
 def row_of(m: Mission) -> int:
@@ -108,5 +110,5 @@ def _doubts(m: Mission) -> Iterator[str]:
 
 def warn(m: Mission, source: str) -> None:
     """Tell of what may fly badly, with the numbers."""
-    for message in (*_doubts(m), *doubts_of_equipment(m), *doubts_of_surroundings(m)):
+    for message in (*_doubts(m), *doubts_of_equipment(m), *doubts_of_surroundings(m), *doubts_of_company(m)):
         warnings.warn(f"{source}: {message}", FlightWarning, stacklevel=5)

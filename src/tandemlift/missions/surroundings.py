@@ -17,13 +17,13 @@ from tandemlift.laws.rotation import rotation_from_euler
 from tandemlift.laws.wind import FOOT, HIGHEST, LOWEST
 from tandemlift.missions.explain import shown
 from tandemlift.settings import Mission
+from tandemlift.settings.corridor import SHORTEST
 from tandemlift.vector import vec3
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
 DEEP = 0.02  # m, of feet in the floor at the start
-SHORTEST = 1e-3  # m, of a wall
 FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below where the vehicle stands
 THROWN = 5.0  # times its sinkage
 SOFT = 2.0  # times the sinkage that was asked for
@@ -61,8 +61,8 @@ def check_surroundings(m: Mission) -> None:
 def _check_without_floor(m: Mission) -> None:
     if m.ground.effect:
         raise InputError('ground.effect = true: must be false without a floor, or ground.model must be "floor"')
-    if m.walls:
-        raise InputError('ground.model = "none": must be "floor" where there are walls')
+    if m.all_walls:
+        raise InputError('ground.model = "none": must be "floor" where there are walls or a corridor')
     if m.phases.rotors == "flight":
         raise InputError(
             'phases.rotors = "flight": must be "always" without a floor, or the vehicle falls while its rotors are '
@@ -137,12 +137,13 @@ def _of_reference(m: Mission, standing: Standing) -> Iterator[str]:
 def _of_walls(m: Mission) -> Iterator[str]:
     R = np.array(rotation_from_euler(vec3(m.initial.euler)))
     centers = np.array(m.initial.position) + Vehicle.from_settings(m.vehicle).lever_arms @ R.T
-    for i, w in enumerate(m.walls):
+    for i, w in enumerate(m.all_walls):
+        name = f"walls.{i}" if i < len(m.walls) else f"wall {i - len(m.walls) + 1} of the corridor"
         upright = wall(w.start, w.end, w.top)
         for j, (q, center) in enumerate(zip(m.vehicle.quadrotors, centers, strict=True), 1):
             distance = math.hypot(*offset(upright, vec3(center)))
             if distance < q.guard_radius:
-                yield f"quadrotor {j} starts {q.guard_radius - distance:.2g} m deep in walls.{i}"
+                yield f"quadrotor {j} starts {q.guard_radius - distance:.2g} m deep in {name}"
 
 
 def _of_wind(m: Mission) -> Iterator[str]:

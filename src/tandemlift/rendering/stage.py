@@ -14,7 +14,7 @@ from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.rendering.aircraft import aircraft
 from tandemlift.rendering.mesh import Mesh, linear, panel, rod, together
 from tandemlift.rendering.studio import Line, Pane, Scene
-from tandemlift.settings import VehicleTable
+from tandemlift.settings import VehicleTable, wall_tables
 from tandemlift.vector import Quat
 from tandemlift.vehicle import Vehicle
 
@@ -58,7 +58,7 @@ class Stage:
         self._aircraft = aircraft(vehicle)
         self.reach = self._aircraft.reach
         self.floor = self._floor_of(flight.mission, vehicle)
-        self._walls = [_wall(w, self.floor) for w in flight.mission.get("walls", [])]
+        self._walls = [_wall(w, self.floor) for w in wall_tables(flight.mission)]
 
     def _floor_of(self, mission: dict[str, Any], vehicle: Vehicle) -> float:
         """Height of the mission's floor, or of one just below everything that is shown [m]."""

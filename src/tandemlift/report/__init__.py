@@ -21,6 +21,7 @@ from tandemlift.report.page import PAGE, STYLE
 from tandemlift.report.setup import setup_of
 
 UNITS = {  # by the end of a metric's name; longer ends first
+    "j_m": "J/m",
     "n_m": "N m",
     "m_s": "m/s",
     "n_s": "N s",

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from tandemlift.figures.ground import floor_height
 from tandemlift.flight import Flight
-from tandemlift.settings import Quadrotor, Table, VehicleTable
+from tandemlift.settings import PartnerTable, Quadrotor, Table, VehicleTable, wall_tables
 from tandemlift.settings.pilot import AllocationTable, Estimator, PilotTable
 from tandemlift.settings.world import Actuators, Disturbance, Fault, Ground, Plant, Sensors, WindTable
 
@@ -146,11 +146,29 @@ def _surroundings(flight: Flight) -> Iterator[Row]:
         yield "Floor", f"at z = {say(height, 'm')}; friction {say(ground.friction)}{effect}"
     else:
         yield "Floor", "none"
-    if walls := flight.mission.get("walls"):
+    if walls := wall_tables(flight.mission):
         yield "Walls", str(len(walls))
+
+
+LEADS = {
+    "pull": "one hand leads the grip along the path",
+    "steer": "one hand leads the centre of mass along the path",
+    "two-hands": "two hands lead and turn the payload’s centre along the path",
+    "hold": "one hand goes to the waypoints and stays there",
+}
+
+
+def _company(flight: Flight) -> Iterator[Row]:
+    p = _table(flight, "partner", PartnerTable)
+    if p.model == "none":
+        return
+    where = "" if p.model == "two-hands" else f", {say(p.grip, 'm')} along the beam from the payload’s centre"
+    arm = f"arm of {say(p.stiffness, 'N/m')} and {say(p.damping, 'N s/m')}, up to {say(p.max_force, 'N')}"
+    late = f"{say(p.delay, 'ms', 1e3)} after seeing, muscles of twice {say(p.lag, 'ms', 1e3)}"
+    yield "Person", f"{LEADS[p.model]}{where}; {late}; {arm}; tremor {say(p.tremor, 'N')}"
 
 
 def setup_of(flight: Flight) -> list[Row]:
     """What a flight was flown with: rows of a name and what there is to say."""
-    parts = (_vehicle, _pilot, _rotors, _sensors, _surroundings)
+    parts = (_vehicle, _pilot, _rotors, _sensors, _surroundings, _company)
     return [row for part in parts for row in part(flight)]

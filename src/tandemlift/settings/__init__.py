@@ -11,6 +11,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, SerializeAsAny
 
+from tandemlift.settings.corridor import CorridorTable, WallTable, wall_tables
 from tandemlift.settings.guided import ComplianceTable, ObserverTable
 from tandemlift.settings.leaves import (
     AtLeastOne,
@@ -31,6 +32,7 @@ from tandemlift.settings.leaves import (
     divisor,
     must,
 )
+from tandemlift.settings.partner import PartnerTable
 from tandemlift.settings.parts import Drag, Payload, Quadrotor, VehicleTable
 from tandemlift.settings.pilot import (
     AdmittanceTable,
@@ -51,7 +53,6 @@ from tandemlift.settings.world import (
     Plant,
     PushTable,
     Sensors,
-    WallTable,
     WindTable,
 )
 
@@ -63,6 +64,7 @@ __all__ = [
     "Axes3",
     "ComplianceTable",
     "ControllerTable",
+    "CorridorTable",
     "Drag",
     "Exactly3",
     "InertialSensor",
@@ -71,6 +73,7 @@ __all__ = [
     "NonNegative",
     "NonNegative3",
     "NonNegative6",
+    "PartnerTable",
     "Payload",
     "PhasesTable",
     "Positive",
@@ -84,6 +87,8 @@ __all__ = [
     "Tilt",
     "Triple",
     "VehicleTable",
+    "WallTable",
+    "wall_tables",
 ]
 
 
@@ -139,3 +144,10 @@ class Mission(Table):
     wind: WindTable = WindTable()
     ground: Ground = Ground()
     walls: tuple[WallTable, ...] = ()
+    corridor: CorridorTable = CorridorTable()
+    partner: PartnerTable = PartnerTable()
+
+    @property
+    def all_walls(self) -> tuple[WallTable, ...]:
+        """Every wall that there is: those of `walls`, then the corridor's."""
+        return (*self.walls, *self.corridor.walls)

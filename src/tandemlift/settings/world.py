@@ -173,14 +173,3 @@ class Ground(Table):
     sinkage: Annotated[Positive, Field(le=0.1)] = 5e-4  # m, of the feet under the vehicle's weight
     friction: Annotated[float, Field(ge=0.0, le=100.0)] = 0.8
     effect: bool = False  # more thrust near the floor
-
-
-Point2 = Annotated[tuple[float, float], Axes(2, single=False)]
-
-
-class WallTable(Table):
-    """One of `[[walls]]`: upright, from the floor to its top."""
-
-    start: Point2  # m, x and y
-    end: Point2  # m, x and y
-    top: float = 2.5  # m

@@ -1,0 +1,87 @@
+"""A corridor by its centreline: walls on both sides of it, parallel to it at half the width, mitred at its corners.
+
+Where the centreline turns by an angle α, the walls' corner lies on the bisector, w/2 over cos(α/2) from the
+centreline's: so each wall keeps its distance of half the width all along.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+
+from tandemlift.settings.leaves import Axes, Table, must
+
+Point2 = Annotated[tuple[float, float], Axes(2, single=False)]
+
+SHORTEST = 1e-3  # m, of a wall
+SHARPEST = math.radians(150.0)  # turn of a centreline
+
+
+class WallTable(Table):
+    """One of `[[walls]]`: upright, from the floor to its top."""
+
+    start: Point2  # m, x and y
+    end: Point2  # m, x and y
+    top: float = 2.5  # m
+
+
+def sides(centreline: Sequence[Sequence[float]], width: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The corners (n, 2) of the walls to the left and to the right of a centreline (n, 2) [m], `width` [m] apart."""
+    line = np.array(centreline, dtype=float)
+    along = np.diff(line, axis=0)
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    left = np.column_stack([-along[:, 1], along[:, 0]])
+    before, after = np.vstack([left[:1], left]), np.vstack([left, left[-1:]])
+    mitre = (before + after) / (1.0 + np.sum(before * after, axis=1))[:, None]
+    return line + 0.5 * width * mitre, line - 0.5 * width * mitre
+
+
+class CorridorTable(Table):
+    """`[corridor]`: none if its centreline is empty."""
+
+    centreline: tuple[Point2, ...] = ()  # m, x and y of its corners
+    width: Annotated[float, Field(gt=0.0, le=1e3)] = 4.0  # m, between the walls
+    height: float = 2.5  # m, z of the walls' tops
+    ends: Literal["open", "closed"] = "open"
+
+    @model_validator(mode="after")
+    def _can_be_built(self) -> CorridorTable:
+        if not self.centreline:
+            return self
+        if len(self.centreline) < 2 or any(math.dist(a, b) < SHORTEST for a, b in pairwise(self.centreline)):
+            raise must("corridor", f"have a centreline of two points or more, {SHORTEST} m or more apart")
+        along = np.diff(np.array(self.centreline), axis=0)
+        angles = np.arctan2(along[:, 1], along[:, 0])
+        turns = np.abs((np.diff(angles) + math.pi) % (2.0 * math.pi) - math.pi)
+        if len(turns) and turns.max() > SHARPEST:
+            worst = math.degrees(turns.max())
+            raise must("corridor", f"turn by 150° or less at each corner: it turns by {worst:.0f}°")
+        for side in sides(self.centreline, self.width):
+            if np.any(np.sum(np.diff(side, axis=0) * along, axis=1) < SHORTEST * np.linalg.norm(along, axis=1)):
+                raise must(
+                    "corridor", "have corners farther apart, or be narrower: a wall between two of them vanishes"
+                )
+        return self
+
+    @property
+    def walls(self) -> tuple[WallTable, ...]:
+        """Its walls: to the left from its start to its end, to the right, and across its ends where they are closed."""
+        if not self.centreline:
+            return ()
+        left, right = (side.tolist() for side in sides(self.centreline, self.width))
+        lines = [*pairwise(left), *pairwise(right)]
+        if self.ends == "closed":
+            lines += [(left[0], right[0]), (left[-1], right[-1])]
+        return tuple(WallTable(start=tuple(a), end=tuple(b), top=self.height) for a, b in lines)
+
+
+def wall_tables(mission: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """All walls of a mission given as nested tables: those of `walls`, then the corridor's."""
+    corridor = CorridorTable.model_validate(mission.get("corridor", {}))
+    return [*mission.get("walls", []), *(w.model_dump(mode="json") for w in corridor.walls)]
