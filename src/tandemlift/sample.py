@@ -12,6 +12,7 @@ from tandemlift.law import choice, elementwise, law
 from tandemlift.laws.allocation import wrench
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.contact import Floor
+from tandemlift.laws.detection import Detection
 from tandemlift.laws.limits import given_share
 from tandemlift.laws.loads import Felt, Loads, total_of_each
 from tandemlift.laws.observer import Observer, Unmodelled
@@ -54,6 +55,7 @@ class Sample(NamedTuple):
     estimated: Any
     disturbed: Any
     guided: Any
+    watched: Any
 
 
 class Actuated(NamedTuple):
@@ -78,6 +80,12 @@ class Contact(NamedTuple):
     contact_force: Vec3
 
 
+class Watched(NamedTuple):
+    """Of the detection of lost rotors: the number of the rotor that is taken for lost, 0 for none."""
+
+    rotor_lost: Any
+
+
 class Disturbed(NamedTuple):
     """Of an observer: what it estimates, and how far it is behind."""
 
@@ -100,6 +108,21 @@ def _no_observer(observer, unknown):
 @disturbed.register(Observer)
 def _an_observer(observer, unknown):
     return Disturbed(unknown.force, unknown.moment, unknown.residual, unknown.turning_residual)
+
+
+@choice
+def watched(detection: Any, memory: Any) -> Any:
+    """What the detection of lost rotors shows."""
+
+
+@watched.register(Nothing)
+def _not_watched(detection, memory):
+    return detection
+
+
+@watched.register(Detection)
+def _is_watched(detection, memory):
+    return Watched(dot(memory.verdict.lost, detection.numbers))
 
 
 @choice
@@ -205,6 +228,7 @@ def show(flying: Any, thought: Any, acting: Any, moved: Any, hand: Hand) -> Samp
         shown_estimate(thought.known),
         disturbed(flying.pilot.observer, read.unknown),
         guidance.shown,
+        watched(flying.pilot.detection, thought.memory.detection),
     )
 
 

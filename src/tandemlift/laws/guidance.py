@@ -118,8 +118,8 @@ class Guidance(NamedTuple):
 
 
 @choice
-def guide(g: Any, m: Any, heard: Any, unknown: Any, t: Any, dt: Any) -> Any:
-    """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`."""
+def guide(g: Any, m: Any, heard: Any, unknown: Any, lost: Any, t: Any, dt: Any) -> Any:
+    """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`; `lost`: 1 once a rotor is lost."""
 
 
 @choice
@@ -153,7 +153,7 @@ def _run_in_flight(rotors, t):
 
 
 @guide.register(Clocked)
-def _clocked(g, m, heard, unknown, t, dt):
+def _clocked(g, m, heard, unknown, lost, t, dt):
     force = gate(g.admittance.gate, heard.push)
     motion = yield_to(g.admittance, m, force)
     target = Reference(reference(g.phases, motion, t), g.yaw, 0.0, 0.0, ZERO)
@@ -213,9 +213,9 @@ def channels_of(orders: Orders, compliant: Compliant, damping: Any, course: Cour
 
 
 @guide.register(Guided)
-def _guided(g, m, heard, unknown, t, dt):
+def _guided(g, m, heard, unknown, lost, t, dt):
     state = heard.state
-    phase = follow(g.phasing, m.phase, state.position.z, heard.land, 1.0, t)
+    phase = follow(g.phasing, m.phase, state.position.z, maximum(heard.land, lost), 1.0, t)
     orders = orders_of(g.phasing, phase, t)
     now = grounded_at(orders, m.compliant, state)
     burned = dot(now.velocity * g.compliance.admittance.damping, now.velocity)
@@ -223,7 +223,7 @@ def _guided(g, m, heard, unknown, t, dt):
     after = comply(g.compliance, now, heard.push, orders.listening, damping, still_able(g, unknown), dt)
     about = apply(rotation_from_quaternion(state.attitude), heard.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
-    course, heading = turn(g.heading, m.heading, about, yaw, orders, dt)
+    course, heading = turn(g.heading, m.heading, about, yaw, orders, lost, dt)
     moment = smooth(g.moment, m.moment, heard.moment)
     motion = Trajectory(now.position, now.velocity, after.acceleration)
     target = Reference(

@@ -11,7 +11,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, SerializeAsAny
 
-from tandemlift.settings.guided import ComplianceTable, ObserverTable
+from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
 from tandemlift.settings.leaves import (
     AtLeastOne,
     AtLeastOne6,
@@ -62,6 +62,7 @@ __all__ = [
     "Axes3",
     "ComplianceTable",
     "ControllerTable",
+    "DetectionTable",
     "Drag",
     "Exactly3",
     "InertialSensor",
@@ -127,6 +128,7 @@ class Mission(Table):
     estimator: Estimator = Estimator()
     compliance: ComplianceTable = ComplianceTable()
     observer: ObserverTable = ObserverTable()
+    detection: DetectionTable = DetectionTable()
     actuators: Actuators = Actuators()
     faults: tuple[Fault, ...] = ()
     sensors: Sensors = Sensors()
