@@ -10,11 +10,11 @@ i over none is the log-likelihood ratio (twice), at the α that explains most:
 
 A rotor is named when it has explained most for a while: by enough over none, by enough over any other, and nearly all
 of r. All rotors are modelled as if they lived, a lost one under the trial command that it still gets. So the same test
-goes on: it names another rotor that explains better, and restores one that turns. (Basseville and Nikiforov, Detection
+goes on: it names another rotor that explains better, and restores one that turns, until the trial is over. (Basseville and Nikiforov, Detection
 of abrupt changes, 1993, chapters 2 and 7.)
 
 σ grows with what r has scattered over the last second, so that a badly modelled vehicle is watched with less zeal, and
-one just lifted not at all. One rotor at a time is looked for.
+one just lifted not at all. Nor is one that is held from below, by a floor. One rotor is looked for.
 """
 
 from typing import Any, NamedTuple
@@ -32,6 +32,7 @@ FOUR = each(4)
 LEAST, MOST = 0.5, 1.5  # share of a thrust that is gone
 UPRIGHT = 0.3  # least cosine of the tilt
 FRESH = 4.0  # scatter² of a vehicle just lifted, over its `bound`
+HELD = 0.15  # of the weight: the force from below with which it counts as standing
 
 
 class Rules(NamedTuple):
@@ -217,7 +218,10 @@ def is_named(lost, above, dwell, renamed):
 
 @law
 def judged(k: Rules, v: Verdict, evidence: Any, square: Any, active: Any, t: Any, dt: Any) -> Verdict:
-    """The verdict after a sample with this evidence for every rotor; `square`: |r|² in units of the scatter."""
+    """The verdict after a sample with this evidence for every rotor; `square`: |r|² in units of the scatter.
+
+    `active` is 0 while it is to stay as it is, else 1.
+    """
     best = greatest(evidence)
     clear = where(best - greatest(but(evidence, best)) > k.margin, active, 0.0)
     sure = where(best > k.evidence, where(square - best > k.rest * square, 0.0, clear), 0.0)
@@ -249,6 +253,12 @@ def kept_or(value, other, active):
 
 
 @law
+def unheld(k: Detection, r: Any, active: Any) -> Any:
+    """1 if the vehicle flies and nothing holds it from below, else 0; r: the residual."""
+    return where(r[0] > HELD * GRAVITY * k.mass, 0.0, active)
+
+
+@law
 def explained_by(k: Detection, verdict: Verdict, thrusts: Any) -> Any:
     """What the rotor named lost leaves of the residual; a set of four."""
     gone = wrench(k.effect, verdict.lost * thrusts)
@@ -262,18 +272,20 @@ def _watched(k, memory, heard, thrusts, active, t, dt):
     off = r - m.mean.value
     deviation = variance(k.scatter, m.scatter.value)
     weights = FOUR(1.0 / deviation[0], 1.0 / deviation[1], 1.0 / deviation[2], 1.0 / deviation[3])
-    verdict = judged(k.rules, m.verdict, evidence_for(k, f, off, weights), total(off * off * weights), active, t, dt)
+    free = unheld(k, r, active)
+    judging = free * (1.0 - confirmed(k, m.verdict, t))
+    verdict = judged(k.rules, m.verdict, evidence_for(k, f, off, weights), total(off * off * weights), judging, t, dt)
     rest = r - explained_by(k, m.verdict, f)
     left = rest - m.mean.value
     mean, scatter = smooth(k.slow, m.mean, rest), smooth(k.habit, m.scatter, minimum(left * left, k.bound))
-    still = kept_or(scatter.value, k.bound * FRESH, active)
+    still = kept_or(scatter.value, k.bound * FRESH, free)
     return Watching(
         m.rotors,
         m.thrusts,
         m.momentum,
         m.others,
         mean,
-        Smoothed(still, scatter.rate * active),
+        Smoothed(still, scatter.rate * free),
         verdict,
     )
 

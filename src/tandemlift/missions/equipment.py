@@ -27,6 +27,7 @@ def check_equipment(m: Mission) -> None:
     _check_delays(m)
     _check_readings(m)
     _check_tare(m)
+    _check_detection(m)
 
 
 def weight_of(m: Mission) -> float:
@@ -96,6 +97,14 @@ def _check_tare(m: Mission) -> None:
     if e.tare_start is not None and e.tare_duration < interval:
         raise InputError(
             f"estimator.tare_duration = {e.tare_duration}: a tare must hold a sample: they come every {interval:g} s"
+        )
+
+
+def _check_detection(m: Mission) -> None:
+    if m.detection.model != "none" and m.allocation.method != "constrained":
+        raise InputError(
+            f'detection.model = "{m.detection.model}": must be "none", or allocation.method must be "constrained", '
+            "which alone can do without a rotor"
         )
 
 
