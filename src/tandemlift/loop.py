@@ -163,7 +163,7 @@ def perceive(flying: Flying, push: Push, t: Any, dt: Any) -> Any:
     before, reads = flying.moving, flying.reads
     known, memory = estimate_all(flying.estimator, before.estimator, before.readings, t, dt)
     state = read_state(reads.state, before.state, before.readings, known)
-    touch = read_push(reads.push, push, state.attitude, known)
+    touch = read_push(reads.push, push, state, known)
     sees = all_sensed(before.readings, known)
     return known, Heard(state, touch.force, touch.moment, asks_to_land(before.partner), sees), memory
 

@@ -47,12 +47,24 @@ class Reads(NamedTuple):
     push: Any
 
 
+class Believed(NamedTuple):
+    """What is believed of the vehicle.
+
+    The payload's centre of mass from the system's [m, body axes], and linear drag, which the joints feel as they feel a
+    push: of force on world velocity [N·s/m], of moment on body rates [N·m·s].
+    """
+
+    payload: Vec3
+    drag_force: Vec3
+    drag_moment: Vec3
+
+
 class Estimators(NamedTuple):
-    """Of the push, and of the state; the payload's centre of mass from the system's [m, body axes]."""
+    """Of the push, and of the state; and what is believed of the vehicle."""
 
     push: PushEstimator
     state: Navigator
-    payload: Vec3
+    vehicle: Believed
 
 
 class Remembered(NamedTuple):
@@ -63,11 +75,11 @@ class Remembered(NamedTuple):
 
 
 class Known(NamedTuple):
-    """What is estimated; and the payload's centre of mass from the system's [m, body axes]."""
+    """What is estimated; and what is believed of the vehicle."""
 
     push: Push
     state: State
-    payload: Vec3
+    vehicle: Believed
 
 
 class MeasuredChannels(NamedTuple):
@@ -127,7 +139,7 @@ def _unknowing(estimators, memory, readings, t, dt):
 def _estimated(estimators, memory, readings, t, dt):
     push, push_memory = estimate(estimators.push, memory.push, readings.unit, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
-    return Known(push, state, estimators.payload), Remembered(push_memory, state_memory)
+    return Known(push, state, estimators.vehicle), Remembered(push_memory, state_memory)
 
 
 @choice
@@ -152,33 +164,36 @@ def _estimated_state(reads, true, readings, known):
 
 
 @choice
-def read_push(reads: Any, true: Any, attitude: Quat, known: Any) -> Any:
-    """The push as the pilot reads it: a `Touch`. `true`: as it is, for an attitude that is believed in."""
+def read_push(reads: Any, true: Any, state: State, known: Any) -> Any:
+    """The push as the pilot reads it, a `Touch`, in a state that it believes in. `true`: as it is."""
 
 
 @read_push.register(Truth)
-def _true_push(reads, true, attitude, known):
-    return Touch(true.force, moment_of(true, attitude))
+def _true_push(reads, true, state, known):
+    return Touch(true.force, moment_of(true, state.attitude))
 
 
 @read_push.register(Measurement)
-def _measured_push(reads, true, attitude, known):
+def _measured_push(reads, true, state, known):
     p = known.push
-    heard = p.trusted * p.armed
-    return Touch(p.measured * heard, about_centre(known, attitude, p.measured, p.measured_moment) * heard)
+    return felt(known.vehicle, state, p.measured, p.measured_moment, p.trusted * p.armed)
 
 
 @read_push.register(Estimate)
-def _estimated_push(reads, true, attitude, known):
+def _estimated_push(reads, true, state, known):
     p = known.push
-    return Touch(p.usable, about_centre(known, attitude, p.usable, p.moment * (p.trusted * p.armed)))
+    return felt(known.vehicle, state, p.force, p.moment, p.trusted * p.armed)
 
 
 @law
-def about_centre(known: Known, attitude: Quat, force: Vec3, moment: Vec3) -> Vec3:
-    """A push's moment about the system's centre of mass from that about the payload's [N·m, body axes]."""
-    R = rotation_from_quaternion(attitude)
-    return moment + cross(known.payload, apply_transposed(R, force))
+def felt(vehicle: Believed, state: State, force: Vec3, moment: Vec3, heard: Any) -> Touch:
+    """A push on the payload, less what drag does, about the system's centre of mass; nothing if not `heard` (0).
+
+    `force` [N, world axes]; `moment` [N·m, body axes] is about the payload's centre of mass.
+    """
+    push = force + vehicle.drag_force * state.velocity
+    arm = cross(vehicle.payload, apply_transposed(rotation_from_quaternion(state.attitude), push))
+    return Touch(push * heard, (moment + vehicle.drag_moment * state.rates + arm) * heard)
 
 
 @choice

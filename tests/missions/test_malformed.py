@@ -108,6 +108,7 @@ def required_keys():
 @pytest.mark.parametrize("place", list(required_keys()), ids=lambda place: ".".join(map(str, place)))
 def test_a_missing_key_is_named(place, mine):
     tables = tables_of(load_mission("iris", EVERYTHING))
+    tables["admittance"].pop("feel")  # which stands in for mass and damping
     del value_at(tables, place[:-1])[place[-1]]
     message = refusal(mine(tomli_w.dumps(tables)))
     assert f"mine.toml: {'.'.join(map(str, place))} is missing: it must be" in message

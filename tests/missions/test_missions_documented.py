@@ -70,7 +70,7 @@ def test_the_template_is_a_mission_as_it_stands():
 
 
 def test_the_template_is_a_mission_with_all_that_it_keeps_out_as_well():
-    lines = [re.sub(r"^# (?=\[\[|[a-z_]+ = )", "", line) for line in TEMPLATE.splitlines() if "extends" not in line]
+    lines = [re.sub(r"^# (?=\[|[a-z_]+ = )", "", line) for line in TEMPLATE.splitlines() if "extends" not in line]
     tables = tomllib.loads("\n".join(lines))
     tables |= {"actuators": {"model": "rotors"}, "ground": tables["ground"] | {"model": "floor"}}
     tables["wind"]["model"], tables["allocation"]["method"] = "air", "constrained"

@@ -60,7 +60,7 @@ def common(whole, said):
 def test_the_paper_mission_leaves_out_only_what_it_has_no_part_of():
     rest = tables_of(load_mission("paper"))
     assert [rest[part]["model"] for part in ("actuators", "sensors", "wind", "ground")] == ["ideal", *["none"] * 3]
-    assert rest["pilot"] == {"state": "truth", "push": "truth"}
+    assert rest["pilot"] == {"guidance": "clock", "state": "truth", "push": "truth"}
     assert rest["faults"] == rest["walls"] == []
     assert rest["phases"]["rotors"] == "always"
     assert rest["plant"] == {"mass_scale": 1.0, "inertia_scale": [1.0] * 3}
@@ -159,6 +159,8 @@ def test_every_leaf_that_the_design_gives_per_axis_is_one():
             "disturbance.force",
             "disturbance.moment",
             "plant.inertia_scale",
+            *(f"compliance.max_{what}" for what in ("speed", "acceleration", "jerk")),
+            *(f"observer.{what}_{number}" for what in ("force", "moment") for number in ("bandwidth", "slope")),
         ]
     )
 

@@ -12,7 +12,7 @@ from tandemlift.laws.estimation import push_estimator, start_push
 from tandemlift.laws.meters import Grade
 from tandemlift.laws.navigation import navigator, start_navigation
 from tandemlift.laws.sensing import Hiss, sensors
-from tandemlift.perception import Estimators, Remembered
+from tandemlift.perception import Believed, Estimators, Remembered
 from tandemlift.settings import InertialSensor, Mission
 from tandemlift.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.vehicle import Vehicle
@@ -99,5 +99,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         attitude_bandwidth=e.attitude_bandwidth,
         age=s.motion.delay - s.delay,
     )
-    known = Estimators(push, observer, vec3(-vehicle.center_of_mass))
+    drag = vehicle.drag
+    believed = Believed(vec3(-vehicle.center_of_mass), vec3(drag.force), vec3(drag.moment))
+    known = Estimators(push, observer, believed)
     return known, Remembered(start_push(push, readings.unit), start_navigation(observer, state))

@@ -18,9 +18,9 @@ from tandemlift.laws.lowpass import LowPass, Smoothed, smooth
 from tandemlift.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.vector import Vec3, dot
 
-
 QUIET = 2.0  # s
 FAINT = 0.3  # of the threshold: what is louder counts no more for the bias
+LATE = 0.5  # 1/s: the bias comes two seconds after what is learned
 
 
 class DeadBand(NamedTuple):
@@ -36,11 +36,15 @@ class DeadBand(NamedTuple):
 
 
 class Hearing(NamedTuple):
-    """Memory: 1 while a push is heard, else 0; for how long it has been above and not heard [s]; the bias."""
+    """Memory: 1 while a push is heard, else 0; for how long it has been above, and not heard [s]; the bias.
+
+    What is being `learned` becomes the bias later, or is forgotten if it was the beginning of a push.
+    """
 
     on: Any
     above: Any
     off: Any
+    learned: Any
     bias: Any
 
 
@@ -106,6 +110,12 @@ def drawn(force, most, off):
     return where(off < QUIET, 0.0, clip(force, -most, most))
 
 
+@elementwise
+def kept(on, old, new):
+    """The old where a push is heard, else the new."""
+    return where(on > 0.0, old, new)
+
+
 @law
 def hear(k: DeadBand, m: Hearing, force: Any, listening: Any, dt: Any) -> Any:
     """(what of a force exceeds the threshold while it is heard, the new memory); not `listening` (0), nothing is."""
@@ -113,8 +123,9 @@ def hear(k: DeadBand, m: Hearing, force: Any, listening: Any, dt: Any) -> Any:
     above = time_above(m.above, f, k.threshold, dt) * listening
     on = still_on(m.on, above, f, k.threshold, k.release, k.dwell) * listening
     off = silent_for(m.off, on, dt) * listening
-    bias = m.bias + drawn(f, k.threshold * FAINT, off) * (k.forget * dt)
-    return soft(f, k.threshold) * on, Hearing(on, above, off, bias)
+    learned = kept(on, m.bias, m.learned + drawn(force - m.learned, k.threshold * FAINT, off) * (k.forget * dt))
+    bias = m.bias + (learned - m.bias) * (LATE * dt)
+    return soft(f, k.threshold) * on, Hearing(on, above, off, learned, bias)
 
 
 @elementwise

@@ -2,30 +2,37 @@
 
 A vehicle that yields late can hand a stiff arm more energy than it got, and the two then swing each other up. The tank
 holds what the person's force did to the vehicle and a share of what the virtual damping burned; the emptier it gets,
-the more damping is added. Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002;
+the more damping is added. A swing empties it only where it turns round, so the damping stays for a while.
+
+Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002;
 Ferraguti et al., An energy tank-based interactive control architecture, 2015.
 """
 
 from typing import Any, NamedTuple
 
 from tandemlift.law import choice
-from tandemlift.ops import clip
+from tandemlift.ops import clip, maximum
 from tandemlift.vector import Nothing, dot
 
 
 class Tank(NamedTuple):
-    """Energy that it holds, and below which damping is added [J]; the most damping [N·s/m]; the share that refills."""
+    """Energy that it holds, and below which damping is added [J]; the most damping [N·s/m]; the share that refills.
+
+    `fading`: one over the time that damping stays [1/s].
+    """
 
     size: Any
     low: Any
     most: Any
     share: Any
+    fading: Any
 
 
 class Filled(NamedTuple):
-    """Memory: the energy in it [J]."""
+    """Memory: the energy in it [J], which may be owed; the share of the damping that is added."""
 
     energy: Any
+    added: Any
 
 
 @choice
@@ -40,5 +47,6 @@ def _no_tank(k, m, push, velocity, burned, dt):
 
 @damp.register(Tank)
 def _tank(k, m, push, velocity, burned, dt):
-    energy = clip(m.energy + (dot(push, velocity) + burned * k.share) * dt, 0.0, k.size)
-    return k.most * (1.0 - clip(energy / k.low, 0.0, 1.0)), Filled(energy)
+    energy = clip(m.energy + (dot(push, velocity) + burned * k.share) * dt, -k.size, k.size)
+    added = maximum(1.0 - clip(energy / k.low, 0.0, 1.0), m.added * (1.0 - k.fading * dt))
+    return k.most * added, Filled(energy, added)

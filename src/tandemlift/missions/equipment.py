@@ -27,6 +27,7 @@ def check_equipment(m: Mission) -> None:
     _check_delays(m)
     _check_readings(m)
     _check_tare(m)
+    _check_observer(m)
     _check_detection(m)
 
 
@@ -100,10 +101,18 @@ def _check_tare(m: Mission) -> None:
         )
 
 
+def _check_observer(m: Mission) -> None:
+    if m.observer.model != "none" and m.allocation.method != "constrained":
+        raise InputError(
+            f'observer.model = "{m.observer.model}": must be "none" unless allocation.method is "constrained", '
+            "which tells it what the rotors could give"
+        )
+
+
 def _check_detection(m: Mission) -> None:
     if m.detection.model != "none" and m.allocation.method != "constrained":
         raise InputError(
-            f'detection.model = "{m.detection.model}": must be "none", or allocation.method must be "constrained", '
+            f'detection.model = "{m.detection.model}": must be "none" unless allocation.method is "constrained", '
             "which alone can do without a rotor"
         )
 

@@ -39,6 +39,7 @@ def row_of(m: Mission) -> int:
     count = len(m.vehicle.quadrotors)
     numbers = 51 + 10 * count
     numbers += (5 + 4 * count) * (m.actuators.model == "rotors") + 6 * (m.wind.model == "air")
+    numbers += 12 * (m.observer.model != "none") + 9 * (m.pilot.guidance == "hand")
     numbers += 3 * (m.ground.model == "floor") + (42 + 6 * count) * (m.sensors.model == "simulated")
     return 8 * numbers
 

@@ -54,7 +54,8 @@ def _compliance(mission: Mission, admittance: Admittance) -> Compliance:
 def _tank(c: ComplianceTable) -> tuple[Any, Any]:
     if c.tank.model == "none":
         return Nothing(), Nothing()
-    return Tank(c.tank.size, c.tank.low, c.tank.max_damping, c.tank.refill), Filled(c.tank.size)
+    t = c.tank
+    return Tank(t.size, t.low, t.max_damping, t.refill, 1.0 / t.fade), Filled(t.size, 0.0)
 
 
 def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
@@ -71,7 +72,7 @@ def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
         most=y.max_moment,
         leash=y.leash,
     )
-    return turning, Heading(STILL, Hearing(0.0, 0.0, 0.0, 0.0), STILL, start, 0.0, 0.0)
+    return turning, Heading(STILL, Hearing(0.0, 0.0, 0.0, 0.0, 0.0), STILL, start, 0.0, 0.0)
 
 
 def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance) -> tuple[Guided, GuidedMemory]:
@@ -90,7 +91,7 @@ def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance) -> 
         most_thrust=vehicle.max_thrust * c.thrust_share,
         tangent=math.tan(c.max_tilt),
     )
-    hearing = Hearing(ZERO, ZERO, ZERO, ZERO)
+    hearing = Hearing(ZERO, ZERO, ZERO, ZERO, ZERO)
     at = ZERO if mission.phases.rotors == "always" else Vec3(*mission.initial.position)
     compliant = Compliant(SILENT, hearing, SILENT, at, ZERO, ZERO, ZERO, at)
     return guided, GuidedMemory(Phase(IDLE, 0.0, at.z, 0.0), compliant, filled, turned, SILENT)

@@ -33,6 +33,7 @@ class TankTable(Table):
     low: Positive = 1.0  # J, below which damping is added
     max_damping: Positive = 20.0  # N s/m
     refill: NonNegative = 0.5  # share of what the virtual damping burns
+    fade: Positive = 2.0  # s, that damping stays
 
 
 class ComplianceTable(Table):

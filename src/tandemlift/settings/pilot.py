@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, ValidationError, model_validator
 from pydantic_core import core_schema
 
 from tandemlift.settings.leaves import (
@@ -20,6 +20,8 @@ from tandemlift.settings.leaves import (
     must,
 )
 
+LN_20 = 2.995732273553991  # time constants until 95 %
+
 Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], Axes(4)]
 Bandwidth = Annotated[float, Field(gt=0.0, le=1e4), AfterValidator(divisor)]  # rad/s
 Reading = Literal["truth", "measurement", "estimate"]
@@ -31,8 +33,18 @@ class ControllerTable(Table):
     name: str
 
 
+class FeelTable(Table):
+    """`[admittance.feel]`: what a push does, in place of mass and damping: so much force, so much speed, so soon."""
+
+    force: Positive = 1.0  # N
+    speed: Positive = 0.6  # m/s, that it comes to
+    time: Positive = 0.5  # s, until 95 % of that
+
+
 class AdmittanceTable(Table):
     """`[admittance]`: virtual mass, damping, stiffness and the gate, per world axis."""
+
+    feel: FeelTable | None = None
 
     mass: Positive3  # kg
     damping: NonNegative3  # N s/m
@@ -40,6 +52,21 @@ class AdmittanceTable(Table):
     threshold: NonNegative3  # N
     gate: Literal["hard", "soft"] = "hard"
     reanchor: bool = False
+
+    @model_validator(mode="before")
+    @classmethod
+    def _by_feel(cls, data: Any) -> Any:
+        """Mass and damping from the feel: v(t) = v (1 − exp(−C t/M)) under the force beyond the threshold."""
+        if not isinstance(data, dict) or not isinstance(data.get("feel"), dict):
+            return data
+        try:
+            feel, threshold = FeelTable(**data["feel"]), data["threshold"]
+            axes = [threshold] * 3 if is_number(threshold) else list(threshold)
+            less = [0.0 if data.get("gate", "hard") == "hard" else float(x) for x in axes]
+        except (ValidationError, KeyError, TypeError, ValueError):
+            return data  # which the keys' own rules explain
+        damping = tuple((feel.force - x) / feel.speed for x in less)
+        return {**data, "damping": damping, "mass": tuple(c * feel.time / LN_20 for c in damping)}
 
 
 class Weights:
