@@ -13,13 +13,14 @@ from tandemlift.laws.allocation import wrench
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.contact import Floor
 from tandemlift.laws.detection import Detection
+from tandemlift.laws.guidance import GuidedChannels
 from tandemlift.laws.limits import given_share
 from tandemlift.laws.loads import Felt, Loads, total_of_each
 from tandemlift.laws.observer import Observer, Unmodelled
 from tandemlift.laws.push import Hand, moment_of
 from tandemlift.laws.rotation import euler_from_quaternion, turned_least
 from tandemlift.laws.rotors import IdealRotors, Rotors
-from tandemlift.ops import clip, minimum, where
+from tandemlift.ops import clip, greatest, minimum, where
 from tandemlift.perception import shown_estimate, shown_readings
 from tandemlift.tally import Errors
 from tandemlift.vector import Nothing, Quat, Vec3, dot, total
@@ -232,6 +233,21 @@ def show(flying: Any, thought: Any, acting: Any, moved: Any, hand: Hand) -> Samp
     )
 
 
+@choice
+def hearing(shown: Any) -> Any:
+    """1 while a push is heard along any axis, else 0; from what guidance shows."""
+
+
+@hearing.register(Nothing)
+def _not_asked(shown):
+    return 0.0
+
+
+@hearing.register(GuidedChannels)
+def _heard(shown):
+    return greatest(shown.push_on)
+
+
 @law
 def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
     """What a sample adds to the tally."""
@@ -245,4 +261,5 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
         x.push_force,
         dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
         saturated(flying.rotors, thought.decision.thrusts),
+        hearing(thought.decision.guidance.shown),
     )

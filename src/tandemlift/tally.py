@@ -24,10 +24,11 @@ class Errors(NamedTuple):
     push: Vec3
     power: Any
     saturated: Any
+    hearing: Any
 
 
 class Tally(NamedTuple):
-    """Sums and extremes over a stretch of steps."""
+    """Sums and extremes over a stretch of steps; `triggers`: how often a push came to be heard; if one is now."""
 
     steps: Any
     position_squares: Vec3
@@ -41,9 +42,11 @@ class Tally(NamedTuple):
     push_sum: Vec3
     power_sum: Any
     saturated: Any
+    triggers: Any
+    hearing: Any
 
 
-EMPTY = Tally(0.0, ZERO, ZERO, ZERO, ZERO, ZERO, math.inf, -math.inf, ZERO, ZERO, 0.0, 0.0)
+EMPTY = Tally(0.0, ZERO, ZERO, ZERO, ZERO, ZERO, math.inf, -math.inf, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0)
 
 
 @law
@@ -62,6 +65,8 @@ def count(c: Tally, x: Errors) -> Tally:
         c.push_sum + x.push,
         c.power_sum + x.power,
         c.saturated + x.saturated,
+        c.triggers + x.hearing * (1.0 - c.hearing),
+        x.hearing,
     )
 
 
@@ -85,5 +90,6 @@ def summary(early: Tally, late: Tally, step: float) -> dict[str, Any]:
         "moment_max_abs_after_10s_n_m": list(late.moment_max) if late.steps else None,
         "human_impulse_n_s": list((early.push_sum + late.push_sum) * step),
         "human_work_j": (early.power_sum + late.power_sum) * step,
+        "push_triggers_after_10s": late.triggers if late.steps else None,
         "rotor_saturated_share": (early.saturated + late.saturated) / steps if steps else None,
     }

@@ -290,19 +290,26 @@ def _watched(k, memory, heard, thrusts, active, t, dt):
     )
 
 
+class Loss(NamedTuple):
+    """Whether a rotor is taken for lost (1, else 0), and whether its trial is over."""
+
+    named: Any
+    certain: Any
+
+
 @choice
-def found_lost(k: Any, memory: Any, t: Any) -> Any:
-    """1 once a rotor is found lost for good, else 0."""
+def loss_of(k: Any, memory: Any, t: Any) -> Any:
+    """What is known at time t [s]: a `Loss`."""
 
 
-@found_lost.register(Nothing)
+@loss_of.register(Nothing)
 def _never_lost(k, memory, t):
-    return 0.0
+    return Loss(0.0, 0.0)
 
 
-@found_lost.register(Detection)
+@loss_of.register(Detection)
 def _lost(k, memory, t):
-    return confirmed(k, memory.verdict, t)
+    return Loss(total(memory.verdict.lost), confirmed(k, memory.verdict, t))
 
 
 @elementwise

@@ -65,6 +65,7 @@ class Clocked(NamedTuple):
 
 class Guided(NamedTuple):
     """Guidance by hand. `mass` [kg]; `most_thrust` [N] that may be used; `tangent` of the greatest tilt.
+    `stopping` [N·s/m]: added to C once a rotor is lost.
 
     `moment`: low-pass on the push's moment, which is countered as it will be `moment_lead` [s] later.
     """
@@ -78,6 +79,7 @@ class Guided(NamedTuple):
     mass: Any
     most_thrust: Any
     tangent: Any
+    stopping: Any
 
 
 class GuidedMemory(NamedTuple):
@@ -119,7 +121,7 @@ class Guidance(NamedTuple):
 
 @choice
 def guide(g: Any, m: Any, heard: Any, unknown: Any, lost: Any, t: Any, dt: Any) -> Any:
-    """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`; `lost`: 1 once a rotor is lost."""
+    """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`; `lost`: a `Loss`."""
 
 
 @choice
@@ -215,15 +217,16 @@ def channels_of(orders: Orders, compliant: Compliant, damping: Any, course: Cour
 @guide.register(Guided)
 def _guided(g, m, heard, unknown, lost, t, dt):
     state = heard.state
-    phase = follow(g.phasing, m.phase, state.position.z, maximum(heard.land, lost), 1.0, t)
+    phase = follow(g.phasing, m.phase, state.position.z, maximum(heard.land, lost.certain), 1.0, t)
     orders = orders_of(g.phasing, phase, t)
     now = grounded_at(orders, m.compliant, state)
     burned = dot(now.velocity * g.compliance.admittance.damping, now.velocity)
     damping, tank = damp(g.tank, m.tank, now.heard.value, state.velocity, burned, dt)
-    after = comply(g.compliance, now, heard.push, orders.listening, damping, still_able(g, unknown), dt)
+    listening, braking = orders.listening * (1.0 - lost.named), damping + g.stopping * lost.named
+    after = comply(g.compliance, now, heard.push, listening, braking, still_able(g, unknown), dt)
     about = apply(rotation_from_quaternion(state.attitude), heard.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
-    course, heading = turn(g.heading, m.heading, about, yaw, orders, lost, dt)
+    course, heading = turn(g.heading, m.heading, about, yaw, orders, lost.named, dt)
     moment = smooth(g.moment, m.moment, heard.moment)
     motion = Trajectory(now.position, now.velocity, after.acceleration)
     target = Reference(

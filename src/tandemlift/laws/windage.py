@@ -11,10 +11,13 @@ of N joints, ratio σ √(ω T/4N); it is as much too late for gusts, 2/ω.
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tandemlift.law import choice, law
-from tandemlift.laws.lowpass import LowPass, Smoothed, smooth
+from tandemlift.laws.lowpass import LowPass, Smoothed, low_pass, smooth
 from tandemlift.ops import maximum
 from tandemlift.vector import ZERO, Nothing, Vec3, total
+from tandemlift.vehicle import Vehicle
 
 
 class Windage(NamedTuple):
@@ -64,3 +67,15 @@ def _scaled(k, memory, x, y, taken, armed):
     summed = Blown(memory.sum + force * taken, memory.count + taken, memory.force)
     after = smooth(k.low_pass, memory.force, (force - bias_of(summed)) * armed)
     return after.value, Blown(summed.sum, summed.count, after)
+
+
+def windage(vehicle: Vehicle, bandwidth: float, step: float) -> Windage:
+    """The windage of a vehicle as it is believed to be, with a low-pass of a bandwidth [rad/s]."""
+    beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
+    quadrotors = sum(np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors)
+    return Windage(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
+
+
+def start_blown(windage: Any) -> Any:
+    """The memory before the first step."""
+    return windage if isinstance(windage, Nothing) else Blown(ZERO, 0.0, Smoothed(ZERO, ZERO))

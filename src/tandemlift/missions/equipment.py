@@ -27,6 +27,7 @@ def check_equipment(m: Mission) -> None:
     _check_delays(m)
     _check_readings(m)
     _check_tare(m)
+    _check_windage(m)
     _check_observer(m)
     _check_detection(m)
 
@@ -99,6 +100,17 @@ def _check_tare(m: Mission) -> None:
         raise InputError(
             f"estimator.tare_duration = {e.tare_duration}: a tare must hold a sample: they come every {interval:g} s"
         )
+
+
+def _check_windage(m: Mission) -> None:
+    if m.estimator.wind_compensation == "none":
+        return
+    for axis, name in enumerate("xy"):
+        if not any(q.drag_area[axis] * q.drag_coefficient > 0.0 for q in m.vehicle.quadrotors):
+            raise InputError(
+                'estimator.wind_compensation = "quadrotors": must be "none" where no quadrotor has drag along body '
+                f"{name}: there its wind tells nothing"
+            )
 
 
 def _check_observer(m: Mission) -> None:
