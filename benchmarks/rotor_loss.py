@@ -102,7 +102,10 @@ def flown(missions: list[Any], size: int = 8) -> Iterator[Any]:
 def lost(wind: str, count: int) -> list[dict[str, Any]]:
     drawn = list(losses(wind, count))
     flights = flown([mission for *_, mission in drawn])
-    return [landed(f, rotor, time) | {"rotor": rotor + 1, "time": time} for f, (rotor, time, _) in zip(flights, drawn, strict=True)]
+    return [
+        landed(f, rotor, time) | {"rotor": rotor + 1, "time": time}
+        for f, (rotor, time, _) in zip(flights, drawn, strict=True)
+    ]
 
 
 def summary(rows: list[dict[str, Any]]) -> list[str]:

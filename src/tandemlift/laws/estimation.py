@@ -35,6 +35,7 @@ from tandemlift.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, t
 
 NOTHING = Nothing()
 
+
 class PushEstimator(NamedTuple):
     """What the estimator knows of the vehicle, and its numbers; body axes.
 

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from tandemlift.laws.allocation import Mixer
-from tandemlift.laws.detection import FOUR, FRESH, Detection, Rules, Verdict, Watching
+from tandemlift.laws.detection import FOUR, FRESH, Detection, Watching
 from tandemlift.laws.inertia import inertia_value
 from tandemlift.laws.lowpass import Smoothed, low_pass
+from tandemlift.laws.verdict import Rules, Verdict
 from tandemlift.settings import DetectionTable, Mission
 from tandemlift.vector import Nothing, each
 from tandemlift.vehicle import Vehicle
