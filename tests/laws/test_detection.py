@@ -33,7 +33,7 @@ class Motion(NamedTuple):
 
 
 def moved(share, wind, seed):
-    """Motion of the level vehicle whose rotors give a share (T × 8) of hover, linear, under an unknown wrench (T × 4)."""
+    """Linear motion of the vehicle whose rotors give a share (T × 8) of hover, under an unknown wrench (T × 4)."""
     t = np.arange(len(share)) * DT
     per_inertia = np.zeros((4, 4))
     per_inertia[0, 0], per_inertia[1:, 1:] = 1.0 / VEHICLE.mass, np.linalg.inv(VEHICLE.inertia)
@@ -133,8 +133,8 @@ def test_another_rotor_that_explains_the_motion_better_is_named_instead():
 
 def test_a_rotor_is_tried_again_for_as_long_as_is_set_and_then_left():
     commands = EIGHT(*(0.0,) * 8)
-    during = np.array(with_trials(DETECTION, named(4, 0.0), commands, 0.299))
-    after = np.array(with_trials(DETECTION, named(4, 0.0), commands, 0.3))
+    during = np.array(with_trials(DETECTION, named(4, 0.0), commands, 0.199))
+    after = np.array(with_trials(DETECTION, named(4, 0.0), commands, 0.2))
     assert during == pytest.approx(np.eye(8)[4] * HOVER)
     assert not after.any()
 

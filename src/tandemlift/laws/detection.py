@@ -10,8 +10,8 @@ i over none is the log-likelihood ratio (twice), at the α that explains most:
 
 A rotor is named when it has explained most for a while: by enough over none, by enough over any other, and nearly all
 of r. All rotors are modelled as if they lived, a lost one under the trial command that it still gets. So the same test
-goes on: it names another rotor that explains better, and restores one that turns, until the trial is over. (Basseville and Nikiforov, Detection
-of abrupt changes, 1993, chapters 2 and 7.)
+goes on: it names another rotor that explains better, and restores one that turns, until the trial is over.
+(Basseville and Nikiforov, Detection of abrupt changes, 1993, chapters 2 and 7.)
 
 σ grows with what r has scattered over the last second, so that a badly modelled vehicle is watched with less zeal, and
 one just lifted not at all. Nor is one that is held from below, by a floor. One rotor is looked for.
@@ -208,26 +208,19 @@ def _watched(k, memory, heard, thrusts, active, t, dt):
     )
 
 
-class Loss(NamedTuple):
-    """Whether a rotor is taken for lost (1, else 0), and whether its trial is over."""
-
-    named: Any
-    certain: Any
-
-
 @choice
-def loss_of(k: Any, memory: Any, t: Any) -> Any:
-    """What is known at time t [s]: a `Loss`."""
+def found_lost(k: Any, memory: Any, t: Any) -> Any:
+    """1 once a rotor is lost for good at time t [s], else 0."""
 
 
-@loss_of.register(Nothing)
+@found_lost.register(Nothing)
 def _never_lost(k, memory, t):
-    return Loss(0.0, 0.0)
+    return 0.0
 
 
-@loss_of.register(Detection)
+@found_lost.register(Detection)
 def _lost(k, memory, t):
-    return Loss(total(memory.verdict.lost), confirmed(k, memory.verdict, t))
+    return confirmed(k, memory.verdict, t)
 
 
 @elementwise

@@ -121,7 +121,7 @@ class Guidance(NamedTuple):
 
 @choice
 def guide(g: Any, m: Any, heard: Any, unknown: Any, lost: Any, t: Any, dt: Any) -> Any:
-    """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`; `lost`: a `Loss`."""
+    """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`; `lost`: 1 once a rotor is lost."""
 
 
 @choice
@@ -217,16 +217,16 @@ def channels_of(orders: Orders, compliant: Compliant, damping: Any, course: Cour
 @guide.register(Guided)
 def _guided(g, m, heard, unknown, lost, t, dt):
     state = heard.state
-    phase = follow(g.phasing, m.phase, state.position.z, maximum(heard.land, lost.certain), 1.0, t)
+    phase = follow(g.phasing, m.phase, state.position.z, maximum(heard.land, lost), 1.0, t)
     orders = orders_of(g.phasing, phase, t)
     now = grounded_at(orders, m.compliant, state)
     burned = dot(now.velocity * g.compliance.admittance.damping, now.velocity)
     damping, tank = damp(g.tank, m.tank, now.heard.value, state.velocity, burned, dt)
-    listening, braking = orders.listening * (1.0 - lost.named), damping + g.stopping * lost.named
-    after = comply(g.compliance, now, heard.push, listening, braking, still_able(g, unknown), dt)
+    braking = damping + g.stopping * lost
+    after = comply(g.compliance, now, heard.push, orders.listening, braking, still_able(g, unknown), dt)
     about = apply(rotation_from_quaternion(state.attitude), heard.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
-    course, heading = turn(g.heading, m.heading, about, yaw, orders, lost.named, dt)
+    course, heading = turn(g.heading, m.heading, about, yaw, orders, lost, dt)
     moment = smooth(g.moment, m.moment, heard.moment)
     motion = Trajectory(now.position, now.velocity, after.acceleration)
     target = Reference(

@@ -7,6 +7,7 @@ from tandemlift.ops import clip, greatest, where
 from tandemlift.vector import total
 
 LEAST, MOST = 0.5, 1.5  # share of a thrust that is gone
+FAITH = 10.0  # evidence that a rotor has beforehand that was named
 
 
 class Rules(NamedTuple):
@@ -73,10 +74,11 @@ def judged(k: Rules, v: Verdict, evidence: Any, square: Any, active: Any, t: Any
 
     `active` is 0 while it is to stay as it is, else 1.
     """
-    best = greatest(evidence)
-    clear = where(best - greatest(but(evidence, best)) > k.margin, active, 0.0)
+    held = evidence + v.lost * FAITH
+    best = greatest(held)
+    clear = where(best - greatest(but(held, best)) > k.margin, active, 0.0)
     sure = where(best > k.evidence, where(square - best > k.rest * square, 0.0, clear), 0.0)
-    above = counted(v.above, evidence, best, sure, dt)
+    above = counted(v.above, held, best, sure, dt)
     ripe = where(greatest(above) < k.dwell, 0.0, 1.0)
     renamed = ripe * (1.0 - where(total(is_named(v.lost, above, k.dwell, ripe) * v.lost) > 0.0, 1.0, 0.0))
     named = total(v.lost)

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from tandemlift.law import choice, law
 from tandemlift.laws.allocation import Working, allocate
 from tandemlift.laws.controllers import Command, Disturbance, Measured, control
-from tandemlift.laws.detection import loss_of, watch
+from tandemlift.laws.detection import found_lost, watch
 from tandemlift.laws.guidance import Guidance, Heard, guide, running
 from tandemlift.laws.observer import Unmodelled, last_known, observe
 from tandemlift.vector import Nothing
@@ -78,7 +78,7 @@ def _within_limits(allocation):
 @law
 def brief(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) -> Briefed:
     """What there is to know at time t [s] before the controller is asked."""
-    before, lost = last_known(p.observer, m.observer), loss_of(p.detection, m.detection, t)
+    before, lost = last_known(p.observer, m.observer), found_lost(p.detection, m.detection, t)
     guidance, guided = guide(p.guidance, m.guidance, heard, before, lost, t, dt)
     given = given_thrusts(m.allocation)
     unknown, observing = observe(p.observer, m.observer, heard, given, guidance.flying, dt)

@@ -85,6 +85,6 @@ class DetectionTable(Table):
     margin: Positive = 3.0  # over any other rotor, likewise
     unexplained: Part = 0.25  # share of the residual's square that may be left
     dwell: NonNegative = 0.012  # s, for which all that must hold
-    retest: NonNegative = 0.3  # s, for which a rotor named is tried again before the landing begins
+    retest: NonNegative = 0.2  # s, for which a rotor named is tried again before the landing begins
     rotor_lag: Positive = 0.018  # s, of the rotors as modelled: one, up and down
     rotor_delay: NonNegative = 0.01  # s
