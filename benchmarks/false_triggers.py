@@ -31,7 +31,7 @@ HOVER: dict[str, Any] = {
     "controller.max_tilt": 0.5,
     "observer.model": "super-twisting",
 }
-WITH, WITHOUT = 12.0, 1e-6  # rad/s: without compensation it is never told, so that there is one compiled loop
+WITH, WITHOUT = 25.0, 1e-6  # rad/s: without compensation it is never told, so that there is one compiled loop
 LENGTH = 600.0  # s, of a hover
 CASES = ((1.0, "none"), (2.0, "none"), (2.0, "quadrotors"), (3.0, "quadrotors"))  # wind [m/s], compensation
 PUSH, FIRST, EVERY, LASTS = 0.6, 12.0, 3.0, 1.0  # N, s

@@ -65,7 +65,6 @@ class Clocked(NamedTuple):
 
 class Guided(NamedTuple):
     """Guidance by hand. `mass` [kg]; `most_thrust` [N] that may be used; `tangent` of the greatest tilt.
-    `stopping` [N·s/m]: added to C once a rotor is lost.
 
     `moment`: low-pass on the push's moment, which is countered as it will be `moment_lead` [s] later.
     """
@@ -79,7 +78,6 @@ class Guided(NamedTuple):
     mass: Any
     most_thrust: Any
     tangent: Any
-    stopping: Any
 
 
 class GuidedMemory(NamedTuple):
@@ -222,8 +220,7 @@ def _guided(g, m, heard, unknown, lost, t, dt):
     now = grounded_at(orders, m.compliant, state)
     burned = dot(now.velocity * g.compliance.admittance.damping, now.velocity)
     damping, tank = damp(g.tank, m.tank, now.heard.value, state.velocity, burned, dt)
-    braking = damping + g.stopping * lost
-    after = comply(g.compliance, now, heard.push, orders.listening, braking, still_able(g, unknown), dt)
+    after = comply(g.compliance, now, heard.push, orders.listening, damping, still_able(g, unknown), dt)
     about = apply(rotation_from_quaternion(state.attitude), heard.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
     course, heading = turn(g.heading, m.heading, about, yaw, orders, lost, dt)

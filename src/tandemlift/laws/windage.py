@@ -72,7 +72,7 @@ def _scaled(k, memory, x, y, taken, armed):
 def windage(vehicle: Vehicle, bandwidth: float, step: float) -> Windage:
     """The windage of a vehicle as it is believed to be, with a low-pass of a bandwidth [rad/s]."""
     beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
-    quadrotors = sum(np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors)
+    quadrotors = np.sum([np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
     return Windage(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
 
 

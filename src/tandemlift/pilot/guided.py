@@ -90,7 +90,6 @@ def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance) -> 
         mass=vehicle.mass,
         most_thrust=vehicle.max_thrust * c.thrust_share,
         tangent=math.tan(c.max_tilt),
-        stopping=c.braking * max(mission.admittance.mass),
     )
     hearing = Hearing(ZERO, ZERO, ZERO, ZERO, ZERO)
     at = ZERO if mission.phases.rotors == "always" else Vec3(*mission.initial.position)

@@ -81,7 +81,7 @@ class DetectionTable(Table):
     habit: Bandwidth = 3.0  # rad/s, of its mean square, which is noise or a wrong model
     scatter: Positive4 = (0.3, 0.3, 0.03, 0.3)  # N, N m: thrust, roll, pitch, yaw of a well modelled vehicle
     spread: Part = 0.2  # share by which a rotor's thrust may differ from the model
-    evidence: Positive = 30.0  # over none, to name a rotor: twice a log-likelihood ratio
+    evidence: Positive = 40.0  # over none, to name a rotor: twice a log-likelihood ratio
     margin: Positive = 3.0  # over any other rotor, likewise
     unexplained: Part = 0.25  # share of the residual's square that may be left
     dwell: NonNegative = 0.012  # s, for which all that must hold
