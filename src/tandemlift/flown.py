@@ -25,7 +25,7 @@ from tandemlift.loop import FAR, SIN_ROLL_LIMIT, Flying, Moving
 from tandemlift.missions import tables_of
 from tandemlift.prepared import Prepared
 from tandemlift.tally import EMPTY, Tally, summary
-from tandemlift.vector import ZERO, Vec3
+from tandemlift.vector import ZERO, Nothing, Vec3, dot
 
 Array = NDArray[np.float64]
 
@@ -87,6 +87,7 @@ def metrics_of(p: Prepared, flown: Flown) -> dict[str, Any]:
     formed["final_position_m"] = list(flown.moving.state.position)
     formed["final_reference_m"] = list(last.reference_position)
     formed["command_at_start"] = [first.thrust, *first.moment]
+    formed |= _of_detection(p, flown)
     formed = {name: _formed(value) for name, value in formed.items()}
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.moving)}
 
@@ -113,6 +114,17 @@ def _told(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
     if phase != before[0] or not refused:
         return NAMES[phase] + (f": {CHECKS[refused - 1]}" if refused else "")
     return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1]}"
+
+
+def _of_detection(p: Prepared, flown: Flown) -> dict[str, Any]:
+    """How often a rotor was taken for lost, and how long after its loss [s] the one that is; None where none is."""
+    detection, memory = p.flying.pilot.detection, flown.moving.memory.detection
+    if isinstance(detection, Nothing):
+        return {}
+    v = memory.verdict
+    lost = int(dot(v.lost, detection.numbers))
+    times = [f.time for f in p.mission.faults if 4 * (f.quadrotor - 1) + f.rotor == lost]
+    return {"rotors_taken_for_lost": v.named, "rotor_loss_found_after_s": v.since - times[0] if times else None}
 
 
 @cache

@@ -69,10 +69,10 @@ class Pilot:
 
         def sample(a, x, thrusts, scratch):
             pilot = load(a, like)
-            t, how, held = pilot.samples * dt, pilot.parameters.allocation, pilot.memory.allocation
+            t = pilot.samples * dt
             decision, memory = decide(pilot.parameters, pilot.memory, load(x, HEARD), t, dt)
             if constrained:
-                decision, memory = limit(scratch, how, held, decision, memory, t)
+                decision, memory = limit(scratch, pilot.parameters, pilot.memory, decision, memory, t)
             store(thrusts, decision.thrusts)
             store(a, Remembered(pilot.samples + 1.0, memory))
 

@@ -6,6 +6,7 @@ holds their compiled counterparts, which are branch-free so that many flights go
 
 from __future__ import annotations
 
+import functools
 import math
 import sys
 from collections.abc import Callable
@@ -141,6 +142,11 @@ def minimum(a, b):
 def maximum(a, b):
     """The larger of a and b."""
     return _maximum(a, b)
+
+
+def greatest(values):
+    """The largest of the values of a set."""
+    return functools.reduce(maximum, values)
 
 
 @elementwise

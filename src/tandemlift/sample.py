@@ -13,7 +13,8 @@ from tandemlift.laws.allocation import wrench
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.clearance import clearance
 from tandemlift.laws.contact import Floor
-from tandemlift.laws.guidance import share_of
+from tandemlift.laws.detection import Detection
+from tandemlift.laws.guidance import GuidedChannels, share_of
 from tandemlift.laws.limits import given_share
 from tandemlift.laws.loads import Felt, Loads, total_of_each
 from tandemlift.laws.observer import Observer, Unmodelled
@@ -21,7 +22,7 @@ from tandemlift.laws.partner import Partnering
 from tandemlift.laws.push import Hand, moment_of
 from tandemlift.laws.rotation import euler_from_quaternion, turned_least
 from tandemlift.laws.rotors import IdealRotors, Rotors
-from tandemlift.ops import clip, minimum, where
+from tandemlift.ops import clip, greatest, minimum, where
 from tandemlift.perception import shown_estimate, shown_readings
 from tandemlift.tally import Errors, effort_of
 from tandemlift.vector import Nothing, Quat, Vec3, dot, total
@@ -57,6 +58,7 @@ class Sample(NamedTuple):
     estimated: Any
     disturbed: Any
     guided: Any
+    watched: Any
 
 
 class Actuated(NamedTuple):
@@ -81,6 +83,12 @@ class Contact(NamedTuple):
     contact_force: Vec3
 
 
+class Watched(NamedTuple):
+    """Of the detection of lost rotors: the number of the rotor that is taken for lost, 0 for none."""
+
+    rotor_lost: Any
+
+
 class Disturbed(NamedTuple):
     """Of an observer: what it estimates, and how far it is behind."""
 
@@ -103,6 +111,21 @@ def _no_observer(observer, unknown):
 @disturbed.register(Observer)
 def _an_observer(observer, unknown):
     return Disturbed(unknown.force, unknown.moment, unknown.residual, unknown.turning_residual)
+
+
+@choice
+def watched(detection: Any, memory: Any) -> Any:
+    """What the detection of lost rotors shows."""
+
+
+@watched.register(Nothing)
+def _not_watched(detection, memory):
+    return detection
+
+
+@watched.register(Detection)
+def _is_watched(detection, memory):
+    return Watched(dot(memory.verdict.lost, detection.numbers))
 
 
 @choice
@@ -208,6 +231,7 @@ def show(flying: Any, thought: Any, acting: Any, moved: Any, hand: Hand) -> Samp
         shown_estimate(thought.known),
         disturbed(flying.pilot.observer, read.unknown),
         guidance.shown,
+        watched(flying.pilot.detection, thought.memory.detection),
     )
 
 
@@ -226,6 +250,21 @@ def _somebody(partner, x):
     return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
+@choice
+def hearing(shown: Any) -> Any:
+    """1 while a push is heard along any axis, else 0; from what guidance shows."""
+
+
+@hearing.register(Nothing)
+def _not_asked(shown):
+    return 0.0
+
+
+@hearing.register(GuidedChannels)
+def _heard(shown):
+    return greatest(shown.push_on)
+
+
 @law
 def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
     """What a sample adds to the tally."""
@@ -241,4 +280,5 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
         saturated(flying.rotors, thought.decision.thrusts) * share_of(thought.decision.guidance.running),
         clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
         effort(flying.moving.partner, x),
+        hearing(thought.decision.guidance.shown),
     )

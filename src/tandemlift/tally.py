@@ -27,6 +27,7 @@ class Errors(NamedTuple):
     saturated: Any
     clearance: Any
     effort: Any
+    hearing: Any
 
 
 class Effort(NamedTuple):
@@ -38,7 +39,7 @@ class Effort(NamedTuple):
 
 
 class Tally(NamedTuple):
-    """Sums and extremes over a stretch of steps."""
+    """Sums and extremes over a stretch of steps; `triggers`: how often a push came to be heard; if one is now."""
 
     steps: Any
     position_squares: Vec3
@@ -54,9 +55,13 @@ class Tally(NamedTuple):
     saturated: Any
     clearance: Any
     effort: Any
+    triggers: Any
+    hearing: Any
 
 
-EMPTY = Tally(0.0, ZERO, ZERO, ZERO, ZERO, ZERO, math.inf, -math.inf, ZERO, ZERO, 0.0, 0.0, Nothing(), Nothing())
+EMPTY = Tally(
+    0.0, ZERO, ZERO, ZERO, ZERO, ZERO, math.inf, -math.inf, ZERO, ZERO, 0.0, 0.0, Nothing(), Nothing(), 0.0, 0.0
+)
 NO_EFFORT = Effort(0.0, 0.0, 0.0)
 
 
@@ -100,6 +105,8 @@ def count(c: Tally, x: Errors) -> Tally:
         c.saturated + x.saturated,
         nearer_of(c.clearance, x.clearance),
         added(c.effort, x.effort),
+        c.triggers + x.hearing * (1.0 - c.hearing),
+        x.hearing,
     )
 
 
@@ -123,6 +130,7 @@ def summary(early: Tally, late: Tally, step: float) -> dict[str, Any]:
         "moment_max_abs_after_10s_n_m": list(late.moment_max) if late.steps else None,
         "human_impulse_n_s": list((early.push_sum + late.push_sum) * step),
         "human_work_j": (early.power_sum + late.power_sum) * step,
+        "push_triggers_after_10s": late.triggers if late.steps else None,
         "rotor_saturated_share": (early.saturated + late.saturated) / steps if steps else None,
         **_of_walls(early, late),
         **_of_effort(early, late, step),

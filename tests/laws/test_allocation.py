@@ -130,7 +130,7 @@ def test_commands_to_weak_rotors_make_them_give_the_thrusts(seed):
     left[rng.integers(8)] = 0.0
     how, t = constrained(limits, times, left), 1.0
     share = np.where(times <= t, left, 1.0)
-    most = np.array(limits_at(how, t))
+    most = np.array(limits_at(how, 1.0, t))
     assert most == pytest.approx(limits * share)
     thrusts = most * rng.uniform(0.0, 1.0, 8)
     commands = np.array(commanded(how, each(8)(*map(float, thrusts)), t))

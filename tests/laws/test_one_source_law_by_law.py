@@ -14,23 +14,28 @@ from tandemlift.laws import (
     admittance,
     allocation,
     contact,
+    detection,
     expanded,
+    guidance,
     limits,
     loads,
+    lowpass,
     parts,
     reference,
     rotation,
     rotors,
     sliding,
+    verdict,
     virtual,
     walls,
+    windage,
 )
 from tandemlift.laws.body import Body, State, Wrench, motion
 from tandemlift.laws.inertia import gyroscopic
 from tandemlift.laws.push import PointPush
 from tandemlift.laws.rectangle import Wall
 from tandemlift.ops import power
-from tandemlift.vector import Mat3, Quarters, Quat, Vec3, apply, apply_transposed, cross, each, hamilton, outer
+from tandemlift.vector import Mat3, Nothing, Quarters, Quat, Vec3, apply, apply_transposed, cross, each, hamilton, outer
 
 from .helpers import flat, rebuilt
 
@@ -56,6 +61,14 @@ NEAR = walls.Near(UPRIGHTS, UPRIGHTS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT,
 LAG, MIXER = rotors.Lag(EIGHT, EIGHT, EIGHT), allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
 SURFACES = rotors.GroundEffect(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, 0.0)
 ROTORS = rotors.Rotors(EIGHT, EIGHT, EIGHT, LAG, LAG, rotors.Faults(EIGHT, EIGHT), SURFACES, 0.0, Wrench(0.0, V))
+FOURS, LOW = each(4)(*[0.0] * 4), lowpass.LowPass(*[0.0] * 4)
+SMOOTH, SMOOTHS = lowpass.Smoothed(FOURS, FOURS), lowpass.Smoothed(EIGHT, EIGHT)
+DETECTION = detection.Detection(
+    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, verdict.Rules(*[0.0] * 6)
+)
+WATCHING = detection.Watching(*[SMOOTHS] * 2, *[SMOOTH] * 4, verdict.Verdict(EIGHT, 0.0, 0.0, EIGHT, 0.0))
+HEARD = guidance.Heard(STATE, V, V, 0.0, Nothing())
+BLOWN = windage.Blown(V, 0.0, lowpass.Smoothed(V, V))
 CONSTRAINED = allocation.Constrained(MIXER, MIXER, Wrench(0.0, V), EIGHT, rotors.Faults(EIGHT, EIGHT))
 
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
@@ -94,6 +107,8 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "Euler dynamics": (expanded.euler_dynamics, (BODY, EULER, V, V, Wrench(0.0, V))),
     "thrusts of rotors": (rotors.drive, (ROTORS, rotors.Spinning(EIGHT, EIGHT), EIGHT, STATE, 0.0)),
     "commands to weak rotors": (allocation.commanded, (CONSTRAINED, EIGHT, 0.0)),
+    "watching for a lost rotor": (detection.watch, (DETECTION, WATCHING, HEARD, EIGHT, 0.0, 0.0, 0.0)),
+    "wind on the payload": (windage.blown, (windage.Windage(0.0, 0.0, LOW), BLOWN, TWO, TWO, 0.0, 0.0)),
     "share of a wrench": (limits.given_share, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
     "what joints feel": (loads.feel, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
     "what joints pass on": (loads.under, (LOADS.quadrotors, FRAME, Q, FELT)),
@@ -105,7 +120,13 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "motion, pushed at points": (motion, (BODY, State(V, V, Q, V), Wrench(0.0, V), PointPush(V, M))),
 }
 POSITIVE = {"power", "smooth step", "soft gate", "sliding surface", "surface rate", "wanted acceleration"}
-POSITIVE |= {"thrusts of rotors", "commands to weak rotors", "feet on the floor", "feet that slip"}
+POSITIVE |= {
+    "watching for a lost rotor",
+    "thrusts of rotors",
+    "commands to weak rotors",
+    "feet on the floor",
+    "feet that slip",
+}
 BATCH = 12
 EACH = pytest.mark.parametrize("name", LAWS)
 

@@ -184,6 +184,8 @@ WRONG_PARTS = [
     case("rotor zero", "faults = [{quadrotor = 0, rotor = 1, time = 1}]", "faults.0.quadrotor = 0", "≥ 1"),
     case("more than all thrust", FAULT % "efficiency = 1.1", "faults.0.efficiency = 1.1", "≥ 0 and ≤ 1"),
     case("known before", FAULT % "known_after = -1", "faults.0.known_after = -1", "a number ≥ 0"),
+    case("spread of nothing", "detection.spread = 0", "detection.spread = 0", "> 0 and ≤ 1"),
+    case("three scatters", "detection.scatter = [1, 1, 1]", "[1, 1, 1]", "one number or a list of 4 numbers"),
     case("fault without a time", "faults = [{quadrotor = 1, rotor = 1}]", "faults.0.time is missing"),
     case("sensors of another kind", "sensors.model = 'real'", 'sensors.model = "real"', '"none" or "simulated"'),
     case("negative noise", "sensors.joints.force_noise = -1", "force_noise = -1", "≥ 0"),
@@ -242,6 +244,19 @@ WRONG_PARTS_TOGETHER = [
     of_parts("tare of no sample", "estimator.tare_duration = 0.0001", "tare_duration = 0.0001", "every 0.001 s"),
     of_parts(
         "tare shorter than slow samples", "sensors.interval = 4.0", "estimator.tare_duration = 3.0", "come every 4 s"
+    ),
+    of_parts(
+        "detection that nobody acts on",
+        "detection.model = 'residual'\nallocation.method = 'pseudo-inverse'",
+        'detection.model = "residual"',
+        'must be "none" unless allocation.method is "constrained"',
+    ),
+    of_parts(
+        "wind told from quadrotors that it does not move",
+        fleet("0, 1, 0", "0, -1, 0").replace("lag_down = 0", "lag_down = 0, drag_area = [1, 0, 1]")
+        + "\nestimator.wind_compensation = 'quadrotors'",
+        'estimator.wind_compensation = "quadrotors"',
+        "no quadrotor has drag along body y",
     ),
     of_parts("delay of too many steps", "mission.step = 1e-7", "actuators.delay = 0.01", "10000 steps of", "1e-07"),
     case("walls without a floor", "walls = [{start = [0, 0], end = [1, 0]}]", 'ground.model = "none"', "walls"),

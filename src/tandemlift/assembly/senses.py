@@ -12,6 +12,7 @@ from tandemlift.laws.estimation import push_estimator, start_push
 from tandemlift.laws.meters import Grade
 from tandemlift.laws.navigation import navigator, start_navigation
 from tandemlift.laws.sensing import Hiss, sensors
+from tandemlift.laws.windage import windage
 from tandemlift.perception import Believed, ByClock, Estimators, InHover, Remembered
 from tandemlift.settings import InertialSensor, Mission
 from tandemlift.vector import ZERO, Nothing, Vec3, each, vec3
@@ -89,6 +90,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         tare_duration=e.tare_duration,
         identify_mass=e.identify_mass,
         disagreement_limit=e.disagreement_limit,
+        windage=Nothing() if e.wind_compensation == "none" else windage(vehicle, e.wind_bandwidth, step),
     )
     observer = navigator(
         vehicle.center_of_mass,

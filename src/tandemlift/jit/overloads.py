@@ -9,7 +9,7 @@ from typing import Any
 
 from numba.extending import overload
 
-from tandemlift import law, vector
+from tandemlift import law, ops, vector
 from tandemlift.jit.elementary import install_elementary
 from tandemlift.jit.fuse import INLINE, define, fma, fused, is_number, value_class
 
@@ -103,6 +103,13 @@ def _install_operators() -> None:
     @overload(vector.total, jit_options=INLINE)
     def _total(v):
         return define("v", " + ".join(f"v[{i}]" for i in range(len(v))))
+
+    @overload(ops.greatest, jit_options=INLINE)
+    def _greatest(values):
+        source = "values[0]"
+        for i in range(1, len(values)):
+            source = f"maximum({source}, values[{i}])"
+        return define("values", source, maximum=ops.maximum)
 
     @overload(vector.quarters, jit_options=INLINE)
     def _quarters(v):

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.jit import Layout, leaves, load_lane, store_lane
 from tandemlift.kernels.likes import Likes
-from tandemlift.kernels.limiting import Excess, as_wished, excess_of, limit_lanes, outside, scratch_size
+from tandemlift.kernels.limiting import Excess, Lost, as_wished, excess_of, limit_lanes, outside, scratch_size
 from tandemlift.kernels.outside import (
     GAUSSIAN,
     GUST,
@@ -169,11 +169,12 @@ def think_within_limits(a, at_hand, r, at_limits, x, t, dt):
         given = given_to(a, lane, flying, at_hand, r, x, t, dt)
         thought = think(flying, given.hand.start, t, dt)
         how, decision = flying.pilot.allocation, thought.decision
-        settled = as_wished(how, decision.thrusts, t)
+        lost = Lost(flying.pilot.detection, flying.moving.memory.detection)
+        settled = as_wished(how, lost, decision.thrusts, t)
         store_lane(a, r.thought + lane, LANES, thought)
         store_lane(a, r.thought + at_limits[0] + lane, LANES, settled.commands)
         store_lane(a, r.thought + at_limits[1] + lane, LANES, settled.memory)
-        excess = Excess(outside(how, decision.thrusts, t), decision.command.wrench, decision.thrusts)
+        excess = Excess(outside(how, lost, decision.thrusts, t), decision.command.wrench, decision.thrusts)
         store_lane(a, r.excess + lane, LANES, excess)
     commands, memory = r.thought + at_limits[0], r.thought + at_limits[1]
     limit_lanes(a, a[r.scratch :], r.excess, commands, memory, x.flying, x.excess, t)

@@ -12,6 +12,7 @@ from numba.extending import register_jitable
 from tandemlift.jit import load, load_lane, store, store_lane
 from tandemlift.kernels.outside import COMPILE, LANES, inlined
 from tandemlift.laws.allocation import Working, beyond, commanded, limits_at
+from tandemlift.laws.detection import left_of, with_trials
 from tandemlift.laws.limits import PARTS, limited
 from tandemlift.loop import Thought
 from tandemlift.pilot import with_allocation, with_thrusts
@@ -22,6 +23,13 @@ GAMMA = 1e-3  # of thrusts away from the pseudo-inverse's, against the weighted 
 for _part in PARTS:
     register_jitable(forceinline=True, **COMPILE)(_part)
 register_jitable(**COMPILE)(limited)
+
+
+class Lost(NamedTuple):
+    """How lost rotors are detected, and the memory of it."""
+
+    detection: Any
+    memory: Any
 
 
 class Settled(NamedTuple):
@@ -52,19 +60,25 @@ def _solve(s, n):
 
 
 @inlined
-def as_wished(how, wished, t):
+def commands_for(how, lost, thrusts, t):
+    """Commands that make the rotors give thrusts within limits."""
+    return with_trials(lost.detection, lost.memory, commanded(how, thrusts, t), t)
+
+
+@inlined
+def as_wished(how, lost, wished, t):
     """Commands for thrusts that are within limits."""
-    return Settled(commanded(how, wished, t), Working(wished * 0.0, wished))
+    return Settled(commands_for(how, lost, wished, t), Working(wished * 0.0, wished))
 
 
 @inlined
-def outside(how, wished, t):
+def outside(how, lost, wished, t):
     """Above 0 if a thrust is outside its limits."""
-    return total(beyond(wished, limits_at(how, t)))
+    return total(beyond(wished, limits_at(how, left_of(lost.detection, lost.memory), t)))
 
 
 @inlined
-def settle(s, how, held, wrench, wished, t):
+def settle(s, how, lost, held, wrench, wished, t):
     """Commands within limits for thrusts that are not; `s`: scratch, `held`: the memory."""
     n = len(wished)
     at = 4 * n + 8
@@ -72,34 +86,34 @@ def settle(s, how, held, wrench, wished, t):
     store(s[4 * n :], how.weights)
     store(s[4 * n + 4 :], wrench)
     store(s[at:], wished)
-    store(s[at + n :], limits_at(how, t))
+    store(s[at + n :], limits_at(how, left_of(lost.detection, lost.memory), t))
     store(s[at + 2 * n :], held)
     _solve(s, n)
     memory = load(s[at + 2 * n :], held)
-    return Settled(commanded(how, memory.thrusts, t), memory)
+    return Settled(commands_for(how, lost, memory.thrusts, t), memory)
 
 
 @inlined
-def within(s, how, held, wrench, wished, t):
+def within(s, how, lost, held, wrench, wished, t):
     """Commands within limits for any thrusts."""
-    settled = as_wished(how, wished, t)
-    if outside(how, wished, t) > 0.0:
-        settled = settle(s, how, held, wrench, wished, t)
+    settled = as_wished(how, lost, wished, t)
+    if outside(how, lost, wished, t) > 0.0:
+        settled = settle(s, how, lost, held, wrench, wished, t)
     return settled
 
 
 @inlined
-def limit(s, how, held, decision, memory, t):
-    """(Decision, memory) of a pilot, its commands kept within limits; `held`: the allocation's memory before."""
-    settled = within(s, how, held, decision.command.wrench, decision.thrusts, t)
+def limit(s, pilot, held, decision, memory, t):
+    """(Decision, memory) of a pilot, its commands kept within limits; `held`: its memory before."""
+    lost = Lost(pilot.detection, held.detection)
+    settled = within(s, pilot.allocation, lost, held.allocation, decision.command.wrench, decision.thrusts, t)
     return with_thrusts(decision, settled.commands), with_allocation(memory, settled.memory)
 
 
 @inlined
 def limit_thought(s, flying, thought, t):
     """What a pilot thinks, its commands kept within limits."""
-    how, held = flying.pilot.allocation, flying.moving.memory.allocation
-    decision, memory = limit(s, how, held, thought.decision, thought.memory, t)
+    decision, memory = limit(s, flying.pilot, flying.moving.memory, thought.decision, thought.memory, t)
     return Thought(thought.known, thought.believed, decision, memory, thought.estimator)
 
 
@@ -123,7 +137,8 @@ def limit_lanes(a, s, at_excess, at_commands, at_memory, like, excess_like, t):
         if a[at_excess + lane] > 0.0:
             excess = load_lane(a, at_excess + lane, LANES, excess_like)
             flying = load_lane(a, lane, LANES, like)
-            how, held = flying.pilot.allocation, flying.moving.memory.allocation
-            settled = settle(s, how, held, excess.wrench, excess.wished, t)
+            how, held = flying.pilot.allocation, flying.moving.memory
+            lost = Lost(flying.pilot.detection, held.detection)
+            settled = settle(s, how, lost, held.allocation, excess.wrench, excess.wished, t)
             store_lane(a, at_commands + lane, LANES, settled.commands)
             store_lane(a, at_memory + lane, LANES, settled.memory)

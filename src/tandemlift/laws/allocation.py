@@ -56,9 +56,9 @@ def _unlimited(how, u):
 
 
 @law
-def limits_at(how: Constrained, t: Any) -> Any:
-    """The most that every rotor gives at time t [s], as far as the pilot knows [N]."""
-    return how.limits * efficiency_at(how.known, t)
+def limits_at(how: Constrained, left: Any, t: Any) -> Any:
+    """The most that every rotor gives at time t [s], as far as the pilot knows [N]; `left`: see `detection.left_of`."""
+    return how.limits * efficiency_at(how.known, t) * left
 
 
 @elementwise

@@ -5,8 +5,8 @@ axes and about the payload's centre of mass, the payload's equations of motion (
 a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_L ω̇ + ω × J_L ω − Σ t_i − Σ c_i × f_i.
 Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
 
-In hover, over a window, the means of F and M are taken as the sensors' bias (the tare), after the payload's mass if it
-is identified: m = Σ f·a / Σ a·a. Bias of the joints' force along gravity and mass cannot be told apart there.
+In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
+identified (`laws.taring`). What wind puts on the payload may be taken off (`laws.windage`).
 
 Of what acts on quadrotor i from outside, f_i + m_i s_i with s_i its specific force, thrust is only in z. So its x and y
 are wind, or an error of the sensors; where they differ from quadrotor to quadrotor, the push is not trusted. Errors in
@@ -28,11 +28,12 @@ from tandemlift.laws.loads import raised, total_of_each
 from tandemlift.laws.lowpass import LowPass, Smoothed, low_pass, smooth
 from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.laws.sensing import Unit
+from tandemlift.laws.taring import TINY, Sides, Sums, summed, tare_of
+from tandemlift.laws.windage import blown, start_blown
 from tandemlift.ops import clip, maximum, sqrt, where
-from tandemlift.vector import ZERO, Vec3, apply, cross, dot, each, spread, total
+from tandemlift.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total
 
-TINY = 1e-24
-"""N² or (m/s²)²: far below what any sensor shows; guards roots and divisions."""
+NOTHING = Nothing()
 
 
 class PushEstimator(NamedTuple):
@@ -42,7 +43,8 @@ class PushEstimator(NamedTuple):
     mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length. `per_interval`: samples of the unit
     per second. `least`: square of the least force [N²] that has a point of application. Tare from `tare_start` [s]
     until before `tare_end`; `identify` is 1 to identify the payload's mass, else 0. `limit`: disagreement [N] from
-    which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N = 1.
+    which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N = 1. `windage`: how wind is
+    taken off, or `Nothing`.
     """
 
     mass: Any
@@ -60,38 +62,11 @@ class PushEstimator(NamedTuple):
     limit: Any
     share: Any
     alone: Any
-
-
-class Sides(NamedTuple):
-    """Force along body x and y on every quadrotor [N], less its mean over them (sets)."""
-
-    x: Any
-    y: Any
-
-
-class Sums(NamedTuple):
-    """Over the samples of the tare: their count, Σ Σ f_i, Σ a, Σ M, Σ f·a, Σ a·a, and the sums of `Sides`."""
-
-    count: Any
-    force: Vec3
-    specific_force: Vec3
-    moment: Vec3
-    weight: Any
-    square: Any
-    sides: Sides
-
-
-class Tare(NamedTuple):
-    """What the tare found: mass of the payload [kg], bias of force [N] and moment [N·m] (body axes), and of `Sides`."""
-
-    mass: Any
-    force: Vec3
-    moment: Vec3
-    sides: Sides
+    windage: Any
 
 
 class PushMemory(NamedTuple):
-    """The last rates [rad/s] and angular acceleration [rad/s²], the sums of the tare, and the low-passes."""
+    """The last rates [rad/s] and angular acceleration [rad/s²], the sums of the tare, the low-passes, the wind."""
 
     rates: Vec3
     angular: Vec3
@@ -100,6 +75,7 @@ class PushMemory(NamedTuple):
     moment: Smoothed
     x: Smoothed
     y: Smoothed
+    blown: Any
 
 
 class Push(NamedTuple):
@@ -132,41 +108,26 @@ def moment_on_payload(k: PushEstimator, unit: Unit, angular: Vec3) -> Vec3:
 
 
 @law
-def sides(k: PushEstimator, unit: Unit, angular: Vec3) -> Sides:
-    """What acts on every quadrotor from outside, horizontally in body axes, less its mean [N]."""
+def from_outside(k: PushEstimator, unit: Unit, angular: Vec3) -> Sides:
+    """What acts on every quadrotor from outside, horizontally in body axes [N]."""
     a, w = unit.specific_force, unit.rates
     turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
     x = unit.joint_force.x + raised(turn.x, a.x) * k.quadrotor_mass
     y = unit.joint_force.y + raised(turn.y, a.y) * k.quadrotor_mass
+    return Sides(x, y)
+
+
+@law
+def less_mean(k: PushEstimator, outside: Sides) -> Sides:
+    """By how much that differs from its mean over the quadrotors [N]."""
+    x, y = outside
     return Sides(raised(x, -total(x) * k.share), raised(y, -total(y) * k.share))
 
 
 @law
-def summed(sums: Sums, taken: Any, f: Vec3, a: Vec3, moment: Vec3, unequal: Sides) -> Sums:
-    """The sums with this sample if it is `taken` (1), or as they were (0)."""
-    return Sums(
-        sums.count + taken,
-        sums.force + f * taken,
-        sums.specific_force + a * taken,
-        sums.moment + moment * taken,
-        sums.weight + dot(f, a) * taken,
-        sums.square + dot(a, a) * taken,
-        Sides(sums.sides.x + unequal.x * taken, sums.sides.y + unequal.y * taken),
-    )
-
-
-@law
-def tare_of(k: PushEstimator, sums: Sums, armed: Any) -> Tare:
-    """What the sums amount to once the tare is over (`armed` 1); before, the mass as believed and no bias."""
-    identified = k.identify * armed * sums.square > 0.0
-    mass = where(identified, sums.weight / maximum(sums.square, TINY), k.mass)
-    per_sample = armed / maximum(sums.count, 1.0)
-    return Tare(
-        mass,
-        (sums.specific_force * mass - sums.force) * per_sample,
-        sums.moment * per_sample,
-        Sides(sums.sides.x * per_sample, sums.sides.y * per_sample),
-    )
+def sides(k: PushEstimator, unit: Unit, angular: Vec3) -> Sides:
+    """What acts on every quadrotor from outside, horizontally in body axes, less its mean [N]."""
+    return less_mean(k, from_outside(k, unit, angular))
 
 
 @law
@@ -188,12 +149,14 @@ def estimate(k: PushEstimator, memory: PushMemory, unit: Unit, t: Any) -> Any:
     """(Push, the new memory) from what the unit says at time t [s]."""
     a, f = unit.specific_force, total_of_each(unit.joint_force)
     angular = where(unit.fresh > 0.0, (unit.rates - memory.rates) * k.per_interval, memory.angular)
-    moment, unequal = moment_on_payload(k, unit, angular), sides(k, unit, angular)
+    moment, outside = moment_on_payload(k, unit, angular), from_outside(k, unit, angular)
+    unequal = less_mean(k, outside)
     taken = where(t < k.tare_start, 0.0, where(t < k.tare_end, unit.fresh, 0.0))
     sums = summed(memory.sums, taken, f, a, moment, unequal)
     armed = where(t < k.tare_end, 0.0, 1.0)
-    tare = tare_of(k, sums, armed)
-    force = a * tare.mass - f - tare.force
+    tare = tare_of(k.mass, k.identify, sums, armed)
+    wind, gone = blown(k.windage, memory.blown, outside.x, outside.y, taken, armed)
+    force = a * tare.mass - f - tare.force - wind
     after = PushMemory(
         unit.rates,
         angular,
@@ -202,6 +165,7 @@ def estimate(k: PushEstimator, memory: PushMemory, unit: Unit, t: Any) -> Any:
         smooth(k.low_pass, memory.moment, (moment - tare.moment) * armed),
         smooth(k.low_pass, memory.x, (unequal.x - tare.sides.x) * armed),
         smooth(k.low_pass, memory.y, (unequal.y - tare.sides.y) * armed),
+        gone,
     )
     return concluded(k, unit, force, moment - tare.moment, after, tare.mass, armed), after
 
@@ -244,6 +208,7 @@ def push_estimator(
     tare_duration: float = 2.0,
     identify_mass: bool = False,
     disagreement_limit: float = 2.0,
+    windage: Any = NOTHING,
 ) -> PushEstimator:
     """The estimator of the push on a payload, as the pilot believes the vehicle to be.
 
@@ -262,6 +227,7 @@ def push_estimator(
         tare_duration: [s].
         identify_mass: whether to identify the payload's mass during the tare.
         disagreement_limit: [N], from which on the push is not trusted.
+        windage: how the wind on the payload is taken off, or `Nothing`.
 
     Raises:
         InputError: the mass is to be identified without a tare, or the tare is shorter than a sample.
@@ -287,6 +253,7 @@ def push_estimator(
         limit=float(disagreement_limit),
         share=1.0 / N,
         alone=N / (N - 1) if N > 1 else 0.0,
+        windage=windage,
     )
 
 
@@ -295,4 +262,4 @@ def start_push(estimator: PushEstimator, unit: Unit) -> PushMemory:
     none = estimator.quadrotor_mass * 0.0
     sums = Sums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, Sides(none, none))
     still, level = Smoothed(ZERO, ZERO), Smoothed(none, none)
-    return PushMemory(unit.rates, ZERO, sums, still, still, level, level)
+    return PushMemory(unit.rates, ZERO, sums, still, still, level, level, start_blown(estimator.windage))

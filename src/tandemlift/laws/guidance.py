@@ -126,8 +126,8 @@ class Guidance(NamedTuple):
 
 
 @choice
-def guide(g: Any, m: Any, heard: Any, unknown: Any, t: Any, dt: Any) -> Any:
-    """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`."""
+def guide(g: Any, m: Any, heard: Any, unknown: Any, lost: Any, t: Any, dt: Any) -> Any:
+    """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`; `lost`: 1 once a rotor is lost."""
 
 
 @choice
@@ -192,7 +192,7 @@ def _run_in_flight(rotors, t):
 
 
 @guide.register(Clocked)
-def _clocked(g, m, heard, unknown, t, dt):
+def _clocked(g, m, heard, unknown, lost, t, dt):
     force = gate(g.admittance.gate, heard.push)
     motion = yield_to(g.admittance, m, force)
     target = Reference(reference(g.phases, motion, t), g.yaw, 0.0, 0.0, ZERO)
@@ -252,11 +252,11 @@ def channels_of(orders: Orders, compliant: Compliant, damping: Any, course: Cour
 
 
 @law
-def phased(g: Guided, m: GuidedMemory, heard: Heard, t: Any, dt: Any) -> Any:
-    """(the phase, what the supervision comes to, its memory) at time t [s]."""
+def phased(g: Guided, m: GuidedMemory, heard: Heard, lost: Any, t: Any, dt: Any) -> Any:
+    """(the phase, what the supervision comes to, its memory) at time t [s]; `lost`: 1 once a rotor is lost."""
     k, operator = g.phasing, heard.operator
     asked = also(asked_until(k.requests, t), operator, later(t, k.lift_start), later(t, k.land_start))
-    lands = maximum(heard.land, more(asked.lands, m.phase.lands))
+    lands = maximum(maximum(heard.land, lost), more(asked.lands, m.phase.lands))
     lifts = wants_lift(k, m.phase, asked, operator.lift, lands)
     supervised, supervising = supervise(g.supervision, m.supervision, heard, m.phase, lifts, t, dt)
     phase = follow(k, m.phase, heard.state, asked, (lifts, lands), supervised.bounds, t, dt)
@@ -264,9 +264,9 @@ def phased(g: Guided, m: GuidedMemory, heard: Heard, t: Any, dt: Any) -> Any:
 
 
 @guide.register(Guided)
-def _guided(g, m, heard, unknown, t, dt):
+def _guided(g, m, heard, unknown, lost, t, dt):
     state = heard.state
-    phase, supervised, supervising = phased(g, m, heard, t, dt)
+    phase, supervised, supervising = phased(g, m, heard, lost, t, dt)
     orders = orders_of(g.phasing, phase, t)
     now = grounded_at(orders, m.compliant, state)
     burned = dot(now.velocity * g.compliance.admittance.damping, now.velocity)
@@ -275,7 +275,7 @@ def _guided(g, m, heard, unknown, t, dt):
     after = comply(how, now, heard.push, orders.listening, damping, still_able(g, unknown), dt)
     about = apply(rotation_from_quaternion(state.attitude), heard.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
-    course, heading = turn(g.heading, m.heading, about, yaw, orders, dt)
+    course, heading = turn(g.heading, m.heading, about, yaw, orders, lost, dt)
     moment = smooth(g.moment, m.moment, heard.moment)
     motion = Trajectory(now.position, now.velocity, after.acceleration)
     target = given_up(

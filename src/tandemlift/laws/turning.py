@@ -10,7 +10,7 @@ from tandemlift.law import choice
 from tandemlift.laws.compliance import DeadBand, Hearing, hear
 from tandemlift.laws.lowpass import LowPass, Smoothed, smooth
 from tandemlift.laws.rotation import turned_least
-from tandemlift.ops import clip
+from tandemlift.ops import clip, where
 
 
 class Turning(NamedTuple):
@@ -40,9 +40,13 @@ class Heading(NamedTuple):
 
 
 class Held(NamedTuple):
-    """The heading is held at an angle [rad], whatever the moment."""
+    """The heading is held at an angle [rad], whatever the moment.
+
+    Once a rotor is lost, the reference is no farther than `leash` [rad] from the vehicle, which may have to turn.
+    """
 
     angle: Any
+    leash: Any
 
 
 class Course(NamedTuple):
@@ -54,17 +58,21 @@ class Course(NamedTuple):
 
 
 @choice
-def turn(k: Any, m: Any, moment: Any, yaw: Any, orders: Any, dt: Any) -> Any:
-    """(course, the new memory) under a moment about the vertical [N·m] at an actual yaw [rad]; see `phases.Orders`."""
+def turn(k: Any, m: Any, moment: Any, yaw: Any, orders: Any, lost: Any, dt: Any) -> Any:
+    """(course, the new memory) under a moment about the vertical [N·m] at an actual yaw [rad]; see `phases.Orders`.
+
+    `lost` is 1 once a rotor is lost, else 0.
+    """
 
 
 @turn.register(Held)
-def _held(k, m, moment, yaw, orders, dt):
-    return Course(k.angle, 0.0, 0.0), m
+def _held(k, m, moment, yaw, orders, lost, dt):
+    near = turned_least(yaw + clip(turned_least(k.angle - yaw), -k.leash, k.leash))
+    return Course(where(lost > 0.0, near, k.angle), 0.0, 0.0), m
 
 
 @turn.register(Turning)
-def _turning(k, m, moment, yaw, orders, dt):
+def _turning(k, m, moment, yaw, orders, lost, dt):
     heard = smooth(k.hearing, m.heard, moment)
     beyond, hearing = hear(k.band, m.hearing, heard.value, orders.listening, dt)
     eased = smooth(k.easing, m.eased, beyond)

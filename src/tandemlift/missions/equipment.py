@@ -27,7 +27,9 @@ def check_equipment(m: Mission) -> None:
     _check_delays(m)
     _check_readings(m)
     _check_tare(m)
+    _check_windage(m)
     _check_observer(m)
+    _check_detection(m)
 
 
 def weight_of(m: Mission) -> float:
@@ -101,11 +103,30 @@ def _check_tare(m: Mission) -> None:
         )
 
 
+def _check_windage(m: Mission) -> None:
+    if m.estimator.wind_compensation == "none":
+        return
+    for axis, name in enumerate("xy"):
+        if not any(q.drag_area[axis] * q.drag_coefficient > 0.0 for q in m.vehicle.quadrotors):
+            raise InputError(
+                'estimator.wind_compensation = "quadrotors": must be "none" where no quadrotor has drag along body '
+                f"{name}: there its wind tells nothing"
+            )
+
+
 def _check_observer(m: Mission) -> None:
     if m.observer.model != "none" and m.allocation.method != "constrained":
         raise InputError(
             f'observer.model = "{m.observer.model}": must be "none" unless allocation.method is "constrained", '
             "which tells it what the rotors could give"
+        )
+
+
+def _check_detection(m: Mission) -> None:
+    if m.detection.model != "none" and m.allocation.method != "constrained":
+        raise InputError(
+            f'detection.model = "{m.detection.model}": must be "none" unless allocation.method is "constrained", '
+            "which alone can do without a rotor"
         )
 
 

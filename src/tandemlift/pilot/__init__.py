@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from tandemlift.law import choice, law
 from tandemlift.laws.allocation import Working, allocate
 from tandemlift.laws.controllers import Command, Disturbance, Measured, control
+from tandemlift.laws.detection import found_lost, watch
 from tandemlift.laws.guidance import Guidance, Heard, attend, guide, running
 from tandemlift.laws.observer import Unmodelled, last_known, observe
 from tandemlift.vector import Nothing, total
@@ -26,6 +27,7 @@ class PilotParameters(NamedTuple):
     observer: Any
     controller: Any
     allocation: Any
+    detection: Any
 
 
 class PilotMemory(NamedTuple):
@@ -35,6 +37,7 @@ class PilotMemory(NamedTuple):
     observer: Any
     controller: Any
     allocation: Any
+    detection: Any
 
 
 class Briefed(NamedTuple):
@@ -45,6 +48,7 @@ class Briefed(NamedTuple):
     unknown: Unmodelled
     guidance_memory: Any
     observer_memory: Any
+    detection_memory: Any
 
 
 class Decision(NamedTuple):
@@ -89,12 +93,14 @@ def _all_together(allocation):
 @law
 def brief(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) -> Briefed:
     """What there is to know at time t [s] before the controller is asked."""
-    before = last_known(p.observer, m.observer)
-    heard = attend(p.guidance, m.guidance, heard, given_thrust(m.allocation), 0.0)
-    guidance, guided = guide(p.guidance, m.guidance, heard, before, t, dt)
-    unknown, observing = observe(p.observer, m.observer, heard, given_thrusts(m.allocation), guidance.flying, dt)
+    before, lost = last_known(p.observer, m.observer), found_lost(p.detection, m.detection, t)
+    heard = attend(p.guidance, m.guidance, heard, given_thrust(m.allocation), lost)
+    guidance, guided = guide(p.guidance, m.guidance, heard, before, lost, t, dt)
+    given = given_thrusts(m.allocation)
+    unknown, observing = observe(p.observer, m.observer, heard, given, guidance.flying, dt)
+    watching = watch(p.detection, m.detection, heard, given, guidance.flying, t, dt)
     disturbance = Disturbance(unknown.force, unknown.moment + guidance.moment)
-    return Briefed(Measured(heard.state, guidance.push, disturbance), guidance, unknown, guided, observing)
+    return Briefed(Measured(heard.state, guidance.push, disturbance), guidance, unknown, guided, observing, watching)
 
 
 @law
@@ -102,7 +108,10 @@ def conclude(p: PilotParameters, m: PilotMemory, briefed: Briefed, command: Comm
     """(Decision, the new memory) once the controller has commanded; `memory` is the controller's."""
     thrusts = running(briefed.guidance.running, allocate(p.allocation, command.wrench))
     decision = Decision(briefed.guidance, briefed.unknown, command, thrusts)
-    return decision, PilotMemory(briefed.guidance_memory, briefed.observer_memory, memory, m.allocation)
+    after = PilotMemory(
+        briefed.guidance_memory, briefed.observer_memory, memory, m.allocation, briefed.detection_memory
+    )
+    return decision, after
 
 
 @law
@@ -119,7 +128,7 @@ def decide(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) ->
 @law
 def with_allocation(m: PilotMemory, allocation: Any) -> PilotMemory:
     """A pilot's memory with that of an allocation within limits."""
-    return PilotMemory(m.guidance, m.observer, m.controller, allocation)
+    return PilotMemory(m.guidance, m.observer, m.controller, allocation, m.detection)
 
 
 @law

@@ -63,7 +63,7 @@ def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     c, y, step = mission.compliance, mission.compliance.yaw, mission.mission.step
     start = 0.0 if mission.phases.rotors == "always" else mission.initial.euler[2]
     if y.model == "held":
-        return Held(start), Nothing()
+        return Held(start, y.leash), Nothing()
     turning = Turning(
         hearing=low_pass(c.hearing, step),
         band=DeadBand(y.threshold, y.threshold * c.release, c.dwell, 1.0 / c.forget),

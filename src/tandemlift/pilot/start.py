@@ -18,6 +18,7 @@ from tandemlift.laws.rotors import Faults, Sound
 from tandemlift.pilot import PilotMemory, PilotParameters
 from tandemlift.pilot.guided import NEVER, start_guided
 from tandemlift.pilot.observing import start_observer
+from tandemlift.pilot.watching import start_detection
 from tandemlift.settings import AdmittanceTable, Mission, PhasesTable, VehicleTable
 from tandemlift.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.vehicle import Vehicle
@@ -110,5 +111,6 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
     guidance, guided = _guidance(mission, vehicle)
     observer, observing = start_observer(mission, vehicle, mixer_value(vehicle.effect))
     allocation, working = _allocation(mission, vehicle)
-    parameters = PilotParameters(guidance, observer, gains, allocation)
-    return parameters, PilotMemory(guided, observing, memory, working)
+    detection, watching = start_detection(mission, vehicle, mixer_value(vehicle.effect))
+    parameters = PilotParameters(guidance, observer, gains, allocation, detection)
+    return parameters, PilotMemory(guided, observing, memory, working, watching)

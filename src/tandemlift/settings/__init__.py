@@ -12,7 +12,7 @@ from typing import Annotated
 from pydantic import AfterValidator, Field, SerializeAsAny
 
 from tandemlift.settings.corridor import CorridorTable, WallTable, wall_tables
-from tandemlift.settings.guided import ComplianceTable, ObserverTable
+from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
 from tandemlift.settings.leaves import (
     AtLeastOne,
     AtLeastOne6,
@@ -65,6 +65,7 @@ __all__ = [
     "ComplianceTable",
     "ControllerTable",
     "CorridorTable",
+    "DetectionTable",
     "Drag",
     "Exactly3",
     "InertialSensor",
@@ -137,6 +138,7 @@ class Mission(Table):
     observer: ObserverTable = ObserverTable()
     supervision: SupervisionTable = SupervisionTable()
     requests: tuple[RequestTable, ...] = ()
+    detection: DetectionTable = DetectionTable()
     actuators: Actuators = Actuators()
     faults: tuple[Fault, ...] = ()
     sensors: Sensors = Sensors()

@@ -6,10 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from tandemlift.settings.leaves import NonNegative, Positive, Positive3, Table, Tilt
+from tandemlift.settings.leaves import Axes, NonNegative, Positive, Positive3, Scale, Table, Tilt
 from tandemlift.settings.pilot import Bandwidth
 
 Lead = Annotated[float, Field(ge=0.0, le=1.0)]  # s
+Positive4 = Annotated[tuple[Scale, Scale, Scale, Scale], Axes(4)]
 Part = Annotated[float, Field(gt=0.0, le=1.0)]
 
 
@@ -68,4 +69,22 @@ class ObserverTable(Table):
     moment_bandwidth: Positive3 = (10.0, 10.0, 10.0)  # rad/s
     moment_slope: Positive3 = (5.0, 5.0, 5.0)  # N m/s
     rotor_lag: Positive = 0.018  # s, of the rotors as the observer models them: one, up and down
+    rotor_delay: NonNegative = 0.01  # s
+
+
+class DetectionTable(Table):
+    """`[detection]`: of a rotor that was lost, from what the rotors as modelled do not explain of the motion."""
+
+    model: Literal["none", "residual"] = "none"
+    bandwidth: Bandwidth = 60.0  # rad/s, of the low-pass on the residual
+    forget: Bandwidth = 2.0  # rad/s, of its mean, which is wind or a wrong mass
+    habit: Bandwidth = 3.0  # rad/s, of its mean square, which is noise or a wrong model
+    scatter: Positive4 = (0.3, 0.3, 0.03, 0.3)  # N, N m: thrust, roll, pitch, yaw of a well modelled vehicle
+    spread: Part = 0.2  # share by which a rotor's thrust may differ from the model
+    evidence: Positive = 40.0  # over none, to name a rotor: twice a log-likelihood ratio
+    margin: Positive = 3.0  # over any other rotor, likewise
+    unexplained: Part = 0.25  # share of the residual's square that may be left
+    dwell: NonNegative = 0.012  # s, for which all that must hold
+    retest: NonNegative = 0.2  # s, for which a rotor named is tried again before the landing begins
+    rotor_lag: Positive = 0.018  # s, of the rotors as modelled: one, up and down
     rotor_delay: NonNegative = 0.01  # s

@@ -129,3 +129,5 @@ class Estimator(Table):
     least_force: Scale = 0.5  # N, below which no point of application is given
     position_bandwidth: Bandwidth = 6.0  # rad/s, of the state estimate
     attitude_bandwidth: Bandwidth = 4.0  # rad/s
+    wind_compensation: Literal["none", "quadrotors"] = "none"  # wind on the payload, from that on the quadrotors
+    wind_bandwidth: Bandwidth = 25.0  # rad/s, of the low-pass on it
