@@ -7,8 +7,8 @@ import tandemlift as tl
 from tandemlift.flight import CHANNELS, DERIVED
 from tandemlift.flown import Flown, flight_of
 from tandemlift.jit import leaves
-from tandemlift.perception import EstimatedChannels, MeasuredChannels
 from tandemlift.prepared import Prepared
+from tandemlift.readout import EstimatedChannels, MeasuredChannels
 from tandemlift.sample import Actuated, Air, Contact, Sample
 from tandemlift.tally import EMPTY
 

@@ -91,34 +91,6 @@ class Known(NamedTuple):
     vehicle: Believed
 
 
-class MeasuredChannels(NamedTuple):
-    """What sensors show: the last readings that the pilot has."""
-
-    measured_position: Vec3
-    measured_velocity: Vec3
-    measured_attitude: Quat
-    measured_rates: Vec3
-    measured_specific_force: Vec3
-    measured_joint_force: Vec3
-    measured_joint_torque: Vec3
-
-
-class EstimatedChannels(NamedTuple):
-    """What is estimated from them."""
-
-    estimated_position: Vec3
-    estimated_velocity: Vec3
-    estimated_attitude: Quat
-    estimated_rates: Vec3
-    push_measured: Vec3
-    push_estimate: Vec3
-    push_moment_estimate: Vec3
-    push_point_estimate: Any
-    payload_mass_estimate: Any
-    sensor_disagreement: Any
-    push_usable: Any
-
-
 @choice
 def sensed(sensors: Any, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
     """(Readings of a step, the sensors' memory)."""
@@ -263,52 +235,6 @@ def _nothing_sensed(readings, known):
 @all_sensed.register(Readings)
 def _some_sensed(readings, known):
     return Sensed(readings, known)
-
-
-@choice
-def shown_readings(readings: Any) -> Any:
-    """The channels of readings."""
-
-
-@shown_readings.register(Nothing)
-def _no_readings(readings):
-    return readings
-
-
-@shown_readings.register(Readings)
-def _readings(readings):
-    m, u = readings.motion, readings.unit
-    return MeasuredChannels(
-        m.position, m.velocity, m.attitude, u.rates, u.specific_force, u.joint_force, u.joint_torque
-    )
-
-
-@choice
-def shown_estimate(known: Any) -> Any:
-    """The channels of what is estimated."""
-
-
-@shown_estimate.register(Nothing)
-def _no_estimate(known):
-    return known
-
-
-@shown_estimate.register(Known)
-def _estimate(known):
-    s, p = known.state, known.push
-    return EstimatedChannels(
-        s.position,
-        s.velocity,
-        s.attitude,
-        s.rates,
-        p.measured,
-        p.force,
-        p.moment,
-        p.point,
-        p.payload_mass,
-        p.disagreement,
-        p.trusted * p.armed,
-    )
 
 
 READS = {"truth": Truth(), "measurement": Measurement(), "estimate": Estimate()}

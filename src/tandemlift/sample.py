@@ -23,7 +23,7 @@ from tandemlift.laws.push import Hand, moment_of
 from tandemlift.laws.rotation import euler_from_quaternion, turned_least
 from tandemlift.laws.rotors import IdealRotors, Rotors
 from tandemlift.ops import clip, greatest, minimum, where
-from tandemlift.perception import shown_estimate, shown_readings
+from tandemlift.readout import shown_estimate, shown_readings
 from tandemlift.tally import Errors, effort_of
 from tandemlift.vector import Nothing, Quat, Vec3, dot, total
 

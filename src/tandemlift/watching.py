@@ -21,11 +21,11 @@ from tandemlift.perception import (
     Sensed,
     estimate_all,
     sensed,
-    shown_estimate,
     tare_begun,
     tare_time,
     usable,
 )
+from tandemlift.readout import shown_estimate
 from tandemlift.vector import Vec3
 
 

@@ -25,7 +25,7 @@ PACKAGE = Path(__file__).resolve().parent.parent
 GROUND = ("vector", "ops", "law", "constants")
 LOOP = (
     *("laws/", "jit/", "engines/", "kernels/"),
-    *("pilot", "onboard", "tally", "loop", "sample", "perception", "watching", "weather", "delays"),
+    *("pilot", "onboard", "tally", "loop", "sample", "perception", "readout", "watching", "weather", "delays"),
 )
 
 
