@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from tandemlift.errors import InputError, unknown
-from tandemlift.validation import tracking, yielding
+from tandemlift.validation import losses, persons, tracking, triggers, yielding
 from tandemlift.validation.rows import Row
 from tandemlift.validation.scenarios import Bench
 
@@ -28,6 +28,9 @@ CHAPTERS: dict[str, Chapter] = {
         "the reference followed: calm, in wind, with wrong beliefs, with slow rotors", tracking.nominal
     ),
     "draws": Chapter("all of it at once, drawn at random", tracking.draws),
+    "losses": Chapter("a rotor lost at any moment: found, and landed with", losses.losses),
+    "triggers": Chapter("wind that is not to be taken for a hand, and a hand that is", triggers.triggers),
+    "persons": Chapter("corridors, led through by a person; random persons", persons.persons),
     "yaw": Chapter("a push at the beam's end turns the vehicle", yielding.yaw),
 }
 

@@ -10,16 +10,30 @@ from tandemlift.flight import Flight
 from tandemlift.validation.rows import Row, below
 from tandemlift.validation.scenarios import Bench, mission
 
+STEADY = (1.0 - 0.15) / 1.6  # rad/s, where the damping carries what exceeds the threshold
+LATE = 3.28 / 1.6  # s, until it turns so fast
 END = [0.0, 1.0, -0.0642857]  # m, of the beam
 LONG = {"mission.duration": 40.0, "phases.land_start": 39.0, "mission.log_interval": 0.01}
 
 
-def held(force: float, start: float, end: float) -> list[dict[str, object]]:
-    """Pushes along x at the beam's end that together hold a force [N] from one time to another [s], near enough."""
-    sigma, spacing = 0.5, 0.5  # s: the sum of such Gaussians is even to 1 in 10⁸
+def held(force: float, start: float, end: float, rate: float = 0.0) -> list[dict[str, object]]:
+    """Pushes across the beam at its end that together hold a force [N] from one time to another [s], near enough.
+
+    `rate` [rad/s]: how fast the beam turns, which they are to stay across of, once it does.
+    """
+    sigma, spacing = 0.4, 0.2  # s: the sum of such Gaussians is even
     peak = force * spacing / (sigma * np.sqrt(2.0 * np.pi))
     times = np.arange(start, end, spacing)
-    return [{"force": [-peak, 0.0, 0.0], "time": float(t), "sigma": sigma, "point": END} for t in times]
+    angles = rate * np.maximum(times - start - LATE, 0.0)
+    return [
+        {
+            "force": [float(-peak * np.cos(a)), float(-peak * np.sin(a)), 0.0],
+            "time": float(t),
+            "sigma": sigma,
+            "point": END,
+        }
+        for t, a in zip(times, angles, strict=True)
+    ]
 
 
 def heading(flight: Flight) -> np.ndarray:
@@ -31,7 +45,7 @@ def heading(flight: Flight) -> np.ndarray:
 def yaw(bench: Bench) -> Iterator[Row]:
     """1 N at the beam's end; and more than the rotors can carry."""
     steady, strong = bench.fly(
-        [mission({**LONG, "pushes": held(1.0, 16.0, 28.0)}), mission({**LONG, "pushes": held(3.0, 16.0, 18.0)})]
+        [mission({**LONG, "pushes": held(1.0, 16.0, 28.0, STEADY)}), mission({**LONG, "pushes": held(3.0, 16.0, 18.0)})]
     )
     turning = (steady.time > 23.0) & (steady.time < 27.0)
     rates = steady["rates"][turning, 2]
