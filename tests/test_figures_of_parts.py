@@ -105,7 +105,7 @@ def test_saving_leaves_out_what_the_flight_does_not_have(windy, tmp_path):
     bare = cut(without(windy, *KNOWN, "rotor_commands"), 20)
     told = []
     files = save_figures(bare, tmp_path, lambda *counts: told.append(counts))
-    assert {f.stem for f in files} == set(FIGURES) - {"push", "rotors", "corridor"}
+    assert {f.stem for f in files} == set(FIGURES) - {"push", "disturbance", "rotors", "corridor"}
     assert told[-1] == (7, 7)
 
 

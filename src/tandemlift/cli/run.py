@@ -56,8 +56,8 @@ def run(
       mission.toml   the mission with every key resolved; it flies again
       flight.npz     all channels, readable with NumPy or tl.Flight.load
       metrics.json   the metrics, SI units, formed from every step
-      figures/       reference, path, tracking, inputs, interaction, joints; and push, rotors,
-                     surroundings where the mission has such parts (PNG, PDF)
+      figures/       reference, path, tracking, inputs, interaction, joints; and push, disturbance, rotors,
+                     surroundings, corridor where the mission has such parts (PNG, PDF)
       report.html    everything on one page, needs no network
 
     \b

@@ -29,13 +29,14 @@ def _drawing(name: str) -> Draw:
 
 NAMES = (
     *("reference", "path", "tracking", "inputs", "interaction"),  # in the order of the paper
-    *("push", "joints", "rotors", "surroundings", "corridor"),
+    *("push", "disturbance", "joints", "rotors", "surroundings", "corridor"),
 )
 FIGURES: dict[str, Draw] = {name: _drawing(name) for name in NAMES}
 """All figures that there are; a flight has those of `figures_of`."""
 
 SHOWS: dict[str, tuple[str, ...]] = {
     "push": ("push_estimate",),
+    "disturbance": ("disturbance_force",),
     "joints": ("joint_force",),
     "rotors": ("rotor_commands",),
     "surroundings": ("wind_velocity", "contact_force"),
