@@ -62,9 +62,9 @@ CAPTIONS: dict[str, Caption] = {
     ),
     "disturbance": Caption(
         "Disturbance",
-        "What the observer finds to act on the vehicle besides rotors, weight and person: force in world axes, moment in "
-        "body axes. Bottom, with a sliding mode: what is left of the disturbance over λ₂, the largest of the three axes "
-        "of position and of attitude; the law’s guarantee needs it below 1. Grey: a person steers.",
+        "What the observer finds to act on the vehicle besides rotors, weight and person: force in world axes, moment "
+        "in body axes. Bottom, with a sliding mode: what is left of the disturbance over λ₂, the largest of the three "
+        "axes of position and of attitude; the law’s guarantee needs it below 1. Grey: a person steers.",
         "Panels over time: disturbing force and moment, components x, y and z; what is left of them over λ₂.",
     ),
     "joints": Caption(
