@@ -41,18 +41,18 @@ from tandemlift.vehicle import Vehicle
 class PIDSettings(CascadeTable):
     """`[controller]` of the cascaded PID: x, y, z in world axes; roll, pitch, yaw; rates in body axes."""
 
-    filter_bandwidth: Bandwidth = 7.99  # rad/s
-    position_p: Positive3 = (1.82, 2.98, 1.53)  # 1/s
-    velocity_p: Positive3 = (5.12, 2.99, 14.3)  # 1/s
-    velocity_i: NonNegative3 = (0.97, 1.52, 4.1)  # 1/s²
-    velocity_d: NonNegative3 = (0.0269, 0.223, 0.0161)
+    filter_bandwidth: Bandwidth = 13.5  # rad/s
+    position_p: Positive3 = (4.36, 0.765, 2.26)  # 1/s
+    velocity_p: Positive3 = (3.09, 3.11, 18.1)  # 1/s
+    velocity_i: NonNegative3 = (0.414, 0.279, 2.04)  # 1/s²
+    velocity_d: NonNegative3 = (0.0628, 0.039, 0.0138)
     velocity_i_limit: NonNegative3 = (2.0, 2.0, 2.0)  # m/s²
-    attitude_p: Positive3 = (0.441, 3.0, 0.264)  # 1/s
-    rate_p: Positive3 = (7.27, 11.9, 1.95)  # 1/s
-    rate_i: NonNegative3 = (0.809, 2.26, 0.079)  # 1/s²
-    rate_d: NonNegative3 = (0.0475, 0.0281, 0.163)
+    attitude_p: Positive3 = (3.45, 0.173, 2.43)  # 1/s
+    rate_p: Positive3 = (7.94, 20.5, 3.87)  # 1/s
+    rate_i: NonNegative3 = (0.904, 1.93, 0.0707)  # 1/s²
+    rate_d: NonNegative3 = (0.0191, 0.178, 0.0439)
     rate_i_limit: NonNegative3 = (2.0, 2.0, 0.3)  # rad/s²
-    derivative_bandwidth: Bandwidth = 211.0  # rad/s, of the low-pass in both derivatives
+    derivative_bandwidth: Bandwidth = 254.0  # rad/s, of the low-pass in both derivatives
     tracking: Bandwidth = 2.0  # 1/s, of the back-calculation
 
 
