@@ -27,6 +27,7 @@ CHAPTERS: dict[str, Chapter] = {
     "tracking": Chapter(
         "the reference followed: calm, in wind, with wrong beliefs, with slow rotors", tracking.nominal
     ),
+    "observers": Chapter("what an observer of the disturbance is worth", tracking.observers),
     "draws": Chapter("all of it at once, drawn at random", tracking.draws),
     "losses": Chapter("a rotor lost at any moment: found, and landed with", losses.losses),
     "triggers": Chapter("wind that is not to be taken for a hand, and a hand that is", triggers.triggers),

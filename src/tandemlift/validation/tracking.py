@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.flight import Flight
-from tandemlift.validation.rows import LATE, Row, below, errors, rms, true_yielding
+from tandemlift.validation.rows import LATE, Row, below, errors, rms, triple, true_yielding
 from tandemlift.validation.scenarios import SLOW, WINDY, Bench, drawn, mission
 
 HEAVIER = 0.3  # kg
@@ -65,6 +65,17 @@ def saturated(calm: Flight, wind: Flight) -> Iterator[Row]:
     for flight, name, limit in ((calm, "calm", 0.1), (wind, "wind", 2.0)):
         share = 100.0 * flight.metrics()["rotor_saturated_share"]
         yield below(f"steps with a saturated rotor, {name}, with the tilted start", share, limit, "%", 3)
+
+
+def observers(bench: Bench) -> Iterator[Row]:
+    """What the observers are worth, and why it is super-twisting: RMSE x / y / z where nothing else differs."""
+    kinds = ("none", "extended-state", "super-twisting")
+    places = (("calm", {}), ("wind", WINDY), ("slow rotors", SLOW))
+    missions = [mission({**changes, "observer.model": kind}) for kind in kinds for _, changes in places]
+    flights = iter(bench.fly(missions))
+    for kind in kinds:
+        said = [f"{triple(rms(errors(next(flights))))} ({where})" for where, _ in places]
+        yield Row(f"observer `{kind}`: RMSE x / y / z [mm]", "", "; ".join(said), None)
 
 
 def draws(bench: Bench) -> Iterator[Row]:
