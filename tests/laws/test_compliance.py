@@ -8,6 +8,7 @@ import tandemlift as tl
 from tandemlift.laws.compliance import DeadBand, Hearing, comply, hear
 from tandemlift.laws.phases import GUIDED, Orders
 from tandemlift.laws.reference import Ramp
+from tandemlift.laws.rotors import Sound
 from tandemlift.laws.tank import Filled, Tank, damp
 from tandemlift.laws.turning import turn
 from tandemlift.pilot.guided import start_guided
@@ -19,7 +20,7 @@ H = 1e-3
 BAND = DeadBand(0.3, 0.2, 0.016, 1.0 / 20.0)
 DEAF = Hearing(0.0, 0.0, 0.0, 0.0, 0.0)
 RAMP = Ramp(1.0, 0.0, 0.0)
-STEERED = Orders(GUIDED, 0.0, 1.0, 1.0, 1.0, RAMP, RAMP, 0.0)
+STEERED = Orders(GUIDED, 0.0, 1.0, 1.0, 1.0, RAMP, RAMP, 0.0, 1.0)
 
 
 def heard(force, seconds, band=BAND, memory=DEAF):
@@ -34,7 +35,7 @@ def heard(force, seconds, band=BAND, memory=DEAF):
 def guided(changes=None):
     """The compliance of mission one-push, and its memory."""
     mission = tl.load_mission("one-push", {"pilot.guidance": "hand", "admittance.gate": "soft", **(changes or {})})
-    return start_guided(mission, Vehicle.from_settings(mission.vehicle), admittance_of(mission.admittance))
+    return start_guided(mission, Vehicle.from_settings(mission.vehicle), admittance_of(mission.admittance), Sound())
 
 
 def motion(push, seconds, changes=None, across=100.0):
@@ -129,7 +130,7 @@ def test_yaw_comes_to_the_rate_at_which_damping_carries_the_moment():
     g, m = guided({"compliance.yaw.model": "yielding"})
     heading, yaw = m.heading, 0.0
     for _ in range(12000):
-        course, heading = turn(g.heading, heading, 1.0, yaw, STEERED, H)
+        course, heading = turn(g.heading, heading, 1.0, yaw, STEERED, 0.0, H)
         yaw = course.angle
     assert heading.rate == pytest.approx((1.0 - 0.15) / 1.6, rel=0.01)
 
@@ -140,7 +141,7 @@ def test_beyond_the_yaw_authority_it_yields_and_brakes_with_no_more_than_that():
     heading, yaw, asked = m.heading, 0.0, []
     for i in range(14000):
         moment = 3.0 if i < 2000 else 0.0
-        course, heading = turn(g.heading, heading, moment, yaw, STEERED, H)
+        course, heading = turn(g.heading, heading, moment, yaw, STEERED, 0.0, H)
         yaw = course.angle
         asked.append(J * heading.acceleration - heading.eased.value)  # what the rotors are to give
     assert abs(heading.rate) < 0.05
@@ -152,7 +153,7 @@ def test_a_heading_waits_for_a_vehicle_that_cannot_turn():
     g, m = guided({"compliance.yaw.model": "yielding", "compliance.yaw.leash": 0.3})
     heading = m.heading
     for _ in range(5000):
-        _, heading = turn(g.heading, heading, 1.0, 0.0, STEERED, H)
+        _, heading = turn(g.heading, heading, 1.0, 0.0, STEERED, 0.0, H)
     assert heading.angle == pytest.approx(0.3)
 
 
