@@ -189,7 +189,7 @@ def orders_of(k: Phasing, m: Phase, t: Any) -> Orders:
     idle, lift, land, stopped = is_in(m, IDLE), is_in(m, LIFT), is_in(m, LAND), is_in(m, STOPPED)
     up = smoothstep(t, m.since + k.spool, k.lift_rate)
     down = smoothstep(t, m.since, m.land_rate)
-    landed = idle * where(m.land_rate > 0.0, 1.0, 0.0)
+    landed = idle * k.always * where(m.land_rate > 0.0, 1.0, 0.0)
     begun = where(t - m.since < k.spool, 0.0, 1.0)
     down_here = idle * (1.0 - k.always)
     return Orders(
@@ -198,7 +198,7 @@ def orders_of(k: Phasing, m: Phase, t: Any) -> Orders:
         listening=is_in(m, GUIDED),
         running=(1.0 - down_here) * (1.0 - stopped),
         flying=(1.0 - down_here) * (1.0 - stopped) * (1.0 - lift * (1.0 - begun) * (1.0 - k.always)),
-        lift=Ramp(where(lift > 0.0, up.value, m.risen * (1.0 - stopped)), lift * up.rate, lift * up.curvature),
+        lift=Ramp(where(lift > 0.0, up.value, m.risen * (1.0 - stopped) * (1.0 - down_here)), lift * up.rate, lift * up.curvature),
         land=Ramp(land * down.value + landed, land * down.rate, land * down.curvature),
         end=m.ground - k.press - m.deep,
         countering=(1.0 - idle) * (1.0 - stopped),
