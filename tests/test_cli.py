@@ -28,8 +28,10 @@ METRICS = [
     "human_impulse_n_s",
     "human_work_j",
     "rotor_saturated_share",
+    "push_triggers_after_10s",
     "steps",
     "wall_s",
+    "events",
 ]
 OURS = {"mission.toml", "flight.npz", "metrics.json", "figures", "report.html"}
 ALWAYS = ("reference", "path", "tracking", "inputs", "interaction", "joints")
@@ -90,7 +92,10 @@ def test_the_version_is_told(run):
 @pytest.mark.parametrize(
     ("arguments", "pieces"),
     [
-        (("rnu", "paper"), ["No such command 'rnu'", "run, compare, render, missions", "Did you mean 'run'?"]),
+        (
+            ("rnu", "paper"),
+            ["No such command 'rnu'", "run, compare, render, validate, mi", "Did you mean 'run'?"],
+        ),
         (("misions",), ["Did you mean 'missions'?"]),
         (("xyz",), ["No such command 'xyz'; there are run, "]),
         (("run", "paper", "--ste", "a=1"), ["No such option", "--set"]),

@@ -34,7 +34,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     lines = [line for block in blocks(ROOT / "README.md", "sh") for line in block.splitlines()]
     commands = [shlex.split(line, comments=True) for line in lines if line.startswith("tandemlift")]
-    assert len(commands) == 8
+    assert len(commands) == 9
     for _, *arguments in commands:
         target = None
         if ">" in arguments:

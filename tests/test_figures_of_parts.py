@@ -21,6 +21,7 @@ from tandemlift.vehicle import Vehicle
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}
 AIR = ("wind_velocity", "wind_force")
 KNOWN = ("push_measured", "push_estimate", "push_usable")
+OBSERVED = ("disturbance_force", "disturbance_moment", "disturbance_residual", "disturbance_turning_residual")
 
 
 def cut(flight, count, **changes):
@@ -95,6 +96,7 @@ def test_a_flight_has_the_figures_of_its_parts_and_no_others(windy, paper):
     assert list(figures_of(paper)) == always
     assert list(figures_of(windy)) == [name for name in FIGURES if name != "corridor"]  # it has no walls
     assert "push" not in figures_of(without(windy, *KNOWN))
+    assert "disturbance" not in figures_of(without(windy, *OBSERVED))
     assert "rotors" not in figures_of(without(windy, "rotor_commands"))
     assert "surroundings" in figures_of(without(windy, *AIR))
     assert "surroundings" in figures_of(without(windy, "contact_force"))
@@ -102,7 +104,7 @@ def test_a_flight_has_the_figures_of_its_parts_and_no_others(windy, paper):
 
 
 def test_saving_leaves_out_what_the_flight_does_not_have(windy, tmp_path):
-    bare = cut(without(windy, *KNOWN, "rotor_commands"), 20)
+    bare = cut(without(windy, *KNOWN, *OBSERVED, "rotor_commands"), 20)
     told = []
     files = save_figures(bare, tmp_path, lambda *counts: told.append(counts))
     assert {f.stem for f in files} == set(FIGURES) - {"push", "disturbance", "rotors", "corridor"}

@@ -142,7 +142,7 @@ def test_the_set_up_is_told_with_the_mission_s_numbers(windy, write):
     pieces = {
         "Vehicle": ["2 quadrotors", "0.5 kg", "3.5 kg"],
         "Unknown to the pilot": ["3.8 kg"],
-        "Pilot": ["nftsmc", "estimated state", "estimated push"],
+        "Pilot": ["nftsmc", "estimated state", "measured push"],
         "Rotors": ["0 to 7.066 N", "12.5 ms up", "25 ms down", "10 ms late", "stopped", "constrained"],
         "Fault": ["rotor 3 of quadrotor 2", "25 % of the thrust left from 15 s", "0.05 s later"],
         "Joint forces": [f"noise {sensors['joints']['force_noise']:g} N", f"±{sensors['joints']['force_range']:g} N"],
@@ -185,14 +185,23 @@ def test_a_run_removes_the_figures_that_its_flight_does_not_have(paper, tmp_path
 
 def test_every_metric_is_in_the_table_with_its_value_and_unit(page, paper):
     rows = {row[0].split("\n")[1]: row for row in page.rows if len(row) > 2 and "\n" in row[0]}
-    assert list(rows) == list(paper.metrics())
-    for name, value in paper.metrics().items():
+    metrics = paper.metrics()
+    assert metrics.pop("events") == []  # told in a list of their own
+    assert list(rows) == list(metrics)
+    for name, value in metrics.items():
         if name == "command_at_start":
             continue
         *cells, unit = rows[name][1:]
         values = value if isinstance(value, list) else [value]
         assert [value_of(cell) for cell in cells] == pytest.approx(values, rel=5.1e-3)  # three digits at least
         assert unit == split_unit(name)[1]
+
+
+def test_events_are_told_a_line_each_and_only_where_there_are_any(page, paper, write):
+    assert "Phases and alarms" not in page.text
+    events = [[1.0, "lift"], [12.5, "a < b -> hold"]]
+    told = write(dataclasses.replace(paper, results=paper.results | {"events": events})).text
+    assert "<li>1.00 s: lift</li><li>12.50 s: a &lt; b -&gt; hold</li>" in told
 
 
 def test_angles_are_also_given_in_degrees(page, paper):

@@ -81,7 +81,6 @@ CHANNELS: dict[str, Channel] = {
     "disturbance_moment": Channel("N m", "body", "likewise, about the centre of mass"),
     "disturbance_residual": Channel("m/s^2", "world", "by which it is behind: δ − δ̂ of the condition on λ₂"),
     "disturbance_turning_residual": Channel("rad/s^2", "body", "likewise, of turning"),
-    "rotor_lost": Channel("1", "", "number of the rotor that is taken for lost, 0 for none"),
     "phase": Channel("1", "", "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped"),
     "push_heard": Channel("N", "world", "the push as the pilot hears it: low-passed, less its bias"),
     "push_on": Channel("1", "world", "1 while a push is heard along an axis, else 0"),
@@ -89,6 +88,7 @@ CHANNELS: dict[str, Channel] = {
     "reference_yaw_rate": Channel("rad/s", "world", "of the heading that is tracked"),
     "alarm": Channel("1", "", "of the fault that is reacted to, as in docs/safety.md; 0 for none"),
     "refused": Channel("1", "", "number of the check that refuses to lift or to listen; 0 for none"),
+    "rotor_lost": Channel("1", "", "number of the rotor that is taken for lost, 0 for none"),
 }
 
 TIME = Channel("s", "", "time")

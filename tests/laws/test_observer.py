@@ -43,7 +43,7 @@ def estimates(force, steps, push=ZERO, **keys):
     thrusts, velocity, found = hover(vehicle), np.zeros(3), []
     for i in range(steps):
         told = Told(State(ZERO, vec3(velocity), LEVEL, ZERO), push, ZERO)
-        unknown, memory = observe(k, memory, told, thrusts, 1.0, H)
+        unknown, memory = observe(k, memory, told, thrusts, 1.0, 1.0, H)
         found.append(unknown.force)
         velocity = velocity + (force(i * H) + np.array(push)) / vehicle.mass * H
     return np.array(found)
@@ -98,7 +98,7 @@ def test_nothing_is_estimated_on_the_ground():
     vehicle, k, memory = started(model="super-twisting")
     for _ in range(100):
         told = Told(State(ZERO, Vec3(1.0, 0.0, 0.0), LEVEL, ZERO), ZERO, ZERO)
-        unknown, memory = observe(k, memory, told, hover(vehicle) * 0.0, 0.0, H)
+        unknown, memory = observe(k, memory, told, hover(vehicle) * 0.0, 0.0, 1.0, H)
         assert unknown.force == ZERO
         assert unknown.moment == ZERO
 
@@ -109,7 +109,7 @@ def test_a_disturbing_moment_is_found_about_every_axis():
     J, moment, rates = vehicle.inertia, np.array([0.4, -0.03, 0.2]), np.zeros(3)
     for _ in range(1500):
         told = Told(State(ZERO, ZERO, LEVEL, vec3(rates)), ZERO, ZERO)
-        unknown, memory = observe(k, memory, told, hover(vehicle), 1.0, H)
+        unknown, memory = observe(k, memory, told, hover(vehicle), 1.0, 1.0, H)
         rates = rates + np.linalg.solve(J, moment - np.cross(rates, J @ rates)) * H
     assert np.array(unknown.moment) == pytest.approx(moment, rel=0.02, abs=1e-3)
 

@@ -247,7 +247,7 @@ WRONG_PARTS_TOGETHER = [
     ),
     of_parts(
         "detection that nobody acts on",
-        "detection.model = 'residual'\nallocation.method = 'pseudo-inverse'",
+        "detection.model = 'residual'\nobserver.model = 'none'\nallocation.method = 'pseudo-inverse'",
         'detection.model = "residual"',
         'must be "none" unless allocation.method is "constrained"',
     ),

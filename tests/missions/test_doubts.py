@@ -21,6 +21,7 @@ WEAK = [{"quadrotor": 1, "rotor": r, "time": 1.0, "efficiency": 0.1, "known_afte
 ALONG = [{"start": [0.2, -3.0], "end": [0.2, 3.0]}]
 GUSTS = [{"velocity": [1.0, 0.0, 0.0], "start": 1.0, "rise": 1.0}]
 SHORT_LEGS = {f"vehicle.quadrotors.{i}.feet_depth": 0.1 for i in (0, 1)}
+UNLIMITED = {"allocation.method": "pseudo-inverse", "observer.model": "none"}
 AIR = {"wind.model": "air", "wind.turbulence": 3.0}
 
 TOLD = {  # on top of mission iris
@@ -51,7 +52,7 @@ TOLD = {  # on top of mission iris
     ),
     "too many faults": ({"faults": WEAK, "vehicle.payload.mass": 1.2}, ["weighs 41.2 N", "lift 37.45 N"]),
     "a pilot that cannot use what it knows": (
-        {"faults": WEAK[:1], "allocation.method": "pseudo-inverse"},
+        {"faults": WEAK[:1], **UNLIMITED},
         ["faults.0.known_after is of use only where"],
     ),
 }
@@ -143,7 +144,7 @@ def test_lift_and_weight_are_those_of_the_parts():
 
 
 @pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
-@pytest.mark.parametrize("changes", [{}, {"wind.model": "air"}, {"allocation.method": "pseudo-inverse"}], ids=str)
+@pytest.mark.parametrize("changes", [{}, {"wind.model": "air"}, UNLIMITED], ids=str)
 @pytest.mark.parametrize("name", ["paper", "four", "iris"])
 def test_the_log_s_size_is_told_to_the_byte(name, changes):
     mission = load_mission(name, changes)

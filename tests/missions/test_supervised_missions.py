@@ -9,15 +9,16 @@ from tandemlift.pilot.supervised import start_requests
 from tandemlift.settings.supervision import ReactionsTable
 
 BY_HAND = {"pilot.guidance": "hand"}
+BY_CLOCK = {"pilot.guidance": "clock"}
 FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"supervision.model": "watch"}, 'supervision.model = "watch": must be "none"'),
-        ({"requests": [{"time": 1.0, "action": "land"}]}, 'requests.0.action = "land": must be left out'),
-        ({"estimator.tare": "hover"}, 'estimator.tare = "hover": must be "clock"'),
+        ({**BY_CLOCK, "supervision.model": "watch"}, 'supervision.model = "watch": must be "none"'),
+        ({**BY_CLOCK, "requests": [{"time": 1.0, "action": "land"}]}, 'requests.0.action = "land": must be left out'),
+        ({**BY_CLOCK, "estimator.tare": "hover"}, 'estimator.tare = "hover": must be "clock"'),
         ({**BY_HAND, "requests": [{"time": 1.0, "action": "jump"}]}, 'requests.0.action = "jump": must be'),
         (
             {"sensors.model": "none", "pilot": {"state": "truth", "push": "truth"}, "sensor_faults": [FROZEN]},

@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 import pytest
 import tomli_w
-from schema import SCHEMA
+from schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
 from tandemlift.missions import DATA, built_in, format_toml, load_mission, merge, tables_of, to_toml
@@ -15,8 +15,8 @@ from tandemlift.missions.explain import allowed, value_at
 from tandemlift.settings import Mission
 
 BUILT_IN = [
-    *("flight-ready", "four", "gusts", "heavy-payload", "hover", "iris"),
-    *("off-centre-push", "one-push", "paper", "rotor-loss"),
+    *("doorway", "flight-ready", "four", "gusts", "heavy-payload", "hover", "iris", "narrow-zigzag", "narrow"),
+    *("off-centre-push", "one-push", "paper", "rotor-loss", "zigzag"),
 ]
 
 
@@ -160,6 +160,10 @@ def test_every_leaf_that_the_design_gives_per_axis_is_one():
             "disturbance.moment",
             "plant.inertia_scale",
             *(f"compliance.max_{what}" for what in ("speed", "acceleration", "jerk")),
+            "detection.scatter",
+            "sensor_faults.0.size",
+            "supervision.fence.high",
+            "supervision.fence.low",
             *(f"observer.{what}_{number}" for what in ("force", "moment") for number in ("bandwidth", "slope")),
         ]
     )
@@ -168,8 +172,9 @@ def test_every_leaf_that_the_design_gives_per_axis_is_one():
 @pytest.mark.parametrize(("key", "count"), AXES.items(), ids=AXES)
 def test_one_number_serves_all_axes_and_whole_numbers_are_numbers(key, count):
     place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
-    one = tables_of(load_mission("paper", {key: 1}))
-    each = tables_of(load_mission("paper", {key: [1.0] * count}))
+    name, entries = ("iris", EVERYTHING) if place[0] == "sensor_faults" else ("paper", {})
+    one = tables_of(load_mission(name, {**entries, key: 1}))
+    each = tables_of(load_mission(name, {**entries, key: [1.0] * count}))
     assert value_at(one, place) == [1.0] * count
     assert all(type(number) is float for number in value_at(one, place))
     assert one == each

@@ -1,8 +1,8 @@
 """A mission with everything in it, and the mission in calm: one compiled loop serves the tests of whole flights.
 
 Two unlike quadrotors off the beam's axes, delays on every line, a floor, two walls, wind with turbulence and a gust, a
-fault that the pilot learns of, a tare and a push off the centre. In `CALM` the same parts are there with nothing to
-say: no wind, walls out of reach, a fault after the end, perfect sensors.
+fault that the pilot learns of, a tare, a push off the centre, and a pilot that it guides, with an observer. In `CALM`
+the same parts are there with nothing to say: no wind, walls out of reach, a fault after the end, perfect sensors.
 """
 
 from typing import Any
@@ -29,6 +29,8 @@ STORM: dict[str, Any] = {
     "phases.height": 0.6,
     "phases.land_start": 3.6,
     "phases.land_duration": 1.2,
+    "compliance.max_descent": 1.0,
+    "observer.force_bandwidth": [0.1, 20.0, 18.0],  # rad/s; slow along x, so that the wind presses against the wall
     "estimator.tare_start": 2.0,
     "estimator.tare_duration": 0.4,
     "sensors.delay": UNIT * DT,

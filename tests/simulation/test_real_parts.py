@@ -10,12 +10,14 @@ import tandemlift as tl
 from tandemlift.assembly import assemble
 from tandemlift.jit import leaves, unflat
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN, WALL
+from tandemlift.laws.allocation import Working
 from tandemlift.laws.push import Hand, push_of
 from tandemlift.laws.random import normals
 from tandemlift.laws.sensing import Readings
 from tandemlift.laws.walls import consider
 from tandemlift.laws.wind import gust_velocity
-from tandemlift.loop import Inputs, move
+from tandemlift.loop import Inputs, finish, joined, think
+from tandemlift.pilot import with_allocation
 from tandemlift.vector import ZERO
 
 
@@ -92,7 +94,11 @@ def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
             for row in tables.walls:
                 near = consider(plant.walls, unflat(row, WALL), near, plant.frame, flying.moving.state)
             flying = flying._replace(moving=flying.moving._replace(near=near))
-        moving, sample = move(flying, given_at(k, like, tables, seeds), k * DT, DT)
+        given = joined(flying, given_at(k, like, tables, seeds), k * DT, DT)
+        thought = think(flying, given.hand.start, k * DT, DT)
+        wished = thought.decision.thrusts
+        thought = thought._replace(memory=with_allocation(thought.memory, Working(wished * 0.0, wished)))
+        moving, sample = finish(flying, thought, given, k * DT, DT)
         units.append(moving.readings.unit)
         motions.append(moving.readings.motion)
         commands.append(moving.rotors.arriving)
@@ -106,7 +112,8 @@ def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
 
 def shown(sample: Any, name: str) -> np.ndarray:
     """A channel's row of a sample."""
-    for group in (sample, sample.actuated, sample.air, sample.contact, sample.measured, sample.estimated):
+    measured = sample.measured, sample.estimated, sample.disturbed, sample.guided
+    for group in (sample, sample.actuated, sample.air, sample.contact, *measured):
         if name in group._fields:
             return np.array(getattr(group, name), dtype=float).T.ravel()
     raise KeyError(name)
@@ -118,16 +125,24 @@ def test_its_first_steps_are_those_of_plain_python():
         "mission.duration": 0.12,
         "actuators.start": "hover",
         "phases.lift_start": 0.0,
+        "phases.lift_duration": 0.02,
         "phases.height": 0.0,
+        "compliance.spool": 0.02,  # s: then it observes, and from 0.04 s it listens
         "phases.rotors": "flight",
         "initial.euler": [0.01, -0.01, 0.02],
         "initial.velocity": [0.1, 0.0, -0.05],
-        "ground.height": -0.2245,  # m: one foot touches
+        "ground.height": -0.1755,  # m: one foot touches
         "walls.0": {"start": [0.42, -3.0], "end": [0.4, 3.0]},
         "initial.position": 0.0,
         "estimator.tare_start": 0.02,
         "estimator.tare_duration": 0.03,
         "faults.0.time": 0.07,
+        "pushes.0.force": [0.04, 0.02, -0.02],  # N: so steep that more would ask for more than rotors give
+        "admittance.threshold": 0.01,
+        "compliance.force_lead": 0.01,
+        "sensors.joints.force_bias": 0.02,
+        "sensors.joints.force_noise": 0.005,
+        "sensors.joints.torque_bias": 0.005,
         "pushes.0.time": 0.06,
         "pushes.0.sigma": 0.02,
         "wind.gusts.0.start": 0.03,

@@ -159,7 +159,8 @@ def in_plain_python(seconds, heard_at):
     for i in range(round(seconds / dt)):
         heard = Heard(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
         heard, lost = heard_at(heard, i * dt)
-        decided, memory = guide(guidance, memory, attend(guidance, memory, heard, 0.0, lost), NONE, i * dt, dt)
+        heard = attend(guidance, memory, heard, 0.0, lost)
+        decided, memory = guide(guidance, memory, heard, NONE, lost, i * dt, dt)
         names.append(NAMES[int(decided.shown.phase)])
     return list(dict.fromkeys(names)), memory
 

@@ -28,7 +28,11 @@ ON = {"unit": ("joints", "accelerometer", "gyroscope"), "motion": ("position", "
 
 def _steps(f: SensorFaultTable, step: float) -> tuple[float, float]:
     """The steps from which on and before which a fault is there."""
-    return float(round(f.time / step)), NEVER if f.until is None else float(round(f.until / step))
+
+    def steps(time: float) -> float:
+        return float(round(min(time / step, NEVER)))
+
+    return steps(f.time), NEVER if f.until is None else steps(f.until)
 
 
 def _fault(f: SensorFaultTable, step: float) -> SensorFault:

@@ -112,7 +112,8 @@ class Guidance(NamedTuple):
     """What the push asks for.
 
     The gated force [N, world axes], T_r with its derivatives, the reference; the push to be countered: force [N, world
-    axes] and moment [N·m, body axes]; which share of the thrusts is commanded; 1 in flight, else 0; and what is shown.
+    axes] and moment [N·m, body axes]; which share of the thrusts is commanded; 1 in flight, else 0; 1
+    while an observer may learn, which is not so where the feet may press on the floor; and what is shown.
     """
 
     force: Vec3
@@ -122,6 +123,7 @@ class Guidance(NamedTuple):
     moment: Vec3
     running: Any
     flying: Any
+    learning: Any
     shown: Any
 
 
@@ -196,7 +198,7 @@ def _clocked(g, m, heard, unknown, lost, t, dt):
     force = gate(g.admittance.gate, heard.push)
     motion = yield_to(g.admittance, m, force)
     target = Reference(reference(g.phases, motion, t), g.yaw, 0.0, 0.0, ZERO)
-    guidance = Guidance(force, motion, target, heard.push, ZERO, run(g.rotors, t), 1.0, Nothing())
+    guidance = Guidance(force, motion, target, heard.push, ZERO, run(g.rotors, t), 1.0, 1.0, Nothing())
     return guidance, hold(g.admittance, m, force, motion, dt)
 
 
@@ -245,6 +247,12 @@ def lifted(g: Guided, T: Trajectory, orders: Orders) -> Trajectory:
 
 
 @law
+def may_stand(m: Phase, height: Any) -> Any:
+    """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0."""
+    return is_in(m, LAND) * where(height < m.ground, 1.0, 0.0)
+
+
+@law
 def channels_of(orders: Orders, compliant: Compliant, damping: Any, course: Course, supervised: Any) -> GuidedChannels:
     """What is shown of a step; `supervised`: of the supervision."""
     heard = compliant.heard.value - compliant.hearing.bias
@@ -290,6 +298,7 @@ def _guided(g, m, heard, unknown, lost, t, dt):
         (moment.value + moment.rate * g.moment_lead) * orders.countering,
         Share(orders.running),
         orders.flying * (1.0 - supervised.blind),
+        1.0 - may_stand(phase, target.position.z),
         channels_of(orders, after, damping, course, shown),
     )
     return guidance, GuidedMemory(phase, after, tank, heading, moment, supervision)

@@ -98,7 +98,7 @@ def growth(e, bandwidth, slope):
 
 
 @choice
-def observe(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, dt: Any) -> Any:
+def observe(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, learning: Any, dt: Any) -> Any:
     """(what is `Unmodelled`, the new memory) at a sample.
 
     Args:
@@ -107,12 +107,13 @@ def observe(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, dt: Any)
         heard: what the pilot is told.
         thrusts: of all rotors [N], as allocated at the last sample.
         active: 1 in flight; 0 on the ground, where nothing is estimated.
+        learning: 1; 0 to keep what was found, where feet may press on the floor, which is no disturbance.
         dt: since the last sample [s].
     """
 
 
 @observe.register(Nothing)
-def _unknowing(k, memory, heard, thrusts, active, dt):
+def _unknowing(k, memory, heard, thrusts, active, learning, dt):
     return NONE, memory
 
 
@@ -133,13 +134,13 @@ def rates_of_change(k: Observer, heard: Any, u: Wrench) -> Any:
 
 
 @observe.register(Observer)
-def _observed(k, memory, heard, thrusts, active, dt):
+def _observed(k, memory, heard, thrusts, active, learning, dt):
     thrust, moment = expected(k, memory, thrusts)
     linear, angular = rates_of_change(k, heard, Wrench(thrust.value, moment.value))
     f, m = k.force_follower, k.moment_follower
     e, w = (heard.state.velocity - memory.velocity) * active, (heard.state.rates - memory.rates) * active
-    acceleration = (memory.acceleration + growth(e, f.bandwidth, f.slope) * dt) * active
-    turning = (memory.turning + growth(w, m.bandwidth, m.slope) * dt) * active
+    acceleration = (memory.acceleration + growth(e, f.bandwidth, f.slope) * (learning * dt)) * active
+    turning = (memory.turning + growth(w, m.bandwidth, m.slope) * (learning * dt)) * active
     residual, turning_residual = correction(e, f.bandwidth, f.slope), correction(w, m.bandwidth, m.slope)
     velocity = heard.state.velocity - e + (linear + acceleration + residual) * dt
     rates = heard.state.rates - w + (angular + turning + turning_residual) * dt

@@ -192,13 +192,14 @@ def orders_of(k: Phasing, m: Phase, t: Any) -> Orders:
     landed = idle * k.always * where(m.land_rate > 0.0, 1.0, 0.0)
     begun = where(t - m.since < k.spool, 0.0, 1.0)
     down_here = idle * (1.0 - k.always)
+    risen = m.risen * (1.0 - stopped) * (1.0 - down_here)
     return Orders(
         phase=m.phase,
         grounded=down_here + stopped,
         listening=is_in(m, GUIDED),
         running=(1.0 - down_here) * (1.0 - stopped),
         flying=(1.0 - down_here) * (1.0 - stopped) * (1.0 - lift * (1.0 - begun) * (1.0 - k.always)),
-        lift=Ramp(where(lift > 0.0, up.value, m.risen * (1.0 - stopped) * (1.0 - down_here)), lift * up.rate, lift * up.curvature),
+        lift=Ramp(where(lift > 0.0, up.value, risen), lift * up.rate, lift * up.curvature),
         land=Ramp(land * down.value + landed, land * down.rate, land * down.curvature),
         end=m.ground - k.press - m.deep,
         countering=(1.0 - idle) * (1.0 - stopped),

@@ -97,8 +97,9 @@ def brief(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) -> 
     heard = attend(p.guidance, m.guidance, heard, given_thrust(m.allocation), lost)
     guidance, guided = guide(p.guidance, m.guidance, heard, before, lost, t, dt)
     given = given_thrusts(m.allocation)
-    unknown, observing = observe(p.observer, m.observer, heard, given, guidance.flying, dt)
-    watching = watch(p.detection, m.detection, heard, given, guidance.flying, t, dt)
+    flying, learning = guidance.flying, guidance.learning
+    unknown, observing = observe(p.observer, m.observer, heard, given, flying, learning, dt)
+    watching = watch(p.detection, m.detection, heard, given, flying, t, dt)
     disturbance = Disturbance(unknown.force, unknown.moment + guidance.moment)
     return Briefed(Measured(heard.state, guidance.push, disturbance), guidance, unknown, guided, observing, watching)
 

@@ -19,7 +19,7 @@ UNBOUNDED = 1e18  # of a slope
 
 def _follower(bandwidth: Any, slope: Any, linear: bool, size: np.ndarray) -> Follower:
     """A follower whose slope is given in N/s or N·m/s, for axes of a mass or inertia."""
-    most = [UNBOUNDED] * 3 if linear else [s / m for s, m in zip(slope, size, strict=True)]
+    most = [UNBOUNDED] * 3 if linear else [min(s / m, UNBOUNDED) for s, m in zip(slope, size.tolist(), strict=True)]
     return Follower(vec3(bandwidth), vec3(most))
 
 

@@ -1,9 +1,10 @@
 """Rows about what is taken for a hand: wind is not to be, and a hand is to be heard at once.
 
 IRIS quadrotors hover with a beam in a mean wind along x, across the beam, with Dryden turbulence of that wind at 20 ft,
-thresholds 0.3, 0.3 and 0.4 N (of vertical gusts the quadrotors tell nothing), and nobody pushes: every push that is heard is counted, after the first seconds, in ten-minute flights.
-Then pushes of 0.6 N in steps, every three seconds: how long after the step, whose middle is when the push exceeds the
-threshold, it is heard. Without compensation of the wind its bandwidth is next to nothing, so that all is one loop.
+thresholds 0.3, 0.3 and 0.4 N (of vertical gusts the quadrotors tell nothing), and nobody pushes: every push that is
+heard is counted, after the first seconds, in ten-minute flights. Then pushes of 0.6 N in steps, every three seconds:
+how long after the step, whose middle is when the push exceeds the threshold, it is heard. Without compensation of the
+wind its bandwidth is next to nothing, so that all is one loop.
 """
 
 from __future__ import annotations

@@ -1,0 +1,105 @@
+"""The channels of a flight: those of the parts that its mission has, each of its width, all of them in the table."""
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.flight import CHANNELS, DERIVED
+from tandemlift.flown import Flown, flight_of
+from tandemlift.jit import leaves
+from tandemlift.laws.guidance import GuidedChannels
+from tandemlift.laws.supervision import SupervisedChannels
+from tandemlift.prepared import Prepared
+from tandemlift.readout import EstimatedChannels, MeasuredChannels
+from tandemlift.sample import Actuated, Air, Contact, Disturbed, Sample, Watched
+from tandemlift.tally import EMPTY
+
+GROUPS = {
+    "actuated": Actuated,
+    "air": Air,
+    "contact": Contact,
+    "measured": MeasuredChannels,
+    "estimated": EstimatedChannels,
+    "disturbed": Disturbed,
+    "guided": GuidedChannels,
+    "supervised": SupervisedChannels,
+    "watched": Watched,
+}
+
+
+def channels_in(names):
+    """The channels that fields of a sample stand for, group by group, groups within groups too."""
+    return [channel for name in names for channel in (channels_in(GROUPS[name]._fields) if name in GROUPS else [name])]
+
+
+ALWAYS = [name for name in Sample._fields if name not in GROUPS]
+
+
+def test_the_table_of_channels_is_complete():
+    assert list(CHANNELS) == channels_in(Sample._fields)
+    assert all(channel.unit and channel.meaning for channel in CHANNELS.values())
+    scalars = ("allocation_share", "payload_mass_estimate", "push_usable", "rotor_lost")
+    scalars += ("phase", "added_damping", "alarm", "refused")
+    assert all(bool(channel.frame) != (name in scalars) for name, channel in CHANNELS.items())
+    assert not set(DERIVED) & set(CHANNELS)
+
+
+WIDTHS = {  # of channels that are not of three numbers, for n quadrotors
+    **dict.fromkeys(["attitude", "measured_attitude", "estimated_attitude"], lambda n: 4),
+    **dict.fromkeys(["thrust", "allocated_thrust", "allocation_share", "push_point_estimate"], lambda n: 1),
+    **dict.fromkeys(["payload_mass_estimate", "sensor_disagreement", "push_usable"], lambda n: 1),
+    **dict.fromkeys(["phase", "added_damping", "reference_yaw_rate"], lambda n: 1),
+    **dict.fromkeys(["alarm", "refused", "rotor_lost"], lambda n: 1),
+    **dict.fromkeys(["rotor_thrusts", "rotor_commands"], lambda n: 4 * n),
+    **dict.fromkeys(["joint_force", "joint_torque", "measured_joint_force", "measured_joint_torque"], lambda n: 3 * n),
+}
+
+
+def unflown(changes, count=2):
+    """The record of mission iris with changes and so many quadrotors, before anything was flown."""
+    quadrotor = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(exclude_none=True)
+    fleet = [quadrotor | {"position": [0.3 * i, 1.0, 0.075]} for i in range(count)]
+    p = Prepared(tl.load_mission("iris", {"vehicle.quadrotors": fleet, **changes}))
+    row = np.zeros(leaves(p.sample))
+    return flight_of(p, Flown(p.flying.moving, EMPTY, 0, row[None], row, 0.0))
+
+
+BARE = {"pilot": {"state": "truth", "push": "truth"}, "phases.rotors": "always"}
+WHOLE = BARE | {"wind.model": "air", "supervision.model": "watch", "detection.model": "residual"}
+PARTS = {  # a part that a mission may have, what takes it out, and the group of channels that goes with it
+    "actuated": {"actuators.model": "ideal", "ground.effect": False},
+    "contact": {"ground": {"model": "none", "effect": False}},
+    "measured, estimated": {"sensors.model": "none"},
+    "air": {"wind.model": "none"},
+    "disturbed": {"observer.model": "none"},
+    "guided": {"pilot.guidance": "clock", "supervision.model": "none"},
+    "supervised": {"supervision.model": "none"},
+    "watched": {"detection.model": "none"},
+}
+
+
+@pytest.mark.parametrize("groups", PARTS)
+def test_channels_are_there_if_and_only_if_the_mission_has_their_part(groups):
+    whole = unflown(WHOLE)
+    without = unflown(WHOLE | PARTS[groups])
+    missing = channels_in(groups.split(", "))
+    assert list(whole) == list(CHANNELS)
+    assert list(without) == [name for name in CHANNELS if name not in missing]
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_all_channels_have_their_widths(count):
+    flight = unflown(WHOLE, count)
+    widths = {name: (1 if array.ndim == 1 else array.shape[1]) for name, array in flight.items()}
+    assert widths == {name: WIDTHS.get(name, lambda n: 3)(count) for name in CHANNELS}
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_channels_have_their_widths_for_any_number_of_quadrotors(count):
+    quadrotor = tl.load_mission("paper").vehicle.quadrotors[0].model_dump()
+    spread = [quadrotor | {"position": [0.3 * i, 1.0, 0.1]} for i in range(count)]
+    flight = tl.fly(tl.load_mission("flight-ready", {"vehicle.quadrotors": spread, "mission.duration": 0.05}))
+    widths = {name: (1 if array.ndim == 1 else array.shape[1]) for name, array in flight.items()}
+    assert widths == {name: WIDTHS.get(name, lambda n: 3)(count) for name in ALWAYS}
+    assert {len(array) for array in flight.values()} == {len(flight.time)} == {6}
+    assert np.allclose(flight["rotor_thrusts"].sum(axis=1), flight["thrust"], rtol=1e-12)
