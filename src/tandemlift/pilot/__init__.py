@@ -99,7 +99,7 @@ def brief(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) -> 
     given = given_thrusts(m.allocation)
     flying, learning = guidance.flying, guidance.learning
     unknown, observing = observe(p.observer, m.observer, heard, given, flying, learning, dt)
-    watching = watch(p.detection, m.detection, heard, given, flying, t, dt)
+    watching = watch(p.detection, m.detection, heard, given, flying * learning, t, dt)
     disturbance = Disturbance(unknown.force, unknown.moment + guidance.moment)
     return Briefed(Measured(heard.state, guidance.push, disturbance), guidance, unknown, guided, observing, watching)
 
