@@ -162,6 +162,10 @@ def _company(flight: Flight) -> Iterator[Row]:
     p = _table(flight, "partner", PartnerTable)
     if p.model == "none":
         return
+    if p.model == "grab":
+        spring = f"{say(p.stiffness, 'N/m')} and {say(p.damping, 'N s/m')}, up to {say(p.max_force, 'N')}"
+        yield "Person", f"a hand moved from outside, on a spring of {spring}"
+        return
     where = "" if p.model == "two-hands" else f", {say(p.grip, 'm')} along the beam from the payload’s centre"
     arm = f"arm of {say(p.stiffness, 'N/m')} and {say(p.damping, 'N s/m')}, up to {say(p.max_force, 'N')}"
     late = f"{say(p.delay, 'ms', 1e3)} after seeing, muscles of twice {say(p.lag, 'ms', 1e3)}"
