@@ -45,7 +45,7 @@ class Stepper:
         self.g, self.m, self.c, self.v, self.row = (np.zeros(leaves(x)) for x in likes[1:-1])
         self.v[:] = flat(likes.moved)
         self.x, self.y, self.scratch = np.zeros(leaves(GIVEN)), np.zeros(leaves(COMMAND)), self.work[p.kernels.limits :]
-        self.interpreted = p.interpreted
+        self.interpreted, self.at_lost = p.interpreted, place(p.flying, "moving", "lost").at
         thrusts, air = place(likes.acting, "thrusts"), place(likes.acting, "weather", "loads")
         self.thrusts = self.c[thrusts.at : thrusts.at + thrusts.size]
         self.loads, self.push = self.c[air.at : air.at + air.size], np.zeros(6)
@@ -129,7 +129,7 @@ class Stepper:
     @property
     def lost(self) -> bool:
         """Whether the state is no longer sound."""
-        return self.a[leaves(self.p.flying.moving) - 1] != 0.0
+        return bool(self.a[self.at_lost] != 0.0)
 
 
 def fly_stepwise(
