@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, FailFast, Field, TypeAdapter, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import from_json
 
 from tandemlift.errors import InputError, suggestion
@@ -48,7 +48,7 @@ Push = tuple[Newton, Newton, Newton]
 Key = Annotated[str, AfterValidator(_key)]
 Name = Annotated[str, AfterValidator(_name)]
 Word = Annotated[str, AfterValidator(_word)]
-Value = bool | Number | Word | Annotated[tuple[Number, ...], FailFast(), Field(max_length=64)]
+Value = bool | Number | Word | Annotated[tuple[Number, ...], Field(max_length=64, fail_fast=True)]
 
 
 class _Message(BaseModel):
