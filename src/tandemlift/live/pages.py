@@ -1,12 +1,8 @@
-"""The files of the page: which there are, and how one is served."""
+"""The files of the page: which there are, and of which kind."""
 
 from __future__ import annotations
 
-from http import HTTPStatus
 from pathlib import Path
-
-from websockets.datastructures import Headers
-from websockets.http11 import Response
 
 from tandemlift.errors import InputError
 
@@ -38,10 +34,6 @@ def page_files(folder: Path | None = None) -> dict[str, bytes]:
     return {"/": found["/index.html"], **found}
 
 
-def answer_with(path: str, content: bytes, cookie: str | None) -> Response:
-    """The answer that gives a file, and a cookie if there is one to set."""
-    kind = KINDS.get(Path("index.html" if path == "/" else path).suffix, "application/octet-stream")
-    headers = Headers([("Content-Type", kind), ("Content-Length", str(len(content))), ("Connection", "close")])
-    if cookie:
-        headers["Set-Cookie"] = cookie
-    return Response(HTTPStatus.OK.value, HTTPStatus.OK.phrase, headers, content)
+def kind_of(path: str) -> str:
+    """The media type of a file by its name; a system's own table may be wrong."""
+    return KINDS.get(Path("index.html" if path == "/" else path).suffix, "application/octet-stream")

@@ -14,6 +14,7 @@ from typing import Any, Protocol, Self
 
 from websockets.asyncio.server import Server as Sockets
 from websockets.asyncio.server import ServerConnection, serve
+from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
@@ -21,7 +22,7 @@ from tandemlift.errors import InputError
 from tandemlift.live.frames import RATE
 from tandemlift.live.guard import HOST, PORT, Asked, Guard, listen
 from tandemlift.live.messages import MAX_SIZE, Message, Ping, Refusal, Reset, Restore, Save, Set, about, read_message
-from tandemlift.live.pages import answer_with
+from tandemlift.live.pages import kind_of
 from tandemlift.live.viewers import Viewer, Viewers
 
 STATUS_EVERY = RATE // 4  # frames
@@ -179,7 +180,7 @@ class Server:
             return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "too many viewers\n") if full else None
         if asked.path not in self._files:
             return connection.respond(HTTPStatus.NOT_FOUND, "not found\n")
-        return answer_with(asked.path, self._files[asked.path], self._guard.cookie(asked))
+        return _file(asked.path, self._files[asked.path], self._guard.cookie(asked))
 
     def _protect(self, connection: ServerConnection, request: Request, response: Response) -> None:
         """Put the headers that keep others out into an answer."""
@@ -267,3 +268,11 @@ async def serve_until_stopped(server: Server, opened: Callable[[str], None]) -> 
     async with server:
         opened(server.address)
         await server.show()
+
+
+def _file(path: str, content: bytes, cookie: str | None) -> Response:
+    """The answer that gives a file, and a cookie if there is one to set."""
+    headers = Headers([("Content-Type", kind_of(path)), ("Content-Length", str(len(content))), ("Connection", "close")])
+    if cookie:
+        headers["Set-Cookie"] = cookie
+    return Response(HTTPStatus.OK.value, HTTPStatus.OK.phrase, headers, content)
