@@ -16,7 +16,7 @@ CALM = 1e-3  # m/s, of turbulence: a wind that can be made to blow
 
 
 def by_hand(mission: Mission) -> Mission:
-    """The mission with a hand that is moved from outside, instead of pushes and a person, and without a landing in time.
+    """The mission with a hand that is moved from outside instead of pushes and a person, and without a set landing.
 
     Where it can have them, a wind that can be made to blow, rotors that can be made to fail, and a pilot that looks out
     for both.

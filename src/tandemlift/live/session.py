@@ -1,7 +1,7 @@
 """One flight in real time, in a thread of its own, moved by the hand of whoever holds the beam.
 
-Every method may be called from any thread. The flight never waits for anybody: a change that takes long to make ready is
-made ready beside it.
+Every method may be called from any thread. The flight never waits for anybody: a change that takes long to make ready
+is made ready beside it.
 """
 
 from __future__ import annotations
@@ -64,6 +64,7 @@ class Session:
         self._lock, self._stopping = threading.RLock(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
         self._compiling, self._names = Compiling(), alarm_names()
+        self._pace = Pace(mission.mission.step)
         self.generation = 0
         self._begin(self._mission)
 
@@ -71,9 +72,7 @@ class Session:
         flight = RecordedFlight(mission, self._engine)
         scene = self._scene_of(mission)
         with self._lock:
-            before = self._pace if self.generation else Pace(flight.dt)
-            self._flight, self._grip, self._pace = flight, Grip(), Pace(flight.dt)
-            self._pace.speed, self._pace.paused = before.speed, before.paused
+            self._flight, self._grip = flight, Grip()
             self._fields, self.scene = fields_of(Vehicle.from_settings(mission.vehicle).rotor_count), scene
             self._phases = tables_of(mission)["phases"]
             flight.hold(NOBODY_HOLDS)
@@ -240,7 +239,8 @@ class Session:
             raise InputError(f"rotor = {m.rotor}: the rotors of this mission cannot fail")
         if faults[at[0]].time < NEVER:
             raise InputError(f"rotor = {m.rotor}: has failed already")
-        return self._change(f"faults.{at[0]}.time", self._flight.step * self._flight.dt, 0.0)
+        self._change(f"faults.{at[0]}.time", self._flight.step * self._flight.dt, 0.0)
+        return None
 
     @_heed.register
     def _set(self, m: messages.Set) -> dict[str, Any]:
@@ -283,7 +283,9 @@ class Session:
         if key == CONTROLLER and value != flight.now.controller.name:
             wanted = changed(flight.now, key, value)
             if not self._compiling.is_ready(wanted):
-                raise InputError(f"{value} is being compiled for this flight, which takes a minute; choose it again then")
+                raise InputError(
+                    f"{value} is being compiled for this flight: choose it again in a minute"
+                )
         due = flight.prepare(key, value, duration)
         with self._lock:
             if flight is self._flight:
