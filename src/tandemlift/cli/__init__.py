@@ -11,6 +11,7 @@ import click
 
 from tandemlift import __version__
 from tandemlift.cli.compare import compare
+from tandemlift.cli.export import export
 from tandemlift.cli.render import render
 from tandemlift.cli.run import run, say
 from tandemlift.cli.validate import validate
@@ -54,6 +55,7 @@ cli.add_command(run)
 cli.add_command(compare)
 cli.add_command(render)
 cli.add_command(validate)
+cli.add_command(export)
 
 
 def _print_table(rows: Mapping[str, str]) -> None:
