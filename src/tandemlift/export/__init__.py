@@ -16,7 +16,7 @@ from tandemlift.export.table import write_csv
 from tandemlift.files import whole
 from tandemlift.flight import Flight
 
-FORMATS: dict[str, Callable[[Flight, Path, str], None]] = {".mcap": write_mcap, ".bag": write_bag, ".csv": write_csv}
+FORMATS: dict[str, Callable[[Flight, Path], None]] = {".mcap": write_mcap, ".bag": write_bag, ".csv": write_csv}
 ENDINGS = "must end in .mcap (ROS 2 bag), .bag (ROS 1 bag) or .csv (table)"
 
 
@@ -42,14 +42,14 @@ def export(flight: Flight, path: str | os.PathLike[str]) -> Path:
         if path.is_dir():
             raise IsADirectoryError(None, "it is a folder")
         with whole(path) as partial:
-            write(flight, partial, path.stem)
+            write(flight, partial)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
     return path
 
 
-def writer_of(path: Path) -> Callable[[Flight, Path, str], None]:
-    """What writes a file of this name: (flight, path to write to, the file's name in the end, without its ending).
+def writer_of(path: Path) -> Callable[[Flight, Path], None]:
+    """What writes a flight to a file of this name: called with the flight and the path to write to.
 
     Raises:
         InputError: its ending is of no format that there is.

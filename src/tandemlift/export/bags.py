@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 START = SECOND  # ns, stamp of the flight's time 0
-CALLER = "/tandemlift"
+CALLER, NAME = "/tandemlift", "flight"  # what a ROS 1 bag says published, and what a ROS 2 bag calls itself
 Items = Iterable[tuple[int, Any]]  # times [ns] and messages
 
 
 class Stream(NamedTuple):
-    """A topic, its type as ROS 1 calls it, its messages in the order of time; `latched`: who comes late gets the last."""
+    """A topic, its type as ROS 1 calls it, and its messages by time; who listens late gets the last if `latched`."""
 
     topic: str
     kind: str
@@ -72,7 +72,10 @@ def _made(stamps: list[int], rows: Any, make: Callable[[int, Any], Any]) -> Iter
 
 
 def events_of(flight: Flight) -> list[tuple[float, str]]:
-    """When [s] what happened: phases and alarms, of a supervised flight also those between samples; and why it ended."""
+    """When [s] what happened: phases and alarms, and why the flight was stopped.
+
+    Without a supervision, which sees every step, the phases are those of the samples.
+    """
     events = [(float(at), str(what)) for at, what in flight.results.get("events") or []]
     if not events and "phase" in flight:
         phase = flight["phase"].astype(int)
@@ -93,20 +96,21 @@ def _rosbags() -> ModuleType:
         import rosbags.typesys
     except ModuleNotFoundError as error:
         raise InputError(
-            f"bags need the package rosbags ({error.name} is missing): pip install 'tandemlift[export]'; .csv needs none"
+            f"a bag needs the package rosbags, and {error.name} is missing: pip install 'tandemlift[export]'; "
+            "a .csv does not"
         ) from error
     return rosbags
 
 
-def write_mcap(flight: Flight, path: Path, name: str) -> None:
-    """Write the flight as a ROS 2 bag in one MCAP file (chunks in Zstandard). `name` is what the bag calls itself."""
+def write_mcap(flight: Flight, path: Path) -> None:
+    """Write the flight as a ROS 2 bag in one MCAP file (chunks in Zstandard)."""
     ros = _rosbags().typesys
     from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
     store = ros.get_typestore(ros.Stores.ROS2_HUMBLE)
     streams = streams_of(flight, Types(store))
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=f"{path.name}.") as folder:
-        bag = Writer(Path(folder) / name, version=8, storage_plugin=StoragePlugin.MCAP)
+        bag = Writer(Path(folder) / NAME, version=8, storage_plugin=StoragePlugin.MCAP)
         bag.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
         with bag:
             connections = [
@@ -114,7 +118,7 @@ def write_mcap(flight: Flight, path: Path, name: str) -> None:
                 for s in streams
             ]
             _write(bag, streams, connections, lambda m, kind: store.serialize_cdr(m, modern(kind)))
-        (Path(folder) / name / f"{name}.mcap").replace(path)
+        (Path(folder) / NAME / f"{NAME}.mcap").replace(path)
 
 
 def _qos(latched: bool) -> list[Any]:
@@ -127,7 +131,7 @@ def _qos(latched: bool) -> list[Any]:
     return [Qos(history, depth, reliable, durability, forever, forever, alive, forever, False)]
 
 
-def write_bag(flight: Flight, path: Path, _: str = "") -> None:
+def write_bag(flight: Flight, path: Path) -> None:
     """Write the flight as a ROS 1 bag (chunks in LZ4)."""
     ros = _rosbags().typesys
     from rosbags.rosbag1 import Writer
@@ -137,6 +141,7 @@ def write_bag(flight: Flight, path: Path, _: str = "") -> None:
     streams = streams_of(flight, Types(store))
     bag = Writer(path)
     bag.set_compression(Writer.CompressionFormat.LZ4)
+    bag.compressor = _frame_that_ros_reads
     with bag:
         connections = [
             bag.add_connection(s.topic, modern(s.kind), typestore=store, callerid=CALLER, latching=int(s.latched))
@@ -145,8 +150,15 @@ def write_bag(flight: Flight, path: Path, _: str = "") -> None:
         _write(bag, streams, connections, lambda m, kind: store.serialize_ros1(m, modern(kind)))
 
 
+def _frame_that_ros_reads(chunk: bytes) -> bytes:
+    """A chunk in LZ4, as ROS 1's own decompressor wants it: blocks apart, with a checksum and without a size."""
+    import lz4.frame
+
+    return lz4.frame.compress(chunk, block_linked=False, content_checksum=True, store_size=False)
+
+
 def _write(bag: Any, streams: list[Stream], connections: list[Any], pack: Callable[[Any, str], Any]) -> None:
     """Write all messages in the order of time; of those at the same time, in the order of the topics."""
-    numbered = (zip(itertools.repeat(i), s.items) for i, s in enumerate(streams))  # noqa: B905 repeat has no end
+    numbered = (zip(itertools.repeat(i), s.items) for i, s in enumerate(streams))
     for i, (at, message) in heapq.merge(*numbered, key=lambda item: (item[1][0], item[0])):
         bag.write(connections[i], at, pack(message, streams[i].kind))

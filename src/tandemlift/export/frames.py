@@ -42,7 +42,7 @@ def vehicle_of(flight: Flight) -> Vehicle:
 
 def fixed(vehicle: Vehicle) -> Iterator[tuple[str, Array]]:
     """The frames that are fixed in `base_link`, and where: origin (3) [m], body axes."""
-    payload = -vehicle.center_of_mass
+    payload = 0.0 - vehicle.center_of_mass
     yield PAYLOAD, payload
     for i, quadrotor in enumerate(vehicle.quadrotors, 1):
         yield joint(i), payload + np.array(quadrotor.joint_position)
@@ -54,7 +54,7 @@ def joint(number: int) -> str:
 
 
 def _rotation(attitude: Array) -> Mat3:
-    """R of quaternions (T, 4), as a matrix of arrays (T); those of another norm, which sensors read, as if of norm 1."""
+    """R of quaternions (T, 4), as a matrix of arrays (T); those of another norm, as sensors read them, are scaled."""
     with np.errstate(invalid="ignore"):
         return rotation_from_quaternion(Quat(*(attitude / np.linalg.norm(attitude, axis=1, keepdims=True)).T))
 

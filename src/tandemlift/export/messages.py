@@ -149,7 +149,7 @@ class Transforms:
 
 def diagnostics_of(types: Types) -> Callable[[int, str], Any]:
     """What makes a message of `/diagnostics` from an event: its time [ns] and what happened."""
-    Many, Status, header = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"], None
+    Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header = types.headers("")
 
     def make(stamp: int, what: str) -> Any:

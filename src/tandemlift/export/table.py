@@ -48,7 +48,7 @@ def headings(flight: Flight) -> Iterator[str]:
             yield from (f"{label}.{part}" for part in components(name, info.frame, values.shape[1]))
 
 
-def write_csv(flight: Flight, path: Path, _: str = "") -> None:
+def write_csv(flight: Flight, path: Path) -> None:
     """Write the table: commas between, a decimal point, lines ended by a line feed, ASCII where names are."""
     columns = [flight.time, *flight.channels.values()]
     rows = np.hstack([values.reshape(len(flight.time), -1) for values in columns])

@@ -60,7 +60,7 @@ class Source:
             InputError: the flight does not have it, or not with n columns.
         """
         if name not in self.flight:
-            raise InputError(f"flight {self.flight.name!r} has no channel {name!r}, which a bag needs; .csv needs none")
+            raise InputError(f"flight {self.flight.name!r} has no channel {name!r}, which a bag needs; a .csv does not")
         values = self.flight[name].reshape(len(self.flight.time), -1)
         if values.shape[1] != self.width(name):
             found = f"has {values.shape[1]} columns, not {self.width(name)}"
