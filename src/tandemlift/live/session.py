@@ -283,9 +283,7 @@ class Session:
         if key == CONTROLLER and value != flight.now.controller.name:
             wanted = changed(flight.now, key, value)
             if not self._compiling.is_ready(wanted):
-                raise InputError(
-                    f"{value} is being compiled for this flight: choose it again in a minute"
-                )
+                raise InputError(f"{value} is being compiled for this flight: choose it again in a minute")
         due = flight.prepare(key, value, duration)
         with self._lock:
             if flight is self._flight:
