@@ -93,6 +93,7 @@ class Running:
             origin=f"http://127.0.0.1:{self.port}",
             additional_headers=headers,
             compression=None,
+            max_queue=None,
             open_timeout=PATIENCE,
             close_timeout=PATIENCE,
         ) as connection:
@@ -184,7 +185,10 @@ class Raw:
 def masked(payload: bytes, opcode: int = 1) -> bytes:
     """A whole frame from a client (RFC 6455, 5.2), with the mask 0, which leaves the payload as it is."""
     n = len(payload)
-    size = bytes([128 + n]) if n < 126 else bytes([254]) + n.to_bytes(2, "big")
-    if n >= 65536:
+    if n < 126:
+        size = bytes([128 + n])
+    elif n < 65536:
+        size = bytes([254]) + n.to_bytes(2, "big")
+    else:
         size = bytes([255]) + n.to_bytes(8, "big")
     return bytes([128 + opcode]) + size + bytes(4) + payload

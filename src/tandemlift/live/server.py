@@ -29,7 +29,7 @@ STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
 MAX_WAITING = 16  # changes that are yet to be made
 SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be old news
-FAREWELL = 2.0  # s, for pages to say good-bye
+FAREWELL = 1.0  # s, for pages to say good-bye
 SLOW = (Set, Restore, Reset, Save)  # may compile or write
 
 log = logging.getLogger(__name__)
@@ -210,7 +210,7 @@ class Server:
             if self.viewers.leave(viewer):
                 self._let_go()
         if flooding:
-            await connection.close(1008, "too many messages")
+            await _dismiss(connection)
 
     def _hear(self, viewer: Viewer, text: str | bytes) -> None:
         """Heed a text of a viewer, or say why not."""
@@ -261,6 +261,15 @@ class Server:
                 self._answer(viewer, await asyncio.to_thread(self._applied, message))
             except Refusal as refusal:
                 viewer.refuse(refusal)
+
+
+async def _dismiss(connection: ServerConnection) -> None:
+    """Close the connection of a page that sends too much; it may not even read why."""
+    try:
+        async with asyncio.timeout(FAREWELL):
+            await connection.close(1008, "too many messages")
+    except TimeoutError:
+        connection.transport.abort()
 
 
 async def serve_until_stopped(server: Server, opened: Callable[[str], None]) -> None:
