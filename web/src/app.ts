@@ -74,6 +74,10 @@ export class App implements Listener {
     return this.stage.canvas;
   }
 
+  get level(): Graphics {
+    return this.stage.graphics;
+  }
+
   look(view: View): void {
     if (this.picture) this.follow.look(view, this.picture.center, this.picture.reach);
   }

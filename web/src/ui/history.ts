@@ -4,7 +4,7 @@ import type { Frame } from "../wire/frames.ts";
 import type { Scene } from "../wire/protocol.ts";
 
 export const SPAN = 20; // s
-const RATE = 25; // samples/s that are kept
+const RATE = 20; // samples/s that are kept
 const ROOM = SPAN * RATE + 2;
 
 export class History {

@@ -34,8 +34,8 @@ export class Plot {
 
   constructor(look: Look) {
     const keys = look.curves.flatMap((curve) => (curve.label ? [key(curve, curve.label)] : []));
-    const head = el("header", {}, el("b", {}, look.title), el("small", {}, look.unit), el("span", { class: "keys" }, ...keys));
-    if (look.more) head.append(look.more);
+    const head = el("header", {}, el("b", {}, look.title), look.more ?? el("small", {}, look.unit));
+    head.append(el("span", { class: "keys" }, ...keys));
     this.card = el("article", { class: "plot" }, head, this.body);
     this.plot = new uPlot(options(look), [[], ...look.curves.map(() => [])], this.body);
     new ResizeObserver(() => {

@@ -62,9 +62,9 @@ export class Plots {
   }
 
   private tracking(): { plot: Plot; columns: () => Float64Array[] } {
-    const wanted = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "reference" }) }));
+    const wanted = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "ref." }) }));
     const actual = AXES.map((color, i) => ({ color, label: NAMES[i] }));
-    const more = choice("What is shown", { place: "m", off: "off by, cm" }, "place", (value) => {
+    const more = choice("What is shown", { place: "m", off: "off, cm" }, "place", (value) => {
       this.difference = value === "off";
     });
     const plot = new Plot({ title: "Position", unit: "", curves: [...wanted, ...actual], least: 0.5, more });
@@ -100,7 +100,7 @@ export class Plots {
         band(plot, from, to, phaseTint(name), name);
       }
     };
-    const plot = new Plot({ title: "Disturbance d\u0302, phase", unit: "N", curves, least: 1, under });
+    const plot = new Plot({ title: "Disturbance, phase", unit: "N", curves, least: 1, under });
     return { plot, columns: () => this.of("disturbance") };
   }
 

@@ -30,8 +30,8 @@ export class Hold {
 
   constructor() {
     const paint = new MeshBasicMaterial({ color: HAND, depthTest: false, transparent: true, opacity: 0.9 });
-    this.knob = new Mesh(new SphereGeometry(0.045, 14, 10), paint);
-    this.end = new Mesh(new SphereGeometry(0.03, 12, 8), paint);
+    this.knob = new Mesh(new SphereGeometry(0.03, 14, 10), paint);
+    this.end = new Mesh(new SphereGeometry(0.022, 12, 8), paint);
     const shape = new BufferGeometry().setAttribute("position", new BufferAttribute(this.places, 3));
     this.spring = new Line(shape, new LineBasicMaterial({ color: HAND, depthTest: false, transparent: true }));
     this.spring.frustumCulled = false;
@@ -50,7 +50,7 @@ export class Hold {
     this.group.visible = true;
     this.end.visible = this.spring.visible = this.zone.visible = false;
     this.knob.position.copy(grab);
-    this.knob.scale.setScalar(1.25);
+    this.knob.scale.setScalar(1.8);
   }
 
   /** A hand holds at `grab` and is at `target`; `half` of the zone's sides in world axes [m]. */

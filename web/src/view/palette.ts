@@ -12,6 +12,7 @@ export const PUSH = "#d5281b";
 export const HAND = "#7a3fb5";
 export const PATH = "#1f5fbf";
 export const FLOOR = "#d3d7db";
+export const PALE = "#d9dee2"; // floor and sky of light graphics
 export const LANE = "#e3e6e9";
 export const GRID = "#a9b1ba";
 export const HAZE = "#e9edf1";

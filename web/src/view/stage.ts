@@ -13,7 +13,7 @@ import {
 } from "three";
 
 import type { Graphics } from "./graphics.ts";
-import { HAZE } from "./palette.ts";
+import { HAZE, PALE } from "./palette.ts";
 import { SUN } from "./shadow.ts";
 
 const LIGHT_RATIO = 0.75; // pixels of the picture per pixel of the page, in light graphics
@@ -31,7 +31,6 @@ export class Stage {
     public graphics: Graphics,
   ) {
     this.camera.up.set(0, 0, 1);
-    this.scene.background = new Color(HAZE);
     this.scene.fog = this.fog;
     this.scene.add(new HemisphereLight("#dfe9f5", "#9a948c", 1.5), this.sun, this.sun.target);
     this.sun.shadow.mapSize.set(2048, 2048);
@@ -48,6 +47,8 @@ export class Stage {
   build(graphics: Graphics): void {
     this.graphics = graphics;
     const full = graphics === "full";
+    this.scene.background = new Color(full ? HAZE : PALE);
+    this.fog.color.set(full ? HAZE : PALE);
     const renderer = new WebGLRenderer({ antialias: full, powerPreference: "high-performance" });
     renderer.shadowMap.enabled = this.sun.castShadow = full;
     renderer.shadowMap.type = PCFShadowMap;

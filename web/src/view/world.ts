@@ -23,23 +23,25 @@ import type { Scene, Wall } from "../wire/protocol.ts";
 import type { Graphics } from "./graphics.ts";
 import { FLOOR, FRAME, GRID, HAZE, LANE, WALL, ZENITH } from "./palette.ts";
 
-const EXTENT = 40; // m, half of the grid that moves with the vehicle
+const EXTENT = 30; // m, half of the grid that moves with the vehicle
 const COARSE = 5; // m, between bold lines
+const PIECE = 5; // m
 const SEEN_THROUGH = 0.1; // opacity of a wall between the eye and the vehicle
 const CLOUDY = 0.34;
 
 export class World {
   readonly group = new Group();
   private readonly ground = new Group();
-  private readonly walls: { mesh: Mesh<BoxGeometry, MeshLambertMaterial>; across: Vector3 }[] = [];
+  private readonly walls: { mesh: Mesh<BoxGeometry, MeshBasicMaterial | MeshLambertMaterial>; across: Vector3 }[] = [];
 
   constructor(scene: Scene, graphics: Graphics) {
     this.ground.position.z = scene.floor ?? 0;
-    if (scene.ground) this.ground.add(floor(graphics));
+    // in light graphics the background is the floor: it costs nothing
+    if (scene.ground && graphics === "full") this.ground.add(floor());
     this.ground.add(grid(1, 0.4), grid(COARSE, 0.9));
     this.group.add(this.ground);
     if (graphics === "full") this.group.add(sky());
-    for (const wall of scene.walls) this.addWall(wall);
+    for (const wall of scene.walls) this.addWall(wall, graphics);
     if (scene.corridor?.centreline.length) this.group.add(lane(scene));
   }
 
@@ -53,9 +55,10 @@ export class World {
     }
   }
 
-  private addWall(wall: Wall): void {
+  private addWall(wall: Wall, graphics: Graphics): void {
     const shape = new BoxGeometry(...wall.size);
-    const glass = new MeshLambertMaterial({ color: WALL, transparent: true, opacity: CLOUDY, depthWrite: false });
+    const look = { color: WALL, transparent: true, opacity: CLOUDY, depthWrite: false };
+    const glass = graphics === "light" ? new MeshBasicMaterial(look) : new MeshLambertMaterial(look);
     const mesh = new Mesh(shape, glass);
     const edges = new LineSegments(new EdgesGeometry(shape), new LineBasicMaterial({ color: FRAME }));
     mesh.position.set(...wall.center);
@@ -69,24 +72,25 @@ export class World {
   }
 }
 
-function floor(graphics: Graphics): Mesh {
+function floor(): Mesh {
   const size = 6 * EXTENT;
-  const light = graphics === "light";
-  const paint = light ? new MeshBasicMaterial({ color: FLOOR }) : new MeshLambertMaterial({ color: FLOOR });
-  const mesh = new Mesh(new PlaneGeometry(size, size), paint);
-  mesh.receiveShadow = !light;
-  mesh.position.z = -0.004;
+  // nothing is below it, and nothing fights with it
+  const mesh = new Mesh(new PlaneGeometry(size, size), new MeshLambertMaterial({ color: FLOOR, depthWrite: false }));
+  mesh.receiveShadow = true;
+  mesh.renderOrder = -2;
   return mesh;
 }
 
+/** Lines in short pieces: some software renderers drop a line that passes behind the eye. */
 function grid(step: number, opacity: number): LineSegments {
   const ends: number[] = [];
   for (let i = -EXTENT; i <= EXTENT; i += step) {
     if (step === 1 && i % COARSE === 0) continue;
-    ends.push(-EXTENT, i, 0, EXTENT, i, 0, i, -EXTENT, 0, i, EXTENT, 0);
+    for (let j = -EXTENT; j < EXTENT; j += PIECE) ends.push(j, i, 0, j + PIECE, i, 0, i, j, 0, i, j + PIECE, 0);
   }
   const shape = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(ends), 3));
-  return new LineSegments(shape, new LineBasicMaterial({ color: GRID, transparent: true, opacity }));
+  const paint = new LineBasicMaterial({ color: GRID, transparent: true, opacity, depthWrite: false });
+  return new LineSegments(shape, paint);
 }
 
 /** The floor of the corridor, brighter than the rest. */
@@ -102,11 +106,9 @@ function lane(scene: Scene): Mesh {
   const shape = new BufferGeometry();
   shape.setAttribute("position", new BufferAttribute(new Float32Array(corners), 3));
   shape.setIndex(faces);
-  const paint = new MeshBasicMaterial({ color: LANE, side: DoubleSide, polygonOffset: true, transparent: true });
-  paint.opacity = 0.6;
-  paint.depthWrite = false;
-  const mesh = new Mesh(shape, paint);
-  mesh.position.z = (scene.floor ?? 0) + 0.001;
+  const mesh = new Mesh(shape, new MeshBasicMaterial({ color: LANE, side: DoubleSide, depthWrite: false }));
+  mesh.position.z = scene.floor ?? 0;
+  mesh.renderOrder = -1;
   return mesh;
 }
 
