@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from typing import Any
 
-from tandemlift.errors import InputError
+from tandemlift.errors import FlightWarning, InputError
 from tandemlift.missions import changed
 from tandemlift.settings import Mission
 
@@ -21,6 +22,12 @@ def by_hand(mission: Mission) -> Mission:
     Where it can have them, a wind that can be made to blow, rotors that can be made to fail, and a pilot that looks out
     for both.
     """
+    with warnings.catch_warnings():  # of what may go badly with rotors that may fail
+        warnings.simplefilter("ignore", FlightWarning)
+        return _by_hand(mission)
+
+
+def _by_hand(mission: Mission) -> Mission:
     hand = HAND if mission.partner.model != "grab" else {}
     mission = changed(mission, "partner", hand | {"recording": None} if hand else {})
     for key, value in _always(mission):

@@ -24,7 +24,7 @@ from tandemlift.jit import flat, leaves, unflat
 from tandemlift.laws.grab import NOBODY_HOLDS, Held
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
 from tandemlift.prepared import Prepared
-from tandemlift.recording import Recording, write_recording
+from tandemlift.recording import WIDTH, Recording, write_recording
 from tandemlift.settings import Mission
 from tandemlift.stepwise import Stepper
 from tandemlift.tally import EMPTY, Tally
@@ -164,9 +164,8 @@ class Snapshot:
     def save(self, folder: Path) -> Flight:
         """Write mission, hand and flight into a folder; the flight that the mission flies again."""
         steps = np.array([k for k, _ in self._rows], dtype=np.int64)
-        hands = np.array([hand for _, hand in self._rows]).reshape(len(steps), -1)
-        width = len(flat(NOBODY_HOLDS))
-        write_recording(folder / HAND, Recording(steps, hands.reshape(-1, width)))
+        hands = np.reshape([hand for _, hand in self._rows], (len(steps), WIDTH))
+        write_recording(folder / HAND, Recording(steps, hands))
         with whole(folder / MISSION) as partial:
             partial.write_text(self._toml(folder.name), "utf-8")
         p = Prepared(load_mission(folder / MISSION))
@@ -178,14 +177,8 @@ class Snapshot:
         return Flown(self._moving, self._early, self._steps, self._log, self._last, self._wall)
 
     def _toml(self, name: str) -> str:
-        tables = tables_of(self._start)
-        tables["mission"] |= {"name": name, "duration": self._duration()}
+        tables, step = tables_of(self._start), self._start.mission.step
+        tables["mission"] |= {"name": name, "duration": self._steps * step}
         tables["partner"]["recording"] = HAND
-        tables["changes"] = [c for c in self._changes if round(c["time"] / self._step()) <= self._steps]
+        tables["changes"] = [c for c in self._changes if round(c["time"] / step) <= self._steps]
         return format_toml(tables)
-
-    def _step(self) -> float:
-        return self._start.mission.step
-
-    def _duration(self) -> float:
-        return self._steps * self._step()
