@@ -22,6 +22,7 @@ from tandemlift.settings import Mission
 from tandemlift.vector import Nothing, layout
 
 Array = NDArray[np.float64]
+STEADY = {"changes": ()}
 LATER = "is chosen before a flight begins, and cannot be changed in flight"
 
 
@@ -73,10 +74,17 @@ def _numbers(value: Any) -> Any:
     return flat(value) if isinstance(value, tuple) else value
 
 
+def _parameters(p: Prepared) -> list[float]:
+    """The numbers of a flight that do not change by themselves."""
+    return flat(p.flying)[leaves(p.flying.moving) :]
+
+
 def _check(before: Prepared, after: Prepared, key: str) -> None:
     if _parts_but_the_controller(before) != _parts_but_the_controller(after):
         raise InputError(f"{key} {LATER}")
     if before.variant == after.variant:
+        if _parameters(before) == _parameters(after) and before.mission.model_copy(update=STEADY) != after.mission:
+            raise InputError(f"{key} has no effect in this flight once it has begun")
         return
     if before.interpreted or after.interpreted:
         name = (before if before.interpreted else after).mission.controller.name

@@ -9,7 +9,12 @@ from tandemlift.live.by_hand import by_hand
 from tandemlift.live.recorded import FLIGHT, HAND, MISSION, RecordedFlight
 from tandemlift.vector import Vec3
 
-GUIDED = {"pilot.guidance": "hand", "phases.rotors": "flight", "ground.model": "floor"}
+GUIDED = {
+    "pilot.guidance": "hand",
+    "phases.rotors": "flight",
+    "ground.model": "floor",
+    "compliance.yaw.model": "yielding",
+}
 
 
 def started(engine="compiled", **keys):

@@ -76,6 +76,7 @@ def test_missions_that_change_fly_among_many_as_alone():
         ([change("vehicle.payload.mass", 1.0)], "vehicle.payload.mass is chosen before a flight begins"),
         ([change("wind.model", "air")], "wind.model is chosen before a flight begins"),
         ([change("mission.duration", 20.0)], "mission.duration is chosen before a flight begins"),
+        ([change("mission.name", "other")], "mission.name has no effect in this flight"),
         ([change("admittance.mass", -1.0)], "changes.0: mission: admittance.mass = -1.0: must be"),
         ([change("admittance.mas", 1.0)], "admittance.mas = 1.0: unknown key"),
         ([change("admittance.mass", 1.0), change("admittance.mass", 2.0, 4.0)], "changes.1.time = 4.0: must not be"),

@@ -141,8 +141,8 @@ class Session:
 
     # what a page says
 
-    def apply(self, message: messages.Message, seq: int) -> dict[str, Any] | None:
-        """Heed a message; what there is to answer.
+    def apply(self, message: messages.Message, seq: int) -> Any:
+        """Heed a message; what there is to answer: a dictionary, several, or None.
 
         Raises:
             InputError: it cannot be done; the text says why.
@@ -167,7 +167,7 @@ class Session:
                 self._move(**{wish: 0.0})
 
     @singledispatchmethod
-    def _heed(self, message: Any) -> dict[str, Any] | None:
+    def _heed(self, message: Any) -> Any:
         raise InputError(f"{message.type}: nothing here heeds it")
 
     @_heed.register
@@ -246,21 +246,23 @@ class Session:
     def _set(self, m: messages.Set) -> dict[str, Any]:
         value = list(m.value) if isinstance(m.value, tuple) else m.value
         self._check(m.key, value)
-        duration = 0.0 if m.key == CONTROLLER else RAMP
-        for key in keys_of(self._flight.now, m.key):
-            self._change(key, value, duration)
-        return {"type": "changed", "key": m.key, "value": value, "duration": duration}
+        return self._set_to(m.key, value)
+
+    def _set_to(self, key: str, value: Any) -> dict[str, Any]:
+        duration = 0.0 if key == CONTROLLER else RAMP
+        for one in keys_of(self._flight.now, key):
+            self._change(one, value, duration)
+        return {"type": "changed", "key": key, "value": value, "duration": duration}
 
     @_heed.register
-    def _restore(self, m: messages.Restore) -> dict[str, Any] | None:
-        start, now = tables_of(self._mission), tables_of(self._flight.now)
-        answer = None
+    def _restore(self, m: messages.Restore) -> list[dict[str, Any]]:
+        start, answers = tables_of(self._mission), []
         for key in [CONTROLLER, *BY_KEY] if m.key is None else [m.key]:
             value = value_of(start, key)
-            if value is not MISSING and value != value_of(now, key):
-                seq = m.seq
-                answer = self._set(messages.Set(type="set", seq=seq, key=key, value=_tuple(value)))
-        return answer
+            if value is not MISSING and value != value_of(tables_of(self._flight.now), key):
+                self._check(key, value)
+                answers.append(self._set_to(key, value))
+        return answers
 
     # changes
 
@@ -288,7 +290,3 @@ class Session:
         with self._lock:
             if flight is self._flight:
                 flight.change(due, key, value, duration)
-
-
-def _tuple(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list) else value

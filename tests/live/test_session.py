@@ -1,0 +1,247 @@
+"""What a page says to a flight, and what becomes of it; the flight is moved by the tests, not by the clock."""
+
+import time
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.live import messages
+from tandemlift.live.frames import read_frames
+from tandemlift.live.pace import MOST_BEHIND, Pace
+from tandemlift.live.session import Session
+
+GUIDED = {
+    "pilot.guidance": "hand",
+    "phases.rotors": "flight",
+    "ground.model": "floor",
+    "compliance.yaw.model": "yielding",
+}
+STIFFNESS, THRESHOLD = 8.0, 0.3  # N/m, N
+
+
+@pytest.fixture
+def session(tmp_path):
+    one = Session(tl.load_mission("hover", GUIDED | {"admittance.threshold": THRESHOLD}), out=tmp_path)
+    yield one
+    one.stop()
+
+
+def say(session, kind, **what):
+    return session.apply(getattr(messages, kind.capitalize())(type=kind, seq=1, **what), 1)
+
+
+def fly(session, seconds):
+    for _ in range(round(seconds / session._flight.dt)):
+        session._forget_wishes()
+        session._flight.advance()
+
+
+def seen(session):
+    fields = tuple((name, count) for name, count in session.scene["fields"])
+    return {name: value[0] for name, value in read_frames(fields, session.frame()).items()}
+
+
+def up(session):
+    fly(session, 8.0)
+    assert session.status()["phase"] in ("guided", "hold")
+    return seen(session)["position"]
+
+
+def test_a_scene_tells_of_the_hand_and_of_what_may_be_changed(session):
+    assert session.scene["spring"]["stiffness"] == STIFFNESS
+    keys = {control["key"] for control in session.scene["controls"]}
+    assert {"admittance.mass", "controller.name", "partner.stiffness", "wind.velocity"} <= keys
+    assert not {k for k in keys if k.startswith("sensors")}, "it has none"
+
+
+def test_the_beam_comes_to_the_hand_less_threshold_over_stiffness_and_rests_when_let_go(session):
+    at = up(session)
+    target = (float(at[0]) + 0.8, float(at[1]), float(at[2]))
+    say(session, "grab", point=(0.0, 0.0, 0.0), target=target, at="point")
+    fly(session, 15.0)
+    here = seen(session)
+    assert here["held"] == 1.0
+    assert 0.0 < target[0] - here["position"][0] < 1.3 * THRESHOLD / STIFFNESS + 0.01
+    say(session, "release")
+    fly(session, 4.0)
+    there = seen(session)
+    assert there["held"] == 0.0
+    assert np.abs(there["push"]).max() == 0.0
+    assert np.abs(there["velocity"]).max() < 0.01
+
+
+def test_pulled_at_the_centre_nothing_turns_and_pulled_at_an_end_the_beam_does(session):
+    at = up(session)
+    end = (0.0, 0.9, 0.0)
+    target = (float(at[0]) + 0.5, float(at[1]) + 0.9, float(at[2]))
+    say(session, "grab", point=end, target=target, at="centre")
+    fly(session, 1.0)
+    assert abs(seen(session)["reference_yaw"]) < 1e-3
+    assert np.allclose(seen(session)["hand_point"], 0.0)
+    assert np.allclose(seen(session)["hand_target"], np.add(at, [0.5, 0.0, 0.0]), atol=0.02)
+    say(session, "release")
+    fly(session, 3.0)
+    farther = (target[0] + 1.0, *target[1:])
+    say(session, "grab", point=end, target=farther, at="point")
+    fly(session, 0.5)
+    assert np.allclose(seen(session)["hand_point"], end)
+    assert seen(session)["push"][0] > 1.0
+    fly(session, 1.0)
+    assert abs(seen(session)["reference_yaw"]) > 0.05
+
+
+def test_a_key_pushes_with_its_force_and_stops_when_it_is_let_go(session):
+    up(session)
+    say(session, "force", force=(2.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+    fly(session, 1.0)
+    assert seen(session)["push"] == pytest.approx([2.0, 0.0, 0.0], abs=1e-3)
+    say(session, "force", force=(0.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+    fly(session, 1.0)
+    assert np.abs(seen(session)["push"]).max() < 1e-6
+
+
+def test_it_lands_and_lifts_again_when_it_is_asked_to_and_stops_at_once(session):
+    at = up(session)
+    say(session, "ask", what="land")
+    fly(session, 25.0)
+    assert session.status()["phase"] == "idle"
+    assert seen(session)["position"][2] < at[2] - 0.3
+    say(session, "ask", what="lift")
+    fly(session, 10.0)
+    assert session.status()["phase"] in ("guided", "hold")
+    say(session, "ask", what="stop")
+    fly(session, 0.1)
+    assert session.status()["phase"] == "stopped"
+
+
+def test_while_it_may_not_listen_it_holds_its_place(session):
+    at = up(session)
+    say(session, "enable", on=False)
+    say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+    fly(session, 3.0)
+    assert np.abs(seen(session)["reference"] - at)[:2].max() < 0.02
+    say(session, "enable", on=True)
+    fly(session, 3.0)
+    assert seen(session)["reference"][0] - at[0] > 0.3
+
+
+def test_a_setting_changes_for_good_and_comes_back_to_what_the_mission_says(session):
+    before = list(session._mission.admittance.mass)
+    answer = say(session, "set", key="admittance.mass", value=(5.0, 5.0, 5.0))
+    assert answer["value"] == [5.0, 5.0, 5.0]
+    assert session._flight.now.admittance.mass == (5.0, 5.0, 5.0)
+    say(session, "set", key="wind.velocity", value=(1.0, 0.0, 0.0))
+    fly(session, 1.0)
+    assert seen(session)["wind"][0] == pytest.approx(1.0, abs=0.05)
+    told = say(session, "restore")
+    assert {t["key"] for t in told} == {"admittance.mass", "wind.velocity"}
+    assert list(session._flight.now.admittance.mass) == before
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("admittance.mass", 1e9, "admittance.mass = 1000000000.0: must be from 0.3 to 20"),
+        ("admittance.mass", True, "must be a number"),
+        ("admittance.mass", (1.0, 2.0), "admittance.mass"),
+        ("mission.step", 0.01, "is not among the controls"),
+        ("controller.name", "none", "unknown controller"),
+        ("sensors.joints.force_noise", 0.1, "sensors.joints.force_noise"),
+    ],
+)
+def test_what_cannot_be_changed_is_refused_with_a_reason_and_the_flight_goes_on(session, key, value, words):
+    now = session._flight.now
+    with pytest.raises(tl.InputError) as refused:
+        say(session, "set", key=key, value=value)
+    assert words in str(refused.value)
+    assert session._flight.now is now
+    fly(session, 0.1)
+
+
+def test_a_rotor_that_cannot_fail_is_not_killed(session):
+    with pytest.raises(tl.InputError, match="rotor = 3: the rotors of this mission cannot fail"):
+        say(session, "kill", rotor=3)
+
+
+def test_another_controller_takes_over_once_it_is_compiled(session):
+    fly(session, 3.0)
+    for _ in range(40):
+        try:
+            say(session, "set", key="controller.name", value="pid")
+            break
+        except tl.InputError as error:
+            assert "is being compiled" in str(error)  # noqa: PT017
+    fly(session, 1.0)
+    assert session._flight.now.controller.name == "pid"
+
+
+def test_a_reset_begins_again_with_the_settings_as_they_are(session):
+    say(session, "set", key="admittance.mass", value=5.0)
+    fly(session, 1.0)
+    generation = session.generation
+    say(session, "reset")
+    assert session.generation == generation + 1
+    assert session.status()["recorded_s"] < 0.01
+    assert session._flight.now.admittance.mass == (5.0, 5.0, 5.0)
+    control = next(c for c in session.scene["controls"] if c["key"] == "admittance.mass")
+    assert list(control["value"]) == [5.0, 5.0, 5.0]
+
+
+def test_what_was_flown_is_saved_under_its_name_and_flies_again(session, tmp_path):
+    fly(session, 2.0)
+    answer = say(session, "save", name="mine")
+    assert answer == {"type": "done", "what": "save", "detail": str(tmp_path / "mine")}
+    again = tl.fly(tl.load_mission(tmp_path / "mine" / "recorded.toml"))
+    np.testing.assert_array_equal(again["position"], tl.Flight.load(tmp_path / "mine" / "flight.npz")["position"])
+
+
+def test_the_thread_flies_until_it_is_stopped_and_pauses(session):
+    session.start()
+    until(lambda: session.status()["recorded_s"] > 0.2)
+    say(session, "pause", on=True)
+    then = session.status()["recorded_s"]
+    time.sleep(0.1)
+    assert session.status()["recorded_s"] == then
+    say(session, "pause", on=False)
+    until(lambda: session.status()["recorded_s"] > then)
+
+
+def until(true, patience=30.0):
+    end = time.monotonic() + patience
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr("tandemlift.live.pace.time.perf_counter", lambda: now[0])
+    return now
+
+
+def test_steps_are_due_as_time_passes_at_the_speed_asked_for(clock):
+    pace = Pace(0.001)
+    clock[0] = 0.0105
+    assert pace.due() == 10
+    pace.flew(10)
+    assert pace.behind == pytest.approx(0.0005)
+    pace.speed = 0.5
+    clock[0] += 0.02
+    assert pace.due() == 10
+
+
+def test_what_a_machine_cannot_keep_up_with_is_forgotten(clock):
+    pace = Pace(0.001)
+    clock[0] = 10.0
+    assert pace.due() == round(MOST_BEHIND / 0.001)
+
+
+def test_the_factor_is_time_flown_over_time_passed(clock):
+    pace = Pace(0.001)
+    for _ in range(300):
+        clock[0] += 0.01
+        pace.due()
+        pace.flew(5)
+    assert pace.factor == pytest.approx(0.5, rel=0.02)
