@@ -84,7 +84,7 @@ def test_pulled_at_the_centre_nothing_turns_and_pulled_at_an_end_the_beam_does(s
     fly(session, 3.0)
     farther = (target[0] + 1.0, *target[1:])
     say(session, "grab", point=end, target=farther, at="point")
-    fly(session, 0.5)
+    fly(session, 0.15)
     assert np.allclose(seen(session)["hand_point"], end)
     assert seen(session)["push"][0] > 1.0
     fly(session, 1.0)
