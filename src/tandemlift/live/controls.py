@@ -70,13 +70,15 @@ def _may_be_changed(mission: Mission, key: str) -> bool:
     return not absent.get(key.partition(".")[0], False)
 
 
-def controls_of(mission: Mission) -> Iterator[dict[str, Any]]:
-    """The controls of a mission, as a scene has them."""
-    tables = tables_of(mission)
+def controls_of(mission: Mission, first: Mission) -> Iterator[dict[str, Any]]:
+    """The controls of a mission, as a scene has them; `first`: the one that they can be brought back to."""
+    tables, initial = tables_of(mission), tables_of(first)
     for c in CONTROLS:
         value = value_of(tables, c.key)
         if value is not MISSING and _may_be_changed(mission, c.key):
-            bounds = {"min": c.low, "max": c.high}
-            yield {"key": c.key, "label": c.label, "group": c.group, "unit": c.unit, "value": value, **bounds}
+            back = value_of(initial, c.key)
+            held = {} if back is MISSING else {"initial": back}
+            about = {"key": c.key, "label": c.label, "group": c.group, "unit": c.unit, "value": value}
+            yield {**about, **held, "min": c.low, "max": c.high}
     name = {"key": CONTROLLER, "label": "controller", "group": "pilot", "value": mission.controller.name}
-    yield {**name, "choices": sorted(CONTROLLERS)}
+    yield {**name, "initial": first.controller.name, "choices": sorted(CONTROLLERS)}

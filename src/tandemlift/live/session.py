@@ -82,7 +82,7 @@ class Session:
     def _scene_of(self, mission: Mission) -> dict[str, Any]:
         p = mission.partner
         spring = {"stiffness": p.stiffness, "damping": p.damping, "max_force": p.max_force}
-        return scene_of(mission, self._engine, controls=list(controls_of(mission)), spring=spring)
+        return scene_of(mission, self._engine, controls=list(controls_of(mission, self._mission)), spring=spring)
 
     # the thread
 
@@ -132,6 +132,7 @@ class Session:
             return {
                 "phase": "lost" if flight.lost else NAMES[int(values["phase"][0])],
                 "alarm": self._names[int(values["alarm"][0])] if "alarm" in values else "",
+                "enabled": bool(flight.hand.enabled),
                 "paused": pace.paused,
                 "speed": pace.speed,
                 "factor": round(pace.factor, 3),

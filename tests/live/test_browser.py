@@ -1,0 +1,204 @@
+"""The live page in a real browser, with real events of a mouse: what a person would do, and see."""
+
+import contextlib
+import io
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import tandemlift as tl
+from tandemlift.live.frames import read_frames
+
+REQUIRED = os.environ.get("TANDEMLIFT_REQUIRE_ALL")
+CHROMIUM = Path("/usr/bin/chromium")
+if not REQUIRED:
+    pytest.importorskip("playwright")
+    if not CHROMIUM.exists():
+        pytest.skip("Debian's Chromium is not installed", allow_module_level=True)
+
+from playwright.sync_api import sync_playwright  # noqa: E402
+from websockets.sync.client import connect  # noqa: E402
+
+FLAGS = (
+    *("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
+)
+SETTINGS = {
+    "pilot.guidance": "hand",
+    "phases.rotors": "flight",
+    "ground.model": "floor",
+    "compliance.yaw.model": "yielding",
+    "admittance.threshold": 0.3,
+}
+SIZE = {"width": 800, "height": 450}
+PATIENCE = 60.0  # s, for a machine that has other things to do
+
+
+def until(true, what):
+    end = time.monotonic() + PATIENCE
+    while not (found := true()):
+        assert time.monotonic() < end, what
+        time.sleep(0.03)
+    return found
+
+
+class Live:
+    """`tandemlift live`, as a person starts it, and what it shows to one who only watches."""
+
+    def __init__(self, out):
+        settings = [f"--set={key}={value}" for key, value in SETTINGS.items()]
+        command = [sys.executable, "-m", "tandemlift", "live", "hover", "--no-browser", "--port=0", f"--out={out}"]
+        self.process = subprocess.Popen([*command, *settings], stdout=subprocess.PIPE, text=True)
+        self.address = until(lambda: re.search(r"http://\S+", self.process.stdout.readline()), "an address")[0]
+        self.leaving, self.out = contextlib.ExitStack(), out
+        watching = connect(self.address.replace("http", "ws") + "ws", origin=self.address.rstrip("/"))
+        self.socket = self.leaving.enter_context(watching)
+        self.scene, self.status = None, {}
+        self.look()
+
+    def look(self):
+        """The latest frame."""
+        frame = None
+        while True:
+            try:
+                told = self.socket.recv(timeout=0.0 if frame is not None and self.scene else 10.0)
+            except TimeoutError:
+                fields = tuple(map(tuple, self.scene["fields"]))
+                return {name: value[0] for name, value in read_frames(fields, frame).items()}
+            if isinstance(told, bytes):
+                frame = told
+            else:
+                self.heed(json.loads(told))
+
+    def heed(self, told):
+        if told["type"] == "scene":
+            self.scene = told
+        elif told["type"] == "status":
+            self.status = told
+
+    def wait(self, true, what):
+        return until(lambda: next((seen for seen in [self.look()] if true(seen)), None), what)
+
+    def wait_status(self, true, what):
+        until(lambda: self.look() and true(self.status), what)
+
+    def close(self):
+        self.leaving.close()
+        self.process.send_signal(signal.SIGINT)
+        with self.process:
+            assert self.process.wait(PATIENCE) == 0
+
+
+@pytest.fixture(scope="module")
+def live(tmp_path_factory):
+    one = Live(tmp_path_factory.mktemp("live"))
+    try:
+        yield one
+    finally:
+        one.close()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with sync_playwright() as playwright:
+        one = playwright.chromium.launch(executable_path=str(CHROMIUM), args=FLAGS)
+        yield one
+        one.close()
+
+
+def opened(browser, address, **options):
+    """A page, and the list of what went wrong on it."""
+    page = browser.new_context(viewport=SIZE, **options).new_page()
+    page.wrong = []
+    page.on("pageerror", lambda error: page.wrong.append(str(error)))
+    page.on("console", lambda said: page.wrong.append(said.text) if said.type == "error" else None)
+    page.goto(address)
+    page.wait_for_selector("#surface canvas")
+    return page
+
+
+@pytest.fixture
+def page(browser, live):
+    live.wait_status(lambda s: s["phase"] in ("guided", "hold"), "hover")
+    one = opened(browser, live.address)
+    until(lambda: one.text_content("#mode") in ("guided", "holding", "hold"), "a status on the page")
+    yield one
+    assert one.wrong == []
+    one.context.close()
+
+
+def middle_of_the_beam(page):
+    """Where on the page the middle of the wooden beam is: the middle of what has its colour."""
+    def seen():
+        box = page.locator("#surface canvas").bounding_box()
+        image = np.asarray(Image.open(io.BytesIO(page.screenshot(clip=box))).convert("RGB")).astype(int)
+        r, g, b = image[..., 0], image[..., 1], image[..., 2]
+        rows, columns = np.nonzero((r > 1.25 * g) & (g > 1.25 * b) & (r > 70) & (r < 215))
+        return None if len(rows) < 100 else (box["x"] + np.median(columns), box["y"] + np.median(rows))
+
+    return until(seen, "a beam on the page")
+
+
+def rests(seen):
+    return np.abs(seen["velocity"]).max() < 0.02 and seen["held"] == 0.0
+
+
+def test_grabbed_and_pulled_the_beam_follows_the_cursor_and_rests_when_it_is_let_go(page, live):
+    before = live.wait(rests, "rest")
+    x, y = middle_of_the_beam(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
+    for i in range(20):
+        page.mouse.move(x + 6 * i, y, steps=1)
+        time.sleep(0.02)
+    pulled = live.wait(lambda s: np.linalg.norm(s["hand_target"] - before["position"]) > 0.3, "a target that moved")
+    assert live.status["holder"] == "other"
+
+    def follows(seen):
+        return np.linalg.norm(seen["position"] - before["position"]) > 0.15 and np.linalg.norm(seen["push"]) > 0.0
+
+    live.wait(follows, "the beam to follow")
+    near = 0.3 / live.scene["spring"]["stiffness"] + 0.1
+
+    def arrived(seen):
+        reach = seen["hand_target"] - seen["position"] - (pulled["hand_point"] * 0.0)
+        arm = np.linalg.norm(pulled["hand_point"])
+        return np.linalg.norm(reach) < near + arm
+
+    live.wait(arrived, "the beam to arrive")
+    page.mouse.up()
+    live.wait(lambda seen: seen["held"] == 0.0, "release")
+    live.wait(rests, "rest after release")
+
+
+def test_one_holds_the_beam_at_a_time_and_a_page_that_is_closed_lets_go(page, live, browser):
+    live.wait(rests, "rest")
+    other = opened(browser, live.address)
+    x, y = middle_of_the_beam(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
+    held = live.look()["hand_point"]
+    until(lambda: "else" in (other.text_content("#meters") or "") or "other" in (other.text_content("#meters") or ""), "the holder told")
+    u, v = middle_of_the_beam(other)
+    other.mouse.move(u + 30, v)
+    other.mouse.down()
+    other.mouse.move(u + 60, v)
+    time.sleep(0.3)
+    assert np.allclose(live.look()["hand_point"], held, atol=1e-6)
+    other.mouse.up()
+    assert live.look()["held"] == 1.0
+    other.context.close()
+    page.context.close()
+    live.wait(lambda seen: seen["held"] == 0.0, "release by a closed page")
+    live.wait(rests, "rest")
