@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -15,7 +16,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-import tandemlift as tl
 from tandemlift.live.frames import read_frames
 
 REQUIRED = os.environ.get("TANDEMLIFT_REQUIRE_ALL")
@@ -26,6 +26,7 @@ if not REQUIRED:
         pytest.skip("Debian's Chromium is not installed", allow_module_level=True)
 
 from playwright.sync_api import sync_playwright  # noqa: E402
+from websockets.exceptions import ConnectionClosed  # noqa: E402
 from websockets.sync.client import connect  # noqa: E402
 
 FLAGS = (
@@ -59,25 +60,20 @@ class Live:
         command = [sys.executable, "-m", "tandemlift", "live", "hover", "--no-browser", "--port=0", f"--out={out}"]
         self.process = subprocess.Popen([*command, *settings], stdout=subprocess.PIPE, text=True)
         self.address = until(lambda: re.search(r"http://\S+", self.process.stdout.readline()), "an address")[0]
-        self.leaving, self.out = contextlib.ExitStack(), out
-        watching = connect(self.address.replace("http", "ws") + "ws", origin=self.address.rstrip("/"))
-        self.socket = self.leaving.enter_context(watching)
-        self.scene, self.status = None, {}
-        self.look()
+        self.out, self.scene, self.frame, self.status = out, None, None, {}
+        self.watching = threading.Thread(target=self.watch)
+        self.watching.start()
+        until(lambda: self.scene and self.frame and self.status, "a scene, a frame and a status")
 
-    def look(self):
-        """The latest frame."""
-        frame = None
-        while True:
-            try:
-                told = self.socket.recv(timeout=0.0 if frame is not None and self.scene else 10.0)
-            except TimeoutError:
-                fields = tuple(map(tuple, self.scene["fields"]))
-                return {name: value[0] for name, value in read_frames(fields, frame).items()}
-            if isinstance(told, bytes):
-                frame = told
-            else:
-                self.heed(json.loads(told))
+    def watch(self):
+        """Keep what is told last."""
+        where = {"uri": self.address.replace("http", "ws") + "ws", "origin": self.address.rstrip("/")}
+        with contextlib.suppress(ConnectionClosed), connect(**where) as socket:
+            for told in socket:
+                if isinstance(told, bytes):
+                    self.frame = told
+                else:
+                    self.heed(json.loads(told))
 
     def heed(self, told):
         if told["type"] == "scene":
@@ -85,17 +81,22 @@ class Live:
         elif told["type"] == "status":
             self.status = told
 
+    def look(self):
+        """The latest frame."""
+        fields = tuple(map(tuple, self.scene["fields"]))
+        return {name: value[0] for name, value in read_frames(fields, self.frame).items()}
+
     def wait(self, true, what):
         return until(lambda: next((seen for seen in [self.look()] if true(seen)), None), what)
 
     def wait_status(self, true, what):
-        until(lambda: self.look() and true(self.status), what)
+        until(lambda: true(self.status), what)
 
     def close(self):
-        self.leaving.close()
         self.process.send_signal(signal.SIGINT)
         with self.process:
             assert self.process.wait(PATIENCE) == 0
+        self.watching.join()
 
 
 @pytest.fixture(scope="module")
@@ -138,6 +139,7 @@ def page(browser, live):
 
 def middle_of_the_beam(page):
     """Where on the page the middle of the wooden beam is: the middle of what has its colour."""
+
     def seen():
         box = page.locator("#surface canvas").bounding_box()
         image = np.asarray(Image.open(io.BytesIO(page.screenshot(clip=box))).convert("RGB")).astype(int)
@@ -189,7 +191,10 @@ def test_one_holds_the_beam_at_a_time_and_a_page_that_is_closed_lets_go(page, li
     page.mouse.down()
     live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
     held = live.look()["hand_point"]
-    until(lambda: "else" in (other.text_content("#meters") or "") or "other" in (other.text_content("#meters") or ""), "the holder told")
+    until(
+        lambda: "else" in (other.text_content("#meters") or "") or "other" in (other.text_content("#meters") or ""),
+        "the holder told",
+    )
     u, v = middle_of_the_beam(other)
     other.mouse.move(u + 30, v)
     other.mouse.down()
