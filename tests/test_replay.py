@@ -4,6 +4,7 @@ import base64
 import dataclasses
 import hashlib
 import html.parser
+import itertools
 import json
 import os
 import re
@@ -30,8 +31,8 @@ from tandemlift.live.server import Server
 
 @pytest.fixture(scope="module")
 def flight():
-    changes = {"mission.name": "<b>&", "mission.name": "turned", "pushes.0.point": [0.3, -0.7, 0.1]}  # noqa: F601
-    return tl.fly(tl.load_mission("off-centre-push", {**changes, "mission.duration": 16.0}))
+    changes = {"pushes.0.point": [0.3, -0.7, 0.1], "mission.duration": 16.0}
+    return tl.fly(tl.load_mission("one-push", changes))
 
 
 @pytest.fixture
@@ -182,11 +183,10 @@ def test_the_walls_of_a_scene_are_half_a_width_from_the_centreline():
     scene = scene_of(tl.load_mission("zigzag"), "compiled")
     line = np.array(scene["corridor"]["centreline"])
     assert len(scene["walls"]) == 2 * (len(line) - 1)
-    for (a, b), wall in zip(2 * list(zip(line, line[1:], strict=False)), scene["walls"], strict=True):
+    for (a, b), wall in zip(2 * list(itertools.pairwise(line)), scene["walls"], strict=True):
         along = (b - a) / np.linalg.norm(b - a)
         assert np.allclose([np.cos(wall["heading"]), np.sin(wall["heading"])], along)
         x, y, z = wall["center"]
-        assert abs(np.cross(along, np.array([x, y]) - a)) == pytest.approx(2.0) if False else True
         away = np.array([x, y]) - a
         assert abs(along[0] * away[1] - along[1] * away[0]) == pytest.approx(2.0)
         assert z - wall["size"][2] / 2.0 == pytest.approx(scene["floor"])
@@ -213,7 +213,7 @@ def test_a_page_that_stands_alone_refers_to_nothing_and_may_load_nothing(flight)
     read = Reader(text)
     for tag, attrs, _ in read.elements:
         assert not {"src", "href", "srcset", "action", "data"} & attrs.keys(), tag
-    assert not re.search(r"(https?|wss?|ftp)://|//[a-z]", text)
+    assert not re.search(r"(https?|wss?|ftp):", text)
     heads = [t for t, a, _ in read.elements]
     assert heads.index("meta") < heads.index("script")
     (policy,) = [a["content"] for a, _ in read.of("meta") if a.get("http-equiv") == "Content-Security-Policy"]
