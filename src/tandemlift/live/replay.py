@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from tandemlift.errors import InputError
 from tandemlift.flight import Flight
-from tandemlift.laws.phases import GUIDED, LAND, LIFT
 from tandemlift.live.frames import RATE, fields_of, frames_of
 from tandemlift.live.scene import scene_of_tables
+from tandemlift.live.values import values_of
 from tandemlift.rendering.stage import Stage
 from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle
@@ -28,19 +28,6 @@ from tandemlift.vehicle import Vehicle
 Array = NDArray[np.float64]
 
 MOST_FRAMES = 36_000  # ten minutes of them; a longer flight has fewer a second
-PUSHED = 1e-9  # N, below which a push acts nowhere
-CHANNELS = {  # of a frame's fields: the channels that tell of it, the best first
-    "position": ("position",),
-    "attitude": ("attitude",),
-    "velocity": ("velocity",),
-    "reference": ("reference_position",),
-    "push": ("push_force",),
-    "heard": ("push_heard", "push_estimate", "push_force"),
-    "disturbance": ("disturbance_force",),
-    "wind": ("wind_velocity",),
-    "alarm": ("alarm",),
-    "thrusts": ("rotor_thrusts",),
-}
 OFFLINE = (
     "default-src 'none'; script-src 'sha256-{script}'; style-src 'unsafe-inline'; img-src data: blob:; "
     "media-src blob:; base-uri 'none'; form-action 'none'"
@@ -59,7 +46,9 @@ def scene_and_frames(flight: Flight) -> tuple[dict[str, Any], NDArray[np.float32
     vehicle = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
     shown = np.flatnonzero(np.isin(flight.time, stage.time))
     shown = shown[:: _every(flight.time[shown])]
-    frames = frames_of(fields_of(vehicle.rotor_count), _values(flight, shown), len(shown))
+    channels = {name: flight[name][shown] for name in flight.channels}
+    values = values_of(channels, flight.time[shown], flight.mission["phases"])
+    frames = frames_of(fields_of(vehicle.rotor_count), values, len(shown))
     span = {"start": float(flight.time[shown[0]]), "end": float(flight.time[shown[-1]]), "speed": 1}
     engine = flight.version.get("engine", "")
     return {**scene_of_tables(flight.mission, vehicle, engine, stage.floor), "replay": span}, frames
@@ -88,34 +77,6 @@ def _every(time: Array) -> int:
         return 1
     interval = float(np.median(np.diff(time)))
     return max(1, math.ceil(1.0 / (RATE * interval) - 1e-6), math.ceil(len(time) / MOST_FRAMES))
-
-
-def _values(flight: Flight, shown: NDArray[np.intp]) -> dict[str, Array]:
-    """The values of every field that a flight tells of, at its samples of these numbers."""
-    found = {field: next((flight[n] for n in names if n in flight), None) for field, names in CHANNELS.items()}
-    values = {field: channel[shown] for field, channel in found.items() if channel is not None}
-    time, attitude = flight.time[shown], flight["attitude"][shown]
-    values["time"] = time
-    values["reference_yaw"] = flight["reference_euler"][shown, 2]
-    values["push_point"] = _points(values["push"], flight["push_moment"][shown], attitude)
-    values["phase"] = flight["phase"][shown] if "phase" in flight else _phases(time, flight.mission["phases"])
-    return {field: np.nan_to_num(v) for field, v in values.items()}
-
-
-def _points(forces: Array, moments: Array, attitudes: Array) -> Array:
-    """Where forces (T, 3) [N, world] with moments (T, 3) [N m, body] act [m, body]: nearest to the centre of mass."""
-    w, axis = attitudes[:, :1], -attitudes[:, 1:]
-    turned = 2.0 * np.cross(axis, forces)
-    body = forces + w * turned + np.cross(axis, turned)
-    square = np.sum(body * body, axis=1, keepdims=True)
-    return np.where(square > PUSHED**2, np.cross(body, moments) / np.maximum(square, PUSHED**2), 0.0)
-
-
-def _phases(time: Array, phases: Mapping[str, Any]) -> Array:
-    """The phases of a flight that is guided by the clock."""
-    lifting = (time >= phases["lift_start"]) & (time < phases["lift_start"] + phases["lift_duration"])
-    landing = np.full(len(time), False) if phases.get("land_start") is None else time >= phases["land_start"]
-    return np.where(landing, LAND, np.where(lifting & (phases["height"] != 0.0), LIFT, GUIDED))
 
 
 def _data(flight: Flight) -> str:

@@ -1,0 +1,27 @@
+// Bundles the page into the Python package; with --tests, the tests into out/tests for node's own runner.
+import { build } from "esbuild";
+import { copyFile, mkdir, readdir, rm } from "node:fs/promises";
+
+const PAGE = "../src/tandemlift/data/page";
+const SHARED = { bundle: true, format: "esm", target: "es2022", charset: "ascii", logLevel: "warning" };
+
+async function page() {
+  await mkdir(PAGE, { recursive: true });
+  await build({
+    ...SHARED,
+    entryPoints: { page: "src/page.ts" },
+    outdir: PAGE,
+    minify: true,
+    legalComments: "eof",
+  });
+  await copyFile("src/index.html", `${PAGE}/index.html`);
+}
+
+async function tests() {
+  await rm("out", { recursive: true, force: true });
+  const names = (await readdir("tests")).filter((name) => name.endsWith(".test.ts"));
+  const entryPoints = names.map((name) => `tests/${name}`);
+  await build({ ...SHARED, entryPoints, outdir: "out/tests", platform: "node", outExtension: { ".js": ".mjs" } });
+}
+
+await (process.argv.includes("--tests") ? tests() : page());

@@ -1,0 +1,170 @@
+// Brings the parts together: what comes from the flight goes to the picture, what a person does goes to the flight.
+
+import { Grab } from "./hand/grab.ts";
+import { Pushes } from "./hand/pushes.ts";
+import { byId } from "./ui/dom.ts";
+import { Frontend } from "./ui/frontend.ts";
+import { Follow, type View } from "./view/follow.ts";
+import { type Choice, type Graphics, Pace, suited } from "./view/graphics.ts";
+import { Label } from "./view/labels.ts";
+import { Picture, type Shown } from "./view/picture.ts";
+import { Stage } from "./view/stage.ts";
+import { beamAxis } from "./view/vehicle.ts";
+import type { Frame } from "./wire/frames.ts";
+import { Latency } from "./wire/latency.ts";
+import type { Outgoing, Scene, Setting, Status } from "./wire/protocol.ts";
+import type { Recorded } from "./wire/recorded.ts";
+import type { Listener, Source } from "./wire/source.ts";
+
+export class App implements Listener {
+  readonly shown: Shown = { push: true, zone: true, ghost: true, thrust: true, wind: true, trail: true };
+  readonly latency = new Latency();
+  readonly pace = new Pace();
+  readonly follow: Follow;
+  readonly pushes: Pushes;
+  grabAt: "point" | "centre" = "point";
+  current: Frame | null = null;
+  private readonly stage: Stage;
+  private readonly grab: Grab;
+  private readonly front: Frontend;
+  private readonly labels = { push: new Label(byId("labels"), "push"), wind: new Label(byId("labels"), "wind") };
+  private picture: Picture | null = null;
+  private graphics: Choice = "auto";
+  private last = 0;
+
+  constructor(
+    private readonly source: Source,
+    readonly replay: Recorded | null,
+  ) {
+    const surface = byId("surface");
+    this.stage = new Stage(surface, suited());
+    const camera = this.stage.camera;
+    const send = (message: Outgoing, since: number): void => {
+      this.send(message, since);
+    };
+    this.grab = new Grab({
+      camera,
+      surface,
+      send,
+      frame: () => this.current,
+      axis: () => (this.picture && !this.replay ? beamAxis(this.picture.scene.vehicle.payload) : null),
+      atCentre: () => this.grabAt === "centre",
+    });
+    this.follow = new Follow(camera, surface);
+    this.pushes = new Pushes(camera, send, replay === null);
+    this.front = new Frontend(this);
+  }
+
+  start(): void {
+    this.source.start(this);
+    requestAnimationFrame(this.tick);
+  }
+
+  retry(): void {
+    this.source.retry?.();
+  }
+
+  /** Sends a message; its delay is measured if it began with a hand's event at `since` [ms]. */
+  send(message: Outgoing, since?: number): void {
+    const seq = this.source.send(message);
+    if (seq !== null && since !== undefined) this.latency.note(seq, since);
+  }
+
+  get canvas(): HTMLCanvasElement {
+    return this.stage.canvas;
+  }
+
+  get level(): Graphics {
+    return this.stage.graphics;
+  }
+
+  look(view: View): void {
+    if (this.picture) this.follow.look(view, this.picture.center, this.picture.reach);
+  }
+
+  setGraphics(choice: Choice): void {
+    this.graphics = choice;
+    this.rebuild(choice === "auto" ? suited() : choice);
+  }
+
+  // Listener
+
+  scene(scene: Scene): void {
+    const first = this.picture === null;
+    this.grab.cancel();
+    this.current = null;
+    this.picture?.remove();
+    this.picture = new Picture(scene, this.stage, this.labels);
+    this.front.scene(scene);
+    if (!first) return;
+    // where the vehicle stands is known with the first frame; until then, near the origin
+    this.picture.center.set(0, 0, 1);
+    this.look("behind");
+  }
+
+  frame(frame: Frame): void {
+    if (!this.current) this.picture?.center.set(...frame.vector("position"));
+    this.current = frame;
+    this.front.frame(frame);
+  }
+
+  status(status: Status): void {
+    this.front.status(status);
+  }
+
+  changed(key: string, value: Setting, duration: number): void {
+    if (this.picture && key.endsWith("threshold") && Array.isArray(value)) {
+      this.picture.threshold = value as [number, number, number];
+    }
+    if (this.picture && /(spring|hand)\.stiffness$/.test(key)) this.picture.stiffness = Number(value);
+    this.front.changed(key, value, duration);
+  }
+
+  refused(what: string, reason: string): void {
+    if (what.startsWith("grab")) this.grab.cancel();
+    this.front.refused(what, reason);
+  }
+
+  done(what: string, detail: string): void {
+    this.front.done(what, detail);
+  }
+
+  lost(retryAt: number | null): void {
+    this.grab.cancel();
+    this.front.lost(retryAt);
+  }
+
+  found(): void {
+    this.front.found();
+  }
+
+  private readonly tick = (now: number): void => {
+    requestAnimationFrame(this.tick);
+    const passed = Math.min((now - this.last) / 1000, 0.1);
+    this.last = now;
+    this.source.tick?.(now);
+    const { current, picture } = this;
+    if (current && picture) {
+      picture.update(current, this.grab.hand, this.shown);
+      this.follow.update(picture.center, this.grab.pulling, passed);
+      this.grab.flush();
+      this.pushes.flush(this.grab.pulling);
+      picture.draw();
+      this.latency.drawn(current.scalar("seq"), performance.now());
+    }
+    this.front.tick(now);
+    const slow = this.pace.tick(now);
+    if (slow && this.graphics === "auto" && !this.front.filming) this.rebuild("light");
+  };
+
+  /** Draws on at another level of graphics. */
+  private rebuild(graphics: Graphics): void {
+    if (graphics === this.stage.graphics) return;
+    this.stage.build(graphics);
+    if (!this.picture) return;
+    const { scene, threshold, stiffness } = this.picture;
+    this.picture.remove();
+    this.picture = new Picture(scene, this.stage, this.labels);
+    Object.assign(this.picture, { threshold, stiffness });
+  }
+}

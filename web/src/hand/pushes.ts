@@ -1,0 +1,107 @@
+// Pushes of a stated force at the centre of mass, by keyboard or gamepad.
+
+import { type PerspectiveCamera, Vector3 } from "three";
+
+import type { Outgoing, Vector } from "../wire/protocol.ts";
+import { add, levelWays, less, size, times } from "./geometry.ts";
+
+export type Ways = "view" | "world";
+
+// forward, left, up
+const KEYS: Record<string, Vector> = {
+  ArrowUp: [1, 0, 0],
+  KeyW: [1, 0, 0],
+  ArrowDown: [-1, 0, 0],
+  KeyS: [-1, 0, 0],
+  ArrowLeft: [0, 1, 0],
+  KeyA: [0, 1, 0],
+  ArrowRight: [0, -1, 0],
+  KeyD: [0, -1, 0],
+  KeyE: [0, 0, 1],
+  PageUp: [0, 0, 1],
+  KeyQ: [0, 0, -1],
+  PageDown: [0, 0, -1],
+};
+const REST = 0.15; // of a stick's way: less is none
+const STILL = 0.02; // N: a smaller change is not sent
+
+export class Pushes {
+  force = 3; // N
+  ways: Ways = "view";
+  private readonly pressed = new Set<string>();
+  private sent: Vector = [0, 0, 0];
+  private stamp = 0;
+
+  constructor(
+    private readonly camera: PerspectiveCamera,
+    private readonly send: (message: Outgoing, since: number) => void,
+    private readonly listening: boolean,
+  ) {
+    if (!listening) return;
+    window.addEventListener("keydown", this.down);
+    window.addEventListener("keyup", this.up);
+    window.addEventListener("blur", this.release);
+    document.addEventListener("visibilitychange", this.release);
+  }
+
+  get pushing(): boolean {
+    return size(this.sent) > 0;
+  }
+
+  /** Once per picture: sends the force if it has changed; none while the other hand pulls. */
+  flush(pulling: boolean): void {
+    if (!this.listening) return;
+    const wish = pulling ? ([0, 0, 0] as const) : this.inWorld(this.wish());
+    const ended = size(wish) === 0 && size(this.sent) > 0;
+    if (!ended && size(less(wish, this.sent)) < STILL) return;
+    this.sent = wish;
+    this.send({ type: "force", force: wish, point: [0, 0, 0] }, this.stamp || performance.now());
+    this.stamp = 0;
+  }
+
+  release = (): void => {
+    this.pressed.clear();
+    this.flush(true);
+  };
+
+  /** Forward, left and up as the keys and the first gamepad ask for, no longer than 1, times the force. */
+  private wish(): Vector {
+    let sum: Vector = stick();
+    for (const key of this.pressed) sum = add(sum, KEYS[key]);
+    return times(sum, this.force / Math.max(size(sum), 1));
+  }
+
+  private inWorld([ahead, left, up]: Vector): Vector {
+    if (this.ways === "world" || (ahead === 0 && left === 0)) return [ahead, left, up];
+    const looking = this.camera.getWorldDirection(new Vector3()).toArray();
+    const upward = new Vector3(0, 1, 0).applyQuaternion(this.camera.quaternion).toArray();
+    const [forward, leftward] = levelWays(looking, upward);
+    return add(add(times(forward, ahead), times(leftward, left)), [0, 0, up]);
+  }
+
+  private readonly down = (event: KeyboardEvent): void => {
+    if (!(event.code in KEYS) || event.ctrlKey || event.metaKey || event.altKey || typing(event.target)) return;
+    event.preventDefault();
+    this.stamp ||= event.timeStamp;
+    this.pressed.add(event.code);
+  };
+
+  private readonly up = (event: KeyboardEvent): void => {
+    if (this.pressed.delete(event.code)) this.stamp ||= event.timeStamp;
+  };
+}
+
+/** Whether keys belong to what the person is filling in. */
+export function typing(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && target.closest("input, select, textarea, dialog") !== null;
+}
+
+/** Forward, left, up of the first gamepad: left stick level, right stick up and down. */
+function stick(): Vector {
+  const pad = navigator.getGamepads().find((one) => one?.connected);
+  const axis = (i: number): number => {
+    const value = pad?.axes[i] ?? 0;
+    return Math.abs(value) < REST ? 0 : -Math.sign(value) * ((Math.abs(value) - REST) / (1 - REST));
+  };
+  return [axis(1), axis(0), axis(3)];
+}

@@ -1,0 +1,68 @@
+// Building the page: elements by name, with texts as texts, never as markup.
+
+type Attributes = Record<string, string | number | boolean | undefined>;
+type Child = Node | string;
+
+export function el<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === undefined || value === false) continue;
+    element.setAttribute(name, value === true ? "" : String(value));
+  }
+  element.append(...children);
+  return element;
+}
+
+export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
+  return document.getElementById(id) as T;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+export function svg(tag: string, attributes: Attributes = {}, ...children: Node[]): SVGElement {
+  const element = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  element.append(...children);
+  return element;
+}
+
+export function icon(name: string): SVGElement {
+  return svg("svg", { "aria-hidden": "true" }, svg("use", { href: `#i-${name}` }));
+}
+
+/** A button with an icon and its name. */
+export function button(name: string, text: string, title: string, act: () => void, kind = ""): HTMLButtonElement {
+  const element = el("button", { type: "button", title, class: kind }, icon(name), el("span", {}, text));
+  element.addEventListener("click", act);
+  return element;
+}
+
+/** One choice out of a few, side by side. */
+export function choice<T extends string>(
+  name: string,
+  options: Record<T, string>,
+  chosen: NoInfer<T>,
+  act: (value: T) => void,
+): HTMLElement {
+  const buttons = (Object.keys(options) as T[]).map((value) => {
+    const one = el("button", { type: "button", "aria-pressed": String(value === chosen) }, options[value]);
+    one.addEventListener("click", () => {
+      for (const other of buttons) other.setAttribute("aria-pressed", String(other === one));
+      act(value);
+    });
+    return one;
+  });
+  return el("div", { class: "choice", role: "group", "aria-label": name }, ...buttons);
+}
+
+export function toggle(text: string, on: boolean, act: (on: boolean) => void): HTMLElement {
+  const input = el("input", { type: "checkbox", checked: on });
+  input.addEventListener("change", () => {
+    act(input.checked);
+  });
+  return el("label", { class: "toggle" }, input, el("span", {}, text));
+}

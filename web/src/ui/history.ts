@@ -1,0 +1,70 @@
+// The last seconds of the flight for the plots, in columns.
+
+import type { Frame } from "../wire/frames.ts";
+import type { Scene } from "../wire/protocol.ts";
+
+export const SPAN = 20; // s
+const RATE = 20; // samples/s that are kept
+const ROOM = SPAN * RATE + 2;
+
+export class History {
+  readonly names: string[];
+  private readonly columns = new Map<string, Float64Array>();
+  private first = 0;
+  private end = 0;
+
+  constructor(scene: Scene) {
+    const vectors = ["push", "heard", "position", "reference", "disturbance"];
+    const rotors = scene.vehicle.quadrotors.flatMap((q) => q.rotors).length;
+    this.names = [
+      "time",
+      "phase",
+      ...vectors.flatMap((name) => [0, 1, 2].map((i) => `${name}${i}`)),
+      ...Array.from({ length: rotors }, (_, i) => `thrusts${i}`),
+    ];
+    for (const name of this.names) this.columns.set(name, new Float64Array(2 * ROOM));
+  }
+
+  get latest(): number {
+    return this.end > this.first ? this.columns.get("time")![this.end - 1] : NaN;
+  }
+
+  clear(): void {
+    this.first = this.end = 0;
+  }
+
+  /** Keeps a frame if it is due; after a jump of time the past is forgotten. True if there was one. */
+  add(frame: Frame): boolean {
+    const time = frame.scalar("time");
+    const step = time - this.latest;
+    const jumped = step < -1e-4 || step > 2;
+    if (jumped) this.clear();
+    if (!jumped && step < 1 / RATE - 1e-3) return false;
+    this.write(frame);
+    return jumped;
+  }
+
+  column(name: string): Float64Array {
+    return this.columns.get(name)!.subarray(this.first, this.end);
+  }
+
+  private write(frame: Frame): void {
+    if (this.end === 2 * ROOM) {
+      for (const column of this.columns.values()) column.copyWithin(0, this.first, this.end);
+      this.end -= this.first;
+      this.first = 0;
+    }
+    for (const [name, column] of this.columns) column[this.end] = valueOf(frame, name);
+    this.end += 1;
+    if (this.end - this.first > ROOM) this.first += 1;
+    const times = this.columns.get("time")!;
+    while (times[this.end - 1] - times[this.first] > SPAN) this.first += 1;
+  }
+}
+
+function valueOf(frame: Frame, name: string): number {
+  if (name === "time" || name === "phase") return frame.scalar(name);
+  const cut = name.search(/\d+$/);
+  const field = name.slice(0, cut);
+  return frame.layout.has(field) ? frame.values[frame.layout.place(field).start + Number(name.slice(cut))] : NaN;
+}

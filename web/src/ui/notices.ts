@@ -1,0 +1,48 @@
+// Short notices over the picture: what was done, what was refused and why, and a lost connection.
+
+import { byId, el } from "./dom.ts";
+
+const STAY = 6000; // ms
+const MOST = 4;
+
+export class Notices {
+  private readonly place = byId("notices");
+  private readonly banner = byId("lost");
+  private timer = 0;
+
+  constructor(retry: () => void) {
+    byId("retry").addEventListener("click", retry);
+  }
+
+  say(text: string, kind: "done" | "refused"): void {
+    const same = [...this.place.children].find((one) => one.textContent === text);
+    same?.remove();
+    const notice = el("p", { class: kind }, text);
+    notice.addEventListener("click", () => {
+      notice.remove();
+    });
+    this.place.append(notice);
+    while (this.place.children.length > MOST) this.place.firstElementChild?.remove();
+    window.setTimeout(() => {
+      notice.remove();
+    }, STAY);
+  }
+
+  lost(retryAt: number | null): void {
+    this.banner.hidden = false;
+    document.body.classList.add("lost");
+    window.clearInterval(this.timer);
+    const count = (): void => {
+      const left = retryAt === null ? 0 : Math.ceil((retryAt - performance.now()) / 1000);
+      byId("lost-wait").textContent = left > 0 ? `Trying again in ${left} s.` : "Trying again \u2026";
+    };
+    count();
+    this.timer = window.setInterval(count, 250);
+  }
+
+  found(): void {
+    window.clearInterval(this.timer);
+    this.banner.hidden = true;
+    document.body.classList.remove("lost");
+  }
+}

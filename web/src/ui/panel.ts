@@ -1,0 +1,129 @@
+// The panel: the hand, what is drawn, and every setting that the scene offers, by groups.
+
+import type { Scene, Setting } from "../wire/protocol.ts";
+import type { Choice } from "../view/graphics.ts";
+import type { Overlay, Shown } from "../view/picture.ts";
+import { type Ask, ControlBox } from "./control.ts";
+import { choice, el, icon, toggle } from "./dom.ts";
+import { RotorMap } from "./rotormap.ts";
+
+const OVERLAYS: Record<Overlay, string> = {
+  push: "push",
+  zone: "threshold zone",
+  ghost: "ghost of the reference",
+  thrust: "thrusts",
+  wind: "wind",
+  trail: "way flown",
+};
+
+/** What the panel sets on the page itself. */
+export interface Own {
+  grabAt(at: "point" | "centre"): void;
+  force(newtons: number): void;
+  ways(ways: "view" | "world"): void;
+  graphics(choice: Choice): void;
+  shown: Shown;
+  strength: number; // N, of the keyboard
+}
+
+export interface Asks extends Ask {
+  restoreAll(): void;
+  kill(rotor: number): void;
+}
+
+export class Panel {
+  private boxes = new Map<string, ControlBox>();
+  private map: RotorMap | null = null;
+  private open: Record<string, boolean> = {};
+
+  constructor(
+    private readonly place: HTMLElement,
+    private readonly own: Own,
+    private readonly asks: Asks,
+  ) {}
+
+  scene(scene: Scene): void {
+    for (const one of this.place.querySelectorAll("details")) this.open[one.dataset["name"] ?? ""] = one.open;
+    const live = !scene.replay;
+    this.boxes = new Map(scene.controls.map((control) => [control.key, new ControlBox(control, this.asks)]));
+    this.map = live ? new RotorMap(scene, this.asks.kill) : null;
+    const groups = [...new Set(scene.controls.map(({ group }) => group))].map((group) => {
+      const own = scene.controls.filter((control) => control.group === group);
+      return this.group(group, own.map(({ key }) => this.boxes.get(key)!.element));
+    });
+    this.place.replaceChildren(
+      ...(live ? [this.group("hand", this.hand(), true)] : []),
+      ...groups,
+      ...(groups.length ? [this.restore()] : []),
+      ...(this.map ? [this.group("rotors", [this.map.element])] : []),
+      this.group("picture", this.picture(), !live),
+    );
+  }
+
+  thrusts(values: Float32Array): void {
+    this.map?.thrusts(values);
+  }
+
+  dead(rotor: number): void {
+    this.map?.dead(rotor);
+  }
+
+  changed(key: string, value: Setting, duration: number): void {
+    this.boxes.get(key)?.changed(value, duration);
+  }
+
+  /** Shows the reason at the control that it is about; false if there is none. */
+  refused(what: string, reason: string): boolean {
+    const box = this.boxes.get(what.replace(/^(set|restore) /, ""));
+    box?.refuse(reason);
+    return box !== undefined;
+  }
+
+  private group(name: string, children: HTMLElement[], open = false): HTMLElement {
+    const summary = el("summary", {}, name);
+    return el("details", { open: this.open[name] ?? open, "data-name": name }, summary, ...children);
+  }
+
+  private hand(): HTMLElement[] {
+    const { own } = this;
+    const force = el("input", { type: "number", min: 0.1, max: 50, step: 0.1, value: own.strength, id: "key-force" });
+    force.addEventListener("change", () => {
+      const value = Math.min(Math.max(force.valueAsNumber || own.strength, 0.1), 50);
+      force.value = String(value);
+      own.force(value);
+    });
+    const grabs = choice("Where the hand pulls", { point: "where I grab", centre: "centre of mass" }, "point", (at) => {
+      own.grabAt(at);
+    });
+    const ways = choice("Directions of the keys", { view: "as I look", world: "world axes" }, "view", (value) => {
+      own.ways(value);
+    });
+    return [
+      row("Pull", grabs),
+      row("Keys push with", el("label", { class: "newtons", for: "key-force" }, force, "N")),
+      row("Keys point", ways),
+    ];
+  }
+
+  private picture(): HTMLElement[] {
+    const { own } = this;
+    const names = Object.keys(OVERLAYS) as Overlay[];
+    const toggles = names.map((name) => toggle(OVERLAYS[name], own.shown[name], (on) => (own.shown[name] = on)));
+    const graphics = choice("Graphics", { auto: "auto", full: "full", light: "light" }, "auto", (value) => {
+      own.graphics(value);
+    });
+    return [el("div", { class: "toggles-list" }, ...toggles), row("Graphics", graphics)];
+  }
+
+  private restore(): HTMLElement {
+    const all = el("button", { type: "button", class: "restore-all" }, icon("back"), "All back to the mission's");
+    all.addEventListener("click", () => {
+      this.asks.restoreAll();
+    });
+    return all;
+  }
+}
+
+function row(name: string, content: HTMLElement): HTMLElement {
+  return el("div", { class: "row" }, el("span", {}, name), content);
+}

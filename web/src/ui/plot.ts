@@ -1,0 +1,128 @@
+// One plot of the last seconds, with its head: name, unit, legend, and a choice where there is one.
+
+import uPlot from "uplot";
+
+import { el } from "./dom.ts";
+import { SPAN } from "./history.ts";
+
+export interface Curve {
+  color: string;
+  label?: string; // in the legend
+  dash?: number[];
+  width?: number;
+}
+
+export interface Look {
+  title: string;
+  unit: string;
+  curves: Curve[];
+  least: number; // the smallest span of values that is shown
+  fromZero?: boolean;
+  under?: (plot: uPlot) => void; // drawn below the curves
+  more?: HTMLElement;
+}
+
+const FONT = "10px system-ui, sans-serif";
+const INK = "#5d6875";
+const HAIR = { stroke: "#e4e8ec", width: 1 };
+
+export class Plot {
+  readonly card: HTMLElement;
+  private readonly body = el("div", { class: "canvas" });
+  private readonly plot: uPlot;
+  private dirty = true;
+
+  constructor(look: Look) {
+    const keys = look.curves.flatMap((curve) => (curve.label ? [key(curve, curve.label)] : []));
+    const head = el("header", {}, el("b", {}, look.title), look.more ?? el("small", {}, look.unit));
+    head.append(el("span", { class: "keys" }, ...keys));
+    this.card = el("article", { class: "plot" }, head, this.body);
+    this.plot = new uPlot(options(look), [[], ...look.curves.map(() => [])], this.body);
+    new ResizeObserver(() => {
+      this.fit();
+    }).observe(this.body);
+  }
+
+  update(now: number, columns: Float64Array[]): void {
+    if (this.dirty) this.fit();
+    this.plot.batch(() => {
+      this.plot.setData(columns, false);
+      this.plot.setScale("x", { min: now - SPAN, max: now });
+    });
+  }
+
+  private fit(): void {
+    const { clientWidth: width, clientHeight: height } = this.body;
+    this.dirty = width < 20;
+    if (!this.dirty) this.plot.setSize({ width, height });
+  }
+}
+
+function key(curve: Curve, text: string): HTMLElement {
+  const mark = el("i", { class: curve.dash ? "dashed" : "" });
+  mark.style.borderColor = curve.color;
+  return el("span", {}, mark, text);
+}
+
+function options(look: Look): uPlot.Options {
+  return {
+    width: 200,
+    height: 100,
+    legend: { show: false },
+    cursor: { show: false },
+    padding: [6, 8, 0, 0],
+    scales: { x: { time: false }, y: { range: (_, low, high) => span(low, high, look) } },
+    axes: [
+      { stroke: INK, font: FONT, grid: HAIR, ticks: { show: false }, size: 18, gap: 2, values: (_, at) => at.map(seconds) },
+      { stroke: INK, font: FONT, grid: HAIR, ticks: { show: false }, size: 34, gap: 3, space: 22 },
+    ],
+    series: [{}, ...look.curves.map(({ color, dash, width }) => series(color, dash, width))],
+    hooks: look.under ? { drawAxes: [look.under] } : {},
+  };
+}
+
+function series(stroke: string, dash: number[] | undefined, width = 1.5): uPlot.Series {
+  return { stroke, width, points: { show: false }, ...(dash && { dash }) };
+}
+
+const seconds = (value: number): string => (value < 0 ? "" : `${value} s`);
+
+/** The values to show: all, with some room, and never so few that noise fills the plot. */
+function span(low: number | null, high: number | null, { least, fromZero }: Look): [number, number] {
+  if (low === null || high === null || !Number.isFinite(low + high)) return [0, least];
+  const missing = Math.max(least - (high - low), 0) / 2;
+  const room = 0.06 * Math.max(high - low, least);
+  return fromZero ? [0, Math.max(high, least) + room] : [low - missing - room, high + missing + room];
+}
+
+/** A dashed level line across a plot. */
+export function level(plot: uPlot, value: number, color: string): void {
+  const y = plot.valToPos(value, "y", true);
+  const { left, top, width, height } = plot.bbox;
+  if (y < top || y > top + height) return;
+  const { ctx } = plot;
+  ctx.save();
+  ctx.strokeStyle = color;
+  ctx.lineWidth = devicePixelRatio;
+  ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
+  ctx.beginPath();
+  ctx.moveTo(left, y);
+  ctx.lineTo(left + width, y);
+  ctx.stroke();
+  ctx.restore();
+}
+
+/** A coloured band over a stretch of time, with its name. */
+export function band(plot: uPlot, from: number, to: number, color: string, name: string): void {
+  const { left, top, width, height } = plot.bbox;
+  const place = (time: number) => Math.min(Math.max(plot.valToPos(time, "x", true), left), left + width);
+  const [a, b] = [place(from), place(to)];
+  const { ctx } = plot;
+  ctx.save();
+  ctx.fillStyle = color;
+  ctx.fillRect(a, top, b - a, height);
+  ctx.fillStyle = INK;
+  ctx.font = `${10 * devicePixelRatio}px system-ui, sans-serif`;
+  if (b - a > ctx.measureText(name).width + 8) ctx.fillText(name, a + 4, top + 11 * devicePixelRatio);
+  ctx.restore();
+}

@@ -1,0 +1,94 @@
+// The vehicle from above: each rotor fills with its thrust, and two presses stop it for good.
+
+import type { Scene } from "../wire/protocol.ts";
+import { ahead, guardRadius } from "../view/quadrotor.ts";
+import { el, svg } from "./dom.ts";
+
+const SURE = 3000; // ms within which the second press has to come
+
+export class RotorMap {
+  readonly element: HTMLElement;
+  private readonly fills: SVGElement[] = [];
+  private readonly spots: SVGElement[] = [];
+  private readonly most: number[];
+  private readonly note = el("p", { class: "note" });
+  private armed = -1;
+  private timer = 0;
+
+  constructor(
+    scene: Scene,
+    private readonly kill: (rotor: number) => void,
+  ) {
+    const { quadrotors, payload } = scene.vehicle;
+    this.most = quadrotors.flatMap((q) => q.rotors.map((r) => r.max_thrust));
+    // seen from above with x up and y to the left
+    const half = Math.max(payload.length / 2, ...quadrotors.map((q) => Math.abs(q.position[1]) + guardRadius(q))) + 0.05;
+    const deep = Math.max(0.2, ...quadrotors.map((q) => Math.abs(q.position[0]) + guardRadius(q))) + 0.05;
+    const width = Math.max(payload.width, 0.06);
+    const beam = { class: "beam", x: -payload.length / 2 - payload.position[1], y: -width / 2, width: payload.length, height: width };
+    const picture = svg("svg", { viewBox: `${-half} ${-deep} ${2 * half} ${2 * deep}`, class: "rotormap" }, svg("rect", beam));
+    for (const quadrotor of quadrotors) {
+      const [x, y] = quadrotor.position;
+      picture.append(svg("circle", { class: "guard", cx: -y, cy: -x, r: guardRadius(quadrotor) }));
+      quadrotor.rotors.forEach((_, i) => {
+        picture.append(this.rotor(quadrotor, i));
+      });
+    }
+    this.element = el("div", { class: "rotors" }, picture, this.note);
+    this.say(-1);
+  }
+
+  thrusts(values: Float32Array): void {
+    this.fills.forEach((fill, i) => {
+      fill.setAttribute("fill-opacity", Math.min(values[i] / this.most[i], 1).toFixed(2));
+    });
+  }
+
+  /** A rotor was stopped. */
+  dead(rotor: number): void {
+    this.spots[rotor]?.classList.add("dead");
+  }
+
+  private rotor(quadrotor: Scene["vehicle"]["quadrotors"][number], i: number): SVGElement {
+    const { position, radius } = quadrotor.rotors[i];
+    const number = this.spots.length;
+    const place = { cx: -position[1], cy: -position[0], r: 0.92 * radius };
+    const fill = svg("circle", { ...place, class: ahead(quadrotor, i) ? "front" : "rear" });
+    const rim = svg("circle", { ...place, class: "rim" });
+    const cross = 0.5 * radius;
+    const path = `M${place.cx - cross} ${place.cy - cross}l${2 * cross} ${2 * cross}m0 ${-2 * cross}l${-2 * cross} ${2 * cross}`;
+    const label = `Stop rotor ${number + 1}`;
+    const spot = svg("g", { role: "button", tabindex: 0, "aria-label": label }, fill, rim, svg("path", { d: path }));
+    spot.addEventListener("click", () => {
+      this.press(number);
+    });
+    spot.addEventListener("keydown", (event) => {
+      if ((event as KeyboardEvent).key === "Enter") this.press(number);
+    });
+    this.fills.push(fill);
+    this.spots.push(spot);
+    return spot;
+  }
+
+  private press(rotor: number): void {
+    if (this.spots[rotor].classList.contains("dead")) return;
+    window.clearTimeout(this.timer);
+    if (this.armed === rotor) {
+      this.kill(rotor);
+      this.say(-1);
+      return;
+    }
+    this.say(rotor);
+    this.timer = window.setTimeout(() => {
+      this.say(-1);
+    }, SURE);
+  }
+
+  private say(rotor: number): void {
+    this.armed = rotor;
+    this.spots.forEach((spot, i) => {
+      spot.classList.toggle("armed", i === rotor);
+    });
+    this.note.textContent = rotor < 0 ? "Press a rotor twice to stop it." : `Press rotor ${rotor + 1} again to stop it for good.`;
+  }
+}

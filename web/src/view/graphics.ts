@@ -1,0 +1,40 @@
+// How much the machine can draw: all, or light graphics where a processor does the work of a graphics card.
+
+export type Graphics = "full" | "light";
+export type Choice = "auto" | Graphics;
+
+const SLOW = 25; // frames/s: below it, light graphics
+const PATIENCE = 3; // s
+
+/** What suits the machine, as its renderer names itself. */
+export function suited(): Graphics {
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) return "light";
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  const name: unknown = info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+  context.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|softpipe|basic render/i.test(String(name)) ? "light" : "full";
+}
+
+/** Counts pictures, and tells when they have been too few for a while. */
+export class Pace {
+  rate = 0; // frames/s over the last second
+  private count = 0;
+  private since = 0;
+  private slow = 0; // s
+
+  /** A picture was drawn at `now` [ms]; true if the machine has been too slow for `PATIENCE`. */
+  tick(now: number): boolean {
+    this.count += 1;
+    const passed = (now - this.since) / 1000;
+    if (passed < 1) return false;
+    if (passed < 2) {
+      // a longer pause is a hidden page, not a slow one
+      this.rate = this.count / passed;
+      this.slow = this.rate < SLOW ? this.slow + passed : 0;
+    }
+    this.since = now;
+    this.count = 0;
+    return this.slow >= PATIENCE;
+  }
+}

@@ -1,0 +1,34 @@
+// Small texts over the picture that stay with what they name.
+
+import type { PerspectiveCamera, Vector3 } from "three";
+
+export class Label {
+  private readonly element: HTMLElement;
+  private text = "";
+  private width = 0;
+  private height = 0;
+
+  constructor(layer: HTMLElement, kind: string) {
+    this.element = document.createElement("div");
+    this.element.className = `label ${kind}`;
+    this.element.hidden = true;
+    layer.append(this.element);
+    // read here and not with every picture, as that would lay the page out anew each time
+    new ResizeObserver(() => {
+      [this.width, this.height] = [layer.clientWidth, layer.clientHeight];
+    }).observe(layer);
+  }
+
+  hide(): void {
+    if (!this.element.hidden) this.element.hidden = true;
+  }
+
+  show(text: string, place: Vector3, camera: PerspectiveCamera): void {
+    const spot = place.clone().project(camera);
+    const hidden = Math.abs(spot.z) > 1;
+    if (hidden !== this.element.hidden) this.element.hidden = hidden;
+    if (text !== this.text) this.element.textContent = this.text = text;
+    const [x, y] = [(spot.x / 2 + 0.5) * this.width, (0.5 - spot.y / 2) * this.height];
+    this.element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+  }
+}

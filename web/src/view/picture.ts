@@ -1,0 +1,147 @@
+// The whole picture of a scene: everything that a frame moves, and the overlays that one may switch off.
+
+import { Group, Line, Mesh, Vector3 } from "three";
+
+import { size } from "../hand/geometry.ts";
+import type { Frame } from "../wire/frames.ts";
+import type { Scene, Vector } from "../wire/protocol.ts";
+import { Arrow } from "./arrow.ts";
+import { Hold } from "./hold.ts";
+import { Label } from "./labels.ts";
+import { PUSH, WIND } from "./palette.ts";
+import { FlatShadow } from "./shadow.ts";
+import type { Stage } from "./stage.ts";
+import { Plumb, Trail } from "./trail.ts";
+import { Ghost, Vehicle } from "./vehicle.ts";
+import { World } from "./world.ts";
+
+export type Overlay = "push" | "zone" | "ghost" | "thrust" | "wind" | "trail";
+export type Shown = Record<Overlay, boolean>;
+
+/** What a hand of this page does at the moment. */
+export type Hand =
+  | { kind: "none" }
+  | { kind: "offer"; point: Vector }
+  | { kind: "pull"; point: Vector; target: Vector };
+
+export class Picture {
+  readonly vehicle: Vehicle;
+  readonly center = new Vector3();
+  readonly reach: number;
+  threshold: Vector | null;
+  stiffness: number;
+  private readonly root = new Group();
+  private readonly world: World;
+  private readonly ghost: Ghost;
+  private readonly shadow: FlatShadow;
+  private readonly push = new Arrow(PUSH, 0.02, 0.16, 0.05);
+  private readonly wind = new Arrow(WIND, 0.014, 0.14, 0.1);
+  private readonly hold = new Hold();
+  private readonly trail = new Trail();
+  private readonly plumb: Plumb;
+  private time = NaN;
+
+  constructor(
+    readonly scene: Scene,
+    private readonly stage: Stage,
+    private readonly labels: { push: Label; wind: Label },
+  ) {
+    this.vehicle = new Vehicle(scene, stage.graphics);
+    this.world = new World(scene, stage.graphics);
+    this.ghost = new Ghost(this.vehicle.solid);
+    this.shadow = new FlatShadow(this.vehicle.solid, scene.floor ?? 0);
+    this.plumb = new Plumb(scene.floor ?? 0);
+    this.threshold = scene.threshold ?? null;
+    this.stiffness = scene.spring?.stiffness ?? 0;
+    this.reach = reachOf(scene);
+    this.shadow.mesh.visible = scene.ground && stage.graphics === "light";
+    const arrows = [this.push.group, this.wind.group, this.hold.group];
+    const lines = [this.trail.line, this.plumb.line];
+    this.root.add(this.world.group, this.shadow.mesh, this.vehicle.group, this.ghost.group, ...arrows, ...lines);
+    stage.scene.add(this.root);
+  }
+
+  remove(): void {
+    this.stage.scene.remove(this.root);
+    this.root.traverse((part) => {
+      if (!(part instanceof Mesh || part instanceof Line)) return;
+      const drawn = part as Mesh;
+      drawn.geometry.dispose();
+      for (const paint of [drawn.material].flat()) paint.dispose();
+    });
+    this.labels.push.hide();
+    this.labels.wind.hide();
+  }
+
+  update(frame: Frame, hand: Hand, shown: Shown): void {
+    const time = frame.scalar("time");
+    const passed = Math.min(Math.max(time - this.time, 0), 0.1) || 0;
+    if (time < this.time - 0.001 || time > this.time + 1) this.trail.clear();
+    const position = frame.vector("position");
+    this.vehicle.place(position, frame.attitude);
+    this.vehicle.group.updateMatrixWorld();
+    this.center.set(...position);
+    this.vehicle.rotors.update(frame.list("thrusts"), passed);
+    this.vehicle.rotors.arrows.visible = shown.thrust;
+    if (time !== this.time) this.trail.add(position);
+    this.trail.line.visible = this.plumb.line.visible = shown.trail;
+    this.plumb.place(position);
+    this.shadow.place(this.vehicle.group);
+    this.showReference(frame, position, shown.ghost);
+    this.showForces(frame, shown);
+    this.showHand(frame, hand, shown.zone);
+    this.time = time;
+  }
+
+  draw(): void {
+    this.world.update(this.center, this.stage.camera.position);
+    this.stage.draw(this.center, this.reach);
+  }
+
+  /** A point of the body where it is in the world. */
+  inWorld(point: Vector): Vector3 {
+    return this.vehicle.group.localToWorld(new Vector3(...point));
+  }
+
+  private showReference(frame: Frame, position: Vector, shown: boolean): void {
+    const reference = frame.vector("reference");
+    const gap = Math.hypot(...reference.map((r, i) => r - position[i]));
+    if (shown && frame.layout.has("reference")) this.ghost.place(reference, frame.scalar("reference_yaw"), gap);
+    else this.ghost.group.visible = false;
+  }
+
+  private showForces(frame: Frame, shown: Shown): void {
+    const [push, wind] = [frame.vector("push"), frame.vector("wind")];
+    this.push.show(this.inWorld(frame.vector("push_point")), shown.push ? push : [0, 0, 0]);
+    const above = this.center.clone().add(new Vector3(0, 0, 0.55 + 0.1 * this.reach));
+    const half = new Vector3(...wind).multiplyScalar(0.07);
+    this.wind.show(above.sub(half), shown.wind ? wind : [0, 0, 0]);
+    const camera = this.stage.camera;
+    if (this.push.visible) this.labels.push.show(`${size(push).toFixed(1)} N`, this.push.tip, camera);
+    else this.labels.push.hide();
+    if (this.wind.visible) this.labels.wind.show(`wind ${size(wind).toFixed(1)} m/s`, this.wind.tip, camera);
+    else this.labels.wind.hide();
+  }
+
+  private showHand(frame: Frame, hand: Hand, shown: boolean): void {
+    const zone = shown ? this.zone() : null;
+    if (hand.kind === "pull") this.hold.show(this.inWorld(hand.point), new Vector3(...hand.target), zone);
+    else if (frame.scalar("held") > 0 && frame.layout.has("hand_target")) {
+      const target = new Vector3(...frame.vector("hand_target"));
+      this.hold.show(this.inWorld(frame.vector("hand_point")), target, zone);
+    } else if (hand.kind === "offer") this.hold.offer(this.inWorld(hand.point));
+    else this.hold.hide();
+  }
+
+  /** Half the sides of the zone in which the spring pulls less than the threshold [m]. */
+  private zone(): Vector3 | null {
+    if (!this.threshold || this.stiffness <= 0) return null;
+    return new Vector3(...this.threshold).divideScalar(this.stiffness).clampScalar(0.003, 2);
+  }
+}
+
+function reachOf(scene: Scene): number {
+  const { quadrotors, payload } = scene.vehicle;
+  const ways = quadrotors.flatMap((q) => q.rotors.map((r) => size(r.position) + r.radius));
+  return Math.max(payload.length / 2, ...ways);
+}

@@ -1,0 +1,92 @@
+// The stage: renderer, light and camera, at the level of graphics that the machine can draw.
+
+import {
+  Color,
+  DirectionalLight,
+  Fog,
+  HemisphereLight,
+  PCFShadowMap,
+  PerspectiveCamera,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+
+import type { Graphics } from "./graphics.ts";
+import { HAZE, PALE } from "./palette.ts";
+import { SUN } from "./shadow.ts";
+
+const LIGHT_RATIO = 0.75; // pixels of the picture per pixel of the page, in light graphics
+
+export class Stage {
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera(42, 1, 0.05, 700);
+  canvas!: HTMLCanvasElement;
+  private renderer!: WebGLRenderer;
+  private readonly sun = new DirectionalLight("#fff3e0", 2.3);
+  private readonly fog = new Fog(HAZE, 20, 60);
+
+  constructor(
+    private readonly surface: HTMLElement,
+    public graphics: Graphics,
+  ) {
+    this.camera.up.set(0, 0, 1);
+    this.scene.fog = this.fog;
+    this.scene.add(new HemisphereLight("#dfe9f5", "#9a948c", 1.5), this.sun, this.sun.target);
+    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.bias = -0.0004;
+    this.sun.shadow.normalBias = 0.01;
+    this.sun.shadow.radius = 3;
+    this.build(graphics);
+    new ResizeObserver(() => {
+      this.resize();
+    }).observe(surface);
+  }
+
+  /** A fresh renderer: antialiasing cannot be switched on one that exists. */
+  build(graphics: Graphics): void {
+    this.graphics = graphics;
+    const full = graphics === "full";
+    this.scene.background = new Color(full ? HAZE : PALE);
+    this.fog.color.set(full ? HAZE : PALE);
+    const renderer = new WebGLRenderer({ antialias: full, powerPreference: "high-performance" });
+    renderer.shadowMap.enabled = this.sun.castShadow = full;
+    renderer.shadowMap.type = PCFShadowMap;
+    if ((this.renderer as WebGLRenderer | undefined) !== undefined) {
+      this.renderer.dispose();
+      this.renderer.forceContextLoss();
+      this.canvas.remove();
+    }
+    this.renderer = renderer;
+    this.canvas = renderer.domElement;
+    this.surface.prepend(this.canvas);
+    this.resize();
+  }
+
+  /** Draws what is around a vehicle of a reach [m]. */
+  draw(vehicle: Vector3, reach: number): void {
+    const apart = this.camera.position.distanceTo(vehicle);
+    this.fog.near = apart + 8;
+    this.fog.far = 1.5 * apart + 36;
+    this.light(vehicle, 1.3 * reach + 1);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private light(vehicle: Vector3, half: number): void {
+    this.sun.target.position.copy(vehicle);
+    this.sun.position.copy(vehicle).addScaledVector(SUN, 12);
+    const eye = this.sun.shadow.camera;
+    if (eye.right === half) return;
+    Object.assign(eye, { left: -half, right: half, bottom: -half, top: half, near: 1, far: 40 });
+    eye.updateProjectionMatrix();
+  }
+
+  private resize(): void {
+    const [width, height] = [this.surface.clientWidth || 1, this.surface.clientHeight || 1];
+    const ratio = this.graphics === "light" ? LIGHT_RATIO : Math.min(window.devicePixelRatio, 2);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height);
+  }
+}

@@ -1,0 +1,110 @@
+// The vehicle: its solid parts as one mesh, its rotors as instances, its ghost and its shadow on the floor.
+
+import {
+  type BufferGeometry,
+  DoubleSide,
+  Group,
+  type Material,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  MeshStandardMaterial,
+} from "three";
+
+import type { Payload, Quaternion, Scene, Vector } from "../wire/protocol.ts";
+import type { Graphics } from "./graphics.ts";
+import { CARBON, JOINT, METAL, PATH, WOOD } from "./palette.ts";
+import { quadrotorParts, spread } from "./quadrotor.ts";
+import { Rotors } from "./rotors.ts";
+import { at, box, rod, together } from "./shapes.ts";
+
+export interface Axis {
+  from: Vector;
+  to: Vector;
+  radius: number;
+}
+
+/** The line in body axes along which the payload can be taken hold of. */
+export function beamAxis(payload: Payload): Axis {
+  const [x, y, z] = payload.position;
+  const half = payload.length / 2;
+  return { from: [x, y - half, z], to: [x, y + half, z], radius: Math.max(payload.width, payload.height) / 2 };
+}
+
+export class Vehicle {
+  readonly group = new Group();
+  readonly solid: BufferGeometry;
+  readonly rotors: Rotors;
+
+  constructor(scene: Scene, graphics: Graphics) {
+    this.solid = solidOf(scene, graphics === "full" ? 20 : 10);
+    const body = new Mesh(this.solid, surface(graphics));
+    body.castShadow = body.receiveShadow = graphics === "full";
+    body.frustumCulled = false;
+    this.rotors = new Rotors(scene, graphics);
+    this.group.add(body, this.rotors.group);
+  }
+
+  place(position: Vector, attitude: Quaternion): void {
+    this.group.position.set(...position);
+    this.group.quaternion.set(attitude[1], attitude[2], attitude[3], attitude[0]);
+  }
+}
+
+/** Where the vehicle should be: seen through, and only where it differs from where the vehicle is. */
+export class Ghost {
+  readonly group = new Group();
+  private readonly veil = new MeshBasicMaterial({ color: PATH, transparent: true, depthWrite: false });
+
+  constructor(solid: BufferGeometry) {
+    const depth = new Mesh(solid, new MeshBasicMaterial({ colorWrite: false, transparent: true }));
+    const color = new Mesh(solid, this.veil);
+    depth.renderOrder = 5;
+    color.renderOrder = 6;
+    this.group.add(depth, color);
+  }
+
+  place(position: Vector, yaw: number, gap: number): void {
+    const opacity = 0.3 * Math.min(Math.max((gap - 0.02) / 0.1, 0), 1);
+    this.group.visible = opacity > 0.01;
+    this.veil.opacity = opacity;
+    this.group.position.set(...position);
+    this.group.rotation.set(0, 0, yaw);
+  }
+}
+
+function surface(graphics: Graphics): Material {
+  if (graphics === "light") return new MeshLambertMaterial({ vertexColors: true });
+  return new MeshStandardMaterial({ vertexColors: true, roughness: 0.5, metalness: 0.15, side: DoubleSide });
+}
+
+function solidOf(scene: Scene, sides: number): BufferGeometry {
+  const { quadrotors, payload } = scene.vehicle;
+  const parts = quadrotors.flatMap((quadrotor) => quadrotorParts(quadrotor, sides));
+  return together([...beamParts(payload, sides), ...quadrotors.flatMap((q) => mount(payload, q, sides)), ...parts]);
+}
+
+function beamParts(payload: Payload, sides: number): BufferGeometry[] {
+  const [x, y, z] = payload.position;
+  if (!payload.length) return [box(at(x, y, z), [payload.width || 0.2, payload.width || 0.2, payload.height || 0.2], WOOD)];
+  const { from, to, radius } = beamAxis(payload);
+  const ends = [from, to].map((end) => {
+    const cap = 0.012;
+    return rod(at(end[0], end[1] - cap, end[2]), at(end[0], end[1] + cap, end[2]), 1.12 * radius, CARBON, 2 * sides);
+  });
+  return [rod(at(...from), at(...to), radius, WOOD, 2 * sides), ...ends];
+}
+
+/** The strut from the beam to a quadrotor, with the sensor's collar. */
+function mount(payload: Payload, quadrotor: Scene["vehicle"]["quadrotors"][number], sides: number): BufferGeometry[] {
+  const axis = beamAxis(payload);
+  const center = at(...quadrotor.position);
+  const along = (quadrotor.joint ?? quadrotor.position)[1];
+  const joint = at(axis.from[0], Math.min(Math.max(along, axis.from[1]), axis.to[1]), axis.from[2]);
+  const way = center.clone().sub(joint);
+  if (way.length() < 1e-3) return [];
+  const width = 0.09 * spread(quadrotor);
+  const start = joint.clone().addScaledVector(way, Math.min(axis.radius / way.length(), 0.6));
+  const end = joint.clone().addScaledVector(way, Math.min((axis.radius + 2 * width) / way.length(), 0.9));
+  return [rod(joint, center, width, METAL, sides), rod(start, end, 1.8 * width, JOINT, sides)];
+}

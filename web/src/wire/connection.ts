@@ -1,0 +1,98 @@
+// The socket to the server: decodes what comes, numbers what goes, and comes back when it was lost.
+
+import { Layout } from "./frames.ts";
+import type { Incoming, Outgoing } from "./protocol.ts";
+import type { Listener, Source } from "./source.ts";
+
+const FIRST_WAIT = 500; // ms
+const LONGEST_WAIT = 5000;
+
+export class Connection implements Source {
+  private socket: WebSocket | null = null;
+  private listener: Listener | null = null;
+  private layout: Layout | null = null;
+  private seq = 0;
+  private wait = FIRST_WAIT;
+  private timer = 0;
+
+  constructor(private readonly address: string) {}
+
+  start(listener: Listener): void {
+    this.listener = listener;
+    this.open();
+  }
+
+  send(message: Outgoing): number | null {
+    if (this.socket?.readyState !== WebSocket.OPEN) return null;
+    this.seq += 1;
+    this.socket.send(JSON.stringify({ ...message, seq: this.seq }));
+    return this.seq;
+  }
+
+  retry(): void {
+    window.clearTimeout(this.timer);
+    this.wait = FIRST_WAIT;
+    if (!this.socket) this.open();
+  }
+
+  private open(): void {
+    const socket = new WebSocket(this.address);
+    socket.binaryType = "arraybuffer";
+    socket.onmessage = ({ data }: MessageEvent<ArrayBuffer | string>) => {
+      this.hear(data);
+    };
+    socket.onclose = () => {
+      this.closed();
+    };
+    this.socket = socket;
+  }
+
+  private closed(): void {
+    this.socket = null;
+    this.listener?.lost(performance.now() + this.wait);
+    this.timer = window.setTimeout(() => {
+      this.open();
+    }, this.wait);
+    this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
+  }
+
+  private hear(data: ArrayBuffer | string): void {
+    if (typeof data === "string") {
+      this.answer(JSON.parse(data) as Incoming);
+      return;
+    }
+    const frame = this.layout?.decode(data);
+    if (frame) this.listener?.frame(frame);
+  }
+
+  private answer(message: Incoming): void {
+    const to = this.listener!;
+    switch (message.type) {
+      case "scene":
+        this.layout = new Layout(message.fields);
+        this.wait = FIRST_WAIT;
+        to.found();
+        to.scene(message);
+        break;
+      case "status":
+        to.status(message);
+        break;
+      case "changed":
+        to.changed(message.key, message.value, message.duration);
+        break;
+      case "refused":
+        to.refused(message.what, message.reason);
+        break;
+      case "done":
+        to.done(message.what, message.detail);
+        break;
+      case "pong":
+    }
+  }
+}
+
+/** Where the page's own server listens; the token of the page's address goes along. */
+export function socketAddress(page: Location): string {
+  const scheme = page.protocol === "https:" ? "wss:" : "ws:";
+  return `${scheme}//${page.host}/ws${page.search}`;
+}

@@ -1,0 +1,100 @@
+// Frames: float32, little endian, laid out as the scene's `fields` say.
+
+import type { Quaternion, Vector } from "./protocol.ts";
+
+/** Where each field of a frame lies. */
+export class Layout {
+  readonly size: number;
+  private readonly places = new Map<string, { start: number; length: number }>();
+
+  constructor(fields: readonly (readonly [string, number])[]) {
+    let start = 0;
+    for (const [name, length] of fields) {
+      this.places.set(name, { start, length });
+      start += length;
+    }
+    this.size = start;
+  }
+
+  has(name: string): boolean {
+    return this.places.has(name);
+  }
+
+  place(name: string): { start: number; length: number } {
+    return this.places.get(name) ?? { start: 0, length: 0 };
+  }
+
+  /** The frame in a message; null if its size is another one, as when it was sent before a new scene. */
+  decode(bytes: ArrayBuffer): Frame | null {
+    return bytes.byteLength === 4 * this.size ? new Frame(this, floats(bytes)) : null;
+  }
+
+  /** The names of the fields whose values may be mixed between two frames. */
+  smooth(): string[] {
+    return [...this.places.keys()].filter((name) => !["phase", "alarm", "held", "seq"].includes(name));
+  }
+}
+
+/** One moment of the flight; a field that the server does not send reads as zeros. */
+export class Frame {
+  constructor(
+    readonly layout: Layout,
+    readonly values: Float32Array,
+  ) {}
+
+  scalar(name: string): number {
+    const { start, length } = this.layout.place(name);
+    return length ? this.values[start] : 0;
+  }
+
+  vector(name: string): Vector {
+    const { start, length } = this.layout.place(name);
+    const v = this.values;
+    return length === 3 ? [v[start], v[start + 1], v[start + 2]] : [0, 0, 0];
+  }
+
+  list(name: string): Float32Array {
+    const { start, length } = this.layout.place(name);
+    return this.values.subarray(start, start + length);
+  }
+
+  get attitude(): Quaternion {
+    const { start, length } = this.layout.place("attitude");
+    const v = this.values;
+    return length === 4 ? [v[start], v[start + 1], v[start + 2], v[start + 3]] : [1, 0, 0, 0];
+  }
+}
+
+/** Float32 of little-endian bytes on any machine. */
+export function floats(bytes: ArrayBuffer): Float32Array {
+  if (LITTLE) return new Float32Array(bytes);
+  const view = new DataView(bytes);
+  return Float32Array.from({ length: bytes.byteLength / 4 }, (_, i) => view.getFloat32(4 * i, true));
+}
+
+const LITTLE = new Uint8Array(new Uint32Array([1]).buffer)[0] === 1;
+
+/** A frame between two: `share` 0 is the first, 1 the second. States and flags jump, all else is mixed. */
+export function between(a: Frame, b: Frame, share: number): Frame {
+  const values = Float32Array.from(a.values);
+  for (const name of a.layout.smooth()) {
+    const { start, length } = a.layout.place(name);
+    const turned = name === "attitude" && opposed(a, b, start) ? -1 : 1;
+    for (let i = start; i < start + length; i++) {
+      values[i] = (1 - share) * a.values[i] + share * turned * b.values[i];
+    }
+    if (name === "attitude") normalise(values, start);
+  }
+  return new Frame(a.layout, values);
+}
+
+function opposed(a: Frame, b: Frame, start: number): boolean {
+  let product = 0;
+  for (let i = start; i < start + 4; i++) product += a.values[i] * b.values[i];
+  return product < 0;
+}
+
+function normalise(values: Float32Array, start: number): void {
+  const size = Math.hypot(...values.subarray(start, start + 4)) || 1;
+  for (let i = start; i < start + 4; i++) values[i] /= size;
+}

@@ -1,0 +1,133 @@
+// A flight that the page holds itself: the same scene and the same frames as from a server.
+
+import { between, floats, Frame, Layout } from "./frames.ts";
+import type { Scene, Status } from "./protocol.ts";
+import type { Listener, Source } from "./source.ts";
+
+const FLAGS = { behind_ms: 0, recorded_s: 0, viewers: 1, holder: "none" } as const;
+
+export class Recorded implements Source {
+  private listener: Listener | null = null;
+  private readonly layout: Layout;
+  private readonly values: Float32Array;
+  private readonly timeAt: number;
+  private readonly count: number;
+  private time: number;
+  private paused = false;
+  private speed: number;
+  private last = 0;
+
+  constructor(
+    private readonly scene: Scene,
+    values: Float32Array,
+  ) {
+    this.layout = new Layout(scene.fields);
+    this.values = values;
+    this.timeAt = this.layout.place("time").start;
+    this.count = Math.floor(values.length / this.layout.size);
+    this.scene.replay ??= { start: this.timeOf(0), end: this.timeOf(this.count - 1), speed: 1 };
+    this.time = this.scene.replay.start;
+    this.speed = this.scene.replay.speed;
+  }
+
+  start(listener: Listener): void {
+    this.listener = listener;
+    listener.found();
+    listener.scene(this.scene);
+    this.show();
+  }
+
+  /** Nobody hears what is asked of the past. */
+  send(): null {
+    return null;
+  }
+
+  get playing(): boolean {
+    return !this.paused;
+  }
+
+  play(on: boolean): void {
+    const { start, end } = this.scene.replay!;
+    this.paused = !on;
+    if (on && this.time >= end) this.time = start;
+    this.show();
+  }
+
+  go(time: number): void {
+    const { start, end } = this.scene.replay!;
+    this.time = Math.min(Math.max(time, start), end);
+    this.show();
+  }
+
+  setSpeed(factor: number): void {
+    this.speed = factor;
+  }
+
+  tick(now: number): void {
+    const passed = Math.min((now - this.last) / 1000, 0.25);
+    this.last = now;
+    if (this.paused) return;
+    this.time += passed * this.speed;
+    if (this.time >= this.scene.replay!.end) {
+      this.time = this.scene.replay!.end;
+      this.paused = true;
+    }
+    this.show();
+  }
+
+  /** The frames of the last `span` seconds, oldest first. */
+  before(span: number): Frame[] {
+    const last = this.index(this.time);
+    const first = this.index(this.time - span);
+    return Array.from({ length: last - first + 1 }, (_, i) => this.frameAt(first + i));
+  }
+
+  private show(): void {
+    const i = Math.min(this.index(this.time), this.count - 2);
+    const [a, b] = [this.frameAt(Math.max(i, 0)), this.frameAt(Math.min(i + 1, this.count - 1))];
+    const width = b.scalar("time") - a.scalar("time");
+    const share = width > 0 ? Math.min(Math.max((this.time - a.scalar("time")) / width, 0), 1) : 0;
+    const frame = between(a, b, share);
+    this.listener?.status(this.status(frame));
+    this.listener?.frame(frame);
+  }
+
+  private status(frame: Frame): Status {
+    const phase = this.scene.phases[frame.scalar("phase")] ?? "";
+    const alarm = this.scene.alarms[frame.scalar("alarm")] ?? "";
+    return { ...FLAGS, phase, alarm, paused: this.paused, speed: this.speed, factor: this.speed };
+  }
+
+  private timeOf(i: number): number {
+    return this.values[i * this.layout.size + this.timeAt];
+  }
+
+  private frameAt(i: number): Frame {
+    return new Frame(this.layout, this.values.subarray(i * this.layout.size, (i + 1) * this.layout.size));
+  }
+
+  /** The last frame not after a time. */
+  private index(time: number): number {
+    let [low, high] = [0, this.count];
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.timeOf(middle) <= time) low = middle;
+      else high = middle;
+    }
+    return low;
+  }
+}
+
+/** The flight that a self-contained page carries; null in a page that a server sent. */
+export function embedded(): Recorded | null {
+  const text = document.getElementById("flight")?.textContent;
+  if (!text) return null;
+  const { scene, frames } = JSON.parse(text) as { scene: Scene; frames: string };
+  return new Recorded(scene, floats(bytes(frames)));
+}
+
+/** What a base64 text holds. */
+export function bytes(text: string): ArrayBuffer {
+  const raw = atob(text);
+  return Uint8Array.from(raw, (letter) => letter.charCodeAt(0)).buffer;
+}
