@@ -47,14 +47,18 @@ class Reader(html.parser.HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.elements = []
+        self.elements, self.open = [], False
         self.feed(text)
 
     def handle_starttag(self, tag, attrs):
         self.elements.append([tag, dict(attrs), ""])
+        self.open = True
+
+    def handle_endtag(self, tag):
+        self.open = False
 
     def handle_data(self, data):
-        if self.elements:
+        if self.open:
             self.elements[-1][2] += data
 
     def of(self, tag, **attrs):
@@ -350,3 +354,15 @@ def test_the_address_is_printed_and_ctrl_c_ends_it_well(verb, flight, page, tmp_
     out, err = process.communicate(timeout=60)
     assert (process.returncode, err) == (0, "")
     assert out.endswith("stopped\n")
+
+
+def test_the_page_that_ships_can_stand_alone(flight):
+    text = replay_html(flight, page_files())
+    read = Reader(text)
+    for tag, attrs, _ in read.elements:
+        assert not {"src", "srcset", "action", "data"} & attrs.keys(), tag
+        assert attrs.get("href", "#").startswith("#"), tag
+    ((_, script),) = read.of("script", type="module")
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert f"'sha256-{digest}'" in read.of("meta", **{"http-equiv": "Content-Security-Policy"})[0][0]["content"]
+    assert embedded(text)[0]["mission"] == flight.name
