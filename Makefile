@@ -2,13 +2,16 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: run test lint types imports tests bench validate bench-peers lock clean help
+.PHONY: run live test lint types imports tests bench validate bench-peers lock clean help
 
 help:            ## say what there is
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
 
 run: .venv/run   ## fly the paper's mission and write out/paper
 	$(BIN)/tandemlift run paper
+
+live: .venv/run  ## push it by hand, in the browser
+	$(BIN)/tandemlift live
 
 test: lint types imports tests   ## lint, types, import directions, all tests
 

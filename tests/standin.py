@@ -10,7 +10,7 @@ import numpy as np
 
 from tandemlift.errors import InputError
 from tandemlift.live.frames import fields_of, frames_of
-from tandemlift.live.messages import Force, Grab, Message, Move, Release, Reset, Save, Set
+from tandemlift.live.messages import Force, Grab, Message, Move, Release, Reset, Restore, Save, Set
 from tandemlift.live.scene import SPRING, scene_of
 from tandemlift.missions import load_mission
 
@@ -74,7 +74,7 @@ class StandIn:
             self.released += 1
             self._target, self._force = None, np.zeros(3)
 
-    def apply(self, message: Message, seq: int) -> dict[str, Any] | None:
+    def apply(self, message: Message, seq: int) -> Any:
         if isinstance(message, Set | Save | Reset) and self._wait:
             self._wait.wait(10.0)
         with self._lock:
@@ -82,7 +82,7 @@ class StandIn:
             self._seq = seq
             return self._heeded(message)
 
-    def _heeded(self, message: Message) -> dict[str, Any] | None:
+    def _heeded(self, message: Message) -> Any:
         if isinstance(message, Grab | Move):
             self._target = np.array(message.target)
         elif isinstance(message, Force):
@@ -94,6 +94,9 @@ class StandIn:
             self._x, self._v = np.zeros(3), np.zeros(3)
         elif isinstance(message, Save):
             return {"type": "done", "what": "save", "detail": message.name}
+        elif isinstance(message, Restore):
+            keys = [message.key] if message.key else ["admittance.mass", "admittance.damping"]
+            return [{"type": "changed", "key": key, "value": [1.0], "duration": 0.0} for key in keys]
         elif isinstance(message, Set):
             if message.key != "admittance.mass":
                 raise InputError(f"{message.key}: cannot be changed in flight")

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import hypothesis.strategies as st
 import pytest
@@ -16,7 +17,7 @@ from tandemlift.live.messages import KINDS, MAX_LENGTH, Refusal, about, read_mes
 from tandemlift.live.pages import page_files
 from tandemlift.live.server import Server
 
-THROUGH_SOCKETS, THROUGH_THE_READER = 20_000, 80_000
+THROUGH_A_SOCKET, THROUGH_THE_READER = 50_000, 50_000
 
 
 def refused(text) -> Refusal:
@@ -77,8 +78,6 @@ def test_no_key_of_any_message_takes_what_is_not_finite_or_of_another_kind(messa
     ],
 )
 def test_a_refusal_names_the_key_the_value_and_what_is_allowed(text, what, reason):
-    import re
-
     refusal = refused(text)
     assert refusal.what == what
     assert re.search(reason if "\\" in reason or "|" in reason else re.escape(reason), str(refusal)), str(refusal)
@@ -101,10 +100,7 @@ def test_what_a_message_is_about_names_its_key():
 )
 def test_any_json_is_read_or_refused_in_few_words(value):
     for text in (json.dumps(value), json.dumps({"type": "set", "seq": 1, "key": "a", "value": value})):
-        try:
-            read_message(text)
-        except Refusal as refusal:
-            assert 0 < len(str(refusal)) < 500
+        _read(text)
 
 
 def test_of_a_hundred_thousand_hostile_messages_none_gets_through_and_the_flight_goes_on(tmp_path, monkeypatch):
@@ -113,20 +109,17 @@ def test_of_a_hundred_thousand_hostile_messages_none_gets_through_and_the_flight
     server = Running(Server(page_files(put_page(tmp_path / "page")), flight, port=0))
     try:
         with server.viewer() as good:
-            bad = server.raw()
-            texts = [text.encode(errors="replace") for text in hostile(THROUGH_SOCKETS, seed=1)]
-            for at in range(0, len(texts), 500):
-                before = flight.steps
-                bad.send(*texts[at : at + 500])
-                assert read_frames(flight.fields, good.frame())["attitude"].tolist() == [[1.0, 0.0, 0.0, 0.0]]
-                assert flight.steps >= before
-            bad.send(b'{"type":"set","seq":999,"key":"the.last","value":0}')
-            while not any(getattr(m, "key", "") == "the.last" for m in tuple(flight.heard)):
-                assert good.frame()
-            steps = flight.steps
-            while flight.steps == steps:
-                assert good.frame()
-            bad.kill()
+            with server.viewer() as bad:
+                for i, text in enumerate(hostile(THROUGH_A_SOCKET, seed=1)):
+                    bad.connection.send(text.encode(errors="replace"), text=i % 50 > 0)
+                    if i % 500 == 0:
+                        assert read_frames(flight.fields, good.frame())["attitude"].tolist() == [[1.0, 0.0, 0.0, 0.0]]
+                while not any(getattr(m, "key", "") == "the.last" for m in tuple(flight.heard)):
+                    bad.say(type="set", key="the.last", value=0)
+                    assert good.frame()
+                steps = flight.steps
+                while flight.steps == steps:
+                    assert good.frame()
             good.text("status", viewers=1, holder="none")
             _check_good(flight.heard)
     finally:
@@ -135,16 +128,19 @@ def test_of_a_hundred_thousand_hostile_messages_none_gets_through_and_the_flight
 
 
 def _read(text):
+    """The message in a text, or None if it is refused in a few words."""
+    said = ""
     try:
         return read_message(text)
     except Refusal as refusal:
-        assert len(str(refusal)) < 500
-        return None
+        said = str(refusal)
+    assert 0 < len(said) < 500
+    return None
 
 
 def _check_good(messages):
     """That what got through is as good as any message."""
-    assert len(messages) > 100
+    assert len(messages) > 50
     for message in messages:
         data = message.model_dump()
         assert read_message(json.dumps(data if data.get("key", "") is not None else {**data, "key": "x"}))

@@ -207,7 +207,8 @@ def _refusal(text: str) -> Refusal:
     if not isinstance(name, str) or name not in KINDS:
         known = ", ".join(KINDS)
         hint = suggestion(name[:20], KINDS) if isinstance(name, str) else ""
-        return Refusal("message", f"type = {shown(name)}: must be one of {known}.{hint}")
+        given = f"type = {shown(name)}" if "type" in data else "type is missing"
+        return Refusal("message", f"{given}: must be one of {known}.{hint}")
     if len(data) > MAX_KEYS:
         return Refusal(name, f"{len(data)} keys: must be {MAX_KEYS} at most")
     try:

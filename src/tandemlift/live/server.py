@@ -32,6 +32,8 @@ SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more wou
 FAREWELL = 1.0  # s, for pages to say good-bye
 SLOW = (Set, Restore, Reset, Save)  # may compile or write
 
+Answer = dict[str, Any] | list[dict[str, Any]] | None  # one text, several, or none
+
 log = logging.getLogger(__name__)
 quiet = logging.getLogger(f"{__name__}.sockets")  # of what strangers send; heard only by those who ask
 quiet.addHandler(logging.NullHandler())
@@ -61,8 +63,8 @@ class LiveFlight(Protocol):
     def status(self) -> dict[str, Any]:
         """Phase, alarm, pace and so on, for people."""
 
-    def apply(self, message: Message, seq: int) -> dict[str, Any] | None:
-        """Heed a message; the answer to its sender, or to all if it is of type "changed".
+    def apply(self, message: Message, seq: int) -> Answer:
+        """Heed a message; what to answer to its sender, or to all if it is of type "changed".
 
         Raises:
             InputError: it cannot be done; the text says why.
@@ -226,7 +228,7 @@ class Server:
         except Refusal as refusal:
             viewer.refuse(refusal)
 
-    def _applied(self, message: Message) -> dict[str, Any] | None:
+    def _applied(self, message: Message) -> Answer:
         """What the flight answers.
 
         Raises:
@@ -241,11 +243,12 @@ class Server:
             log.exception("%s failed", about(message))
             raise Refusal(about(message), f"an error in tandemlift: {error!r}"[:300]) from error
 
-    def _answer(self, viewer: Viewer, answer: dict[str, Any] | None) -> None:
-        if answer and answer.get("type") == "changed":
-            self.viewers.tell(answer)
-        elif answer:
-            viewer.tell(answer)
+    def _answer(self, viewer: Viewer, answer: Answer) -> None:
+        for text in [answer] if isinstance(answer, dict) else answer or ():
+            if text["type"] == "changed":
+                self.viewers.tell(text)
+            else:
+                viewer.tell(text)
 
     def _start_change(self, viewer: Viewer, message: Message) -> None:
         """Make a change that may take long in another thread, one after another; the hand does not wait for it."""

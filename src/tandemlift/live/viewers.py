@@ -17,9 +17,9 @@ MOST_MESSAGES = 2_000  # a second; a page sends about a hundred
 MOST_REFUSALS = 20  # a second that are told
 
 
-def text_of(what: Mapping[str, Any]) -> bytes:
+def text_of(what: Mapping[str, Any]) -> str:
     """A JSON text; numbers that JSON does not have become null."""
-    return to_json(what, inf_nan_mode="null")
+    return to_json(what, inf_nan_mode="null").decode()
 
 
 class Viewer:
@@ -46,12 +46,12 @@ class Viewer:
         else:
             broadcast([self.connection], frame)
 
-    def tell(self, what: Mapping[str, Any] | bytes) -> None:
+    def tell(self, what: Mapping[str, Any] | str) -> None:
         """Send a text, or cut off a viewer that does not read."""
         if self.connection.transport.get_write_buffer_size() > LOST:
             self.connection.transport.abort()
         else:
-            broadcast([self.connection], what if isinstance(what, bytes) else text_of(what), text=True)
+            broadcast([self.connection], what if isinstance(what, str) else text_of(what))
 
     def refuse(self, refusal: Refusal) -> None:
         """Say why something is not done; not more often in a second than anybody reads."""
