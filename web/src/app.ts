@@ -67,7 +67,7 @@ export class App implements Listener {
   /** Sends a message; its delay is measured if it began with a hand's event at `since` [ms]. */
   send(message: Outgoing, since?: number): void {
     const seq = this.source.send(message);
-    if (seq !== null && since !== undefined) this.latency.note(seq, since);
+    if (seq !== null && since !== undefined) this.latency.note(seq, since, performance.now());
   }
 
   get canvas(): HTMLCanvasElement {
@@ -103,6 +103,7 @@ export class App implements Listener {
   }
 
   frame(frame: Frame): void {
+    if (!frame.drawable) return;
     if (!this.current) this.picture?.center.set(...frame.vector("position"));
     this.current = frame;
     this.front.frame(frame);

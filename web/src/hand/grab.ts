@@ -123,7 +123,7 @@ export class Grab {
   private readonly move = (event: PointerEvent): void => {
     if (this.grip) event.stopImmediatePropagation();
     if (this.second?.pointer === event.pointerId) {
-      this.grip!.depth = deeper(this.grip!.depth, 3 * (event.clientY - this.second.y));
+      this.grip!.depth = deeper(this.grip!.depth, 2 * (event.clientY - this.second.y));
       this.second.y = event.clientY;
     }
     if (this.grip && event.pointerId !== this.grip.pointer) return;

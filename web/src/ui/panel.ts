@@ -27,8 +27,8 @@ export interface Own {
 }
 
 export interface Asks extends Ask {
-  restoreAll(): void;
-  kill(rotor: number): void;
+  restoreAll: () => void;
+  kill: (rotor: number) => void;
 }
 
 export class Panel {

@@ -59,9 +59,11 @@ export class Plot {
 }
 
 function key(curve: Curve, text: string): HTMLElement {
-  const mark = el("i", { class: curve.dash ? "dashed" : "" });
-  mark.style.borderColor = curve.color;
-  return el("span", {}, mark, text);
+  // one letter is coloured itself; more have a piece of their line
+  const named = text.length > 1;
+  const mark = el(named ? "i" : "b", { class: curve.dash ? "dashed" : "" }, named ? "" : text);
+  mark.style.color = curve.color;
+  return el("span", {}, mark, named ? text : "");
 }
 
 function options(look: Look): uPlot.Options {

@@ -63,7 +63,7 @@ export class RotorMap {
       this.press(number);
     });
     spot.addEventListener("keydown", (event) => {
-      if ((event as KeyboardEvent).key === "Enter") this.press(number);
+      if (event.key === "Enter") this.press(number);
     });
     this.fills.push(fill);
     this.spots.push(spot);

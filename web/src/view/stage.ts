@@ -23,7 +23,7 @@ export class Stage {
   readonly camera = new PerspectiveCamera(42, 1, 0.05, 700);
   canvas!: HTMLCanvasElement;
   private renderer!: WebGLRenderer;
-  private readonly sun = new DirectionalLight("#fff3e0", 2.3);
+  private readonly sun = new DirectionalLight("#fff3e0", 2.1);
   private readonly fog = new Fog(HAZE, 20, 60);
 
   constructor(
@@ -32,7 +32,7 @@ export class Stage {
   ) {
     this.camera.up.set(0, 0, 1);
     this.scene.fog = this.fog;
-    this.scene.add(new HemisphereLight("#dfe9f5", "#9a948c", 1.5), this.sun, this.sun.target);
+    this.scene.add(new HemisphereLight("#dfe9f5", "#9a948c", 1.3), this.sun, this.sun.target);
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.bias = -0.0004;
     this.sun.shadow.normalBias = 0.01;
@@ -56,6 +56,8 @@ export class Stage {
       this.renderer.dispose();
       this.renderer.forceContextLoss();
       this.canvas.remove();
+      this.sun.shadow.dispose();
+      this.sun.shadow.map = null; // the old one belongs to the old renderer
     }
     this.renderer = renderer;
     this.canvas = renderer.domElement;

@@ -85,9 +85,9 @@ export interface Status {
   alarm: string;
   paused: boolean;
   speed: number;
-  factor: number;
-  behind_ms: number;
-  recorded_s: number;
+  factor: number | null; // null where a number is not known
+  behind_ms: number | null;
+  recorded_s: number | null;
   viewers: number;
   holder: "you" | "other" | "none";
   enabled?: boolean;
