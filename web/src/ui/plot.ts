@@ -124,6 +124,7 @@ export function band(plot: uPlot, from: number, to: number, color: string, name:
   ctx.fillStyle = color;
   ctx.fillRect(a, top, b - a, height);
   ctx.fillStyle = INK;
+  ctx.textAlign = "left";
   ctx.font = `${10 * devicePixelRatio}px system-ui, sans-serif`;
   if (b - a > ctx.measureText(name).width + 8) ctx.fillText(name, a + 4, top + 11 * devicePixelRatio);
   ctx.restore();
