@@ -12,9 +12,11 @@ import { Stage } from "./view/stage.ts";
 import { beamAxis } from "./view/vehicle.ts";
 import type { Frame } from "./wire/frames.ts";
 import { Latency } from "./wire/latency.ts";
-import type { Outgoing, Scene, Setting, Status } from "./wire/protocol.ts";
+import { type Outgoing, perAxis, type Scene, type Setting, type Status, THRESHOLD } from "./wire/protocol.ts";
 import type { Recorded } from "./wire/recorded.ts";
 import type { Listener, Source } from "./wire/source.ts";
+
+const STIFFNESS = "partner.stiffness"; // of the hand's spring
 
 export class App implements Listener {
   readonly shown: Shown = { push: true, zone: true, ghost: true, thrust: true, wind: true, trail: true };
@@ -114,10 +116,8 @@ export class App implements Listener {
   }
 
   changed(key: string, value: Setting, duration: number): void {
-    if (this.picture && key.endsWith("threshold") && Array.isArray(value)) {
-      this.picture.threshold = value as [number, number, number];
-    }
-    if (this.picture && /(spring|hand)\.stiffness$/.test(key)) this.picture.stiffness = Number(value);
+    if (this.picture && key === THRESHOLD) this.picture.threshold = perAxis(value);
+    if (this.picture && key === STIFFNESS) this.picture.stiffness = Number(value);
     this.front.changed(key, value, duration);
   }
 

@@ -5,7 +5,7 @@ import { typing, type Ways } from "../hand/pushes.ts";
 import type { View } from "../view/follow.ts";
 import type { Choice } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
-import type { Scene, Setting, Status } from "../wire/protocol.ts";
+import { perAxis, type Scene, type Setting, type Status, THRESHOLD } from "../wire/protocol.ts";
 import { help, saving, stamp } from "./dialogs.ts";
 import { Dock } from "./dock.ts";
 import { byId, choice, toggle } from "./dom.ts";
@@ -80,25 +80,21 @@ export class Frontend {
   status(status: Status): void {
     this.readout.status(status);
     this.dock?.status(status);
-    for (const rotor of status.killed ?? []) this.panel.dead(rotor);
     this.hint(status);
   }
 
   changed(key: string, value: Setting, duration: number): void {
     this.panel.changed(key, value, duration);
-    if (this.plots && key.endsWith("threshold") && Array.isArray(value)) {
-      this.plots.threshold = value as [number, number, number];
-    }
+    if (this.plots && key === THRESHOLD) this.plots.threshold = perAxis(value);
   }
 
   refused(what: string, reason: string): void {
     const shown = this.panel.refused(what, reason);
-    if (what.startsWith("kill")) this.killing = -1;
+    if (what.startsWith("kill")) this.panel.dead(this.killing, false);
     if (!shown || byId("panel").hidden) this.notices.say(`${what}: ${reason}`, "refused");
   }
 
   done(what: string, detail: string): void {
-    if (what.startsWith("kill") && this.killing >= 0) this.panel.dead(this.killing);
     this.notices.say(what === "save" ? `Saved as ${detail}` : detail || what, "done");
   }
 
@@ -141,6 +137,7 @@ export class Frontend {
       restoreAll: () => app.send({ type: "restore" }),
       kill: (rotor: number) => {
         this.killing = rotor;
+        this.panel.dead(rotor, true);
         app.send({ type: "kill", rotor });
       },
     };

@@ -14,6 +14,7 @@ const MODES: Partial<Record<string, Mode>> = {
   guided: { text: "guided", kind: "active", tint: "rgba(31, 157, 118, 0.13)" },
   land: { text: "landing", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
   hold: { text: "holding", kind: "calm", tint: "rgba(47, 111, 176, 0.12)" },
+  lost: { text: "out of control", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
   stopped: { text: "stopped", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
 };
 
