@@ -94,7 +94,7 @@ def test_the_version_is_told(run):
     [
         (
             ("rnu", "paper"),
-            ["No such command 'rnu'", "run, compare, render, validate, mi", "Did you mean 'run'?"],
+            ["No such command 'rnu'", "run, compare, render, live, replay, validate, export, mi", "Did you mean 'run'?"],
         ),
         (("misions",), ["Did you mean 'missions'?"]),
         (("xyz",), ["No such command 'xyz'; there are run, "]),

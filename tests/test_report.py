@@ -143,6 +143,8 @@ def test_the_set_up_is_told_with_the_mission_s_numbers(windy, write):
         "Vehicle": ["2 quadrotors", "0.5 kg", "3.5 kg"],
         "Unknown to the pilot": ["3.8 kg"],
         "Pilot": ["nftsmc", "estimated state", "measured push"],
+        "Guidance": ["by hand", "m/s³", "turns with a push"],
+        "Disturbance": ["super-twisting"],
         "Rotors": ["0 to 7.066 N", "12.5 ms up", "25 ms down", "10 ms late", "stopped", "constrained"],
         "Fault": ["rotor 3 of quadrotor 2", "25 % of the thrust left from 15 s", "0.05 s later"],
         "Joint forces": [f"noise {sensors['joints']['force_noise']:g} N", f"±{sensors['joints']['force_range']:g} N"],
@@ -159,6 +161,9 @@ def test_the_set_up_is_told_with_the_mission_s_numbers(windy, write):
 
 def test_the_set_up_of_a_flight_without_parts_says_so_and_an_older_mission_has_one_as_well(page, paper, write):
     told = dict(row for row in page.rows if len(row) == 2)
+    assert told["Guidance"].startswith("by the clock")
+    assert told["Disturbance"] == "not estimated"
+    assert "Supervision" not in told
     assert told["Rotors"].startswith("ideal")
     assert told["Sensors"].startswith("none")
     assert (told["Wind"], told["Floor"]) == ("none", "none")

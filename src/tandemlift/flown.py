@@ -134,7 +134,7 @@ def versions(engine: str) -> Mapping[str, str]:
     return {name: metadata.version(name) for name in packages}
 
 
-def _channels(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
+def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
     """The channels of samples laid out like `like`: those of a group one by one; vectors of sets part by part."""
     at = 0
     for name, part in zip(like._fields, like, strict=True):
@@ -146,14 +146,14 @@ def _channels(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
         elif getattr(part, "linear", False):
             yield name, columns
         else:
-            yield from _channels(part, columns)
+            yield from channels_of(part, columns)
         at += leaves(part)
 
 
 def flight_of(p: Prepared, flown: Flown, engine: str = "compiled") -> Flight:
     """The record of a flight in an engine."""
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
-    channels = dict(_channels(p.sample, flown.log[:logged]))
+    channels = dict(channels_of(p.sample, flown.log[:logged]))
     return Flight(
         time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
         channels=channels,

@@ -16,7 +16,7 @@ from tandemlift.law import law
 from tandemlift.laws.body import State
 from tandemlift.laws.partner import asks_to_land, lend
 from tandemlift.laws.push import Hand, Push
-from tandemlift.laws.requests import NOBODY, UNAWARE
+from tandemlift.laws.requests import UNAWARE, operator_of
 from tandemlift.laws.rotation import sine_of_roll
 from tandemlift.laws.rotors import drive
 from tandemlift.ops import absolute, maximum, where
@@ -168,7 +168,8 @@ def perceive(flying: Flying, push: Push, t: Any, dt: Any) -> Any:
     state = read_state(reads.state, before.state, readings, known)
     touch = read_push(reads.push, push, state, known)
     land, sees = asks_to_land(before.partner), all_sensed(readings, known)
-    return known, Heard(state, touch.force, touch.moment, land, sees, NOBODY, UNAWARE), memory
+    asked = operator_of(before.partner)
+    return known, Heard(state, touch.force, touch.moment, land, sees, asked, UNAWARE), memory
 
 
 @law

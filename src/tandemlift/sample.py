@@ -14,6 +14,7 @@ from tandemlift.laws.body import Wrench
 from tandemlift.laws.clearance import clearance
 from tandemlift.laws.contact import Floor
 from tandemlift.laws.detection import Detection
+from tandemlift.laws.grab import Grabbing
 from tandemlift.laws.guidance import GuidedChannels, share_of
 from tandemlift.laws.limits import given_share
 from tandemlift.laws.loads import Felt, Loads, total_of_each
@@ -247,6 +248,11 @@ def _nobody(partner, x):
 
 @effort.register(Partnering)
 def _somebody(partner, x):
+    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+
+
+@effort.register(Grabbing)
+def _a_hand(partner, x):
     return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 

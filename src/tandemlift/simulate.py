@@ -14,6 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.changing import changes_in_flight
 from tandemlift.engines import engine_named
 from tandemlift.errors import InputError
 from tandemlift.flight import Flight
@@ -48,6 +49,11 @@ def _fly_single(p: Prepared, rows: int, every: int, progress: Progress | None = 
         if progress:
             progress(k, p.steps)
     return Flown(unflat(a[:size], p.flying.moving), early, k, log, last, time.perf_counter() - began)
+
+
+def _alone(p: Prepared) -> Callable[..., Flown]:
+    """How a mission is flown alone: step by step where Python has a say in it."""
+    return fly_stepwise if p.interpreted or changes_in_flight(p.mission) else _fly_single
 
 
 def _fly_block(flights: Sequence[Prepared], rows: int, every: int) -> list[Flown]:
@@ -112,8 +118,7 @@ def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None
     if chosen.module:
         body = chosen.start(mission, Vehicle.from_settings(mission.vehicle), p.flying.plant.floor, p.flying.plant.walls)
         return flight_of(p, fly_stepwise(p, rows, p.every, progress, body), engine)
-    pick = fly_stepwise if p.interpreted else _fly_single
-    return flight_of(p, pick(p, rows, p.every, progress))
+    return flight_of(p, _alone(p)(p, rows, p.every, progress))
 
 
 def fly_many(
@@ -178,18 +183,20 @@ def _fly_together(flights: Sequence[Prepared], rows: int, every: int) -> list[Fl
     """Fly what goes together, as a block unless it is one flight alone."""
     if len(flights) > 1:
         return _fly_block(flights, rows, every)
-    alone = fly_stepwise if flights[0].interpreted else _fly_single
-    return [alone(flights[0], rows, every)]
+    return [_alone(flights[0])(flights[0], rows, every)]
 
 
 def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[Prepared]]]:
-    """What goes together, with its places: same variant and grid, at most LANES; interpreted ones alone."""
+    """What goes together, with its places: same variant and grid, at most LANES; what is flown step by step alone."""
     groups: defaultdict[Any, list[tuple[int, Prepared]]] = defaultdict(list)
     for i, mission in enumerate(missions):
         p = Prepared(mission)
+        if _alone(p) is fly_stepwise:
+            yield [i], [p]
+            continue
         key = (p.variant, p.steps, p.every, p.dt, tuple(p.delays))
         groups[key].append((i, p))
-        if p.interpreted or len(groups[key]) == LANES:
+        if len(groups[key]) == LANES:
             yield _unzipped(groups.pop(key))
     for group in groups.values():
         yield _unzipped(group)

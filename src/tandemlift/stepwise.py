@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from tandemlift.changing import Changing, Due, hand_place
 from tandemlift.engines import Body
 from tandemlift.flown import Flown, take_tallies
 from tandemlift.jit import flat, leaves, unflat
@@ -33,13 +34,18 @@ class Stepper:
     """
 
     def __init__(self, p: Prepared, body: Body | None = None) -> None:
-        likes = p.kernels.likes
-        self.p, self.body, self.parts = p, body, p.kernels.parts
+        self.body, self.changing = body, Changing(p)
         self.a, self.ring, self.work = np.array(flat(p.flying)), p.ring(), np.zeros(p.kernels.work_size)
+        self._lay_out(p)
+
+    def _lay_out(self, p: Prepared) -> None:
+        """Make the arrays in which the parts of a mission's step hand their values on."""
+        likes = p.kernels.likes
+        self.p, self.parts = p, p.kernels.parts
         self.g, self.m, self.c, self.v, self.row = (np.zeros(leaves(x)) for x in likes[1:-1])
         self.v[:] = flat(likes.moved)
         self.x, self.y, self.scratch = np.zeros(leaves(GIVEN)), np.zeros(leaves(COMMAND)), self.work[p.kernels.limits :]
-        self.interpreted = p.interpreted
+        self.interpreted, self.at_lost = p.interpreted, place(p.flying, "moving", "lost").at
         thrusts, air = place(likes.acting, "thrusts"), place(likes.acting, "weather", "loads")
         self.thrusts = self.c[thrusts.at : thrusts.at + thrusts.size]
         self.loads, self.push = self.c[air.at : air.at + air.size], np.zeros(6)
@@ -58,8 +64,39 @@ class Stepper:
             parts.moved(a, self.g, self.c, self.v, 0, p.dt)
         parts.observed(a, self.ring.copy(), p.delays, self.g, self.m, self.c, self.v, self.row, 0, True)
 
+    def change(self, due: Due) -> None:
+        """Let the flight go on as a changed mission; a controller that is another one takes over at once."""
+        if due.prepared.variant == self.p.variant:
+            self.changing.become(self.a, self.p, due)
+            self.p = due.prepared
+        else:
+            self._hand_over(due.prepared)
+
+    def _hand_over(self, p: Prepared) -> None:
+        """Go on as another mission, whose controller begins with a fresh memory."""
+        size, hand = leaves(self.p.flying.moving), self.a[hand_place(self.p)]
+        moving = unflat(self.a[:size], self.p.flying.moving)
+        memory = moving.memory._replace(controller=p.flying.moving.memory.controller)
+        self.a = np.array(flat(p.flying._replace(moving=moving._replace(memory=memory))))
+        self.changing.ramps.clear()
+        self._lay_out(p)
+        self.hold(hand)
+
+    def hold(self, hand: np.ndarray) -> None:
+        """Move the hand that is moved from outside: the numbers of a `laws.grab.Held`."""
+        self.a[hand_place(self.p)] = hand
+
+    def _change(self, k: int) -> None:
+        for due in self.changing.take_due(k):
+            self.change(due)
+        self.changing.apply(self.a, k)
+        hand = self.changing.hand_at(k)
+        if hand is not None:
+            self.hold(hand)
+
     def step(self, k: int, *, final: bool = False) -> None:
         """Take step number k; its sample is left in `row`. If `final`, only the sample is taken."""
+        self._change(k)
         p, parts = self.p, self.parts
         parts.outside(self.a, p.tables, self.work, p.seeds, self.g, k, p.dt)
         if self.interpreted is None:
@@ -92,7 +129,7 @@ class Stepper:
     @property
     def lost(self) -> bool:
         """Whether the state is no longer sound."""
-        return self.a[leaves(self.p.flying.moving) - 1] != 0.0
+        return bool(self.a[self.at_lost] != 0.0)
 
 
 def fly_stepwise(
@@ -105,7 +142,7 @@ def fly_stepwise(
     began, early, k = time.perf_counter(), EMPTY, 0
     while k <= p.steps and not stepper.lost:
         if k == p.late_step < p.steps:
-            (early,) = take_tallies(stepper.a, p.flying, 1)
+            (early,) = take_tallies(stepper.a, stepper.p.flying, 1)
         stepper.step(k, final=k == p.steps)
         if k % every == 0:
             log[k // every] = stepper.row
@@ -115,5 +152,6 @@ def fly_stepwise(
         k += 1
         if progress and k % PROGRESS_EVERY == 0:
             progress(k, p.steps)
-    moving = unflat(stepper.a[: leaves(p.flying.moving)], p.flying.moving)
+    like = stepper.p.flying.moving
+    moving = unflat(stepper.a[: leaves(like)], like)
     return Flown(moving, early, k, log, last, time.perf_counter() - began)

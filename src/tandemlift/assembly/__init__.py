@@ -53,7 +53,7 @@ def delays_of(mission: Mission) -> NDArray[np.int64]:
     ]
     steps = [round(s / mission.mission.step) for s in seconds]
     sight = round(mission.partner.delay / mission.mission.step) - 1  # what is seen is known a step later anyway
-    accompanied = mission.partner.model != "none"
+    accompanied = mission.partner.model not in ("none", "grab")
     return np.array([*steps, max(sight, 0) * accompanied], dtype=np.int64)
 
 

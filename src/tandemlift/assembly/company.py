@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tandemlift.laws.body import State
+from tandemlift.laws.grab import NOBODY_HOLDS, Grab, Grabbing
 from tandemlift.laws.lowpass import Smoothed, low_pass
 from tandemlift.laws.partner import Arm, Leg, Manner, Partner, Partnering, Walk, sight, steered
 from tandemlift.laws.tremor import STILL, TWITCH, tremor
@@ -35,7 +36,7 @@ def grip_of(mission: Mission, vehicle: Vehicle) -> Vec3:
 
 def legs_of(mission: Mission, partner: Any, state: State) -> list[Leg]:
     """The legs of a mission's path, from where what is steered is at the start; none without a person."""
-    if isinstance(partner, Nothing):
+    if not isinstance(partner, Partner):
         return []
     p, waypoints = mission.partner, waypoints_of(mission)
     at, _ = steered(partner.manner, sight(partner.grip, state))
@@ -50,11 +51,20 @@ def legs_of(mission: Mission, partner: Any, state: State) -> list[Leg]:
     return legs
 
 
+def start_grab(p: PartnerTable, step: float) -> tuple[Grab, Grabbing]:
+    """A hand that is moved from outside, and its memory at t = 0."""
+    nothing, still = Smoothed(ZERO, ZERO), Smoothed(0.0, 0.0)
+    grab = Grab(NOBODY_HOLDS, p.stiffness, p.damping, low_pass(1.0 / p.lag, step), p.max_force)
+    return grab, Grabbing(nothing, still, nothing, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
 def start_partner(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any, Any, Any]:
     """The person of a mission, their memory at t = 0 and the layout of their noise; or `Nothing` three times."""
     p, step = mission.partner, mission.mission.step
     if p.model == "none":
         return Nothing(), Nothing(), Nothing()
+    if p.model == "grab":
+        return *start_grab(p, step), Nothing()
     grip = grip_of(mission, vehicle)
     arm = Arm(
         stiffness=p.stiffness,

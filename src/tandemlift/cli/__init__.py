@@ -11,7 +11,10 @@ import click
 
 from tandemlift import __version__
 from tandemlift.cli.compare import compare
+from tandemlift.cli.export import export
+from tandemlift.cli.live import live
 from tandemlift.cli.render import render
+from tandemlift.cli.replay import replay
 from tandemlift.cli.run import run, say
 from tandemlift.cli.validate import validate
 from tandemlift.errors import FlightWarning, InputError, suggestion
@@ -53,7 +56,10 @@ def cli() -> None:
 cli.add_command(run)
 cli.add_command(compare)
 cli.add_command(render)
+cli.add_command(live)
+cli.add_command(replay)
 cli.add_command(validate)
+cli.add_command(export)
 
 
 def _print_table(rows: Mapping[str, str]) -> None:

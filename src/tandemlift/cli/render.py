@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.results import bar
+from tandemlift.cli.results import bar, flight_file
 from tandemlift.cli.run import parse_setting, say
 from tandemlift.errors import InputError
 
@@ -59,7 +59,7 @@ def render(
     """
     from tandemlift import rendering
 
-    folder, saved = _flight_file(flight_or_mission)
+    folder, saved = flight_file(flight_or_mission)
     path = Path(out) if out else folder / "picture.png"
     given = {"--time": time, "--from": start, "--to": end, "--fps": fps, "--speed": speed}
     _check_options(path, [name for name, value in given.items() if value is not None])
@@ -67,16 +67,6 @@ def render(
     shot = rendering.Shot(time, start, end, fps or 20.0, speed, _size(size), view)
     flight = _load(saved) if saved else _fly(flight_or_mission, settings, engine)
     _draw(flight, path, shot)
-
-
-def _flight_file(given: str) -> tuple[Path, Path | None]:
-    """Where a picture goes, and the file of a saved flight, or None if a mission is given."""
-    path = Path(given)
-    if path.is_dir() and (path / "flight.npz").exists():
-        return path, path / "flight.npz"
-    if path.suffix == ".npz":
-        return path.parent, path
-    return Path("out") / path.stem, None
 
 
 def _check_options(path: Path, given: list[str]) -> None:

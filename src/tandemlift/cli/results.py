@@ -86,6 +86,16 @@ def write_results(flight: Flight, mission: Mission, folder: Path, *, figures: bo
     write_report(flight, folder / "figures", folder / "report.html")
 
 
+def flight_file(given: str) -> tuple[Path, Path | None]:
+    """The folder of a flight's results, and the file of a saved flight, or None if a mission is given."""
+    path = Path(given)
+    if path.is_dir() and (path / "flight.npz").exists():
+        return path, path / "flight.npz"
+    if path.suffix == ".npz":
+        return path.parent, path
+    return Path("out") / path.stem, None
+
+
 @contextmanager
 def bar(label: str, length: int, *, shown: bool = True) -> Iterator[Callable[[int, int], None] | None]:
     """A progress bar on standard error as a callback of (done, total), or None."""

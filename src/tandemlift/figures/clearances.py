@@ -64,7 +64,7 @@ def clearances(flight: Flight) -> Clearances:
 def grips(flight: Flight) -> Array | None:
     """Where the person of [partner] holds on (T, 3) [m, world axes], or None without one."""
     partner = flight.mission.get("partner", {"model": "none"})
-    if partner["model"] == "none":
+    if partner["model"] in ("none", "grab"):
         return None
     along = 0.0 if partner["model"] == "two-hands" else partner["grip"]
     arm = vec3(np.array([0.0, along, 0.0]) - vehicle_of(flight).center_of_mass)

@@ -9,6 +9,7 @@ from tandemlift.jit import zeroed
 from tandemlift.laws.allocation import Constrained
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.controllers import Command, control
+from tandemlift.laws.partner import Partner
 from tandemlift.loop import Flying, Inputs, act, advance, joined, observe, think
 from tandemlift.vector import ZERO, Nothing
 
@@ -48,8 +49,8 @@ class Likes(NamedTuple):
 
     @property
     def accompanied(self) -> bool:
-        """Whether a person guides the vehicle."""
-        return not isinstance(self.flying.partner, Nothing)
+        """Whether a person leads the vehicle along a path."""
+        return isinstance(self.flying.partner, Partner)
 
     @property
     def line(self) -> Any:

@@ -19,6 +19,7 @@ from tandemlift.law import choice, law
 from tandemlift.laws.body import State
 from tandemlift.laws.lowpass import LowPass, Smoothed, smooth
 from tandemlift.laws.push import Hand, PointPush
+from tandemlift.laws.requests import NOBODY, operator_of
 from tandemlift.laws.rotation import euler_from_quaternion, rotation_from_quaternion, turned_least
 from tandemlift.laws.tremor import Shaking, Tremor, shake
 from tandemlift.ops import clip, maximum, minimum, sqrt, where
@@ -276,6 +277,11 @@ def _never_asks(memory):
 @asks_to_land.register(Partnering)
 def _asks(memory):
     return memory.landing
+
+
+@operator_of.register(Partnering)
+def _asks_nothing_else(company):
+    return NOBODY
 
 
 @law

@@ -62,6 +62,16 @@ def due(time, what, t):
 
 
 @choice
+def operator_of(company: Any) -> Any:
+    """What is asked by somebody at the vehicle, from their memory: nothing, but of those who can."""
+
+
+@operator_of.register(Nothing)
+def _nobody_asks(company):
+    return NOBODY
+
+
+@choice
 def asked_until(requests: Any, t: Any) -> Any:
     """What requests ask until time t [s]."""
 

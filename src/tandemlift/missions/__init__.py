@@ -13,6 +13,7 @@ import itertools
 import os
 import re
 import tomllib
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -21,7 +22,7 @@ import numpy as np
 import tomli_w
 from pydantic import BaseModel, ValidationError
 
-from tandemlift.errors import InputError, suggestion, unknown
+from tandemlift.errors import FlightWarning, InputError, suggestion, unknown
 from tandemlift.laws.controllers import CONTROLLERS, Controller
 from tandemlift.missions.explain import MISSING, Place, Problem, explain, shown, value_at
 from tandemlift.missions.flyable import check_flyable, warn
@@ -125,7 +126,15 @@ def _layers(path: Path, seen: tuple[Path, ...] = ()) -> Iterator[Layer]:
         except InputError as error:
             raise InputError(f"{path}: extends = {shown(parent)}: {error}") from None
         yield from _layers(above, (*seen, path.resolve()))
-    yield Layer(path.stem if path.parent == DATA / "missions" else str(path), tables)
+    yield Layer(path.stem if path.parent == DATA / "missions" else str(path), _anchored(tables, path.parent))
+
+
+def _anchored(tables: Tables, folder: Path) -> Tables:
+    """Tables of a file whose recording, if it names one, is found from the file's own folder."""
+    recording = value_at(tables, ("partner", "recording"))
+    if not isinstance(recording, str):
+        return tables
+    return merge(tables, {"partner": {"recording": str((folder / recording).resolve())}})
 
 
 def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:
@@ -208,10 +217,40 @@ def check(tables: Tables, source: str = "mission", layers: Sequence[Layer] = ())
         _refuse(problems, tables, source, layers)
     try:
         check_flyable(mission)
+        list(in_turn(mission))
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
     warn(mission, source)
     return mission
+
+
+def changed(mission: Mission, key: str, value: Any) -> Mission:
+    """A mission with one key changed, and without what is to change while it is flown.
+
+    Raises:
+        InputError: there is no such mission.
+    """
+    return check(_changed(tables_of(mission.model_copy(update={"changes": ()})), key, value, "mission"))
+
+
+def in_turn(mission: Mission) -> Iterator[Mission]:
+    """The missions that a mission becomes by its `changes`, one after the other.
+
+    Raises:
+        InputError: a change comes before the one above it, or makes a mission that there cannot be.
+    """
+    before = 0.0
+    for i, c in enumerate(mission.changes):
+        if c.time < before:
+            raise InputError(f"changes.{i}.time = {c.time}: must not be before the change above it, at {before:g} s")
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", FlightWarning)
+                mission = changed(mission, c.key, c.value)
+        except InputError as error:
+            raise InputError(f"changes.{i}: {error}") from None
+        before = c.time
+        yield mission
 
 
 def _refuse(problems: list[Problem], tables: Tables, source: str, layers: Sequence[Layer]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tandemlift.errors import InputError
+from tandemlift.recording import read_recording
 from tandemlift.settings import Mission
 
 
@@ -15,7 +16,11 @@ def check_company(m: Mission) -> None:
         InputError: with the key, its value and what is allowed.
     """
     p, half = m.partner, (m.vehicle.payload.length or 0.0) / 2.0
-    if p.model == "none":
+    if p.recording is not None and p.model != "grab":
+        raise InputError(f'partner.recording = "{p.recording}": must be left out where partner.model is "{p.model}"')
+    if p.model == "grab" and p.recording is not None:
+        read_recording(p.recording)
+    if p.model in ("none", "grab"):
         return
     if not p.path and not m.corridor.centreline:
         raise InputError(
@@ -29,7 +34,7 @@ def check_company(m: Mission) -> None:
 def doubts_of_company(m: Mission) -> Iterator[str]:
     """What may go badly, with the numbers."""
     p, e = m.partner, m.estimator
-    if p.model == "none":
+    if p.model in ("none", "grab"):
         return
     if m.pilot.guidance != "hand":
         yield 'the person of [partner] asks to land in vain: pilot.guidance is not "hand"'

@@ -7,13 +7,27 @@ from typing import TypeVar
 
 from tandemlift.figures.ground import floor_height
 from tandemlift.flight import Flight
-from tandemlift.settings import PartnerTable, Quadrotor, Table, VehicleTable, wall_tables
+from tandemlift.missions.explain import shown
+from tandemlift.settings import (
+    ChangeTable,
+    ComplianceTable,
+    DetectionTable,
+    PartnerTable,
+    Quadrotor,
+    Table,
+    VehicleTable,
+    wall_tables,
+)
+from tandemlift.settings.guided import ObserverTable
 from tandemlift.settings.pilot import AllocationTable, Estimator, PilotTable
+from tandemlift.settings.supervision import SupervisionTable
 from tandemlift.settings.world import Actuators, Disturbance, Fault, Ground, Plant, Sensors, WindTable
 
 Row = tuple[str, str]
 Settings = TypeVar("Settings", bound=Table)
 
+MOST_CHANGES = 12  # that are told of
+OBSERVERS = {"extended-state": "a linear extended-state observer", "super-twisting": "a super-twisting observer"}
 READ = {"truth": "true", "measurement": "measured", "estimate": "estimated"}
 JOINTS = {"force": ("N", "Joint forces"), "torque": ("N m", "Joint torques")}
 
@@ -63,6 +77,36 @@ def _pilot(flight: Flight) -> Iterator[Row]:
     yield "Pilot", f"controller {name}; reads the {READ[pilot.state]} state and the {READ[pilot.push]} push"
 
 
+def _guidance(flight: Flight) -> Iterator[Row]:
+    if _table(flight, "pilot", PilotTable).guidance == "clock":
+        yield "Guidance", "by the clock: lift and landing at set times, the paper’s admittance between"
+        return
+    c, estimator = _table(flight, "compliance", ComplianceTable), _table(flight, "estimator", Estimator)
+    caps = f"up to {_spread(c.max_speed, 'm/s')}, {_spread(c.max_acceleration, 'm/s²')}, {_spread(c.max_jerk, 'm/s³')}"
+    yaw = "turns with a push at an end" if c.yaw.model == "yielding" else "heading held"
+    tank = "; an energy tank adds damping" if c.tank.model != "none" else ""
+    wind = "; wind on the beam told from a push" if estimator.wind_compensation != "none" else ""
+    yield "Guidance", f"by hand: {caps}; {yaw}{tank}{wind}"
+
+
+def _watch(flight: Flight) -> Iterator[Row]:
+    observer, detection = _table(flight, "observer", ObserverTable), _table(flight, "detection", DetectionTable)
+    yield "Disturbance", "not estimated" if observer.model == "none" else f"estimated by {OBSERVERS[observer.model]}"
+    if detection.model != "none":
+        yield "Lost rotor", "found from what the rotors as modelled do not explain of the motion, and landed with"
+    if _table(flight, "supervision", SupervisionTable).model != "none":
+        yield (
+            "Supervision",
+            "checks before a lift, watchdogs on every sensor, limits and a fence, each with its reaction",
+        )
+    for change in (ChangeTable.model_validate(c) for c in flight.mission.get("changes", [])[:MOST_CHANGES]):
+        over = f" within {say(change.duration, 's')}" if change.duration else ""
+        yield "Change", f"{change.key} = {shown(change.value)} from {say(change.time, 's')} on{over}"
+    more = len(flight.mission.get("changes", [])) - MOST_CHANGES
+    if more > 0:
+        yield "Change", f"and {more} more"
+
+
 def _lag(quadrotors: tuple[Quadrotor, ...]) -> str:
     up, down = ([getattr(q, name) for q in quadrotors] for name in ("lag_up", "lag_down"))
     return f"lag of {_spread(up, 'ms', 1e3)} up and {_spread(down, 'ms', 1e3)} down" if any(up + down) else "no lag"
@@ -78,7 +122,8 @@ def _rotors(flight: Flight) -> Iterator[Row]:
     late = f"commands {say(actuators.delay, 'ms', 1e3)} late" if actuators.delay else "commands without delay"
     start = {"hover": "turning as in hover at the start", "stopped": "stopped at the start"}[actuators.start]
     yield "Rotors", f"0 to {most} each; {_lag(quadrotors)}; {late}; {start}; {method} allocation"
-    for fault in (Fault.model_validate(f) for f in flight.mission.get("faults", [])):
+    faults = [Fault.model_validate(f) for f in flight.mission.get("faults", [])]
+    for fault in (f for f in faults if f.time <= flight.mission["mission"]["duration"]):
         known = "never known" if fault.known_after is None else f"known {say(fault.known_after, 's')} later"
         left = f"{say(fault.efficiency, '%', 100.0)} of the thrust left"
         yield (
@@ -162,6 +207,10 @@ def _company(flight: Flight) -> Iterator[Row]:
     p = _table(flight, "partner", PartnerTable)
     if p.model == "none":
         return
+    if p.model == "grab":
+        spring = f"{say(p.stiffness, 'N/m')} and {say(p.damping, 'N s/m')}, up to {say(p.max_force, 'N')}"
+        yield "Person", f"a hand moved from outside, on a spring of {spring}"
+        return
     where = "" if p.model == "two-hands" else f", {say(p.grip, 'm')} along the beam from the payload’s centre"
     arm = f"arm of {say(p.stiffness, 'N/m')} and {say(p.damping, 'N s/m')}, up to {say(p.max_force, 'N')}"
     late = f"{say(p.delay, 'ms', 1e3)} after seeing, muscles of twice {say(p.lag, 'ms', 1e3)}"
@@ -170,5 +219,5 @@ def _company(flight: Flight) -> Iterator[Row]:
 
 def setup_of(flight: Flight) -> list[Row]:
     """What a flight was flown with: rows of a name and what there is to say."""
-    parts = (_vehicle, _pilot, _rotors, _sensors, _surroundings, _company)
+    parts = (_vehicle, _pilot, _guidance, _watch, _rotors, _sensors, _surroundings, _company)
     return [row for part in parts for row in part(flight)]

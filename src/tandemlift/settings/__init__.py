@@ -11,6 +11,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, SerializeAsAny
 
+from tandemlift.settings.changes import ChangeTable
 from tandemlift.settings.corridor import CorridorTable, WallTable, wall_tables
 from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
 from tandemlift.settings.leaves import (
@@ -62,6 +63,7 @@ __all__ = [
     "AtLeastOne6",
     "Axes",
     "Axes3",
+    "ChangeTable",
     "ComplianceTable",
     "ControllerTable",
     "CorridorTable",
@@ -148,6 +150,7 @@ class Mission(Table):
     walls: tuple[WallTable, ...] = ()
     corridor: CorridorTable = CorridorTable()
     partner: PartnerTable = PartnerTable()
+    changes: tuple[ChangeTable, ...] = ()
 
     @property
     def all_walls(self) -> tuple[WallTable, ...]:

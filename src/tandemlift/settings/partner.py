@@ -25,7 +25,7 @@ class WaypointTable(Table):
 class PartnerTable(Table):
     """`[partner]`: a person who sees the vehicle late, and pushes it along a path."""
 
-    model: Literal["none", "pull", "steer", "two-hands", "hold"] = "none"
+    model: Literal["none", "pull", "steer", "two-hands", "hold", "grab"] = "none"
     grip: float = 0.0  # m, along body y from the payload's centre, of one hand
     stiffness: Positive = 10.0  # N/m, between the hand and the grip
     damping: NonNegative = 1.0  # N s/m, likewise
@@ -48,3 +48,4 @@ class PartnerTable(Table):
     start: NonNegative = 0.0  # s, before which the person does not push
     height_share: Share = 0.9  # of the lift, below which the person does not push
     path: tuple[WaypointTable, ...] = ()  # the corridor's centreline if empty
+    recording: str | None = None  # of "grab": the file that says, step by step, where the hand is

@@ -1,0 +1,67 @@
+"""`tandemlift live`: push a flight by hand in a page of the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tandemlift.cli.run import parse_setting
+from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
+
+if TYPE_CHECKING:
+    from tandemlift.settings import Mission
+
+DEFAULT = "hover"
+
+
+@click.command()
+@click.argument("mission", default=DEFAULT)
+@click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
+@click.option("--port", type=int, default=PORT, show_default=True, help="Of this machine; 0 for any that is free.")
+@click.option(
+    "--host", default=HOST, show_default=True, help="To bind to; beyond this machine the address has a token."
+)
+@click.option(
+    "--out", metavar="DIR", default="out/live", show_default=True, help="Where the page saves what was flown."
+)
+@click.option("--no-browser", is_flag=True, help="Print the address only.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of the mission, as in run.")
+def live(
+    mission: str, engine: str, port: int, host: str, out: str, no_browser: bool, settings: tuple[str, ...]
+) -> None:
+    """Fly MISSION in real time, and push it by hand in a page of the browser.
+
+    MISSION is the name of a built-in mission (see `tandemlift missions`) or the path of a .toml file. Nothing leaves
+    this machine, unless --host says so. Ctrl-C ends it.
+
+    \b
+    Examples:
+      tandemlift live
+      tandemlift live zigzag --out out/mine
+      tandemlift live hover --set admittance.mass=2 --port 0 --no-browser
+
+    \b
+    Exit code:
+      0   ended by Ctrl-C
+      2   bad input: one message, nothing is flown
+    """
+    from tandemlift.engines import engine_named
+
+    needs_live()
+    engine_named(engine)
+    loaded = _load(mission, settings)
+    from tandemlift.live.pages import page_files
+    from tandemlift.live.server import Server
+    from tandemlift.live.session import Session
+
+    files = page_files()
+    server = Server(files, Session(loaded, engine, Path(out)), host, port)
+    serve_here(server, f"{loaded.mission.name}, live", browser=not no_browser)
+
+
+def _load(mission: str, settings: tuple[str, ...]) -> Mission:
+    from tandemlift.missions import load_mission
+
+    return load_mission(mission, dict(map(parse_setting, settings)))

@@ -1,0 +1,164 @@
+"""A flight as a ROS 2 bag in one MCAP file, or as a ROS 1 bag: the same topics, the same times.
+
+A message's stamp, and its place in the bag, is the time of the flight plus one second: in ROS a stamp of zero means
+that there is none, and a ROS 1 bag's player leaves such messages out.
+"""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+import tempfile
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.errors import InputError
+from tandemlift.export.frames import fixed, vehicle_of
+from tandemlift.export.messages import SECOND, Transforms, Types, diagnostics_of, maker_of, modern
+from tandemlift.export.topics import ROOT, topics_of
+from tandemlift.flight import Flight
+from tandemlift.laws.phases import NAMES
+from tandemlift.missions import format_toml
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+START = SECOND  # ns, stamp of the flight's time 0
+CALLER, NAME = "/tandemlift", "flight"  # what a ROS 1 bag says published, and what a ROS 2 bag calls itself
+Items = Iterable[tuple[int, Any]]  # times [ns] and messages
+
+
+class Stream(NamedTuple):
+    """A topic, its type as ROS 1 calls it, and its messages by time; who listens late gets the last if `latched`."""
+
+    topic: str
+    kind: str
+    items: Items
+    latched: bool = False
+
+
+def stamp(time: float) -> int:
+    """A time of the flight [s] as a stamp [ns]."""
+    return START + round(time * SECOND)
+
+
+def streams_of(flight: Flight, types: Types) -> list[Stream]:
+    """Everything of a flight that goes into a bag.
+
+    Raises:
+        InputError: the flight lacks what a bag needs.
+    """
+    vehicle = vehicle_of(flight)
+    topics, stamps = topics_of(flight, vehicle), [stamp(t) for t in flight.time.tolist()]
+    transforms, diagnose = Transforms(types), diagnostics_of(types)
+    Text = types["std_msgs/String"]
+    place = np.hstack([flight["position"], flight["attitude"]])
+    happened = [(stamp(at), diagnose(stamp(at), what)) for at, what in events_of(flight)]
+    return [
+        Stream(f"{ROOT}/mission", "std_msgs/String", [(START, Text(format_toml(flight.mission)))], latched=True),
+        Stream("/tf_static", "tf2_msgs/TFMessage", [(START, transforms.fixed(START, list(fixed(vehicle))))], True),
+        Stream("/tf", "tf2_msgs/TFMessage", _made(stamps, place, transforms.moving)),
+        *[Stream("/diagnostics", "diagnostic_msgs/DiagnosticArray", happened)] * bool(happened),
+        *(Stream(t.name, t.kind, _made(stamps, t.rows, maker_of(types, t))) for t in topics),
+    ]
+
+
+def _made(stamps: list[int], rows: Any, make: Callable[[int, Any], Any]) -> Iterator[tuple[int, Any]]:
+    """The messages of a topic."""
+    return ((at, make(at, row)) for at, row in zip(stamps, rows.tolist(), strict=True))
+
+
+def events_of(flight: Flight) -> list[tuple[float, str]]:
+    """When [s] what happened: phases and alarms, and why the flight was stopped.
+
+    Without a supervision, which sees every step, the phases are those of the samples.
+    """
+    events = [(float(at), str(what)) for at, what in flight.results.get("events") or []]
+    if not events and "phase" in flight:
+        phase = flight["phase"].astype(int)
+        entered = [0, *(1 + np.flatnonzero(np.diff(phase))).tolist()]
+        events = [(float(flight.time[k]), NAMES[phase[k]]) for k in entered]
+    if flight.divergence:
+        events.append((flight.divergence.time, str(flight.divergence)))
+    return sorted(events)
+
+
+def _rosbags() -> ModuleType:
+    """The package that knows the formats of bags.
+
+    Raises:
+        InputError: it is not installed.
+    """
+    try:
+        import rosbags.typesys
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"a bag needs the package rosbags, and {error.name} is missing: pip install 'tandemlift[export]'; "
+            "a .csv does not"
+        ) from error
+    return rosbags
+
+
+def write_mcap(flight: Flight, path: Path) -> None:
+    """Write the flight as a ROS 2 bag in one MCAP file (chunks in Zstandard)."""
+    ros = _rosbags().typesys
+    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+
+    store = ros.get_typestore(ros.Stores.ROS2_HUMBLE)
+    streams = streams_of(flight, Types(store))
+    with tempfile.TemporaryDirectory(dir=path.parent, prefix=f"{path.name}.") as folder:
+        bag = Writer(Path(folder) / NAME, version=8, storage_plugin=StoragePlugin.MCAP)
+        bag.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+        with bag:
+            connections = [
+                bag.add_connection(s.topic, modern(s.kind), typestore=store, offered_qos_profiles=_qos(s.latched))
+                for s in streams
+            ]
+            _write(bag, streams, connections, lambda m, kind: store.serialize_cdr(m, modern(kind)))
+        (Path(folder) / NAME / f"{NAME}.mcap").replace(path)
+
+
+def _qos(latched: bool) -> list[Any]:
+    """What a ROS 2 player offers: reliable, and of a latched topic the last message to who comes late."""
+    from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
+
+    durability = QosDurability.TRANSIENT_LOCAL if latched else QosDurability.VOLATILE
+    depth, forever = 1 if latched else 10, QosTime(0, 0)
+    history, reliable, alive = QosHistory.KEEP_LAST, QosReliability.RELIABLE, QosLiveliness.AUTOMATIC
+    return [Qos(history, depth, reliable, durability, forever, forever, alive, forever, False)]
+
+
+def write_bag(flight: Flight, path: Path) -> None:
+    """Write the flight as a ROS 1 bag (chunks in LZ4)."""
+    ros = _rosbags().typesys
+    from rosbags.rosbag1 import Writer
+
+    store = ros.get_typestore(ros.Stores.ROS1_NOETIC)
+    store.register(ros.get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage"))
+    streams = streams_of(flight, Types(store))
+    bag = Writer(path)
+    bag.set_compression(Writer.CompressionFormat.LZ4)
+    bag.compressor = _frame_that_ros_reads
+    with bag:
+        connections = [
+            bag.add_connection(s.topic, modern(s.kind), typestore=store, callerid=CALLER, latching=int(s.latched))
+            for s in streams
+        ]
+        _write(bag, streams, connections, lambda m, kind: store.serialize_ros1(m, modern(kind)))
+
+
+def _frame_that_ros_reads(chunk: bytes) -> bytes:
+    """A chunk in LZ4, as ROS 1's own decompressor wants it: blocks apart, with a checksum and without a size."""
+    import lz4.frame
+
+    return lz4.frame.compress(chunk, block_linked=False, content_checksum=True, store_size=False)
+
+
+def _write(bag: Any, streams: list[Stream], connections: list[Any], pack: Callable[[Any, str], Any]) -> None:
+    """Write all messages in the order of time; of those at the same time, in the order of the topics."""
+    numbered = (zip(itertools.repeat(i), s.items) for i, s in enumerate(streams))
+    for i, (at, message) in heapq.merge(*numbered, key=lambda item: (item[1][0], item[0])):
+        bag.write(connections[i], at, pack(message, streams[i].kind))

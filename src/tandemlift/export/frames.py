@@ -1,0 +1,74 @@
+"""Where things are in an exported flight: names of frames, and vectors from one to another, for all samples at once.
+
+| frame | origin | axes |
+|---|---|---|
+| `world` | the mission's | z up |
+| `base_link` | centre of mass of the vehicle | body: x forward, y left along the beam, z up (ROS REP 103) |
+| `base_world` | as `base_link` | as `world`: for forces that are told in world axes |
+| `payload` | centre of mass of the payload | body |
+| `joint_1` … | where a quadrotor is fixed to the payload | body |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.errors import InputError
+from tandemlift.flight import Flight
+from tandemlift.laws.rotation import quaternion_from_euler, rotation_from_quaternion
+from tandemlift.settings import VehicleTable
+from tandemlift.vector import Mat3, Quat, Vec3, apply, apply_transposed
+from tandemlift.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+
+WORLD, BASE, ALIGNED, PAYLOAD = "world", "base_link", "base_world", "payload"
+
+
+def vehicle_of(flight: Flight) -> Vehicle:
+    """The vehicle of a flight's mission.
+
+    Raises:
+        InputError: the mission has none that can be read.
+    """
+    try:
+        return Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
+    except (KeyError, ValueError) as error:
+        raise InputError(f"flight {flight.name!r}: its mission's vehicle cannot be read: {error}") from error
+
+
+def fixed(vehicle: Vehicle) -> Iterator[tuple[str, Array]]:
+    """The frames that are fixed in `base_link`, and where: origin (3) [m], body axes."""
+    payload = 0.0 - vehicle.center_of_mass
+    yield PAYLOAD, payload
+    for i, quadrotor in enumerate(vehicle.quadrotors, 1):
+        yield joint(i), payload + np.array(quadrotor.joint_position)
+
+
+def joint(number: int) -> str:
+    """The frame at the joint of a quadrotor, from 1."""
+    return f"joint_{number}"
+
+
+def _rotation(attitude: Array) -> Mat3:
+    """R of quaternions (T, 4), as a matrix of arrays (T); those of another norm, as sensors read them, are scaled."""
+    with np.errstate(invalid="ignore"):
+        return rotation_from_quaternion(Quat(*(attitude / np.linalg.norm(attitude, axis=1, keepdims=True)).T))
+
+
+def to_world(attitude: Array, vectors: Array) -> Array:
+    """Vectors (T, 3) of body axes in world axes, by the attitude (T, 4), quaternions w, x, y, z."""
+    return np.stack(apply(_rotation(attitude), Vec3(*vectors.T)), axis=1)
+
+
+def to_body(attitude: Array, vectors: Array) -> Array:
+    """Vectors (T, 3) of world axes in body axes, by the attitude (T, 4), quaternions w, x, y, z."""
+    return np.stack(apply_transposed(_rotation(attitude), Vec3(*vectors.T)), axis=1)
+
+
+def quaternions(euler: Array) -> Array:
+    """Quaternions w, x, y, z (T, 4) of roll, pitch, yaw (T, 3) [rad]."""
+    return np.stack(quaternion_from_euler(Vec3(*euler.T)), axis=1)

@@ -1,0 +1,184 @@
+"""A flight that is told what to do while it is flown, step by step, and remembers all of it.
+
+Saved, it is a mission: a TOML file, with the hand in an archive beside it, that flies the same flight again to the last
+bit. Knows no clock and no page.
+"""
+
+from __future__ import annotations
+
+import time
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.changing import Due, due_of, hand_place
+from tandemlift.engines import engine_named
+from tandemlift.errors import FlightWarning, InputError
+from tandemlift.files import whole
+from tandemlift.flight import Flight
+from tandemlift.flown import Flown, flight_of, take_tallies
+from tandemlift.jit import flat, leaves, unflat
+from tandemlift.laws.grab import NOBODY_HOLDS, Held
+from tandemlift.missions import changed, format_toml, load_mission, tables_of
+from tandemlift.prepared import Prepared
+from tandemlift.recording import WIDTH, Recording, write_recording
+from tandemlift.settings import Mission
+from tandemlift.stepwise import Stepper
+from tandemlift.tally import EMPTY, Tally
+from tandemlift.vehicle import Vehicle
+
+Array = NDArray[np.float64]
+MISSION, HAND, FLIGHT = "recorded.toml", "hand.npz", "flight.npz"
+
+
+class RecordedFlight:
+    """One flight of a mission whose `partner.model` is "grab".
+
+    Args:
+        mission: how it begins; at the end of its duration it can only be saved.
+        engine: name of the body's engine.
+
+    Attributes:
+        now: the mission as it has become.
+        step: steps flown.
+
+    Raises:
+        InputError: the engine is not known, or the mission cannot be built.
+    """
+
+    def __init__(self, mission: Mission, engine: str = "compiled") -> None:
+        chosen, p = engine_named(engine), Prepared(mission)
+        plant = p.flying.plant
+        vehicle = Vehicle.from_settings(mission.vehicle)
+        body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.module else None
+        self.start, self.now, self.engine, self.step = mission, mission, engine, 0
+        self._p, self._early, self._wall = p, EMPTY, 0.0
+        self._stepper = Stepper(p, body)
+        self._stepper.compile()
+        self._log = np.zeros((p.steps // p.every + 1, leaves(p.sample)))
+        self._before, self._like = self._stepper.a.copy(), p.flying.moving
+        self._rows: list[tuple[int, Array]] = []
+        self._changes: list[dict[str, Any]] = []
+
+    @property
+    def dt(self) -> float:
+        """Of a step [s]."""
+        return self._p.dt
+
+    @property
+    def sample(self) -> Array:
+        """The last sample (columns,), laid out as a row of the log."""
+        return self._stepper.row
+
+    @property
+    def layout(self) -> Any:
+        """The layout of a sample."""
+        return self._p.sample
+
+    @property
+    def over(self) -> bool:
+        """Whether it has lasted as long as its mission, or its state is no longer sound."""
+        return self.step >= self._p.steps or self._stepper.lost
+
+    @property
+    def lost(self) -> bool:
+        """Whether its state is no longer sound."""
+        return self._stepper.lost
+
+    @property
+    def hand(self) -> Held:
+        """The hand as it is moved."""
+        return unflat(self._stepper.a[hand_place(self._stepper.p)], NOBODY_HOLDS)
+
+    def advance(self) -> None:
+        """Take a step."""
+        k, p, stepper, began = self.step, self._p, self._stepper, time.perf_counter()
+        if self._like is not stepper.p.flying.moving:
+            self._before, self._like = stepper.a.copy(), stepper.p.flying.moving
+        self._before[:] = stepper.a
+        if k == p.late_step:
+            (self._early,) = take_tallies(stepper.a, stepper.p.flying, 1)
+        stepper.step(k)
+        if k % p.every == 0:
+            self._log[k // p.every] = stepper.row
+        self.step += 1
+        self._wall += time.perf_counter() - began
+
+    def hold(self, hand: Held) -> None:
+        """Move the hand, from the next step on."""
+        numbers = np.array(flat(hand))
+        self._stepper.hold(numbers)
+        if self._rows and self._rows[-1][0] == self.step:
+            self._rows.pop()
+        self._rows.append((self.step, numbers))
+
+    def prepare(self, key: str, value: Any, duration: float = 0.0) -> Due:
+        """Make a change ready, which may take long; the flight may go on meanwhile.
+
+        Raises:
+            InputError: it cannot be made in flight.
+        """
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", FlightWarning)
+            due = due_of(self._stepper.p, changed(self.now, key, value), key, 0, duration)
+        if due.prepared.variant != self._stepper.p.variant:
+            Stepper(due.prepared).compile()
+        return due
+
+    def change(self, due: Due, key: str, value: Any, duration: float = 0.0) -> None:
+        """Let a change that was made ready begin with the next step; none must have come between."""
+        entry = {"time": self.step * self.dt, "key": key, "value": value, "duration": duration}
+        self._stepper.change(due._replace(first=self.step))
+        self._changes.append(entry)
+        self.now = due.prepared.mission
+
+    def snapshot(self) -> Snapshot:
+        """All that is needed to save the flight as far as it has come; it may go on meanwhile.
+
+        Raises:
+            InputError: nothing was flown yet.
+        """
+        if self.step < 2:
+            raise InputError("nothing was flown yet: there is nothing to save")
+        return Snapshot(self)
+
+
+class Snapshot:
+    """A flight as far as it had come: up to its last sample, taken at the beginning of its last step."""
+
+    def __init__(self, f: RecordedFlight) -> None:
+        self._steps = f.step - 1 if not f.lost else f.step
+        like, state = f._like, f._stepper.a if f.lost else f._before
+        self._moving = unflat(state[: leaves(like)], like)
+        p, self._wall = f._p, f._wall
+        late = self._steps > p.late_step
+        self._early: Tally = f._early if late else EMPTY
+        self._log = f._log[: self._steps // p.every + 1].copy()
+        self._last = np.full(leaves(p.sample), np.nan) if f.lost else f.sample.copy()
+        self._rows = [(k, hand) for k, hand in f._rows if k <= self._steps]
+        self._changes, self._start, self._engine = list(f._changes), f.start, f.engine
+
+    def save(self, folder: Path) -> Flight:
+        """Write mission, hand and flight into a folder; the flight that the mission flies again."""
+        steps = np.array([k for k, _ in self._rows], dtype=np.int64)
+        hands = np.reshape([hand for _, hand in self._rows], (len(steps), WIDTH))
+        write_recording(folder / HAND, Recording(steps, hands))
+        with whole(folder / MISSION) as partial:
+            partial.write_text(self._toml(folder.name), "utf-8")
+        p = Prepared(load_mission(folder / MISSION))
+        flight = flight_of(p, self._flown(), self._engine)
+        flight.save(folder / FLIGHT)
+        return flight
+
+    def _flown(self) -> Flown:
+        return Flown(self._moving, self._early, self._steps, self._log, self._last, self._wall)
+
+    def _toml(self, name: str) -> str:
+        tables, step = tables_of(self._start), self._start.mission.step
+        tables["mission"] |= {"name": name, "duration": self._steps * step}
+        tables["partner"]["recording"] = HAND
+        tables["changes"] = [c for c in self._changes if round(c["time"] / step) <= self._steps]
+        return format_toml(tables)

@@ -1,0 +1,294 @@
+"""One flight in real time, in a thread of its own, moved by the hand of whoever holds the beam.
+
+Every method may be called from any thread. The flight never waits for anybody: a change that takes long to make ready
+is made ready beside it.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from dataclasses import dataclass, field
+from functools import singledispatchmethod
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tandemlift.errors import InputError
+from tandemlift.flown import channels_of
+from tandemlift.laws.grab import NOBODY_HOLDS
+from tandemlift.laws.phases import NAMES
+from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.live import messages
+from tandemlift.live.by_hand import NEVER, by_hand
+from tandemlift.live.compiling import Compiling
+from tandemlift.live.controls import BY_KEY, CONTROLLER, controls_of, keys_of, value_of
+from tandemlift.live.frames import fields_of, frames_of
+from tandemlift.live.pace import Pace
+from tandemlift.live.recorded import RecordedFlight
+from tandemlift.live.scene import alarm_names, scene_of
+from tandemlift.live.values import values_of
+from tandemlift.missions import changed, tables_of
+from tandemlift.missions.explain import MISSING, shown
+from tandemlift.settings import Mission
+from tandemlift.vector import ZERO, Quat, Vec3, apply
+from tandemlift.vehicle import Vehicle
+
+NAP = 0.002  # s, between looks at the clock
+BATCH = 25  # steps without a look at who wants something
+RAMP = 0.5  # s, within which a setting changes
+WISH = 0.2  # s, for which a wish to lift or to land is said
+
+
+@dataclass
+class Grip:
+    """How the page holds the beam: what is to be added to its targets [m], and the last word it said."""
+
+    offset: Vec3 = ZERO
+    seq: int = 0
+    wishes: dict[str, int] = field(default_factory=dict)  # until which step each is said
+
+
+class Session:
+    """See the module; `server.LiveFlight` says what a server needs of it.
+
+    Args:
+        mission: flown by hand: its pushes and its person are left out.
+        engine: name of the body's engine.
+        out: folder that flights are saved in, each in one of its name.
+    """
+
+    def __init__(self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live")) -> None:
+        self._mission, self._engine, self._out = by_hand(mission), engine, out
+        self._lock, self._stopping = threading.RLock(), threading.Event()
+        self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
+        self._compiling, self._names = Compiling(), alarm_names()
+        self._pace = Pace(mission.mission.step)
+        self.generation = 0
+        self._begin(self._mission)
+
+    def _begin(self, mission: Mission) -> None:
+        flight = RecordedFlight(mission, self._engine)
+        scene = self._scene_of(mission)
+        with self._lock:
+            self._flight, self._grip = flight, Grip()
+            self._fields, self.scene = fields_of(Vehicle.from_settings(mission.vehicle).rotor_count), scene
+            self._phases = tables_of(mission)["phases"]
+            flight.hold(NOBODY_HOLDS)
+            flight.advance()
+            self.generation += 1
+
+    def _scene_of(self, mission: Mission) -> dict[str, Any]:
+        p = mission.partner
+        spring = {"stiffness": p.stiffness, "damping": p.damping, "max_force": p.max_force}
+        return scene_of(mission, self._engine, controls=list(controls_of(mission)), spring=spring)
+
+    # the thread
+
+    def start(self) -> None:
+        """Begin to fly."""
+        self._pace = Pace(self._flight.dt)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the flight's thread, and what is compiled beside it."""
+        self._stopping.set()
+        if self._thread.is_alive():
+            self._thread.join()
+        self._compiling.close()
+
+    def _run(self) -> None:
+        while not self._stopping.is_set():
+            with self._lock:
+                steps = min(self._pace.due(), BATCH)
+                for _ in range(steps):
+                    if self._flight.over:
+                        break
+                    self._forget_wishes()
+                    self._flight.advance()
+                self._pace.flew(steps)
+            if steps < BATCH:
+                time.sleep(NAP)
+
+    # what is shown
+
+    def frame(self) -> bytes:
+        """The latest state, as the scene's `fields` say."""
+        with self._lock:
+            values, hand, seq = self._values(), self._flight.hand, self._grip.seq
+        held = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
+        return frames_of(self._fields, {**values, **held, "seq": seq % 2**24}).tobytes()
+
+    def _values(self) -> dict[str, Any]:
+        flight = self._flight
+        channels = dict(channels_of(flight.layout, flight.sample[None, :].copy()))
+        return values_of(channels, np.array([(flight.step - 1) * flight.dt]), self._phases)
+
+    def status(self) -> dict[str, Any]:
+        """Phase, alarm, pace and what was recorded, for people."""
+        with self._lock:
+            flight, pace, values = self._flight, self._pace, self._values()
+            return {
+                "phase": "lost" if flight.lost else NAMES[int(values["phase"][0])],
+                "alarm": self._names[int(values["alarm"][0])] if "alarm" in values else "",
+                "paused": pace.paused,
+                "speed": pace.speed,
+                "factor": round(pace.factor, 3),
+                "behind_ms": round(1e3 * pace.behind, 2),
+                "recorded_s": round(flight.step * flight.dt, 3),
+            }
+
+    # what a page says
+
+    def apply(self, message: messages.Message, seq: int) -> dict[str, Any] | None:
+        """Heed a message; what there is to answer.
+
+        Raises:
+            InputError: it cannot be done; the text says why.
+        """
+        with self._lock:
+            if isinstance(message, (messages.Grab, messages.Move, messages.Release, messages.Force)):
+                self._grip.seq = seq
+        return self._heed(message)
+
+    def release(self) -> None:
+        """Nobody holds the beam any more."""
+        with self._lock:
+            self._move(held=0.0, force=ZERO)
+
+    def _move(self, **changes: Any) -> None:
+        self._flight.hold(self._flight.hand._replace(**changes))
+
+    def _forget_wishes(self) -> None:
+        for wish, until in list(self._grip.wishes.items()):
+            if self._flight.step >= until:
+                del self._grip.wishes[wish]
+                self._move(**{wish: 0.0})
+
+    @singledispatchmethod
+    def _heed(self, message: Any) -> dict[str, Any] | None:
+        raise InputError(f"{message.type}: nothing here heeds it")
+
+    @_heed.register
+    def _grab(self, m: messages.Grab) -> None:
+        with self._lock:
+            point, state = Vec3(*m.point), self._flight.sample
+            arm = apply(rotation_from_quaternion(Quat(*map(float, state[6:10]))), point)
+            centre = m.at == "centre"
+            self._grip.offset = -arm if centre else ZERO
+            target = Vec3(*m.target) + self._grip.offset
+            self._move(held=1.0, grip=ZERO if centre else point, target=target)
+
+    @_heed.register
+    def _pull(self, m: messages.Move) -> None:
+        with self._lock:
+            if self._flight.hand.held:
+                self._move(target=Vec3(*m.target) + self._grip.offset)
+
+    @_heed.register
+    def _let_go(self, m: messages.Release) -> None:
+        self.release()
+
+    @_heed.register
+    def _push(self, m: messages.Force) -> None:
+        with self._lock:
+            force = Vec3(*m.force)
+            grip = {"grip": Vec3(*m.point)} if any(force) and not self._flight.hand.held else {}
+            self._move(force=force, **grip)
+
+    @_heed.register
+    def _ask(self, m: messages.Ask) -> None:
+        with self._lock:
+            self._move(**{m.what: 1.0})
+            if m.what != "stop":
+                self._grip.wishes[m.what] = self._flight.step + round(WISH / self._flight.dt)
+
+    @_heed.register
+    def _enable(self, m: messages.Enable) -> None:
+        with self._lock:
+            self._move(enabled=float(m.on))
+
+    @_heed.register
+    def _pause(self, m: messages.Pause) -> None:
+        with self._lock:
+            self._pace.paused = m.on
+
+    @_heed.register
+    def _slow_down(self, m: messages.Speed) -> None:
+        with self._lock:
+            self._pace.speed = m.factor
+
+    @_heed.register
+    def _reset(self, m: messages.Reset) -> None:
+        self._begin(self._flight.now)
+
+    @_heed.register
+    def _save(self, m: messages.Save) -> dict[str, Any]:
+        with self._lock:
+            snapshot = self._flight.snapshot()
+        folder = self._out / m.name
+        snapshot.save(folder)
+        return {"type": "done", "what": "save", "detail": str(folder)}
+
+    @_heed.register
+    def _kill(self, m: messages.Kill) -> dict[str, Any] | None:
+        faults = self._flight.now.faults
+        at = [i for i, f in enumerate(faults) if 4 * (f.quadrotor - 1) + f.rotor - 1 == m.rotor]
+        if not at:
+            raise InputError(f"rotor = {m.rotor}: the rotors of this mission cannot fail")
+        if faults[at[0]].time < NEVER:
+            raise InputError(f"rotor = {m.rotor}: has failed already")
+        self._change(f"faults.{at[0]}.time", self._flight.step * self._flight.dt, 0.0)
+        return None
+
+    @_heed.register
+    def _set(self, m: messages.Set) -> dict[str, Any]:
+        value = list(m.value) if isinstance(m.value, tuple) else m.value
+        self._check(m.key, value)
+        duration = 0.0 if m.key == CONTROLLER else RAMP
+        for key in keys_of(self._flight.now, m.key):
+            self._change(key, value, duration)
+        return {"type": "changed", "key": m.key, "value": value, "duration": duration}
+
+    @_heed.register
+    def _restore(self, m: messages.Restore) -> dict[str, Any] | None:
+        start, now = tables_of(self._mission), tables_of(self._flight.now)
+        answer = None
+        for key in [CONTROLLER, *BY_KEY] if m.key is None else [m.key]:
+            value = value_of(start, key)
+            if value is not MISSING and value != value_of(now, key):
+                seq = m.seq
+                answer = self._set(messages.Set(type="set", seq=seq, key=key, value=_tuple(value)))
+        return answer
+
+    # changes
+
+    def _check(self, key: str, value: Any) -> None:
+        """Refuse what is no control, or beyond its bounds."""
+        if key == CONTROLLER:
+            return
+        if key not in BY_KEY:
+            raise InputError(f"{key}: is not among the controls; there are {', '.join([CONTROLLER, *BY_KEY])}")
+        control = BY_KEY[key]
+        for number in value if isinstance(value, list) else [value]:
+            if isinstance(number, bool) or not isinstance(number, (int, float)):
+                raise InputError(f"{key} = {shown(value)}: must be a number, or a list of numbers")
+            if not control.low <= number <= control.high:
+                raise InputError(f"{key} = {shown(value)}: must be from {control.low:g} to {control.high:g}")
+
+    def _change(self, key: str, value: Any, duration: float) -> None:
+        """Make a change ready beside the flight, and let it begin."""
+        flight = self._flight
+        if key == CONTROLLER and value != flight.now.controller.name:
+            wanted = changed(flight.now, key, value)
+            if not self._compiling.is_ready(wanted):
+                raise InputError(f"{value} is being compiled for this flight: choose it again in a minute")
+        due = flight.prepare(key, value, duration)
+        with self._lock:
+            if flight is self._flight:
+                flight.change(due, key, value, duration)
+
+
+def _tuple(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value

@@ -1,0 +1,54 @@
+"""The values of a frame's fields, from the channels of a flight or of one sample."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.laws.phases import GUIDED, LAND, LIFT
+
+Array = NDArray[np.float64]
+
+PUSHED = 1e-9  # N, below which a push acts nowhere
+CHANNELS = {  # of a frame's fields: the channels that tell of it, the best first
+    "position": ("position",),
+    "attitude": ("attitude",),
+    "velocity": ("velocity",),
+    "reference": ("reference_position",),
+    "push": ("push_force",),
+    "heard": ("push_heard", "push_estimate", "push_force"),
+    "disturbance": ("disturbance_force",),
+    "wind": ("wind_velocity",),
+    "alarm": ("alarm",),
+    "thrusts": ("rotor_thrusts",),
+}
+
+
+def values_of(channels: Mapping[str, Array], time: Array, phases: Mapping[str, Any]) -> dict[str, Array]:
+    """The values of the fields that channels (T, …) tell of, at times (T,) [s]; `phases`: that table of the mission."""
+    found = {field: next((channels[n] for n in names if n in channels), None) for field, names in CHANNELS.items()}
+    values = {field: channel for field, channel in found.items() if channel is not None}
+    values["time"] = time
+    values["reference_yaw"] = channels["reference_euler"][:, 2]
+    values["push_point"] = _points(values["push"], channels["push_moment"], channels["attitude"])
+    values["phase"] = channels["phase"] if "phase" in channels else _phases(time, phases)
+    return {field: np.nan_to_num(v) for field, v in values.items()}
+
+
+def _points(forces: Array, moments: Array, attitudes: Array) -> Array:
+    """Where forces (T, 3) [N, world] with moments (T, 3) [N m, body] act [m, body]: nearest to the centre of mass."""
+    w, axis = attitudes[:, :1], -attitudes[:, 1:]
+    turned = 2.0 * np.cross(axis, forces)
+    body = forces + w * turned + np.cross(axis, turned)
+    square = np.sum(body * body, axis=1, keepdims=True)
+    return np.where(square > PUSHED**2, np.cross(body, moments) / np.maximum(square, PUSHED**2), 0.0)
+
+
+def _phases(time: Array, phases: Mapping[str, Any]) -> Array:
+    """The phases of a flight that is guided by the clock."""
+    lifting = (time >= phases["lift_start"]) & (time < phases["lift_start"] + phases["lift_duration"])
+    landing = np.full(len(time), False) if phases.get("land_start") is None else time >= phases["land_start"]
+    return np.where(landing, LAND, np.where(lifting & (phases["height"] != 0.0), LIFT, GUIDED))

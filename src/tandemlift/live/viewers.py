@@ -1,0 +1,140 @@
+"""Those who watch, one of whom may hold the beam. A viewer that is behind misses frames; nobody waits for it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic_core import to_json
+from websockets.asyncio.server import ServerConnection, broadcast
+
+from tandemlift.live.messages import Force, Grab, Message, Move, Refusal, Release
+
+BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is behind
+LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
+MOST_MESSAGES = 2_000  # a second; a page sends about a hundred
+MOST_REFUSALS = 20  # a second that are told
+
+
+def text_of(what: Mapping[str, Any]) -> bytes:
+    """A JSON text; numbers that JSON does not have become null."""
+    return to_json(what, inf_nan_mode="null")
+
+
+class Viewer:
+    """One page's connection.
+
+    Attributes:
+        dropped: frames that it was too slow for.
+    """
+
+    def __init__(self, connection: ServerConnection) -> None:
+        self.connection = connection
+        self.dropped = 0
+        self._second, self._messages, self._refusals = 0, 0, 0
+
+    @property
+    def behind(self) -> bool:
+        """Whether what it was sent before is still on its way out of this process."""
+        return self.connection.transport.get_write_buffer_size() > BEHIND
+
+    def show(self, frame: bytes) -> None:
+        """Send a frame, unless it is behind."""
+        if self.behind:
+            self.dropped += 1
+        else:
+            broadcast([self.connection], frame)
+
+    def tell(self, what: Mapping[str, Any] | bytes) -> None:
+        """Send a text, or cut off a viewer that does not read."""
+        if self.connection.transport.get_write_buffer_size() > LOST:
+            self.connection.transport.abort()
+        else:
+            broadcast([self.connection], what if isinstance(what, bytes) else text_of(what), text=True)
+
+    def refuse(self, refusal: Refusal) -> None:
+        """Say why something is not done; not more often in a second than anybody reads."""
+        self._begin_second()
+        self._refusals += 1
+        if self._refusals <= MOST_REFUSALS and not self.behind:
+            self.tell({"type": "refused", "what": refusal.what, "reason": str(refusal)})
+
+    def is_flooding(self) -> bool:
+        """Count a message; whether there are more of them in a second than a page sends."""
+        self._begin_second()
+        self._messages += 1
+        return self._messages > MOST_MESSAGES
+
+    def _begin_second(self) -> None:
+        now = int(time.monotonic())
+        if now != self._second:
+            self._second, self._messages, self._refusals = now, 0, 0
+
+
+class Viewers:
+    """All viewers.
+
+    Attributes:
+        holder: who holds the beam, or None.
+    """
+
+    def __init__(self) -> None:
+        self._all: set[Viewer] = set()
+        self.holder: Viewer | None = None
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __iter__(self) -> Iterator[Viewer]:
+        return iter(tuple(self._all))
+
+    def join(self, viewer: Viewer) -> None:
+        """Another one watches."""
+        self._all.add(viewer)
+
+    def leave(self, viewer: Viewer) -> bool:
+        """One is gone; whether it held the beam."""
+        self._all.discard(viewer)
+        held = self.holder is viewer
+        if held:
+            self.holder = None
+        return held
+
+    def show(self, frame: bytes) -> None:
+        """Send a frame to all who can take it."""
+        for viewer in self:
+            viewer.show(frame)
+
+    def tell(self, what: Mapping[str, Any]) -> None:
+        """Send a text to all."""
+        text = text_of(what)
+        for viewer in self:
+            viewer.tell(text)
+
+    def tell_status(self, status: Mapping[str, Any]) -> None:
+        """Send the status to all, each with who holds the beam as it sees it."""
+        common = {"type": "status", **status, "viewers": len(self)}
+        others = "none" if self.holder is None else "other"
+        text = text_of({**common, "holder": others})
+        for viewer in self:
+            viewer.tell(text_of({**common, "holder": "you"}) if viewer is self.holder else text)
+
+    def admits(self, viewer: Viewer, message: Message) -> bool:
+        """Whether a message may go on to the flight: of the holder all, of others what does not touch the beam.
+
+        Raises:
+            Refusal: it wants the beam, and somebody else holds it.
+        """
+        if isinstance(message, (Move, Release)) or (isinstance(message, Force) and not any(message.force)):
+            return self.holder is viewer
+        if isinstance(message, (Grab, Force)) and self.holder not in (None, viewer):
+            raise Refusal(message.type, "somebody else holds the beam: wait until they let go")
+        return True
+
+    def note(self, viewer: Viewer, message: Message) -> None:
+        """Who holds the beam after a message that was heeded."""
+        if isinstance(message, Release) or (isinstance(message, Force) and not any(message.force)):
+            self.holder = None
+        elif isinstance(message, (Grab, Force)):
+            self.holder = viewer

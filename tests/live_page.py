@@ -1,0 +1,194 @@
+"""What the tests of the live page share: a page, a server in a thread of its own, raw sockets, good viewers."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import contextlib
+import http.client
+import json
+import os
+import socket
+import struct
+import threading
+from collections.abc import Iterator
+from typing import Any
+from urllib.parse import urlsplit
+
+from websockets.sync.client import ClientConnection, connect
+
+from tandemlift.live.server import Server, serve_until_stopped
+
+PATIENCE = 20.0  # s, before a test gives up
+PAGE = {
+    "index.html": b"""<!doctype html><html><head><meta charset="utf-8"><title>page</title>
+<link rel="stylesheet" href="page.css"></head><body><div id="view"></div>
+<script type="module" src="page.js"></script></body></html>""",
+    "page.js": b'const end = "</script>", comment = "<!--"; export default [end, comment, "\xc3\xa4"];\n',
+    "page.css": b'body { margin: 0; content: "</style>" }\n',
+}
+
+
+def put_page(folder):
+    """Write a page to a folder, and beside the folder what must not be served."""
+    folder.mkdir(parents=True)
+    for name, content in PAGE.items():
+        (folder / name).write_bytes(content)
+    (folder.parent / "secret.txt").write_text("secret", "utf-8")
+    return folder
+
+
+class Running:
+    """A server that serves until it is stopped."""
+
+    def __init__(self, server: Server) -> None:
+        self.server = server
+        self._ready = threading.Event()
+        self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()))
+        self._thread.start()
+        assert self._ready.wait(PATIENCE)
+        self.address = server.address
+        self.host = urlsplit(server.address).netloc
+        self.port = int(self.host.rpartition(":")[2])
+
+    async def _serve(self) -> None:
+        self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
+        serving = asyncio.create_task(serve_until_stopped(self.server, lambda _: self._ready.set()))
+        stopping = asyncio.create_task(self._stop.wait())
+        await asyncio.wait([serving, stopping], return_when=asyncio.FIRST_COMPLETED)
+        serving.cancel()
+        stopping.cancel()
+        with contextlib.suppress(asyncio.CancelledError):
+            await serving
+
+    def stop(self) -> None:
+        self._loop.call_soon_threadsafe(self._stop.set)
+        self._thread.join(PATIENCE)
+        assert not self._thread.is_alive()
+
+    def get(self, path: str = "/", method: str = "GET", **headers: str) -> tuple[int, dict[str, str], bytes]:
+        """Status, headers and body of an answer; `Host` is the server's own unless given."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
+        try:
+            connection.putrequest(method, path, skip_host=True)
+            for name, value in {"Host": self.host, **headers}.items():
+                connection.putheader(name, value)
+            connection.endheaders()
+            answer = connection.getresponse()
+            return answer.status, dict(answer.getheaders()), answer.read()
+        finally:
+            connection.close()
+
+    def send(self, request: bytes) -> bytes:
+        """All that comes back for the bytes of a request."""
+        with socket.create_connection(("127.0.0.1", self.port), PATIENCE) as s:
+            s.sendall(request)
+            return b"".join(iter(lambda: s.recv(65536), b""))
+
+    @contextlib.contextmanager
+    def viewer(self, **headers: str) -> Iterator[Good]:
+        """A page that behaves well."""
+        with connect(
+            f"ws://127.0.0.1:{self.port}/ws",
+            origin=f"http://127.0.0.1:{self.port}",
+            additional_headers=headers,
+            compression=None,
+            max_queue=None,
+            open_timeout=PATIENCE,
+            close_timeout=PATIENCE,
+        ) as connection:
+            yield Good(connection)
+
+    def raw(self) -> Raw:
+        """A page that may do anything."""
+        return Raw(self.port)
+
+
+class Good:
+    """A viewer that speaks the protocol."""
+
+    def __init__(self, connection: ClientConnection) -> None:
+        self.connection, self.seq = connection, 0
+        self.scene = self.text("scene")
+
+    def say(self, **message: Any) -> None:
+        self.seq += 1
+        self.connection.send(json.dumps({"seq": self.seq, **message}))
+
+    def grab(self, *target: float) -> None:
+        self.say(type="grab", point=[0.0, 0.0, 0.0], target=target, at="point")
+
+    def text(self, kind: str, **wanted: Any) -> dict[str, Any]:
+        """The next text of a kind that says what is wanted."""
+        while True:
+            got = self.connection.recv(PATIENCE)
+            if isinstance(got, str):
+                said = json.loads(got)
+                if said["type"] == kind and all(said[k] == v for k, v in wanted.items()):
+                    return said
+
+    def frame(self) -> bytes:
+        """The next frame."""
+        while True:
+            got = self.connection.recv(PATIENCE)
+            if isinstance(got, bytes):
+                return got
+
+
+class Raw:
+    """A WebSocket made by hand, whose client may send what no client would."""
+
+    def __init__(self, port: int) -> None:
+        self.socket = socket.create_connection(("127.0.0.1", port), PATIENCE)
+        key = base64.b64encode(os.urandom(16)).decode()
+        lines = [
+            "GET /ws HTTP/1.1",
+            f"Host: 127.0.0.1:{port}",
+            f"Origin: http://127.0.0.1:{port}",
+            "Upgrade: websocket",
+            "Connection: Upgrade",
+            f"Sec-WebSocket-Key: {key}",
+            "Sec-WebSocket-Version: 13",
+        ]
+        self.socket.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
+        answer = b""
+        while b"\r\n\r\n" not in answer:
+            answer += self.socket.recv(1)
+        assert answer.startswith(b"HTTP/1.1 101"), answer
+
+    def send(self, *texts: bytes, opcode: int = 1) -> None:
+        self.socket.sendall(b"".join(masked(text, opcode) for text in texts))
+
+    def closed(self) -> int:
+        """Read until the server hangs up; the code of its good-bye, 0 without one."""
+        data = b""
+        with contextlib.suppress(ConnectionError):
+            data = b"".join(iter(lambda: self.socket.recv(65536), b""))
+        at = code = 0
+        while at + 2 <= len(data):
+            size, start = data[at + 1], at + 2
+            if size == 126:
+                size, start = int.from_bytes(data[at + 2 : at + 4], "big"), at + 4
+            elif size == 127:
+                size, start = int.from_bytes(data[at + 2 : at + 10], "big"), at + 10
+            if data[at] & 15 == 8:
+                code = int.from_bytes(data[start : start + 2], "big")
+            at = start + size
+        return code
+
+    def kill(self) -> None:
+        """Be gone without a good-bye, as when a process is killed."""
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        self.socket.close()
+
+
+def masked(payload: bytes, opcode: int = 1) -> bytes:
+    """A whole frame from a client (RFC 6455, 5.2), with the mask 0, which leaves the payload as it is."""
+    n = len(payload)
+    if n < 126:
+        size = bytes([128 + n])
+    elif n < 65536:
+        size = bytes([254]) + n.to_bytes(2, "big")
+    else:
+        size = bytes([255]) + n.to_bytes(8, "big")
+    return bytes([128 + opcode]) + size + bytes(4) + payload

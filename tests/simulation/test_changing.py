@@ -1,0 +1,164 @@
+"""What changes in flight, and a hand that is moved from outside."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import tandemlift as tl
+from tandemlift.jit import flat
+from tandemlift.laws.grab import NOBODY_HOLDS
+from tandemlift.recording import WIDTH, Recording, read_recording, write_recording
+
+LONG_PUSH = [{"force": [2.0, 0.0, 0.0], "time": 10.0, "sigma": 1e6}]
+FREE = {"admittance.stiffness": 0.0, "admittance.mass": 2.0, "admittance.damping": 2.0, "admittance.threshold": 0.0}
+
+
+def load(changes=(), name="one-push", **keys):
+    return tl.load_mission(name, {"mission.duration": 12.0, "changes": list(changes)} | keys)
+
+
+def change(key, value, time=5.0, duration=0.0):
+    return {"time": time, "key": key, "value": value, "duration": duration}
+
+
+def hand(held=0.0, grip=(0, 0, 0), target=(0, 0, 0), force=(0, 0, 0)):
+    return [held, *grip, *target, *force, 0.0, 0.0, 0.0, 1.0]
+
+
+def recorded(path, rows):
+    steps, hands = zip(*rows, strict=True)
+    write_recording(path, Recording(np.array(steps), np.array(hands, dtype=float)))
+    return {"partner.model": "grab", "partner.recording": str(path), "pushes": []}
+
+
+def test_a_ramped_damping_gives_the_reference_that_scipy_integrates():
+    flight = tl.fly(load([change("admittance.damping", [8.0, 8.0, 8.0], 5.0, 2.0)], pushes=LONG_PUSH, **FREE))
+    damping = lambda t: np.interp(t, [5.0, 7.0], [2.0, 8.0])  # noqa: E731
+    solved = solve_ivp(lambda t, v: (2.0 - damping(t) * v) / 2.0, (0, 12), [0.0], t_eval=flight.time, rtol=1e-9)
+    np.testing.assert_allclose(flight["reference_velocity"][:, 0], solved.y[0], atol=2e-3)
+
+
+def test_a_change_to_the_same_value_changes_no_bit():
+    plain = tl.fly(load())
+    same = tl.fly(load([change("admittance.damping", list(plain.mission["admittance"]["damping"]))]))
+    for channel in plain.channels:
+        np.testing.assert_array_equal(same[channel], plain[channel])
+
+
+def test_nothing_is_different_before_a_change_is_due():
+    plain, later = tl.fly(load()), tl.fly(load([change("controller.gains.xi", 1.0)]))
+    before = plain.time < 5.0
+    np.testing.assert_array_equal(later["position"][before], plain["position"][before])
+    assert np.abs(later["moment"] - plain["moment"])[~before].max() > 0
+
+
+def test_another_controller_takes_over_in_flight():
+    plain, other = tl.fly(load()), tl.fly(load([change("controller.name", "pid")]))
+    from_the_start = tl.fly(load(**{"controller.name": "pid"}))
+    before = plain.time < 5.0
+    np.testing.assert_array_equal(other["position"][before], plain["position"][before])
+    assert other.divergence is None
+    assert np.abs(other["position"] - other["reference_position"])[-1].max() < 0.05
+    late = plain.time > 11.0
+    assert np.abs(other["thrust"] - from_the_start["thrust"])[late].max() < 0.05
+
+
+def test_missions_that_change_fly_among_many_as_alone():
+    changing = load([change("admittance.damping", [4.0, 4.0, 4.0])])
+    together = tl.fly_many([load(), changing, load()])
+    np.testing.assert_array_equal(together[1]["position"], tl.fly(changing)["position"])
+    np.testing.assert_array_equal(together[0]["position"], together[2]["position"])
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ([change("vehicle.payload.mass", 1.0)], "vehicle.payload.mass is chosen before a flight begins"),
+        ([change("wind.model", "air")], "wind.model is chosen before a flight begins"),
+        ([change("mission.duration", 20.0)], "mission.duration is chosen before a flight begins"),
+        ([change("admittance.mass", -1.0)], "changes.0: mission: admittance.mass = -1.0: must be"),
+        ([change("admittance.mas", 1.0)], "admittance.mas = 1.0: unknown key"),
+        ([change("admittance.mass", 1.0), change("admittance.mass", 2.0, 4.0)], "changes.1.time = 4.0: must not be"),
+        ([{"time": 1.0, "key": "admittance.mass"}], "changes.0.value is missing"),
+    ],
+)
+def test_a_change_that_cannot_be_is_refused_with_its_key(changes, words):
+    with pytest.raises(tl.InputError, match=words.replace("[", r"\[")):
+        tl.fly(load(changes))
+
+
+def test_a_hand_pulls_the_beam_to_its_target_less_threshold_over_stiffness(tmp_path):
+    rows = [(0, hand()), (1000, hand(1.0, target=(0.6, 0.0, 0.0)))]
+    slow = FREE | {"admittance.threshold": 1.0, "admittance.damping": 40.0, "admittance.gate": "soft"}
+    spring = {"partner.stiffness": 10.0, "partner.damping": 4.0, "partner.lag": 0.02, "mission.duration": 100.0}
+    mission = load(name="hover", **slow, **recorded(tmp_path / "hand.npz", rows), **spring)
+    flight = tl.fly(mission)
+    short = 0.6 - flight["position"][-1, 0]
+    assert short == pytest.approx(1.0 / 10.0, abs=2e-3)
+
+
+def test_a_hand_lets_go_and_the_beam_comes_to_rest(tmp_path):
+    rows = [(0, hand()), (1000, hand(force=(2.0, 0.0, 0.0))), (3000, hand())]
+    flight = tl.fly(load(**recorded(tmp_path / "hand.npz", rows), **{"partner.lag": 0.05}))
+    push = flight["push_force"][:, 0]
+    assert push[flight.time < 1.0].max() == 0.0
+    np.testing.assert_allclose(push[(flight.time > 2.5) & (flight.time < 3.0)], 2.0, atol=1e-6)
+    np.testing.assert_allclose(push[flight.time > 6.0], 0.0, atol=1e-6)
+
+
+def test_a_hand_never_pushes_harder_than_its_most_force(tmp_path):
+    rows = [(0, hand(1.0, target=(0.0, 50.0, 20.0)))]
+    flight = tl.fly(load(**recorded(tmp_path / "hand.npz", rows), **{"partner.max_force": 3.0}))
+    assert np.linalg.norm(flight["push_force"], axis=1).max() == pytest.approx(3.0, abs=1e-9)
+
+
+def test_a_hand_off_the_centre_makes_the_moment_of_its_force(tmp_path):
+    rows = [(0, hand(grip=(0.0, 0.5, 0.0), force=(1.0, 0.0, 0.0)))]
+    flight = tl.fly(load(**recorded(tmp_path / "hand.npz", rows), **{"mission.duration": 2.0}))
+    w, x, y, z = flight["attitude"].T
+    forces = flight["push_force"]
+    body_x = np.column_stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)])
+    yaw_moment = -0.5 * np.einsum("ij,ij->i", body_x, forces)
+    np.testing.assert_allclose(flight["push_moment"][:, 2], yaw_moment, atol=1e-9)
+
+
+def test_a_row_of_a_recording_is_a_hand():
+    assert len(flat(NOBODY_HOLDS)) == WIDTH
+
+
+def test_a_recording_comes_back_as_it_was_written(tmp_path):
+    recording = Recording(np.array([0, 4, 9]), np.random.default_rng(1).normal(size=(3, WIDTH)))
+    write_recording(tmp_path / "hand.npz", recording)
+    again = read_recording(str(tmp_path / "hand.npz"))
+    np.testing.assert_array_equal(again.steps, recording.steps)
+    np.testing.assert_array_equal(again.hands, recording.hands)
+
+
+def test_a_mission_finds_its_recording_beside_its_file(tmp_path):
+    recorded(tmp_path / "hand.npz", [(0, hand())])
+    file = tmp_path / "mine.toml"
+    file.write_text('extends = "one-push"\n[partner]\nmodel = "grab"\nrecording = "hand.npz"\n', "utf-8")
+    assert tl.load_mission(file).partner.recording == str((tmp_path / "hand.npz").resolve())
+
+
+@pytest.mark.parametrize(
+    ("arrays", "words"),
+    [
+        (None, "there is no such file"),
+        ({"step": np.arange(2)}, "not a recording"),
+        ({"step": np.array([0, 0]), "hand": np.zeros((2, 14))}, "`step` must be int64"),
+        ({"step": np.arange(2), "hand": np.zeros((2, 3))}, "`hand` must be finite float64"),
+        ({"step": np.arange(1), "hand": np.full((1, 14), np.nan)}, "`hand` must be finite float64"),
+    ],
+)
+def test_a_file_that_is_no_recording_is_refused(tmp_path, arrays, words):
+    path = tmp_path / "hand.npz"
+    if arrays is not None:
+        np.savez(path, **arrays)
+    with pytest.raises(tl.InputError, match=words):
+        load(**{"partner.model": "grab", "partner.recording": str(path)})
+
+
+def test_a_recording_without_a_hand_is_refused(tmp_path):
+    with pytest.raises(tl.InputError, match="must be left out where"):
+        load(**{"partner.recording": "hand.npz"})
