@@ -18,7 +18,7 @@ import { Timeline } from "./timeline.ts";
 import { Film } from "./video.ts";
 
 const TEXT_EVERY = 200; // ms
-const PLOT_EVERY = { full: 30, light: 90 }; // ms; each plot has its turn at a fourth of this rate
+const PLOT_EVERY = { full: 30, light: 110 }; // ms; each plot has its turn at a fourth of this rate
 const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above" };
 const NARROW = 900; // pixels: where the panel covers the picture, it starts closed
 const LOW = 380; // pixels of height: no room for plots to begin with

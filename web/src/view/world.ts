@@ -37,7 +37,7 @@ export class World {
     this.ground.position.z = scene.floor ?? 0;
     // in light graphics the background is the floor: it costs nothing
     if (scene.ground && graphics === "full") this.ground.add(floor());
-    this.ground.add(grid(1, 0.4), grid(COARSE, 0.9));
+    this.ground.add(grid(1, 0.5), grid(COARSE, 0.9));
     this.group.add(this.ground);
     if (graphics === "full") this.group.add(sky());
     for (const wall of scene.walls) this.addWall(wall, graphics);
@@ -137,5 +137,7 @@ function sky(): Mesh {
   }).flat();
   shape.setAttribute("color", new BufferAttribute(new Float32Array(colors), 3));
   const paint = new MeshBasicMaterial({ vertexColors: true, side: BackSide, fog: false, depthWrite: false });
-  return new Mesh(shape, paint);
+  const mesh = new Mesh(shape, paint);
+  mesh.renderOrder = -3; // before the floor, which writes no depth
+  return mesh;
 }
