@@ -25,6 +25,7 @@ export class App implements Listener {
   readonly follow: Follow;
   readonly pushes: Pushes;
   grabAt: "point" | "centre" = "point";
+  plane: "facing" | "level" = "facing";
   current: Frame | null = null;
   private readonly stage: Stage;
   private readonly grab: Grab;
@@ -51,6 +52,7 @@ export class App implements Listener {
       frame: () => this.current,
       axis: () => (this.picture && !this.replay ? beamAxis(this.picture.scene.vehicle.payload) : null),
       atCentre: () => this.grabAt === "centre",
+      level: () => this.plane === "level",
     });
     this.follow = new Follow(camera, surface);
     this.pushes = new Pushes(camera, send, replay === null);

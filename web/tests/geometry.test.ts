@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { deeper, levelWays, nearestToRay, onPlane, type Ray, turned, unturned } from "../src/hand/geometry.ts";
+import { deeper, levelWays, nearestToRay, onLevel, onPlane, type Ray, turned, unturned } from "../src/hand/geometry.ts";
 import type { Quaternion, Vector } from "../src/wire/protocol.ts";
 
 const near = (a: Vector, b: Vector): boolean => a.every((value, i) => Math.abs(value - b[i]) < 1e-9);
@@ -47,6 +47,14 @@ test("a drag stays at its depth wherever the cursor is", () => {
   const direction: Vector = [0.8, 0.6, 0];
   const hit = onPlane({ origin: [1, 0, 0], direction }, [1, 0, 0], 4)!;
   assert.ok(near(hit, [5, 3, 0]));
+});
+
+test("a level plane is met at its height, in front of the eye and not too far", () => {
+  const ray: Ray = { origin: [0, 0, 3], direction: [0.6, 0, -0.8] };
+  assert.ok(near(onLevel(ray, 1, 40)!, [1.5, 0, 1]));
+  assert.equal(onLevel(ray, 4, 40), null);
+  assert.equal(onLevel({ origin: [0, 0, 3], direction: [1, 0, 0] }, 1, 40), null);
+  assert.equal(onLevel({ origin: [0, 0, 3], direction: [0.9999, 0, -0.0141] }, 1, 40), null);
 });
 
 test("a ray along the plane meets it nowhere", () => {

@@ -3,8 +3,8 @@
 import { byId, el } from "./dom.ts";
 
 const LIVE: [string, string][] = [
-  ["Drag the beam", "pull it, with mouse or finger; the picture's plane is the hand's"],
-  ["Wheel, or a second finger, while dragging", "push away or draw near"],
+  ["Drag the beam", "pull it, with mouse or finger, in a plane that faces you or is level"],
+  ["Wheel, or a second finger, while dragging", "push away or draw near; up or down where the plane is level"],
   ["Drag elsewhere \u00b7 wheel \u00b7 right button", "look around \u00b7 nearer or farther \u00b7 aside"],
   ["Arrows or W A S D", "push level, with the force that Settings \u2192 hand says"],
   ["E, Q or Page Up, Page Down", "push up, down"],

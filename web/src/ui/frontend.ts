@@ -125,6 +125,7 @@ export class Frontend {
     const { app } = this;
     const own = {
       grabAt: (at: "point" | "centre") => (app.grabAt = at),
+      plane: (plane: "facing" | "level") => (app.plane = plane),
       force: (newtons: number) => (app.pushes.force = newtons),
       ways: (ways: Ways) => (app.pushes.ways = ways),
       graphics: (level: Choice) => app.setGraphics(level),

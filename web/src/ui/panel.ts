@@ -19,6 +19,7 @@ const OVERLAYS: Record<Overlay, string> = {
 /** What the panel sets on the page itself. */
 export interface Own {
   grabAt(at: "point" | "centre"): void;
+  plane(plane: "facing" | "level"): void;
   force(newtons: number): void;
   ways(ways: "view" | "world"): void;
   graphics(choice: Choice): void;
@@ -109,8 +110,12 @@ export class Panel {
     const ways = choice("Directions of the keys", { view: "as I look", world: "world axes" }, "view", (value) => {
       own.ways(value);
     });
+    const planes = choice("Plane of the hand", { facing: "facing me", level: "level" }, "facing", (plane) => {
+      own.plane(plane);
+    });
     return [
       row("Pull", grabs),
+      row("Hand moves", planes),
       row("Keys push with", el("label", { class: "newtons", for: "key-force" }, force, "N")),
       row("Keys point", ways),
     ];
