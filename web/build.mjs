@@ -1,6 +1,6 @@
 // Bundles the page into the Python package; with --tests, the tests into out/tests for node's own runner.
 import { build } from "esbuild";
-import { copyFile, mkdir, readdir, rm } from "node:fs/promises";
+import { copyFile, mkdir, readdir, readFile, rm } from "node:fs/promises";
 
 const PAGE = "../src/tandemlift/data/page";
 const SHARED = { bundle: true, format: "esm", target: "es2022", charset: "ascii", logLevel: "warning" };
@@ -12,9 +12,19 @@ async function page() {
     entryPoints: { page: "src/page.ts" },
     outdir: PAGE,
     minify: true,
-    legalComments: "eof",
+    legalComments: "none",
+    footer: { js: await licences() },
   });
   await copyFile("src/index.html", `${PAGE}/index.html`);
+}
+
+/** The licences of what is bundled, which go where it goes. */
+async function licences() {
+  const texts = ["three", "uplot"].map(async (name) => {
+    const text = await readFile(`node_modules/${name}/LICENSE`, "utf8");
+    return `${name}\n\n${text.replaceAll("\r", "").trim()}`;
+  });
+  return `/*!\n${(await Promise.all(texts)).join("\n\n")}\n*/`;
 }
 
 async function tests() {

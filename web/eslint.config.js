@@ -13,6 +13,7 @@ export default defineConfig(
       "max-lines": ["error", 300],
       "max-lines-per-function": ["error", { max: 30, skipBlankLines: true, skipComments: true }],
       "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],
+      "@typescript-eslint/no-confusing-void-expression": ["error", { ignoreArrowShorthand: true }],
       "@typescript-eslint/no-non-null-assertion": "off",
     },
   },

@@ -12,9 +12,11 @@ import { Stage } from "./view/stage.ts";
 import { beamAxis } from "./view/vehicle.ts";
 import type { Frame } from "./wire/frames.ts";
 import { Latency } from "./wire/latency.ts";
-import type { Outgoing, Scene, Setting, Status } from "./wire/protocol.ts";
+import { type Outgoing, perAxis, type Scene, type Setting, type Status, THRESHOLD } from "./wire/protocol.ts";
 import type { Recorded } from "./wire/recorded.ts";
 import type { Listener, Source } from "./wire/source.ts";
+
+const STIFFNESS = "partner.stiffness"; // of the hand's spring
 
 export class App implements Listener {
   readonly shown: Shown = { push: true, zone: true, ghost: true, thrust: true, wind: true, trail: true };
@@ -23,6 +25,7 @@ export class App implements Listener {
   readonly follow: Follow;
   readonly pushes: Pushes;
   grabAt: "point" | "centre" = "point";
+  plane: "facing" | "level" = "facing";
   current: Frame | null = null;
   private readonly stage: Stage;
   private readonly grab: Grab;
@@ -49,6 +52,7 @@ export class App implements Listener {
       frame: () => this.current,
       axis: () => (this.picture && !this.replay ? beamAxis(this.picture.scene.vehicle.payload) : null),
       atCentre: () => this.grabAt === "centre",
+      level: () => this.plane === "level",
     });
     this.follow = new Follow(camera, surface);
     this.pushes = new Pushes(camera, send, replay === null);
@@ -67,7 +71,7 @@ export class App implements Listener {
   /** Sends a message; its delay is measured if it began with a hand's event at `since` [ms]. */
   send(message: Outgoing, since?: number): void {
     const seq = this.source.send(message);
-    if (seq !== null && since !== undefined) this.latency.note(seq, since);
+    if (seq !== null && since !== undefined) this.latency.note(seq, since, performance.now());
   }
 
   get canvas(): HTMLCanvasElement {
@@ -103,6 +107,7 @@ export class App implements Listener {
   }
 
   frame(frame: Frame): void {
+    if (!frame.drawable) return;
     if (!this.current) this.picture?.center.set(...frame.vector("position"));
     this.current = frame;
     this.front.frame(frame);
@@ -113,10 +118,8 @@ export class App implements Listener {
   }
 
   changed(key: string, value: Setting, duration: number): void {
-    if (this.picture && key.endsWith("threshold") && Array.isArray(value)) {
-      this.picture.threshold = value as [number, number, number];
-    }
-    if (this.picture && /(spring|hand)\.stiffness$/.test(key)) this.picture.stiffness = Number(value);
+    if (this.picture && key === THRESHOLD) this.picture.threshold = perAxis(value);
+    if (this.picture && key === STIFFNESS) this.picture.stiffness = Number(value);
     this.front.changed(key, value, duration);
   }
 

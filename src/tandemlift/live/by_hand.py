@@ -12,7 +12,7 @@ from tandemlift.settings import Mission
 
 LONGEST = 3600.0  # s
 NEVER = 1e6  # s
-HAND = {"model": "grab", "stiffness": 8.0, "damping": 3.0, "lag": 0.02, "max_force": 8.0}  # N/m, N s/m, s, N
+HAND = {"model": "grab", "stiffness": 6.0, "damping": 2.0, "lag": 0.06, "max_force": 4.0}  # N/m, N s/m, s, N
 CALM = 1e-3  # m/s, of turbulence: a wind that can be made to blow
 
 

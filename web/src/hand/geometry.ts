@@ -54,6 +54,12 @@ export function onPlane(ray: Ray, ahead: Vector, depth: number): Vector | null {
   return closing > 0.05 ? add(ray.origin, times(ray.direction, depth / closing)) : null;
 }
 
+/** Where a ray from the eye meets the level plane at a height [m]; null if it does not within `far` [m]. */
+export function onLevel(ray: Ray, height: number, far: number): Vector | null {
+  const way = (height - ray.origin[2]) / ray.direction[2];
+  return way > 0 && way < far ? add(ray.origin, times(ray.direction, way)) : null;
+}
+
 /** The depth after a turn of the wheel: a notch of 100 is 6 % of the way, never through the eye. */
 export function deeper(depth: number, notches: number): number {
   return Math.min(Math.max(depth * Math.exp(-0.0006 * notches), 0.3), 200);

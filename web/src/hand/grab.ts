@@ -5,20 +5,22 @@ import { type PerspectiveCamera, Vector2, Vector3 } from "three";
 import type { Hand } from "../view/picture.ts";
 import type { Axis } from "../view/vehicle.ts";
 import type { Outgoing, Vector } from "../wire/protocol.ts";
-import { add, deeper, dot, less, nearestToRay, onPlane, type Ray, size, turned, unturned } from "./geometry.ts";
+import { add, deeper, dot, less, nearestToRay, onLevel, onPlane, type Ray, size, turned, unturned } from "./geometry.ts";
 import type { Frame } from "../wire/frames.ts";
 
 const FAT = 0.07; // m around the beam where it can be taken hold of
 const FINGER = 30; // pixels around it for a finger
 const CURSOR = 12; // pixels around it for a mouse
 const LINE = 33; // pixels of a line, for wheels that count lines
+const FAR = 40; // m from the eye: a level plane ends there
 const STILL = 1e-4; // m: a smaller move is not sent
 
 interface Grip {
   pointer: number;
   point: Vector; // body: what the spring pulls at
   offset: Vector; // world: from the cursor in its plane to the target
-  depth: number; // of the plane from the eye [m]
+  depth: number; // of the plane from the eye [m], if it faces the eye
+  height: number | null; // of the plane [m], if it is level
   target: Vector;
 }
 
@@ -29,6 +31,7 @@ export interface Reach {
   frame(): Frame | null;
   axis(): Axis | null;
   atCentre(): boolean;
+  level(): boolean;
   send(message: Outgoing, since: number): void;
 }
 
@@ -113,9 +116,10 @@ export class Grab {
     const world = add(frame.vector("position"), turned(frame.attitude, place));
     const eye = this.page.camera.position.toArray();
     const depth = dot(less(world, eye), this.ahead());
-    const hit = onPlane(this.ray(), this.ahead(), depth) ?? world;
+    const height = this.page.level() ? world[2] : null;
+    const hit = this.hit(depth, height) ?? world;
     const target = add(frame.vector("position"), turned(frame.attitude, point));
-    this.grip = { pointer: event.pointerId, point, offset: less(target, hit), depth, target };
+    this.grip = { pointer: event.pointerId, point, offset: less(target, hit), depth, height, target };
     this.page.surface.classList.add("pulling");
     this.page.send({ type: "grab", point, target, at: centre ? "centre" : "point" }, event.timeStamp);
   }
@@ -123,7 +127,7 @@ export class Grab {
   private readonly move = (event: PointerEvent): void => {
     if (this.grip) event.stopImmediatePropagation();
     if (this.second?.pointer === event.pointerId) {
-      this.grip!.depth = deeper(this.grip!.depth, 3 * (event.clientY - this.second.y));
+      this.reach(2 * (event.clientY - this.second.y));
       this.second.y = event.clientY;
     }
     if (this.grip && event.pointerId !== this.grip.pointer) return;
@@ -145,7 +149,7 @@ export class Grab {
     event.stopImmediatePropagation();
     event.preventDefault();
     const pixels = event.deltaMode ? LINE * event.deltaY : event.deltaY;
-    this.grip.depth = deeper(this.grip.depth, Math.max(-300, Math.min(300, pixels)));
+    this.reach(Math.max(-300, Math.min(300, pixels)));
     this.stamp ||= event.timeStamp;
   };
 
@@ -157,8 +161,20 @@ export class Grab {
   }
 
   private targetOf(grip: Grip): Vector | null {
-    const hit = onPlane(this.ray(), this.ahead(), grip.depth);
+    const hit = this.hit(grip.depth, grip.height);
     return hit && add(hit, grip.offset);
+  }
+
+  private hit(depth: number, height: number | null): Vector | null {
+    return height === null ? onPlane(this.ray(), this.ahead(), depth) : onLevel(this.ray(), height, FAR);
+  }
+
+  /** Moves the hand across its plane: away from the eye, or up. */
+  private reach(pixels: number): void {
+    const grip = this.grip!;
+    const deep = deeper(grip.depth, pixels);
+    if (grip.height === null) grip.depth = deep;
+    else grip.height += 0.3 * (deep - grip.depth);
   }
 
   /** The point of the beam's axis under the cursor, body axes; null if the cursor is not near it. */

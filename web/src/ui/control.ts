@@ -4,7 +4,7 @@ import type { Control, Setting } from "../wire/protocol.ts";
 import { el, icon } from "./dom.ts";
 import { Slide, short } from "./numbers.ts";
 
-const AXES: Record<number, string[]> = {
+const AXES: Partial<Record<number, string[]>> = {
   3: ["x", "y", "z"],
   4: ["x", "y", "z", "yaw"],
   6: ["x", "y", "z", "roll", "pitch", "yaw"],
@@ -64,7 +64,7 @@ export class ControlBox {
 
   private show(value: Setting): void {
     this.value = value;
-    const parts = [value].flat() as (number | string | boolean)[];
+    const parts = [value].flat();
     this.fields.forEach((field, i) => {
       field.show(parts[i]);
     });

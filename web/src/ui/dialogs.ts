@@ -3,8 +3,8 @@
 import { byId, el } from "./dom.ts";
 
 const LIVE: [string, string][] = [
-  ["Drag the beam", "pull it, with mouse or finger; the picture's plane is the hand's"],
-  ["Wheel, or a second finger, while dragging", "push away or draw near"],
+  ["Drag the beam", "pull it, with mouse or finger, in a plane that faces you or is level"],
+  ["Wheel, or a second finger, while dragging", "push away or draw near; up or down where the plane is level"],
   ["Drag elsewhere \u00b7 wheel \u00b7 right button", "look around \u00b7 nearer or farther \u00b7 aside"],
   ["Arrows or W A S D", "push level, with the force that Settings \u2192 hand says"],
   ["E, Q or Page Up, Page Down", "push up, down"],
@@ -28,7 +28,7 @@ const SEEN: [string, string, string][] = [
 const NAME = "[A-Za-z0-9][A-Za-z0-9._\\-]{0,63}";
 
 export function help(replay: boolean): HTMLDialogElement {
-  const dialog = byId<HTMLDialogElement>("help");
+  const dialog = byId("help") as HTMLDialogElement;
   const keys = (replay ? REPLAY : LIVE).flatMap(([key, text]) => [el("dt", {}, key), el("dd", {}, text)]);
   const seen = SEEN.flatMap(([kind, what, text]) => [el("dt", {}, el("i", { class: `dot ${kind}` }), what), el("dd", {}, text)]);
   const close = el("button", { type: "button", class: "go" }, "Close");
@@ -47,7 +47,7 @@ export function help(replay: boolean): HTMLDialogElement {
 
 /** Asks for a name, then saves. */
 export function saving(mission: () => string, save: (name: string) => void): () => void {
-  const dialog = byId<HTMLDialogElement>("saving");
+  const dialog = byId("saving") as HTMLDialogElement;
   const hint = "Letters, digits, '.', '_' or '-', the first a letter or a digit";
   const name = el("input", { type: "text", required: true, pattern: NAME, title: hint, maxlength: 64, id: "save-name" });
   const cancel = el("button", { type: "button" }, "Cancel");

@@ -17,8 +17,8 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
-  return document.getElementById(id) as T;
+export function byId(id: string): HTMLElement {
+  return document.getElementById(id)!;
 }
 
 const SVG = "http://www.w3.org/2000/svg";

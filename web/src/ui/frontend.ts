@@ -1,10 +1,11 @@
 // Everything around the picture: bar, panel, plots, buttons, notices, and the keys that press them.
 
 import type { App } from "../app.ts";
-import { typing } from "../hand/pushes.ts";
+import { typing, type Ways } from "../hand/pushes.ts";
 import type { View } from "../view/follow.ts";
+import type { Choice } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
-import type { Scene, Setting, Status } from "../wire/protocol.ts";
+import { perAxis, type Scene, type Setting, type Status, THRESHOLD } from "../wire/protocol.ts";
 import { help, saving, stamp } from "./dialogs.ts";
 import { Dock } from "./dock.ts";
 import { byId, choice, toggle } from "./dom.ts";
@@ -17,7 +18,7 @@ import { Timeline } from "./timeline.ts";
 import { Film } from "./video.ts";
 
 const TEXT_EVERY = 200; // ms
-const PLOT_EVERY = { full: 30, light: 90 }; // ms; each plot has its turn at a fourth of this rate
+const PLOT_EVERY = { full: 30, light: 110 }; // ms; each plot has its turn at a fourth of this rate
 const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above" };
 const NARROW = 900; // pixels: where the panel covers the picture, it starts closed
 const LOW = 380; // pixels of height: no room for plots to begin with
@@ -79,27 +80,22 @@ export class Frontend {
   status(status: Status): void {
     this.readout.status(status);
     this.dock?.status(status);
-    for (const rotor of status.killed ?? []) this.panel.dead(rotor);
     this.hint(status);
   }
 
   changed(key: string, value: Setting, duration: number): void {
     this.panel.changed(key, value, duration);
-    if (this.plots && key.endsWith("threshold") && Array.isArray(value)) {
-      this.plots.threshold = value as [number, number, number];
-    }
+    if (this.plots && key === THRESHOLD) this.plots.threshold = perAxis(value);
   }
 
   refused(what: string, reason: string): void {
     const shown = this.panel.refused(what, reason);
-    if (what.startsWith("kill")) this.killing = -1;
+    if (what.startsWith("kill")) this.panel.dead(this.killing, false);
     if (!shown || byId("panel").hidden) this.notices.say(`${what}: ${reason}`, "refused");
   }
 
   done(what: string, detail: string): void {
-    if (what.startsWith("kill") && this.killing >= 0) this.panel.dead(this.killing);
-    const words = what === "save" ? `Saved as ${detail}` : [what, detail].filter(Boolean).join(": ");
-    this.notices.say(words, "done");
+    this.notices.say(what === "save" ? `Saved as ${detail}` : detail || what, "done");
   }
 
   lost(retryAt: number | null): void {
@@ -127,34 +123,26 @@ export class Frontend {
 
   private makePanel(): Panel {
     const { app } = this;
-    return new Panel(
-      byId("panel"),
-      {
-        grabAt: (at) => (app.grabAt = at),
-        force: (newtons) => (app.pushes.force = newtons),
-        ways: (ways) => (app.pushes.ways = ways),
-        graphics: (level) => {
-          app.setGraphics(level);
-        },
-        shown: app.shown,
-        strength: app.pushes.force,
+    const own = {
+      grabAt: (at: "point" | "centre") => (app.grabAt = at),
+      plane: (plane: "facing" | "level") => (app.plane = plane),
+      force: (newtons: number) => (app.pushes.force = newtons),
+      ways: (ways: Ways) => (app.pushes.ways = ways),
+      graphics: (level: Choice) => app.setGraphics(level),
+      shown: app.shown,
+      strength: app.pushes.force,
+    };
+    const asks = {
+      set: (key: string, value: Setting) => app.send({ type: "set", key, value }),
+      restore: (key: string) => app.send({ type: "restore", key }),
+      restoreAll: () => app.send({ type: "restore" }),
+      kill: (rotor: number) => {
+        this.killing = rotor;
+        this.panel.dead(rotor, true);
+        app.send({ type: "kill", rotor });
       },
-      {
-        set: (key, value) => {
-          app.send({ type: "set", key, value });
-        },
-        restore: (key) => {
-          app.send({ type: "restore", key });
-        },
-        restoreAll: () => {
-          app.send({ type: "restore" });
-        },
-        kill: (rotor) => {
-          this.killing = rotor;
-          app.send({ type: "kill", rotor });
-        },
-      },
-    );
+    };
+    return new Panel(byId("panel"), own, asks);
   }
 
   private makeDock(): void {
@@ -201,32 +189,24 @@ export class Frontend {
   private readonly key = (event: KeyboardEvent): void => {
     if (typing(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.repeat && !event.code.startsWith("Arrow")) return;
-    this.keys()[event.code]?.();
+    this.keys().get(event.code)?.();
   };
 
-  private keys(): Record<string, () => void> {
+  private keys(): Map<string, () => void> {
     const { app, timeline } = this;
     const views = [...byId("views").querySelectorAll<HTMLElement>("button, input")];
-    const common = {
-      Digit1: () => views[0].click(),
-      Digit2: () => views[1].click(),
-      Digit3: () => views[2].click(),
-      KeyF: () => views[3].click(),
-    };
+    const names = ["Digit1", "Digit2", "Digit3", "KeyF"];
+    const keys = new Map(names.map((name, i) => [name, () => views[i].click()]));
     if (timeline) {
-      return {
-        ...common,
-        KeyP: () => timeline.toggle(),
-        ArrowLeft: () => timeline.step(-1),
-        ArrowRight: () => timeline.step(1),
-      };
+      keys.set("KeyP", () => timeline.toggle());
+      keys.set("ArrowLeft", () => timeline.step(-1));
+      keys.set("ArrowRight", () => timeline.step(1));
+    } else {
+      keys.set("KeyP", () => this.dock?.pause());
+      keys.set("KeyL", () => app.send({ type: "ask", what: "lift" }));
+      keys.set("KeyK", () => app.send({ type: "ask", what: "land" }));
     }
-    return {
-      ...common,
-      KeyP: () => this.dock?.pause(),
-      KeyL: () => app.send({ type: "ask", what: "lift" }),
-      KeyK: () => app.send({ type: "ask", what: "land" }),
-    };
+    return keys;
   }
 }
 

@@ -8,12 +8,13 @@ interface Mode {
   tint: string;
 }
 
-const MODES: Record<string, Mode> = {
+const MODES: Partial<Record<string, Mode>> = {
   idle: { text: "on the ground", kind: "off", tint: "rgba(93, 104, 117, 0.10)" },
   lift: { text: "lifting", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
   guided: { text: "guided", kind: "active", tint: "rgba(31, 157, 118, 0.13)" },
   land: { text: "landing", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
   hold: { text: "holding", kind: "calm", tint: "rgba(47, 111, 176, 0.12)" },
+  lost: { text: "out of control", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
   stopped: { text: "stopped", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
 };
 

@@ -1,6 +1,6 @@
 // The panel: the hand, what is drawn, and every setting that the scene offers, by groups.
 
-import type { Scene, Setting } from "../wire/protocol.ts";
+import type { Control, Scene, Setting } from "../wire/protocol.ts";
 import type { Choice } from "../view/graphics.ts";
 import type { Overlay, Shown } from "../view/picture.ts";
 import { type Ask, ControlBox } from "./control.ts";
@@ -19,6 +19,7 @@ const OVERLAYS: Record<Overlay, string> = {
 /** What the panel sets on the page itself. */
 export interface Own {
   grabAt(at: "point" | "centre"): void;
+  plane(plane: "facing" | "level"): void;
   force(newtons: number): void;
   ways(ways: "view" | "world"): void;
   graphics(choice: Choice): void;
@@ -27,14 +28,15 @@ export interface Own {
 }
 
 export interface Asks extends Ask {
-  restoreAll(): void;
-  kill(rotor: number): void;
+  restoreAll: () => void;
+  kill: (rotor: number) => void;
 }
 
 export class Panel {
   private boxes = new Map<string, ControlBox>();
   private map: RotorMap | null = null;
   private open: Record<string, boolean> = {};
+  private initial: { mission: string; values: Map<string, Setting> } = { mission: "", values: new Map() };
 
   constructor(
     private readonly place: HTMLElement,
@@ -45,7 +47,7 @@ export class Panel {
   scene(scene: Scene): void {
     for (const one of this.place.querySelectorAll("details")) this.open[one.dataset["name"] ?? ""] = one.open;
     const live = !scene.replay;
-    this.boxes = new Map(scene.controls.map((control) => [control.key, new ControlBox(control, this.asks)]));
+    this.boxes = new Map(this.remembered(scene).map((control) => [control.key, new ControlBox(control, this.asks)]));
     this.map = live ? new RotorMap(scene, this.asks.kill) : null;
     const groups = [...new Set(scene.controls.map(({ group }) => group))].map((group) => {
       const own = scene.controls.filter((control) => control.group === group);
@@ -64,8 +66,8 @@ export class Panel {
     this.map?.thrusts(values);
   }
 
-  dead(rotor: number): void {
-    this.map?.dead(rotor);
+  dead(rotor: number, dead: boolean): void {
+    this.map?.dead(rotor, dead);
   }
 
   changed(key: string, value: Setting, duration: number): void {
@@ -77,6 +79,16 @@ export class Panel {
     const box = this.boxes.get(what.replace(/^(set|restore) /, ""));
     box?.refuse(reason);
     return box !== undefined;
+  }
+
+  /** Controls with the values that they had when the mission was first seen: a reset keeps what was changed. */
+  private remembered({ mission, controls }: Scene): Control[] {
+    if (mission !== this.initial.mission) this.initial = { mission, values: new Map() };
+    const { values } = this.initial;
+    return controls.map((control) => {
+      if (!values.has(control.key)) values.set(control.key, control.initial ?? control.value);
+      return { ...control, initial: values.get(control.key)! };
+    });
   }
 
   private group(name: string, children: HTMLElement[], open = false): HTMLElement {
@@ -98,8 +110,12 @@ export class Panel {
     const ways = choice("Directions of the keys", { view: "as I look", world: "world axes" }, "view", (value) => {
       own.ways(value);
     });
+    const planes = choice("Plane of the hand", { facing: "facing me", level: "level" }, "facing", (plane) => {
+      own.plane(plane);
+    });
     return [
       row("Pull", grabs),
+      row("Hand moves", planes),
       row("Keys push with", el("label", { class: "newtons", for: "key-force" }, force, "N")),
       row("Keys point", ways),
     ];

@@ -59,9 +59,11 @@ export class Plot {
 }
 
 function key(curve: Curve, text: string): HTMLElement {
-  const mark = el("i", { class: curve.dash ? "dashed" : "" });
-  mark.style.borderColor = curve.color;
-  return el("span", {}, mark, text);
+  // one letter is coloured itself; more have a piece of their line
+  const named = text.length > 1;
+  const mark = el(named ? "i" : "b", { class: curve.dash ? "dashed" : "" }, named ? "" : text);
+  mark.style.color = curve.color;
+  return el("span", {}, mark, named ? text : "");
 }
 
 function options(look: Look): uPlot.Options {
@@ -122,6 +124,7 @@ export function band(plot: uPlot, from: number, to: number, color: string, name:
   ctx.fillStyle = color;
   ctx.fillRect(a, top, b - a, height);
   ctx.fillStyle = INK;
+  ctx.textAlign = "left";
   ctx.font = `${10 * devicePixelRatio}px system-ui, sans-serif`;
   if (b - a > ctx.measureText(name).width + 8) ctx.fillText(name, a + 4, top + 11 * devicePixelRatio);
   ctx.restore();

@@ -32,11 +32,12 @@ export class Readout {
     const { text, kind } = modeOf(status);
     this.badge.textContent = status.paused ? `paused \u00b7 ${text}` : text;
     this.badge.className = `badge ${kind}`;
-    const late = !status.paused && status.factor < LATE * status.speed;
-    this.set("speed", `\u00d7${status.factor.toFixed(2)}`, late ? `behind by ${status.behind_ms.toFixed(0)} ms` : "");
+    const factor = status.factor ?? 0;
+    const late = !status.paused && factor < LATE * status.speed;
+    this.set("speed", `\u00d7${factor.toFixed(2)}`, late ? `behind by ${(status.behind_ms ?? 0).toFixed(0)} ms` : "");
     this.set("held by", HOLDERS[status.holder]);
     this.set("viewers", String(status.viewers));
-    this.set("recorded", `${status.recorded_s.toFixed(0)} s`);
+    this.set("recorded", `${(status.recorded_s ?? 0).toFixed(0)} s`);
   }
 
   /** A few times a second: what changes with every picture. */

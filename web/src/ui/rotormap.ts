@@ -44,9 +44,9 @@ export class RotorMap {
     });
   }
 
-  /** A rotor was stopped. */
-  dead(rotor: number): void {
-    this.spots[rotor]?.classList.add("dead");
+  /** A rotor is stopped, or was not after all. */
+  dead(rotor: number, dead: boolean): void {
+    this.spots[rotor].classList.toggle("dead", dead);
   }
 
   private rotor(quadrotor: Scene["vehicle"]["quadrotors"][number], i: number): SVGElement {
@@ -63,7 +63,7 @@ export class RotorMap {
       this.press(number);
     });
     spot.addEventListener("keydown", (event) => {
-      if ((event as KeyboardEvent).key === "Enter") this.press(number);
+      if (event.key === "Enter") this.press(number);
     });
     this.fills.push(fill);
     this.spots.push(spot);

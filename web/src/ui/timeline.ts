@@ -9,7 +9,7 @@ const STEP = 1; // s, of an arrow key
 
 export class Timeline {
   private readonly bar: HTMLInputElement;
-  private readonly clock = el("output", {});
+  private readonly clock = el("b", {});
   private readonly player: HTMLButtonElement;
   private playing = true;
 
@@ -34,7 +34,8 @@ export class Timeline {
       paces.blur();
     });
     const video = button("video", "Film", "Record a video of the picture", film, "film");
-    place.replaceChildren(el("div", { class: "strip timeline" }, this.player, this.bar, this.clock, paces, video));
+    const time = el("output", {}, this.clock, el("span", {}, ` / ${end.toFixed(1)} s`));
+    place.replaceChildren(el("div", { class: "strip timeline" }, this.player, this.bar, time, paces, video));
   }
 
   toggle(): void {
@@ -47,7 +48,7 @@ export class Timeline {
 
   update(time: number): void {
     if (document.activeElement !== this.bar || this.flight.playing) this.bar.value = String(time);
-    this.clock.textContent = `${time.toFixed(2)} / ${Number(this.bar.max).toFixed(1)} s`;
+    this.clock.textContent = time.toFixed(2);
     if (this.playing === this.flight.playing) return;
     this.playing = this.flight.playing;
     this.player.firstElementChild!.replaceWith(icon(this.playing ? "pause" : "play"));

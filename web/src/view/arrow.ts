@@ -35,8 +35,11 @@ export class Arrow {
     const strength = way.length();
     this.group.visible = strength > this.faintest;
     if (!this.group.visible) return;
-    const length = Math.max(strength * this.scale, 8 * this.radius);
-    const neck = length - 7 * this.radius;
+    // a short arrow is a small one, as its length has to tell
+    const length = strength * this.scale;
+    const share = Math.min(length / (8 * this.radius), 1);
+    const neck = length / share - 7 * this.radius;
+    this.group.scale.setScalar(share);
     this.group.position.copy(from);
     this.group.quaternion.copy(new Quaternion().setFromUnitVectors(ALONG, way.divideScalar(strength)));
     this.shaft.scale.y = neck;

@@ -7,9 +7,9 @@ export type View = "behind" | "side" | "above";
 
 const PLACES: Record<View, [number, number, number]> = {
   // of the eye from the vehicle, in reaches of the vehicle: the corridor leads along x
-  behind: [-2.5, -1.15, 1.25],
+  behind: [-2.25, -1.1, 1.15],
   side: [0.2, -3.1, 0.75],
-  above: [-0.6, 0, 3.9],
+  above: [-0.02, 0, 4],
 };
 const SLACK = 0.16; // of the distance: while a hand pulls, the camera stands still until the vehicle is this far off
 const HASTE = 6; // 1/s, of the way back to the vehicle

@@ -84,7 +84,7 @@ export class Hold {
 
 function zoneParts(): [Mesh, LineSegments] {
   const cube = new BoxGeometry(1, 1, 1);
-  const glass = new MeshBasicMaterial({ color: HAND, transparent: true, opacity: 0.13, depthWrite: false });
-  const edge = new LineBasicMaterial({ color: HAND, transparent: true, opacity: 0.6 });
+  const glass = new MeshBasicMaterial({ color: HAND, transparent: true, opacity: 0.16, depthTest: false });
+  const edge = new LineBasicMaterial({ color: HAND, transparent: true, opacity: 0.8, depthTest: false });
   return [new Mesh(cube, glass), new LineSegments(new EdgesGeometry(cube), edge)];
 }

@@ -34,7 +34,7 @@ export class Picture {
   private readonly world: World;
   private readonly ghost: Ghost;
   private readonly shadow: FlatShadow;
-  private readonly push = new Arrow(PUSH, 0.02, 0.16, 0.05);
+  private readonly push = new Arrow(PUSH, 0.02, 0.22, 0.05);
   private readonly wind = new Arrow(WIND, 0.014, 0.14, 0.1);
   private readonly hold = new Hold();
   private readonly trail = new Trail();

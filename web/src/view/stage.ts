@@ -23,7 +23,7 @@ export class Stage {
   readonly camera = new PerspectiveCamera(42, 1, 0.05, 700);
   canvas!: HTMLCanvasElement;
   private renderer!: WebGLRenderer;
-  private readonly sun = new DirectionalLight("#fff3e0", 2.3);
+  private readonly sun = new DirectionalLight("#fffaf3", 2.3);
   private readonly fog = new Fog(HAZE, 20, 60);
 
   constructor(
@@ -32,7 +32,7 @@ export class Stage {
   ) {
     this.camera.up.set(0, 0, 1);
     this.scene.fog = this.fog;
-    this.scene.add(new HemisphereLight("#dfe9f5", "#9a948c", 1.5), this.sun, this.sun.target);
+    this.scene.add(new HemisphereLight("#e8eff8", "#9a9894", 1.5), this.sun, this.sun.target);
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.bias = -0.0004;
     this.sun.shadow.normalBias = 0.01;
@@ -49,13 +49,15 @@ export class Stage {
     const full = graphics === "full";
     this.scene.background = new Color(full ? HAZE : PALE);
     this.fog.color.set(full ? HAZE : PALE);
-    const renderer = new WebGLRenderer({ antialias: full, powerPreference: "high-performance" });
+    const renderer = rendererOf(full);
     renderer.shadowMap.enabled = this.sun.castShadow = full;
     renderer.shadowMap.type = PCFShadowMap;
     if ((this.renderer as WebGLRenderer | undefined) !== undefined) {
       this.renderer.dispose();
       this.renderer.forceContextLoss();
       this.canvas.remove();
+      this.sun.shadow.dispose();
+      this.sun.shadow.map = null; // the old one belongs to the old renderer
     }
     this.renderer = renderer;
     this.canvas = renderer.domElement;
@@ -89,4 +91,12 @@ export class Stage {
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height);
   }
+}
+
+/** A renderer whose picture is opaque: a page behind it that shines through would cost the processor a third more. */
+function rendererOf(antialias: boolean): WebGLRenderer {
+  const canvas = document.createElement("canvas");
+  const powerPreference = "high-performance";
+  const context = canvas.getContext("webgl2", { alpha: false, antialias, stencil: false, powerPreference });
+  return new WebGLRenderer({ canvas, antialias, ...(context && { context }) });
 }

@@ -37,7 +37,7 @@ export class Vehicle {
   readonly rotors: Rotors;
 
   constructor(scene: Scene, graphics: Graphics) {
-    this.solid = solidOf(scene, graphics === "full" ? 20 : 10);
+    this.solid = solidOf(scene, graphics === "full" ? 20 : 8);
     const body = new Mesh(this.solid, surface(graphics));
     body.castShadow = body.receiveShadow = graphics === "full";
     body.frustumCulled = false;

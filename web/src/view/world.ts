@@ -6,7 +6,6 @@ import {
   BufferAttribute,
   BufferGeometry,
   Color,
-  DoubleSide,
   EdgesGeometry,
   Group,
   LineBasicMaterial,
@@ -38,11 +37,11 @@ export class World {
     this.ground.position.z = scene.floor ?? 0;
     // in light graphics the background is the floor: it costs nothing
     if (scene.ground && graphics === "full") this.ground.add(floor());
-    this.ground.add(grid(1, 0.4), grid(COARSE, 0.9));
+    this.ground.add(grid(1, 0.5), grid(COARSE, 0.9));
     this.group.add(this.ground);
     if (graphics === "full") this.group.add(sky());
     for (const wall of scene.walls) this.addWall(wall, graphics);
-    if (scene.corridor?.centreline.length) this.group.add(lane(scene));
+    if (scene.corridor?.centreline.length) this.group.add(lane(scene, graphics));
   }
 
   /** Keeps the floor below the vehicle, and the walls that hide it thin. */
@@ -94,7 +93,7 @@ function grid(step: number, opacity: number): LineSegments {
 }
 
 /** The floor of the corridor, brighter than the rest. */
-function lane(scene: Scene): Mesh {
+function lane(scene: Scene, graphics: Graphics): Mesh {
   const { centreline, width } = scene.corridor!;
   const corners: number[] = [];
   const faces: number[] = [];
@@ -106,7 +105,10 @@ function lane(scene: Scene): Mesh {
   const shape = new BufferGeometry();
   shape.setAttribute("position", new BufferAttribute(new Float32Array(corners), 3));
   shape.setIndex(faces);
-  const mesh = new Mesh(shape, new MeshBasicMaterial({ color: LANE, side: DoubleSide, depthWrite: false }));
+  shape.computeVertexNormals();
+  const look = { color: LANE, depthWrite: false };
+  const mesh = new Mesh(shape, graphics === "light" ? new MeshBasicMaterial(look) : new MeshLambertMaterial(look));
+  mesh.receiveShadow = graphics === "full";
   mesh.position.z = scene.floor ?? 0;
   mesh.renderOrder = -1;
   return mesh;
@@ -135,5 +137,7 @@ function sky(): Mesh {
   }).flat();
   shape.setAttribute("color", new BufferAttribute(new Float32Array(colors), 3));
   const paint = new MeshBasicMaterial({ vertexColors: true, side: BackSide, fog: false, depthWrite: false });
-  return new Mesh(shape, paint);
+  const mesh = new Mesh(shape, paint);
+  mesh.renderOrder = -3; // before the floor, which writes no depth
+  return mesh;
 }

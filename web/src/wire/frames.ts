@@ -42,6 +42,12 @@ export class Frame {
     readonly values: Float32Array,
   ) {}
 
+  /** Whether it says where the vehicle is; a flight that diverged may not. */
+  get drawable(): boolean {
+    const spot = [...this.vector("position"), ...this.attitude];
+    return spot.every(Number.isFinite) && Math.hypot(...this.attitude) > 0.5;
+  }
+
   scalar(name: string): number {
     const { start, length } = this.layout.place(name);
     return length ? this.values[start] : 0;

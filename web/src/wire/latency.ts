@@ -8,8 +8,9 @@ export class Latency {
   private sent: { seq: number; at: number }[] = [];
   private delays: number[] = [];
 
-  note(seq: number, at: number): void {
-    this.sent.push({ seq, at });
+  /** A message was sent for an event at `at` [ms]; clocks of events that cannot be right are not believed. */
+  note(seq: number, at: number, now: number): void {
+    this.sent.push({ seq, at: at <= now && now - at < STALE ? at : now });
   }
 
   /** A picture of the frame that echoes `seq` was drawn at `now`. */

@@ -6,6 +6,14 @@ export type Quaternion = readonly [number, number, number, number]; // w, x, y, 
 export type Values = readonly number[];
 export type Setting = number | boolean | string | Values;
 
+/** The control whose value the picture and the plots show. */
+export const THRESHOLD = "admittance.threshold";
+
+/** A setting of three axes, which may be given as one number. */
+export function perAxis(value: Setting): Vector {
+  return (Array.isArray(value) ? value : [value, value, value]) as unknown as Vector;
+}
+
 export interface Rotor {
   position: Vector;
   spin: number;
@@ -85,13 +93,12 @@ export interface Status {
   alarm: string;
   paused: boolean;
   speed: number;
-  factor: number;
-  behind_ms: number;
-  recorded_s: number;
+  factor: number | null; // null where a number is not known
+  behind_ms: number | null;
+  recorded_s: number | null;
   viewers: number;
   holder: "you" | "other" | "none";
-  enabled?: boolean;
-  killed?: number[];
+  enabled?: boolean; // whether the pilot listens to the hand
 }
 
 export type Incoming =

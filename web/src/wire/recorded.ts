@@ -64,7 +64,7 @@ export class Recorded implements Source {
   }
 
   tick(now: number): void {
-    const passed = Math.min((now - this.last) / 1000, 0.25);
+    const passed = this.last ? Math.min((now - this.last) / 1000, 0.25) : 0;
     this.last = now;
     if (this.paused) return;
     this.time += passed * this.speed;
