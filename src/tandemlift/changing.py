@@ -1,8 +1,9 @@
 """What changes in a flight while it is flown: its parameters, its controller, and the hand that is moved from outside.
 
 A flight's parameters are numbers in a flat array. A changed mission is put together anew, its numbers are compared with
-those of the mission before it, and those that differ go from the one to the other in a straight line. What would take
-other laws than the flight began with is refused, but for the controller: it takes over with a fresh memory.
+those of the mission before it, and those that differ go from the one to the other in a straight line. Where it takes
+other laws, they take over from one step to the next, and a controller with a fresh memory if it remembers other things.
+What would take another memory of anything else, another body or another delay is refused.
 """
 
 from __future__ import annotations
@@ -59,15 +60,13 @@ def dues_of(p: Prepared) -> list[Due]:
     return dues
 
 
-def _parts_but_the_controller(p: Prepared) -> tuple[Any, ...]:
-    """The layouts and the data that a flight keeps from its beginning."""
-    flying, memory = p.flying, p.flying.moving.memory
-    rest = flying._replace(
-        moving=flying.moving._replace(memory=memory._replace(controller=Nothing())),
-        pilot=flying.pilot._replace(controller=Nothing()),
-    )
-    data = (flying.plant, *p.tables, p.delays, p.seeds)
-    return layout(rest), layout(p.given), p.steps, p.every, p.dt, [np.asarray(_numbers(x)).tobytes() for x in data]
+def _kept(p: Prepared) -> tuple[Any, ...]:
+    """What a flight keeps from its beginning: the layout of what moves, but for the controller's memory; the data."""
+    moving, plant = p.flying.moving, p.flying.plant
+    rest = moving._replace(memory=moving.memory._replace(controller=Nothing()))
+    data = (plant, *p.tables, p.delays, p.seeds)
+    numbers = [np.asarray(_numbers(x)).tobytes() for x in data]
+    return layout(rest), layout(plant), layout(p.given), layout(p.flying.partner), p.steps, p.every, p.dt, numbers
 
 
 def _numbers(value: Any) -> Any:
@@ -80,7 +79,7 @@ def _parameters(p: Prepared) -> list[float]:
 
 
 def _check(before: Prepared, after: Prepared, key: str) -> None:
-    if _parts_but_the_controller(before) != _parts_but_the_controller(after):
+    if _kept(before) != _kept(after):
         raise InputError(f"{key} {LATER}")
     if before.variant == after.variant:
         if _parameters(before) == _parameters(after) and before.mission.model_copy(update=STEADY) != after.mission:

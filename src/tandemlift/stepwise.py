@@ -19,6 +19,7 @@ from tandemlift.kernels import COMMAND, GIVEN, place
 from tandemlift.laws.controllers import control
 from tandemlift.prepared import Prepared
 from tandemlift.tally import EMPTY
+from tandemlift.vector import layout
 
 Progress = Callable[[int, int], None]
 PROGRESS_EVERY = 1000  # steps
@@ -65,7 +66,7 @@ class Stepper:
         parts.observed(a, self.ring.copy(), p.delays, self.g, self.m, self.c, self.v, self.row, 0, True)
 
     def change(self, due: Due) -> None:
-        """Let the flight go on as a changed mission; a controller that is another one takes over at once."""
+        """Let the flight go on as a changed mission; what takes other laws is changed at once."""
         if due.prepared.variant == self.p.variant:
             self.changing.become(self.a, self.p, due)
             self.p = due.prepared
@@ -73,10 +74,12 @@ class Stepper:
             self._hand_over(due.prepared)
 
     def _hand_over(self, p: Prepared) -> None:
-        """Go on as another mission, whose controller begins with a fresh memory."""
+        """Go on by other laws; a controller begins with a fresh memory if it remembers other things."""
         size, hand = leaves(self.p.flying.moving), self.a[hand_place(self.p)]
         moving = unflat(self.a[:size], self.p.flying.moving)
-        memory = moving.memory._replace(controller=p.flying.moving.memory.controller)
+        memory, fresh = moving.memory, p.flying.moving.memory.controller
+        if layout(memory.controller) != layout(fresh):
+            memory = memory._replace(controller=fresh)
         self.a = np.array(flat(p.flying._replace(moving=moving._replace(memory=memory))))
         self.changing.ramps.clear()
         self._lay_out(p)

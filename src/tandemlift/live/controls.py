@@ -44,7 +44,8 @@ CONTROLS = (
     Control("sensors.motion.position_noise", "noise of the position", "world", "m", 0.0, 0.05),
 )
 BY_KEY = {c.key: c for c in CONTROLS}
-CONTROLLER = "controller.name"
+CONTROLLER, GATE = "controller.name", "admittance.gate"
+CHOICES = (CONTROLLER, GATE)
 
 
 def keys_of(mission: Mission, key: str) -> list[str]:
@@ -82,3 +83,6 @@ def controls_of(mission: Mission, first: Mission) -> Iterator[dict[str, Any]]:
             yield {**about, **held, "min": c.low, "max": c.high}
     name = {"key": CONTROLLER, "label": "controller", "group": "pilot", "value": mission.controller.name}
     yield {**name, "initial": first.controller.name, "choices": sorted(CONTROLLERS)}
+    if mission.pilot.guidance == "clock":  # a hand is felt through a dead-band instead
+        gate = {"key": GATE, "label": "gate", "group": "feel", "value": mission.admittance.gate}
+        yield {**gate, "initial": first.admittance.gate, "choices": ["hard", "soft"]}

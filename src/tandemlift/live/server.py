@@ -44,12 +44,14 @@ class LiveFlight(Protocol):
     """A flight that goes on while people watch; its methods may be called from any thread.
 
     Attributes:
-        scene: what a viewer must know, as `scene.scene_of` makes it.
         generation: grows with every reset, after which `scene` is a new one.
     """
 
-    scene: dict[str, Any]
     generation: int
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """What a viewer must know, as `scene.scene_of` makes it."""
 
     def start(self) -> None:
         """Begin to fly, in a thread of its own."""

@@ -23,7 +23,7 @@ from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.live import messages
 from tandemlift.live.by_hand import NEVER, by_hand
 from tandemlift.live.compiling import Compiling
-from tandemlift.live.controls import BY_KEY, CONTROLLER, controls_of, keys_of, value_of
+from tandemlift.live.controls import BY_KEY, CHOICES, controls_of, keys_of, value_of
 from tandemlift.live.frames import fields_of, frames_of
 from tandemlift.live.pace import Pace
 from tandemlift.live.recorded import RecordedFlight
@@ -70,19 +70,23 @@ class Session:
 
     def _begin(self, mission: Mission) -> None:
         flight = RecordedFlight(mission, self._engine)
-        scene = self._scene_of(mission)
         with self._lock:
             self._flight, self._grip = flight, Grip()
-            self._fields, self.scene = fields_of(Vehicle.from_settings(mission.vehicle).rotor_count), scene
+            self._fields = fields_of(Vehicle.from_settings(mission.vehicle).rotor_count)
+            self._scene = scene_of(mission, self._engine)
             self._phases = tables_of(mission)["phases"]
             flight.hold(NOBODY_HOLDS)
             flight.advance()
             self.generation += 1
 
-    def _scene_of(self, mission: Mission) -> dict[str, Any]:
-        p = mission.partner
+    @property
+    def scene(self) -> dict[str, Any]:
+        """What a viewer must know, with the settings as they are."""
+        now = self._flight.now
+        p = now.partner
         spring = {"stiffness": p.stiffness, "damping": p.damping, "max_force": p.max_force}
-        return scene_of(mission, self._engine, controls=list(controls_of(mission, self._mission)), spring=spring)
+        about = {"threshold": list(now.admittance.threshold), "spring": spring}
+        return self._scene | about | {"controls": list(controls_of(now, self._mission))}
 
     # the thread
 
@@ -250,7 +254,7 @@ class Session:
         return self._set_to(m.key, value)
 
     def _set_to(self, key: str, value: Any) -> dict[str, Any]:
-        duration = 0.0 if key == CONTROLLER else RAMP
+        duration = 0.0 if key in CHOICES else RAMP
         for one in keys_of(self._flight.now, key):
             self._change(one, value, duration)
         return {"type": "changed", "key": key, "value": value, "duration": duration}
@@ -258,7 +262,7 @@ class Session:
     @_heed.register
     def _restore(self, m: messages.Restore) -> list[dict[str, Any]]:
         start, answers = tables_of(self._mission), []
-        for key in [CONTROLLER, *BY_KEY] if m.key is None else [m.key]:
+        for key in [*CHOICES, *BY_KEY] if m.key is None else [m.key]:
             value = value_of(start, key)
             if value is not MISSING and value != value_of(tables_of(self._flight.now), key):
                 self._check(key, value)
@@ -269,10 +273,10 @@ class Session:
 
     def _check(self, key: str, value: Any) -> None:
         """Refuse what is no control, or beyond its bounds."""
-        if key == CONTROLLER:
+        if key in CHOICES:
             return
         if key not in BY_KEY:
-            raise InputError(f"{key}: is not among the controls; there are {', '.join([CONTROLLER, *BY_KEY])}")
+            raise InputError(f"{key}: is not among the controls; there are {', '.join([*CHOICES, *BY_KEY])}")
         control = BY_KEY[key]
         for number in value if isinstance(value, list) else [value]:
             if isinstance(number, bool) or not isinstance(number, (int, float)):
@@ -283,10 +287,9 @@ class Session:
     def _change(self, key: str, value: Any, duration: float) -> None:
         """Make a change ready beside the flight, and let it begin."""
         flight = self._flight
-        if key == CONTROLLER and value != flight.now.controller.name:
-            wanted = changed(flight.now, key, value)
-            if not self._compiling.is_ready(wanted):
-                raise InputError(f"{value} is being compiled for this flight: choose it again in a minute")
+        chosen = key in CHOICES and value != value_of(tables_of(flight.now), key)
+        if chosen and not self._compiling.is_ready(changed(flight.now, key, value)):
+            raise InputError(f"{value} is being compiled for this flight: choose it again in a minute")
         due = flight.prepare(key, value, duration)
         with self._lock:
             if flight is self._flight:
