@@ -18,5 +18,8 @@ export default defineConfig(
     },
   },
   { files: ["*.mjs", "*.js"], languageOptions: { globals: { process: "readonly", console: "readonly" } } },
-  { files: ["tests/**/*.ts"], rules: { "max-lines-per-function": "off", "@typescript-eslint/no-floating-promises": "off" } },
+  {
+    files: ["tests/**/*.ts"],
+    rules: { "max-lines-per-function": "off", "@typescript-eslint/no-floating-promises": "off" },
+  },
 );

@@ -5,7 +5,19 @@ import { type PerspectiveCamera, Vector2, Vector3 } from "three";
 import type { Hand } from "../view/picture.ts";
 import type { Axis } from "../view/vehicle.ts";
 import type { Outgoing, Vector } from "../wire/protocol.ts";
-import { add, deeper, dot, less, nearestToRay, onLevel, onPlane, type Ray, size, turned, unturned } from "./geometry.ts";
+import {
+  add,
+  deeper,
+  dot,
+  less,
+  nearestToRay,
+  onLevel,
+  onPlane,
+  type Ray,
+  size,
+  turned,
+  unturned,
+} from "./geometry.ts";
 import type { Frame } from "../wire/frames.ts";
 
 const FAT = 0.07; // m around the beam where it can be taken hold of

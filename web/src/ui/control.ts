@@ -10,6 +10,8 @@ const AXES: Partial<Record<number, string[]>> = {
   6: ["x", "y", "z", "roll", "pitch", "yaw"],
 };
 
+const PATIENCE = 2000; // ms, for which an answer to a wish is waited for
+
 export interface Ask {
   set(key: string, value: Setting): void;
   restore(key: string): void;
@@ -24,6 +26,8 @@ interface Field {
 export class ControlBox {
   readonly element: HTMLElement;
   private value: Setting;
+  private asked: Setting | null = null; // on its way to the server
+  private askedAt = 0; // ms
   private readonly initial: Setting;
   private readonly fields: Field[];
   private readonly reason = el("p", { class: "reason" });
@@ -48,6 +52,9 @@ export class ControlBox {
 
   /** The server has set a value; it gets there within `duration` seconds. */
   changed(value: Setting, duration: number): void {
+    // an answer to an earlier wish does not undo what was entered since
+    const waiting = this.asked !== null && performance.now() - this.askedAt < PATIENCE;
+    if (waiting && !same(this.asked!, value)) return;
     this.refuse("");
     this.show(value);
     this.element.classList.add("ramping");
@@ -57,6 +64,7 @@ export class ControlBox {
   }
 
   refuse(reason: string): void {
+    this.asked = null;
     this.reason.textContent = reason;
     this.element.classList.toggle("refused", reason !== "");
     if (reason) this.show(this.value);
@@ -68,7 +76,7 @@ export class ControlBox {
     this.fields.forEach((field, i) => {
       field.show(parts[i]);
     });
-    this.element.classList.toggle("altered", JSON.stringify(value) !== JSON.stringify(this.initial));
+    this.element.classList.toggle("altered", !same(value, this.initial));
   }
 
   private makeFields(): Field[] {
@@ -124,9 +132,15 @@ export class ControlBox {
   }
 
   private enter(i: number, value: number): void {
-    const next = Array.isArray(this.value) ? (this.value as number[]).map((v, k) => (k === i ? value : v)) : value;
-    this.ask.set(this.control.key, next);
+    const now = this.asked ?? this.value;
+    this.asked = Array.isArray(now) ? (now as number[]).map((v, k) => (k === i ? value : v)) : value;
+    this.askedAt = performance.now();
+    this.ask.set(this.control.key, this.asked);
   }
+}
+
+function same(a: Setting, b: Setting): boolean {
+  return JSON.stringify(a) === JSON.stringify(b);
 }
 
 function bound(limit: number | readonly number[] | undefined, i: number): number | undefined {

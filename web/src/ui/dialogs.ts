@@ -20,7 +20,11 @@ const REPLAY: [string, string][] = [
 ];
 const SEEN: [string, string, string][] = [
   ["push", "red arrow", "the push that acts on the beam"],
-  ["hand", "violet box and spring", "the hand; a pull that stays inside the box is below the threshold, and moves nothing"],
+  [
+    "hand",
+    "violet box and spring",
+    "the hand; a pull that stays inside the box is below the threshold, and moves nothing",
+  ],
   ["thrust", "green to red arrows", "thrust of each rotor; red is near the most that it can"],
   ["path", "blue shape", "the reference, where it is off the vehicle; the blue line is the way flown"],
   ["wind", "light blue arrow", "the wind"],
@@ -30,7 +34,10 @@ const NAME = "[A-Za-z0-9][A-Za-z0-9._\\-]{0,63}";
 export function help(replay: boolean): HTMLDialogElement {
   const dialog = byId("help") as HTMLDialogElement;
   const keys = (replay ? REPLAY : LIVE).flatMap(([key, text]) => [el("dt", {}, key), el("dd", {}, text)]);
-  const seen = SEEN.flatMap(([kind, what, text]) => [el("dt", {}, el("i", { class: `dot ${kind}` }), what), el("dd", {}, text)]);
+  const seen = SEEN.flatMap(([kind, what, text]) => [
+    el("dt", {}, el("i", { class: `dot ${kind}` }), what),
+    el("dd", {}, text),
+  ]);
   const close = el("button", { type: "button", class: "go" }, "Close");
   close.addEventListener("click", () => {
     dialog.close();
@@ -49,7 +56,14 @@ export function help(replay: boolean): HTMLDialogElement {
 export function saving(mission: () => string, save: (name: string) => void): () => void {
   const dialog = byId("saving") as HTMLDialogElement;
   const hint = "Letters, digits, '.', '_' or '-', the first a letter or a digit";
-  const name = el("input", { type: "text", required: true, pattern: NAME, title: hint, maxlength: 64, id: "save-name" });
+  const name = el("input", {
+    type: "text",
+    required: true,
+    pattern: NAME,
+    title: hint,
+    maxlength: 64,
+    id: "save-name",
+  });
   const cancel = el("button", { type: "button" }, "Cancel");
   cancel.addEventListener("click", () => {
     dialog.close();

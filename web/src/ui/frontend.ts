@@ -181,7 +181,8 @@ export class Frontend {
   private hint({ phase }: Status): void {
     const hint = byId("hint");
     const ready = phase === "hold" || phase === "guided";
-    const text = phase === "idle" ? "Press Lift to take off." : ready && !this.pulled ? "Drag the beam to pull it." : "";
+    const text =
+      phase === "idle" ? "Press Lift to take off." : ready && !this.pulled ? "Drag the beam to pull it." : "";
     if (hint.textContent !== text) hint.textContent = text;
     hint.hidden = text === "" || this.app.replay !== null;
   }

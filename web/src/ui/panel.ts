@@ -51,7 +51,10 @@ export class Panel {
     this.map = live ? new RotorMap(scene, this.asks.kill) : null;
     const groups = [...new Set(scene.controls.map(({ group }) => group))].map((group) => {
       const own = scene.controls.filter((control) => control.group === group);
-      return this.group(group, own.map(({ key }) => this.boxes.get(key)!.element));
+      return this.group(
+        group,
+        own.map(({ key }) => this.boxes.get(key)!.element),
+      );
     });
     this.place.replaceChildren(
       ...(live ? [this.group("hand", this.hand(), true)] : []),

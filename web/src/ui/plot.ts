@@ -75,7 +75,15 @@ function options(look: Look): uPlot.Options {
     padding: [6, 8, 0, 0],
     scales: { x: { time: false }, y: { range: (_, low, high) => span(low, high, look) } },
     axes: [
-      { stroke: INK, font: FONT, grid: HAIR, ticks: { show: false }, size: 18, gap: 2, values: (_, at) => at.map(seconds) },
+      {
+        stroke: INK,
+        font: FONT,
+        grid: HAIR,
+        ticks: { show: false },
+        size: 18,
+        gap: 2,
+        values: (_, at) => at.map(seconds),
+      },
       { stroke: INK, font: FONT, grid: HAIR, ticks: { show: false }, size: 34, gap: 3, space: 22 },
     ],
     series: [{}, ...look.curves.map(({ color, dash, width }) => series(color, dash, width))],

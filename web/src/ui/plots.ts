@@ -87,7 +87,11 @@ export class Plots {
     const under = (plot: uPlot): void => {
       for (const limit of most) level(plot, limit, "#d5281b");
     };
-    const labelled = curves.map((c, i) => ({ ...c, ...(i === 0 && { label: "front" }), ...(i === 1 && { label: "rear" }) }));
+    const labelled = curves.map((c, i) => ({
+      ...c,
+      ...(i === 0 && { label: "front" }),
+      ...(i === 1 && { label: "rear" }),
+    }));
     const plot = new Plot({ title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under });
     return { plot, columns: () => curves.map((_, i) => this.history.column(`thrusts${i}`)) };
   }

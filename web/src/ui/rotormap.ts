@@ -1,6 +1,6 @@
 // The vehicle from above: each rotor fills with its thrust, and two presses stop it for good.
 
-import type { Scene } from "../wire/protocol.ts";
+import type { Payload, Scene } from "../wire/protocol.ts";
 import { ahead, guardRadius } from "../view/quadrotor.ts";
 import { el, svg } from "./dom.ts";
 
@@ -22,11 +22,11 @@ export class RotorMap {
     const { quadrotors, payload } = scene.vehicle;
     this.most = quadrotors.flatMap((q) => q.rotors.map((r) => r.max_thrust));
     // seen from above with x up and y to the left
-    const half = Math.max(payload.length / 2, ...quadrotors.map((q) => Math.abs(q.position[1]) + guardRadius(q))) + 0.05;
+    const half =
+      Math.max(payload.length / 2, ...quadrotors.map((q) => Math.abs(q.position[1]) + guardRadius(q))) + 0.05;
     const deep = Math.max(0.2, ...quadrotors.map((q) => Math.abs(q.position[0]) + guardRadius(q))) + 0.05;
-    const width = Math.max(payload.width, 0.06);
-    const beam = { class: "beam", x: -payload.length / 2 - payload.position[1], y: -width / 2, width: payload.length, height: width };
-    const picture = svg("svg", { viewBox: `${-half} ${-deep} ${2 * half} ${2 * deep}`, class: "rotormap" }, svg("rect", beam));
+    const viewBox = [-half, -deep, 2 * half, 2 * deep].join(" ");
+    const picture = svg("svg", { viewBox, class: "rotormap" }, beam(payload));
     for (const quadrotor of quadrotors) {
       const [x, y] = quadrotor.position;
       picture.append(svg("circle", { class: "guard", cx: -y, cy: -x, r: guardRadius(quadrotor) }));
@@ -56,7 +56,8 @@ export class RotorMap {
     const fill = svg("circle", { ...place, class: ahead(quadrotor, i) ? "front" : "rear" });
     const rim = svg("circle", { ...place, class: "rim" });
     const cross = 0.5 * radius;
-    const path = `M${place.cx - cross} ${place.cy - cross}l${2 * cross} ${2 * cross}m0 ${-2 * cross}l${-2 * cross} ${2 * cross}`;
+    const way = 2 * cross;
+    const path = `M${place.cx - cross} ${place.cy - cross}l${way} ${way}m0 ${-way}l${-way} ${way}`;
     const label = `Stop rotor ${number + 1}`;
     const spot = svg("g", { role: "button", tabindex: 0, "aria-label": label }, fill, rim, svg("path", { d: path }));
     spot.addEventListener("click", () => {
@@ -89,6 +90,12 @@ export class RotorMap {
     this.spots.forEach((spot, i) => {
       spot.classList.toggle("armed", i === rotor);
     });
-    this.note.textContent = rotor < 0 ? "Press a rotor twice to stop it." : `Press rotor ${rotor + 1} again to stop it for good.`;
+    this.note.textContent =
+      rotor < 0 ? "Press a rotor twice to stop it." : `Press rotor ${rotor + 1} again to stop it for good.`;
   }
+}
+
+function beam({ length, width, position }: Payload): SVGElement {
+  const across = Math.max(width, 0.06);
+  return svg("rect", { class: "beam", x: -length / 2 - position[1], y: -across / 2, width: length, height: across });
 }

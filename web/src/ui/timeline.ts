@@ -27,7 +27,9 @@ export class Timeline {
     this.player = button("pause", "", "Play or pause (P)", () => {
       this.toggle();
     });
-    const options = PACES.map((pace) => el("option", { value: pace, selected: Number(pace) === speed }, `\u00d7${pace}`));
+    const options = PACES.map((pace) =>
+      el("option", { value: pace, selected: Number(pace) === speed }, `\u00d7${pace}`),
+    );
     const paces = el("select", { "aria-label": "Pace" }, ...options);
     paces.addEventListener("change", () => {
       flight.setSpeed(Number(paces.value));

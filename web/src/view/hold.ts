@@ -75,7 +75,10 @@ export class Hold {
     const last = 2 * COILS + 1;
     for (let i = 0; i <= last; i++) {
       const bent = i < 2 || i > last - 2 ? 0 : i % 2 ? 1 : -1;
-      const place = from.clone().addScaledVector(way, i / last).addScaledVector(side, bent);
+      const place = from
+        .clone()
+        .addScaledVector(way, i / last)
+        .addScaledVector(side, bent);
       place.toArray(this.places, 3 * i);
     }
     this.spring.geometry.attributes["position"].needsUpdate = true;

@@ -20,9 +20,7 @@ export type Shown = Record<Overlay, boolean>;
 
 /** What a hand of this page does at the moment. */
 export type Hand =
-  | { kind: "none" }
-  | { kind: "offer"; point: Vector }
-  | { kind: "pull"; point: Vector; target: Vector };
+  { kind: "none" } | { kind: "offer"; point: Vector } | { kind: "pull"; point: Vector; target: Vector };
 
 export class Picture {
   readonly vehicle: Vehicle;

@@ -48,7 +48,14 @@ function shell(size: number, sides: number): BufferGeometry[] {
     [0.43 * size, -0.02 * size],
     [0.43 * size, 0.05 * size],
   ];
-  const nose = rod(at(0.36 * size, 0, 0.03 * size), at(0.52 * size, 0, 0.03 * size), 0.1 * size, CARBON, sides, 0.06 * size);
+  const nose = rod(
+    at(0.36 * size, 0, 0.03 * size),
+    at(0.52 * size, 0, 0.03 * size),
+    0.1 * size,
+    CARBON,
+    sides,
+    0.06 * size,
+  );
   const lens = ball(at(0.52 * size, 0, 0.03 * size), 0.06 * size, "#15181d", sides);
   const battery = box(at(0, 0, -0.2 * size), [0.5 * size, 0.26 * size, 0.12 * size], CARBON);
   const light = ball(at(-0.2 * size, 0, 0.2 * size), 0.035 * size, JOINT, sides);

@@ -33,7 +33,14 @@ export function painted(shape: BufferGeometry, color: string): BufferGeometry {
 }
 
 /** A rod, or a cone if its radii differ. */
-export function rod(from: Place, to: Place, radius: number, color: string, sides: number, end = radius): BufferGeometry {
+export function rod(
+  from: Place,
+  to: Place,
+  radius: number,
+  color: string,
+  sides: number,
+  end = radius,
+): BufferGeometry {
   const way = to.clone().sub(from);
   const shape = new CylinderGeometry(end, radius, way.length(), sides);
   shape.applyQuaternion(new Quaternion().setFromUnitVectors(UP, way.clone().normalize()));

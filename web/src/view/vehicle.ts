@@ -86,7 +86,8 @@ function solidOf(scene: Scene, sides: number): BufferGeometry {
 
 function beamParts(payload: Payload, sides: number): BufferGeometry[] {
   const [x, y, z] = payload.position;
-  if (!payload.length) return [box(at(x, y, z), [payload.width || 0.2, payload.width || 0.2, payload.height || 0.2], WOOD)];
+  if (!payload.length)
+    return [box(at(x, y, z), [payload.width || 0.2, payload.width || 0.2, payload.height || 0.2], WOOD)];
   const { from, to, radius } = beamAxis(payload);
   const ends = [from, to].map((end) => {
     const cap = 0.012;
