@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: run live test lint types imports tests bench validate bench-peers lock clean help
+.PHONY: run live page test lint types imports tests bench validate bench-peers lock clean help
 
 help:            ## say what there is
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -14,6 +14,12 @@ live: .venv/run  ## push it by hand, in the browser
 	$(BIN)/tandemlift live
 
 test: lint types imports tests   ## lint, types, import directions, all tests
+
+page:            ## build the live page from web/, checked and tested (needs Node.js 20)
+	npm --prefix web ci --silent
+	npm --prefix web run --silent check
+	npm --prefix web test --silent
+	npm --prefix web run --silent build
 
 lint: .venv/dev  ## format and lint
 	$(BIN)/ruff format --check .
