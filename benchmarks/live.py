@@ -9,6 +9,7 @@ Needs Linux, Chromium and Playwright.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import math
 import os
@@ -19,6 +20,7 @@ import sys
 import tempfile
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -36,6 +38,7 @@ SIZE = {"width": 800, "height": 450}
 PULLING, RADIUS, TURN = 20.0, 60.0, 4.0  # s, pixels and s of a circle of the mouse
 LOOKERS = 4
 PATIENCE = 60.0  # s
+HELD = 0.4  # s, after which the page tells who holds the beam
 
 
 class Looker:
@@ -44,7 +47,7 @@ class Looker:
     def __init__(self, address: str) -> None:
         self.address, self.behind, self.frames = address, list[float](), 0
         self.fields: tuple[tuple[str, int], ...] = ()
-        self.seq = 0.0
+        self.seen = {"seq": np.zeros(1), "time": np.zeros(1)}
         self.thread = threading.Thread(target=self.watch, daemon=True)
         self.thread.start()
 
@@ -63,13 +66,26 @@ class Looker:
         if isinstance(told, bytes):
             self.frames += 1
             if self.fields:
-                self.seq = float(read_frames(self.fields, told)["seq"][0, 0])
+                self.seen = {name: values[0] for name, values in read_frames(self.fields, told).items()}
             return
         text = json.loads(told)
         if text["type"] == "scene":
             self.fields = tuple((name, count) for name, count in text["fields"])
         elif text["type"] == "status":
             self.behind.append(text["behind_ms"])
+
+
+@contextlib.contextmanager
+def started(out: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """`tandemlift live zigzag` and its address."""
+    command = [sys.executable, "-m", "tandemlift", "live", "zigzag", "--no-browser", "--port=0", f"--out={out}"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    assert process.stdout
+    try:
+        yield process, next(f for line in process.stdout if (f := re.search(r"http://\S+", line)))[0]
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait()
 
 
 def processor_time(pid: int) -> float:
@@ -87,27 +103,31 @@ def until(page: Page, where: str, what: str) -> None:
         time.sleep(0.02)
 
 
-def pulled(page: Page, looker: Looker) -> tuple[float, float]:
-    """Targets a second that reach the physics, and the page's own latency [ms], while the mouse goes round."""
+def grabbed(page: Page) -> tuple[float, float]:
+    """Take hold of the beam; where on the page that is."""
     box = page.locator("#surface canvas").bounding_box()
     assert box
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    for dy in range(-60, 120, 6):  # down the picture, until the beam is there
-        page.mouse.move(x, y + dy)
+    x, middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    for y in np.arange(middle - 60, middle + 120, 6):  # down the picture, until the beam is there
+        page.mouse.move(x, y)
         page.mouse.down()
-        time.sleep(0.2)
+        time.sleep(HELD)
         if page.locator("#meters .held-by dd").text_content() == "you":
-            break
+            return x, y
         page.mouse.up()
-    else:
-        sys.exit("the beam was not found on the page")
-    began, first, waits = time.perf_counter(), looker.seq, list[float]()
+    sys.exit("the beam was not found on the page")
+
+
+def pulled(page: Page, looker: Looker) -> tuple[float, float]:
+    """Targets a second that reach the physics, and the page's own latency [ms], while the mouse goes round."""
+    x, y = grabbed(page)
+    began, first, waits = time.perf_counter(), looker.seen["seq"][0], list[float]()
     while (passed := time.perf_counter() - began) < PULLING:
         turn = 2.0 * math.pi * passed / TURN
-        page.mouse.move(x + RADIUS * math.sin(turn), y + dy + 0.3 * RADIUS * (1.0 - math.cos(turn)))
+        page.mouse.move(x + RADIUS * math.sin(turn), y + 0.3 * RADIUS * (1.0 - math.cos(turn)))
         if found := re.match(r"\d+", page.locator("#meters .latency dd").text_content() or ""):
             waits.append(float(found[0]))
-    count = looker.seq - first
+    count = looker.seen["seq"][0] - first
     page.mouse.up()
     return count / passed, float(np.median(waits))
 
@@ -129,16 +149,8 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=10.0, help="of flight with four lookers-on")
     minutes = parser.parse_args().minutes
     print(heading(describe(("tandemlift", "websockets", "numba"))), flush=True)
-    with tempfile.TemporaryDirectory() as out:
-        command = [sys.executable, "-m", "tandemlift", "live", "zigzag", "--no-browser", "--port=0", f"--out={out}"]
-        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        assert process.stdout
-        found = next(f for line in process.stdout if (f := re.search(r"http://\S+", line)))
-        try:
-            rows = measured(process, found[0], 60.0 * minutes)
-        finally:
-            process.send_signal(signal.SIGINT)
-            process.wait()
+    with tempfile.TemporaryDirectory() as out, started(out) as (process, address):
+        rows = measured(process, address, 60.0 * minutes)
     print("\n" + table(["", "target", "measured"], rows))
 
 

@@ -1,0 +1,88 @@
+"""The README's first picture: `python benchmarks/live_picture.py docs/pictures/live.gif`.
+
+The live page as it is, while a mouse leads the beam into the zigzag corridor; time passes slowly for the pictures to be
+drawn without a graphics card, and at its own pace in the animation.
+"""
+
+from __future__ import annotations
+
+import io
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from live import CHROMIUM, FLAGS, Looker, grabbed, started, until
+from PIL import Image
+from playwright.sync_api import Page, sync_playwright
+
+SIZE, SHOWN = {"width": 1200, "height": 750}, (720, 450)
+EVERY, SECONDS, SLOWLY = 0.125, 8.0, "0.1"  # s of flight; pace
+COMMON, RARE = 160, 96  # colours: most of a picture is grey, and what counts is not
+WAY = np.array([[0.0, 0.0], [5.0, 0.0], [10.0, 3.0], [15.0, 0.0]])  # m, of the corridor
+AHEAD, PULL, PIXELS = 1.4, 0.42, 55.0  # m ahead on the way, m that the hand is ahead, pixels a metre of correction
+
+
+def ahead_of(place: np.ndarray) -> np.ndarray:
+    """A unit vector towards the way ahead."""
+    starts, legs = WAY[:-1], np.diff(WAY, axis=0)
+    lengths = np.linalg.norm(legs, axis=1)
+    shares = np.clip(np.einsum("ij,ij->i", place - starts, legs) / lengths**2, 0.0, 1.0)
+    nearest = int(np.argmin(np.linalg.norm(starts + shares[:, None] * legs - place, axis=1)))
+    along = shares[nearest] * lengths[nearest] + AHEAD
+    if along > lengths[nearest] and nearest + 1 < len(legs):
+        nearest, along = nearest + 1, along - lengths[nearest]
+    way = starts[nearest] + legs[nearest] * along / lengths[nearest] - place
+    return way / np.linalg.norm(way)
+
+
+def led(page: Page, looker: Looker) -> list[Image.Image]:
+    """Pictures of the page while the beam is led along the corridor."""
+    x, y = grabbed(page)
+    pictures, due = list[Image.Image](), looker.seen["time"][0]
+    end = due + SECONDS
+    while looker.seen["time"][0] < end:
+        seen = looker.seen
+        position, target = seen["position"][:2], seen["hand_target"][:2]
+        off = position + PULL * ahead_of(position) - target
+        x, y = x - PIXELS * off[1] * 0.3, y - PIXELS * off[0] * 0.3  # forward is up, and world y to the left
+        page.mouse.move(x, y)
+        if seen["time"][0] >= due:
+            pictures.append(Image.open(io.BytesIO(page.screenshot())).convert("RGB").resize(SHOWN, Image.LANCZOS))
+            due += EVERY
+    page.mouse.up()
+    return pictures
+
+
+def palette_of(picture: Image.Image) -> Image.Image:
+    """The colours that a picture has most of, and those that are far from each other."""
+    kinds = ((COMMON, Image.Quantize.MEDIANCUT), (RARE, Image.Quantize.MAXCOVERAGE))
+    colours = [picture.quantize(n, kind).getpalette()[: 3 * n] for n, kind in kinds]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([number for part in colours for number in part])
+    return palette
+
+
+def main(path: Path) -> None:
+    """Make the animation."""
+    with tempfile.TemporaryDirectory() as out, started(out) as (_, address), sync_playwright() as playwright:
+        looker = Looker(address)
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
+        page = browser.new_page(viewport=SIZE)
+        page.goto(address)
+        until(page, "#mode", "guided")
+        page.get_by_text("level", exact=True).first.click()
+        page.click("#show-panel")
+        page.get_by_label("Pace of time").select_option(SLOWLY)
+        time.sleep(1.0)
+        pictures = led(page, looker)
+        browser.close()
+    palette = palette_of(pictures[len(pictures) // 2])
+    small = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
+    small[0].save(path, save_all=True, append_images=small[1:], duration=round(1e3 * EVERY), loop=0, optimize=True)
+    print(f"{path}: {len(small)} pictures, {path.stat().st_size / 1e6:.1f} MB")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "live.gif"))
