@@ -326,6 +326,21 @@ def test_a_page_that_is_closed_lets_go(live):
     until(lambda: not live.flight.held)
 
 
+def test_a_page_that_hangs_lets_go_and_one_that_pings_does_not(live, monkeypatch):
+    monkeypatch.setattr(viewers, "SILENT", 0.5)
+    with live.viewer() as one:
+        one.grab(1.0, 0.0, 0.0)
+        until(lambda: live.flight.held)
+        end = time.monotonic() + 1.5
+        while time.monotonic() < end:
+            one.say(type="ping", t=0.0)
+            time.sleep(0.05)
+        assert live.flight.held
+        until(lambda: not live.flight.held)  # its socket lives on
+        one.say(type="ping", t=1.0)
+        assert one.text("pong", t=1.0)
+
+
 def test_a_viewer_who_does_not_hold_may_go_without_letting_go(live):
     with live.viewer() as holder:
         holder.grab(1.0, 0.0, 0.0)

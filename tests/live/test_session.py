@@ -7,9 +7,11 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.live import messages
+from tandemlift.live.by_hand import NEVER, by_hand, renewed
 from tandemlift.live.frames import read_frames
 from tandemlift.live.pace import MOST_BEHIND, Pace
 from tandemlift.live.session import Session
+from tandemlift.missions import changed
 
 GUIDED = {
     "pilot.guidance": "hand",
@@ -186,6 +188,14 @@ def test_a_reset_begins_again_with_the_settings_as_they_are(session):
     assert session._flight.now.admittance.mass == (5.0, 5.0, 5.0)
     control = next(c for c in session.scene["controls"] if c["key"] == "admittance.mass")
     assert list(control["value"]) == [5.0, 5.0, 5.0]
+
+
+def test_after_a_reset_rotors_that_had_failed_are_whole():
+    first = by_hand(tl.load_mission("iris"))
+    now = changed(changed(first, "faults.3.time", 2.5), "admittance.mass", 5.0)
+    again = renewed(now, first)
+    assert [f.time for f in again.faults] == [NEVER] * 8
+    assert again.admittance.mass == (5.0, 5.0, 5.0)
 
 
 def test_what_was_flown_is_saved_under_its_name_and_flies_again(session, tmp_path):

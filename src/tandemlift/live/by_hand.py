@@ -27,6 +27,11 @@ def by_hand(mission: Mission) -> Mission:
         return _by_hand(mission)
 
 
+def renewed(now: Mission, first: Mission) -> Mission:
+    """The mission that a flight has become, with rotors that are whole again, as they were in the first."""
+    return now.model_copy(update={"faults": first.faults})
+
+
 def _by_hand(mission: Mission) -> Mission:
     hand = HAND if mission.partner.model != "grab" else {}
     mission = changed(mission, "partner", hand | {"recording": None} if hand else {})

@@ -21,7 +21,19 @@ from websockets.http11 import Request, Response
 from tandemlift.errors import InputError
 from tandemlift.live.frames import RATE
 from tandemlift.live.guard import HOST, PORT, Asked, Guard, listen
-from tandemlift.live.messages import MAX_SIZE, Message, Ping, Refusal, Reset, Restore, Save, Set, about, read_message
+from tandemlift.live.messages import (
+    MAX_SIZE,
+    Kill,
+    Message,
+    Ping,
+    Refusal,
+    Reset,
+    Restore,
+    Save,
+    Set,
+    about,
+    read_message,
+)
 from tandemlift.live.pages import kind_of
 from tandemlift.live.viewers import Viewer, Viewers
 
@@ -30,7 +42,7 @@ MAX_VIEWERS = 16
 MAX_WAITING = 16  # changes that are yet to be made
 SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be old news
 FAREWELL = 1.0  # s, for pages to say good-bye
-SLOW = (Set, Restore, Reset, Save)  # may compile or write
+SLOW = (Set, Restore, Kill, Reset, Save)  # may compile or write
 
 Answer = dict[str, Any] | list[dict[str, Any]] | None  # one text, several, or none
 
@@ -163,6 +175,8 @@ class Server:
             self._let_go()
             self.viewers.tell({"type": "scene", **flight.scene})
         self.viewers.show(flight.frame())
+        if self.viewers.is_hung():
+            self._let_go()
         if tick % STATUS_EVERY == 0:
             self.viewers.tell_status(flight.status())
 

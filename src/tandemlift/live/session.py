@@ -21,7 +21,7 @@ from tandemlift.laws.grab import NOBODY_HOLDS
 from tandemlift.laws.phases import NAMES
 from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.live import messages
-from tandemlift.live.by_hand import NEVER, by_hand
+from tandemlift.live.by_hand import NEVER, by_hand, renewed
 from tandemlift.live.compiling import Compiling
 from tandemlift.live.controls import BY_KEY, CHOICES, controls_of, keys_of, value_of
 from tandemlift.live.frames import fields_of, frames_of
@@ -62,6 +62,7 @@ class Session:
     def __init__(self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live")) -> None:
         self._mission, self._engine, self._out = by_hand(mission), engine, out
         self._lock, self._stopping = threading.RLock(), threading.Event()
+        self._turn = threading.RLock()  # of who changes the flight; taken before the other lock
         self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
         self._compiling, self._names = Compiling(), alarm_names()
         self._pace = Pace(mission.mission.step)
@@ -178,8 +179,8 @@ class Session:
     @_heed.register
     def _grab(self, m: messages.Grab) -> None:
         with self._lock:
-            point, state = Vec3(*m.point), self._flight.sample
-            arm = apply(rotation_from_quaternion(Quat(*map(float, state[6:10]))), point)
+            point, attitude = Vec3(*m.point), Quat(*map(float, self._values()["attitude"][0]))
+            arm = apply(rotation_from_quaternion(attitude), point)
             centre = m.at == "centre"
             self._grip.offset = -arm if centre else ZERO
             target = Vec3(*m.target) + self._grip.offset
@@ -226,7 +227,8 @@ class Session:
 
     @_heed.register
     def _reset(self, m: messages.Reset) -> None:
-        self._begin(self._flight.now)
+        with self._turn:
+            self._begin(renewed(self._flight.now, self._mission))
 
     @_heed.register
     def _save(self, m: messages.Save) -> dict[str, Any]:
@@ -286,11 +288,11 @@ class Session:
 
     def _change(self, key: str, value: Any, duration: float) -> None:
         """Make a change ready beside the flight, and let it begin."""
-        flight = self._flight
-        chosen = key in CHOICES and value != value_of(tables_of(flight.now), key)
-        if chosen and not self._compiling.is_ready(changed(flight.now, key, value)):
-            raise InputError(f"{value} is being compiled for this flight: choose it again in a minute")
-        due = flight.prepare(key, value, duration)
-        with self._lock:
-            if flight is self._flight:
+        with self._turn:
+            flight = self._flight
+            chosen = key in CHOICES and value != value_of(tables_of(flight.now), key)
+            if chosen and not self._compiling.is_ready(changed(flight.now, key, value)):
+                raise InputError(f"{value} is being compiled for this flight: choose it again in a minute")
+            due = flight.prepare(key, value, duration)
+            with self._lock:
                 flight.change(due, key, value, duration)

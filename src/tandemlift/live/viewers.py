@@ -13,6 +13,7 @@ from tandemlift.live.messages import Force, Grab, Message, Move, Refusal, Releas
 
 BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is behind
 LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
+SILENT = 2.0  # s, after which a page that holds the beam is taken for hung
 MOST_MESSAGES = 2_000  # a second; a page sends about a hundred
 MOST_REFUSALS = 20  # a second that are told
 
@@ -27,11 +28,12 @@ class Viewer:
 
     Attributes:
         dropped: frames that it was too slow for.
+        heard: when it said something last, by the monotonic clock [s].
     """
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection = connection
-        self.dropped = 0
+        self.dropped, self.heard = 0, time.monotonic()
         self._second, self._messages, self._refusals = 0, 0, 0
 
     @property
@@ -63,6 +65,7 @@ class Viewer:
     def is_flooding(self) -> bool:
         """Count a message; whether there are more of them in a second than a page sends."""
         self._begin_second()
+        self.heard = time.monotonic()
         self._messages += 1
         return self._messages > MOST_MESSAGES
 
@@ -100,6 +103,10 @@ class Viewers:
         if held:
             self.holder = None
         return held
+
+    def is_hung(self) -> bool:
+        """Whether who holds the beam has been silent for too long: pages of a living browser ping."""
+        return self.holder is not None and time.monotonic() - self.holder.heard > SILENT
 
     def show(self, frame: bytes) -> None:
         """Send a frame to all who can take it."""

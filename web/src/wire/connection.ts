@@ -75,6 +75,8 @@ export class Connection implements Source {
         to.scene(message);
         break;
       case "status":
+        // who holds the beam and says nothing is taken for hung, and lets go
+        if (message.holder === "you") this.send({ type: "ping", t: performance.now() });
         to.status(message);
         break;
       case "changed":
