@@ -11,9 +11,10 @@ from tandemlift.cli.run import parse_setting
 from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
 
 if TYPE_CHECKING:
+    from tandemlift.live.session import Session
     from tandemlift.settings import Mission
 
-DEFAULT = "hover"
+DEFAULT = "zigzag"
 
 
 @click.command()
@@ -33,7 +34,8 @@ def live(
 ) -> None:
     """Fly MISSION in real time, and push it by hand in a page of the browser.
 
-    MISSION is the name of a built-in mission (see `tandemlift missions`) or the path of a .toml file. Nothing leaves
+    MISSION is the name of a built-in mission (see `tandemlift missions`) or the path of a .toml file; zigzag, the
+    paper's corridor, if none is given. Its pushes and its person are left out: yours are the only hands. Nothing leaves
     this machine, unless --host says so. Ctrl-C ends it.
 
     \b
@@ -51,14 +53,22 @@ def live(
 
     needs_live()
     engine_named(engine)
-    loaded = _load(mission, settings)
+    session = _session(_load(mission, settings), engine, Path(out))
     from tandemlift.live.pages import page_files
     from tandemlift.live.server import Server
-    from tandemlift.live.session import Session
 
-    files = page_files()
-    server = Server(files, Session(loaded, engine, Path(out)), host, port)
-    serve_here(server, f"{loaded.mission.name}, live", browser=not no_browser)
+    serve_here(Server(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
+
+
+def _session(mission: Mission, engine: str, out: Path) -> Session:
+    """The flight, compiled; who waits for that is told."""
+    from tandemlift.live.by_hand import by_hand
+    from tandemlift.live.session import Session
+    from tandemlift.prepared import needs_compiling
+
+    if needs_compiling(by_hand(mission)):
+        click.echo("Compiling the flight loop for this machine (once, a minute or two) …", err=True)
+    return Session(mission, engine, out)
 
 
 def _load(mission: str, settings: tuple[str, ...]) -> Mission:
