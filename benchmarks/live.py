@@ -37,6 +37,7 @@ FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader
 SIZE = {"width": 800, "height": 450}
 PULLING, RADIUS, TURN = 20.0, 60.0, 4.0  # s, pixels and s of a circle of the mouse
 LOOKERS = 4
+TURN_EVERY, TURNS_A_SAVE = 5.0, 12  # s between two changes of a setting; changes between two savings
 PATIENCE = 60.0  # s
 HELD = 0.4  # s, after which the page tells who holds the beam
 
@@ -48,6 +49,7 @@ class Looker:
         self.address, self.behind, self.frames = address, list[float](), 0
         self.fields: tuple[tuple[str, int], ...] = ()
         self.seen = {"seq": np.zeros(1), "time": np.zeros(1)}
+        self.targets = 0
         self.thread = threading.Thread(target=self.watch, daemon=True)
         self.thread.start()
 
@@ -55,18 +57,23 @@ class Looker:
         """Count what is told."""
         where = {"uri": self.address.replace("http", "ws") + "ws", "origin": self.address.rstrip("/")}
         try:
-            with connect(**where) as socket:
-                for told in socket:
+            with connect(**where) as self.socket:
+                for told in self.socket:
                     self.hear(told)
         except ConnectionClosed:
             pass
+
+    def say(self, **message: object) -> None:
+        """Say something to the flight."""
+        self.socket.send(json.dumps(message))
 
     def hear(self, told: str | bytes) -> None:
         """Take a frame or a text."""
         if isinstance(told, bytes):
             self.frames += 1
             if self.fields:
-                self.seen = {name: values[0] for name, values in read_frames(self.fields, told).items()}
+                before, self.seen = self.seen, {n: v[0] for n, v in read_frames(self.fields, told).items()}
+                self.targets += int(np.any(before.get("hand_target") != self.seen["hand_target"]))
             return
         text = json.loads(told)
         if text["type"] == "scene":
@@ -121,13 +128,13 @@ def grabbed(page: Page) -> tuple[float, float]:
 def pulled(page: Page, looker: Looker) -> tuple[float, float]:
     """Targets a second that reach the physics, and the page's own latency [ms], while the mouse goes round."""
     x, y = grabbed(page)
-    began, first, waits = time.perf_counter(), looker.seen["seq"][0], list[float]()
+    began, first, waits = time.perf_counter(), looker.targets, list[float]()
     while (passed := time.perf_counter() - began) < PULLING:
         turn = 2.0 * math.pi * passed / TURN
         page.mouse.move(x + RADIUS * math.sin(turn), y + 0.3 * RADIUS * (1.0 - math.cos(turn)))
         if found := re.match(r"\d+", page.locator("#meters .latency dd").text_content() or ""):
             waits.append(float(found[0]))
-    count = looker.seen["seq"][0] - first
+    count = looker.targets - first
     page.mouse.up()
     return count / passed, float(np.median(waits))
 
@@ -137,8 +144,13 @@ def watched(process: subprocess.Popen[str], lookers: list[Looker], seconds: floa
     for looker in lookers:
         looker.behind.clear()
     used, frames, began = processor_time(process.pid), lookers[0].frames, time.perf_counter()
-    time.sleep(seconds)
-    passed = time.perf_counter() - began
+    turned = 0
+    while (passed := time.perf_counter() - began) < seconds:
+        turned += 1
+        lookers[0].say(type="set", seq=turned, key="admittance.damping", value=[1.6 + 0.1 * (turned % 5)] * 3)
+        if turned % TURNS_A_SAVE == 0:
+            lookers[0].say(type="save", seq=turned, name="measured")
+        time.sleep(TURN_EVERY)
     share = (processor_time(process.pid) - used) / passed
     return share, max(lookers[0].behind), (lookers[0].frames - frames) / passed
 
@@ -171,7 +183,7 @@ def measured(process: subprocess.Popen[str], address: str, seconds: float) -> li
         browser.close()
     lookers = [first, *[Looker(address) for _ in range(LOOKERS - 1)]]
     share, behind, frames = watched(process, lookers, seconds)
-    over = f"{seconds / 60.0:g} min, {LOOKERS} lookers-on"
+    over = f"{seconds / 60.0:g} min, {LOOKERS} lookers-on, settings changed and saved meanwhile"
     return [
         ["page before compression", "≤ 800 kB", f"{size:.0f} kB"],
         ["first picture, software graphics", "≤ 2 s", f"{picture:.1f} s"],

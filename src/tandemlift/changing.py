@@ -101,6 +101,12 @@ class Ramp:
         self.jumps = ~(np.isfinite(self.before) & np.isfinite(self.after))
         self.way = np.where(self.jumps, 0.0, self.after) - np.where(self.jumps, 0.0, self.before)
 
+    def leave(self, places: NDArray[np.intp]) -> None:
+        """Leave numbers at some places to a change that came later."""
+        kept = ~np.isin(self.places, places)
+        self.places, self.before, self.after = self.places[kept], self.before[kept], self.after[kept]
+        self.jumps, self.way = self.jumps[kept], self.way[kept]
+
     def apply(self, numbers: Array, k: int) -> bool:
         """Write the numbers of step k; whether more is to come."""
         share = (k - self.first + 1) / self.steps
@@ -126,7 +132,10 @@ class Changing:
         """Let a flight's numbers go from one mission's to those of a changed one, of the same layout."""
         now, target = np.array(flat(before.flying)), np.array(flat(due.prepared.flying))
         differ = (now != target) & (np.arange(now.size) >= leaves(before.flying.moving))
-        self.ramps.append(Ramp(numbers, np.flatnonzero(differ), target, due))
+        places = np.flatnonzero(differ)
+        for ramp in self.ramps:
+            ramp.leave(places)
+        self.ramps.append(Ramp(numbers, places, target, due))
 
     def apply(self, numbers: Array, k: int) -> None:
         """Write what is different at step k."""

@@ -17,7 +17,7 @@ from tandemlift.tally import LATE
 from tandemlift.vector import layout
 
 STRETCH = 2_000_000  # steps between looks at the keyboard and at the progress bar
-LONG_RUN, LONG_INTERPRETED = 5_000_000, 10_000  # steps that take more than a second
+LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take more than a second
 
 KERNELS: dict[Any, Kernels] = {}
 
@@ -88,4 +88,5 @@ def needs_compiling(mission: Mission) -> bool:
 
 def takes_long(mission: Mission) -> bool:
     """Whether flying this mission, once compiled, takes more than a second or so."""
-    return mission.mission.steps >= (LONG_RUN if Prepared(mission).interpreted is None else LONG_INTERPRETED)
+    stepwise = Prepared(mission).interpreted is not None or mission.changes or mission.partner.recording
+    return mission.mission.steps >= (LONG_STEPWISE if stepwise else LONG_RUN)

@@ -74,8 +74,8 @@ class Stepper:
             self._hand_over(due.prepared)
 
     def _hand_over(self, p: Prepared) -> None:
-        """Go on by other laws; a controller begins with a fresh memory if it remembers other things."""
-        size, hand = leaves(self.p.flying.moving), self.a[hand_place(self.p)]
+        """Go on by other laws; a controller begins with a fresh memory if it remembers other things; ramps jump."""
+        size, hand, row = leaves(self.p.flying.moving), self.a[hand_place(self.p)], self.row
         moving = unflat(self.a[:size], self.p.flying.moving)
         memory, fresh = moving.memory, p.flying.moving.memory.controller
         if layout(memory.controller) != layout(fresh):
@@ -84,6 +84,7 @@ class Stepper:
         self.changing.ramps.clear()
         self._lay_out(p)
         self.hold(hand)
+        self.row[:] = row
 
     def hold(self, hand: np.ndarray) -> None:
         """Move the hand that is moved from outside: the numbers of a `laws.grab.Held`."""

@@ -8,6 +8,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.live import messages
 from tandemlift.live.by_hand import NEVER, by_hand, renewed
+from tandemlift.live.controls import BY_KEY, controls_of
 from tandemlift.live.frames import read_frames
 from tandemlift.live.pace import MOST_BEHIND, Pace
 from tandemlift.live.session import Session
@@ -130,13 +131,14 @@ def test_while_it_may_not_listen_it_holds_its_place(session):
 
 def test_a_setting_changes_for_good_and_comes_back_to_what_the_mission_says(session):
     before = list(session._mission.admittance.mass)
-    answer = say(session, "set", key="admittance.mass", value=(5.0, 5.0, 5.0))
+    (answer,) = say(session, "set", key="admittance.mass", value=5.0)
     assert answer["value"] == [5.0, 5.0, 5.0]
     assert session._flight.now.admittance.mass == (5.0, 5.0, 5.0)
     say(session, "set", key="wind.velocity", value=(1.0, 0.0, 0.0))
     fly(session, 1.0)
     assert seen(session)["wind"][0] == pytest.approx(1.0, abs=0.05)
     told = say(session, "restore")
+    assert [t["type"] for t in told] == ["changed"] * 2
     assert {t["key"] for t in told} == {"admittance.mass", "wind.velocity"}
     assert list(session._flight.now.admittance.mass) == before
 
@@ -161,6 +163,60 @@ def test_what_cannot_be_changed_is_refused_with_a_reason_and_the_flight_goes_on(
     fly(session, 0.1)
 
 
+def test_a_control_may_be_set_to_what_the_mission_says_though_it_is_beyond_its_bounds():
+    paper = by_hand(tl.load_mission("paper"))
+    xi = next(c for c in controls_of(paper, paper) if c["key"] == "controller.gains.xi")
+    assert xi["min"] <= min(xi["value"])
+    assert xi["max"] >= max(xi["value"])
+    assert xi["max"] > BY_KEY["controller.gains.xi"].high
+
+
+def test_hands_are_refused_while_the_sensors_are_tared(session, monkeypatch):
+    mission = session._flight.now
+    tared = mission.estimator.model_copy(update={"tare_start": 5.0, "tare_duration": 2.0})
+    pilot = mission.pilot.model_copy(update={"push": "estimate"})
+    session._flight.now = mission.model_copy(update={"estimator": tared, "pilot": pilot})
+    with pytest.raises(tl.InputError, match="hands off until 7 s"):
+        say(session, "grab", point=(0.0, 0.0, 0.0), target=(1.0, 0.0, 0.0), at="point")
+    with pytest.raises(tl.InputError, match="hands off until 7 s"):
+        say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+    say(session, "force", force=(0.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+    fly(session, 7.0)
+    say(session, "grab", point=(0.0, 0.0, 0.0), target=(1.0, 0.0, 0.0), at="point")
+
+
+def test_a_mission_that_is_guided_by_the_clock_says_that_it_asks_nobody(session):
+    session._mission = tl.load_mission("paper")
+    for request in ({"kind": "ask", "what": "stop"}, {"kind": "enable", "on": False}):
+        with pytest.raises(tl.InputError, match="guided by the clock"):
+            say(session, **request)
+
+
+def test_a_flight_that_is_over_says_so_and_changes_no_more(session):
+    session._flight._p.steps = session._flight.step + 10
+    fly(session, 0.01)
+    session._fly(5)
+    assert session.status()["phase"] == "over"
+    with pytest.raises(tl.InputError, match="the flight is over; reset it first"):
+        say(session, "set", key="admittance.mass", value=5.0)
+
+
+def test_an_error_in_flight_is_told(session, monkeypatch):
+    def fail():
+        raise RuntimeError("of a controller")
+
+    session._flight.advance = fail
+    session.start()
+    until(lambda: session.status()["phase"] == "failed")
+
+
+def test_a_recorded_mission_is_flown_by_who_watches_and_not_by_the_recording(tmp_path, session):
+    fly(session, 0.5)
+    say(session, "save", name="first")
+    again = by_hand(tl.load_mission(tmp_path / "first" / "recorded.toml"))
+    assert (again.partner.model, again.partner.recording, again.changes) == ("grab", None, ())
+
+
 def test_a_rotor_that_cannot_fail_is_not_killed(session):
     with pytest.raises(tl.InputError, match="rotor = 3: the rotors of this mission cannot fail"):
         say(session, "kill", rotor=3)
@@ -176,6 +232,11 @@ def test_another_controller_takes_over_once_it_is_compiled(session):
             assert "is being compiled" in str(error)  # noqa: PT017
     fly(session, 1.0)
     assert session._flight.now.controller.name == "pid"
+    told = say(session, "restore", key="controller.name")
+    assert [t["type"] for t in told] == ["changed", "scene"]
+    assert session._flight.now.controller == session._mission.controller, "with the mission's own settings"
+    fly(session, 1.0)
+    assert not session._flight.lost
 
 
 def test_a_reset_begins_again_with_the_settings_as_they_are(session):

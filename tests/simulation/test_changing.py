@@ -38,6 +38,21 @@ def test_a_ramped_damping_gives_the_reference_that_scipy_integrates():
     np.testing.assert_allclose(flight["reference_velocity"][:, 0], solved.y[0], atol=2e-3)
 
 
+def test_of_two_ramps_of_one_number_the_later_one_counts():
+    flight = tl.fly(
+        load(
+            [change("admittance.damping", 8.0, 4.0, 6.0), change("admittance.damping", 1.0, 5.0, 0.5)],
+            pushes=LONG_PUSH,
+            **FREE,
+        )
+    )
+    expected = lambda t: np.interp(t, [4.0, 5.0, 5.5], [2.0, 3.0, 1.0])  # noqa: E731
+    solved = solve_ivp(
+        lambda t, v: (2.0 - expected(t) * v) / 2.0, (0, 12), [0.0], t_eval=flight.time, rtol=1e-9, max_step=0.01
+    )
+    np.testing.assert_allclose(flight["reference_velocity"][:, 0], solved.y[0], atol=3e-3)
+
+
 def test_a_change_to_the_same_value_changes_no_bit():
     plain = tl.fly(load())
     same = tl.fly(load([change("admittance.damping", list(plain.mission["admittance"]["damping"]))]))
@@ -105,6 +120,17 @@ def test_a_hand_lets_go_and_the_beam_comes_to_rest(tmp_path):
     assert push[flight.time < 1.0].max() == 0.0
     np.testing.assert_allclose(push[(flight.time > 2.5) & (flight.time < 3.0)], 2.0, atol=1e-6)
     np.testing.assert_allclose(push[flight.time > 6.0], 0.0, atol=1e-6)
+
+
+def test_a_spring_is_let_go_of_as_smoothly_as_it_was_taken(tmp_path):
+    rows = [(0, hand()), (500, hand(1.0, target=(0.5, 0.0, 0.5))), (1500, hand())]
+    keys = {"partner.lag": 0.05, "mission.log_interval": 0.001, "mission.duration": 3.0, "admittance.threshold": 3.0}
+    flight = tl.fly(load(name="hover", **recorded(tmp_path / "hand.npz", rows), **keys))
+    push = np.linalg.norm(flight["push_force"], axis=1)
+    held = push[flight.time < 1.5][-1]
+    assert held > 1.0
+    assert np.abs(np.diff(push)).max() < 0.05 * held
+    assert push[-1] < 1e-3
 
 
 def test_a_hand_never_pushes_harder_than_its_most_force(tmp_path):

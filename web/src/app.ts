@@ -17,6 +17,7 @@ import type { Recorded } from "./wire/recorded.ts";
 import type { Listener, Source } from "./wire/source.ts";
 
 const STIFFNESS = "partner.stiffness"; // of the hand's spring
+const LET_GO = 3; // statuses of a grab that the server knows nothing of
 
 export class App implements Listener {
   readonly shown: Shown = { push: true, zone: true, ghost: true, thrust: true, wind: true, trail: true };
@@ -34,6 +35,7 @@ export class App implements Listener {
   private picture: Picture | null = null;
   private graphics: Choice = "auto";
   private last = 0;
+  private unheld = 0;
 
   constructor(
     private readonly source: Source,
@@ -114,6 +116,8 @@ export class App implements Listener {
   }
 
   status(status: Status): void {
+    this.unheld = this.grab.pulling && status.holder !== "you" ? this.unheld + 1 : 0;
+    if (this.unheld > LET_GO) this.grab.cancel(); // the server has let go
     this.front.status(status);
   }
 

@@ -17,6 +17,7 @@ from tandemlift.laws.lowpass import LowPass, Smoothed, smooth
 from tandemlift.laws.partner import Lent, asks_to_land, bounded, lend, sight
 from tandemlift.laws.push import Hand, PointPush
 from tandemlift.laws.requests import Operator, operator_of
+from tandemlift.ops import where
 from tandemlift.vector import ZERO, Vec3, outer
 
 
@@ -64,13 +65,15 @@ class Grabbing(NamedTuple):
     enabled: Any
 
 
+OPEN = 1e-3  # of a grasp: less is none
 NOBODY_HOLDS = Held(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 1.0)
 
 
 @law
-def placed(m: Grabbing, here: Vec3, velocity: Vec3) -> Smoothed:
-    """The hand's place before a step: where it was if it held on, else at the grip, moving along."""
-    kept, fresh = m.holding, 1.0 - m.holding
+def placed(h: Held, m: Grabbing, here: Vec3, velocity: Vec3) -> Smoothed:
+    """The hand's place before a step: where it was until it has let go, else at the grip, moving along."""
+    kept = where(h.held > m.holding, 0.0, where(m.holding + m.grasp.value > OPEN, 1.0, 0.0))
+    fresh = 1.0 - kept
     return Smoothed(m.place.value * kept + here * fresh, m.place.rate * kept + velocity * fresh)
 
 
@@ -78,7 +81,7 @@ def placed(m: Grabbing, here: Vec3, velocity: Vec3) -> Smoothed:
 def pulled(k: Grab, m: Grabbing, state: State) -> Any:
     """(push over a step, the memory after it) of a hand at a body in a state."""
     h, now = k.hand, sight(k.hand.grip, state)
-    place = smooth(k.lag, placed(m, now.grip, now.grip_velocity), h.target * h.held + now.grip * (1.0 - h.held))
+    place = smooth(k.lag, placed(h, m, now.grip, now.grip_velocity), h.target * h.held + now.grip * (1.0 - h.held))
     grasp, force = smooth(k.lag, m.grasp, h.held), smooth(k.lag, m.force, h.force)
     reach, slip = place.value - now.grip, place.rate - now.grip_velocity
     spring = (reach * k.stiffness + slip * k.damping) * grasp.value

@@ -12,6 +12,7 @@ import tempfile
 import warnings
 from pathlib import Path
 
+from tandemlift.errors import InputError
 from tandemlift.missions import load_mission, to_toml
 from tandemlift.prepared import Prepared
 from tandemlift.settings import Mission
@@ -29,14 +30,22 @@ class Compiling:
         self._folder = tempfile.TemporaryDirectory(prefix="tandemlift-")
 
     def is_ready(self, mission: Mission) -> bool:
-        """Whether a mission's loop is on disk, after some seconds of patience."""
+        """Whether a mission's loop is on disk, after some seconds of patience.
+
+        Raises:
+            InputError: it cannot be compiled.
+        """
         variant = Prepared(mission).variant
         if variant not in self._running:
             self._running[variant] = self._start(mission)
         try:
-            return self._running[variant].wait(PATIENCE) == 0
+            failed = self._running[variant].wait(PATIENCE)
         except subprocess.TimeoutExpired:
             return False
+        if failed:
+            del self._running[variant]
+            raise InputError(f"{mission.controller.name}: its loop cannot be compiled for this flight")
+        return True
 
     def _start(self, mission: Mission) -> subprocess.Popen[bytes]:
         path = Path(self._folder.name) / f"{len(self._running)}.toml"

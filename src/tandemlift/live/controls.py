@@ -61,6 +61,13 @@ def value_of(tables: dict[str, Any], key: str) -> Any:
     return value_at(tables, tuple(int(part) if part.isdigit() else part for part in place))
 
 
+def bounds_of(control: Control, first: Mission) -> tuple[float, float]:
+    """The bounds of a control, which hold what the mission says."""
+    value = value_of(tables_of(first), control.key)
+    own = [] if value is MISSING else value if isinstance(value, list) else [value]
+    return min(control.low, *own, control.high), max(control.high, *own)
+
+
 def _may_be_changed(mission: Mission, key: str) -> bool:
     absent = {
         "wind": mission.wind.model == "none",
@@ -80,7 +87,8 @@ def controls_of(mission: Mission, first: Mission) -> Iterator[dict[str, Any]]:
             back = value_of(initial, c.key)
             held = {} if back is MISSING else {"initial": back}
             about = {"key": c.key, "label": c.label, "group": c.group, "unit": c.unit, "value": value}
-            yield {**about, **held, "min": c.low, "max": c.high}
+            low, high = bounds_of(c, first)
+            yield {**about, **held, "min": low, "max": high}
     name = {"key": CONTROLLER, "label": "controller", "group": "pilot", "value": mission.controller.name}
     yield {**name, "initial": first.controller.name, "choices": sorted(CONTROLLERS)}
     if mission.pilot.guidance == "clock":  # a hand is felt through a dead-band instead

@@ -102,7 +102,7 @@ class Guard:
         self._port, self._anywhere = port, host in ("0.0.0.0", "::")
         shown = f"[{host}]" if ":" in host else host
         names = [socket.gethostname(), f"{socket.gethostname()}.local"] if self._anywhere else [shown]
-        self._names = {name.lower() for name in (LOCAL if is_local(host) else (*LOCAL, *names))}
+        self._names = {name.lower() for name in (*LOCAL, *names)}
         query = f"?token={self.token}" if self.token else ""
         self.address = f"http://{names[0]}:{port}/{query}"
 

@@ -19,10 +19,12 @@ class Pace:
         speed: time of the flight over time on the wall.
         paused: whether time stands still.
         behind: s of flight that are owed.
+        most_behind: the most that were owed since this was last set to 0.
     """
 
     def __init__(self, dt: float) -> None:
         self.dt, self.speed, self.paused, self.behind = dt, 1.0, False, 0.0
+        self.most_behind = 0.0
         self._then = time.perf_counter()
         self._flown: deque[tuple[float, int]] = deque()
 
@@ -34,6 +36,7 @@ class Pace:
             self.behind = 0.0
             return 0
         self.behind = min(self.behind + passed * self.speed, MOST_BEHIND)
+        self.most_behind = max(self.most_behind, self.behind)
         return int(self.behind / self.dt)
 
     def flew(self, steps: int) -> None:

@@ -156,7 +156,7 @@ class Snapshot:
         p, self._wall = f._p, f._wall
         late = self._steps > p.late_step
         self._early: Tally = f._early if late else EMPTY
-        self._log = f._log[: self._steps // p.every + 1].copy()
+        self._log = f._log[: self._steps // p.every + 1]  # rows that are written are never written again
         self._last = np.full(leaves(p.sample), np.nan) if f.lost else f.sample.copy()
         self._rows = [(k, hand) for k, hand in f._rows if k <= self._steps]
         self._changes, self._start, self._engine = list(f._changes), f.start, f.engine
@@ -167,7 +167,8 @@ class Snapshot:
         hands = np.reshape([hand for _, hand in self._rows], (len(steps), WIDTH))
         write_recording(folder / HAND, Recording(steps, hands))
         with whole(folder / MISSION) as partial:
-            partial.write_text(self._toml(folder.name), "utf-8")
+            again = f"# Flies again: tandemlift run {MISSION} --engine {self._engine}\n\n"
+            partial.write_text(again + self._toml(folder.name), "utf-8")
         p = Prepared(load_mission(folder / MISSION))
         flight = flight_of(p, self._flown(), self._engine)
         flight.save(folder / FLIGHT)

@@ -35,13 +35,12 @@ from tandemlift.live.messages import (
     read_message,
 )
 from tandemlift.live.pages import kind_of
-from tandemlift.live.viewers import Viewer, Viewers
+from tandemlift.live.viewers import FAREWELL, Viewer, Viewers, dismiss
 
 STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
 MAX_WAITING = 16  # changes that are yet to be made
 SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be old news
-FAREWELL = 1.0  # s, for pages to say good-bye
 SLOW = (Set, Restore, Kill, Reset, Save)  # may compile or write
 
 Answer = dict[str, Any] | list[dict[str, Any]] | None  # one text, several, or none
@@ -182,7 +181,7 @@ class Server:
 
     def _let_go(self) -> None:
         assert self._flight is not None
-        self.viewers.holder = None
+        self.viewers.let_go()
         self._flight.release()
 
     # HTTP
@@ -228,7 +227,7 @@ class Server:
             if self.viewers.leave(viewer):
                 self._let_go()
         if flooding:
-            await _dismiss(connection)
+            await dismiss(connection)
 
     def _hear(self, viewer: Viewer, text: str | bytes) -> None:
         """Heed a text of a viewer, or say why not."""
@@ -261,7 +260,7 @@ class Server:
 
     def _answer(self, viewer: Viewer, answer: Answer) -> None:
         for text in [answer] if isinstance(answer, dict) else answer or ():
-            if text["type"] == "changed":
+            if text["type"] in ("changed", "scene"):
                 self.viewers.tell(text)
             else:
                 viewer.tell(text)
@@ -280,15 +279,6 @@ class Server:
                 self._answer(viewer, await asyncio.to_thread(self._applied, message))
             except Refusal as refusal:
                 viewer.refuse(refusal)
-
-
-async def _dismiss(connection: ServerConnection) -> None:
-    """Close the connection of a page that sends too much; it may not even read why."""
-    try:
-        async with asyncio.timeout(FAREWELL):
-            await connection.close(1008, "too many messages")
-    except TimeoutError:
-        connection.transport.abort()
 
 
 async def serve_until_stopped(server: Server, opened: Callable[[str], None]) -> None:

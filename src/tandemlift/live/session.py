@@ -6,6 +6,8 @@ is made ready beside it.
 
 from __future__ import annotations
 
+import logging
+import sys
 import threading
 import time
 from dataclasses import dataclass, field
@@ -21,24 +23,27 @@ from tandemlift.laws.grab import NOBODY_HOLDS
 from tandemlift.laws.phases import NAMES
 from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.live import messages
-from tandemlift.live.by_hand import NEVER, by_hand, renewed
-from tandemlift.live.compiling import Compiling
-from tandemlift.live.controls import BY_KEY, CHOICES, controls_of, keys_of, value_of
+from tandemlift.live.by_hand import by_hand, renewed
+from tandemlift.live.controls import CHOICES, controls_of
 from tandemlift.live.frames import fields_of, frames_of
+from tandemlift.live.knobs import Knobs
 from tandemlift.live.pace import Pace
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.live.scene import alarm_names, scene_of
 from tandemlift.live.values import values_of
-from tandemlift.missions import changed, tables_of
-from tandemlift.missions.explain import MISSING, shown
+from tandemlift.missions import tables_of
 from tandemlift.settings import Mission
 from tandemlift.vector import ZERO, Quat, Vec3, apply
 from tandemlift.vehicle import Vehicle
 
 NAP = 0.002  # s, between looks at the clock
+BREATH = 1e-4  # s, for others between two batches of a flight that is behind
+SWITCHING = 2e-4  # s, for which another thread may keep the interpreter from the flight
 BATCH = 25  # steps without a look at who wants something
-RAMP = 0.5  # s, within which a setting changes
 WISH = 0.2  # s, for which a wish to lift or to land is said
+
+
+log = logging.getLogger(__name__)
 
 
 @dataclass
@@ -62,9 +67,8 @@ class Session:
     def __init__(self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live")) -> None:
         self._mission, self._engine, self._out = by_hand(mission), engine, out
         self._lock, self._stopping = threading.RLock(), threading.Event()
-        self._turn = threading.RLock()  # of who changes the flight; taken before the other lock
         self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
-        self._compiling, self._names = Compiling(), alarm_names()
+        self._knobs, self._names, self._failed = Knobs(self._mission, self._lock), alarm_names(), False
         self._pace = Pace(mission.mission.step)
         self.generation = 0
         self._begin(self._mission)
@@ -101,20 +105,31 @@ class Session:
         self._stopping.set()
         if self._thread.is_alive():
             self._thread.join()
-        self._compiling.close()
+        self._knobs.close()
 
     def _run(self) -> None:
-        while not self._stopping.is_set():
-            with self._lock:
-                steps = min(self._pace.due(), BATCH)
-                for _ in range(steps):
-                    if self._flight.over:
-                        break
-                    self._forget_wishes()
-                    self._flight.advance()
-                self._pace.flew(steps)
-            if steps < BATCH:
-                time.sleep(NAP)
+        switching = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCHING)
+        try:
+            while not self._stopping.is_set():
+                with self._lock:
+                    steps = self._fly(min(self._pace.due(), BATCH))
+                time.sleep(NAP if steps < BATCH else BREATH)
+        except Exception:
+            self._failed = True
+            log.exception("the flight ended by an error")
+        finally:
+            sys.setswitchinterval(switching)
+
+    def _fly(self, steps: int) -> int:
+        """Fly some steps, as far as the flight goes; how many."""
+        before = self._flight.step
+        while self._flight.step < before + steps and not self._flight.over:
+            self._forget_wishes()
+            self._flight.advance()
+        flown = self._flight.step - before
+        self._pace.flew(flown)
+        return flown
 
     # what is shown
 
@@ -134,16 +149,21 @@ class Session:
         """Phase, alarm, pace and what was recorded, for people."""
         with self._lock:
             flight, pace, values = self._flight, self._pace, self._values()
+            most, pace.most_behind = pace.most_behind, 0.0
             return {
-                "phase": "lost" if flight.lost else NAMES[int(values["phase"][0])],
+                "phase": self._phase(int(values["phase"][0])),
                 "alarm": self._names[int(values["alarm"][0])] if "alarm" in values else "",
                 "enabled": bool(flight.hand.enabled),
                 "paused": pace.paused,
                 "speed": pace.speed,
                 "factor": round(pace.factor, 3),
-                "behind_ms": round(1e3 * pace.behind, 2),
+                "behind_ms": round(1e3 * most, 2),
                 "recorded_s": round(flight.step * flight.dt, 3),
             }
+
+    def _phase(self, number: int) -> str:
+        ends = {"failed": self._failed, "lost": self._flight.lost, "over": self._flight.over}
+        return next((name for name, true in ends.items() if true), NAMES[number])
 
     # what a page says
 
@@ -154,9 +174,21 @@ class Session:
             InputError: it cannot be done; the text says why.
         """
         with self._lock:
+            if isinstance(message, (messages.Grab, messages.Force)) and any(getattr(message, "force", (1.0,))):
+                self._check_tare()
             if isinstance(message, (messages.Grab, messages.Move, messages.Release, messages.Force)):
                 self._grip.seq = seq
         return self._heed(message)
+
+    def _check_tare(self) -> None:
+        """Refuse a hand while sensors are tared, which would take it for a bias."""
+        mission = self._flight.now
+        start, at = mission.estimator.tare_start, self._flight.step * self._flight.dt
+        if mission.pilot.push == "truth" or start is None:
+            return
+        end = start + mission.estimator.tare_duration
+        if at < end:
+            raise InputError(f"hands off until {end:g} s: the force sensors are tared in hover")
 
     def release(self) -> None:
         """Nobody holds the beam any more."""
@@ -203,8 +235,13 @@ class Session:
             grip = {"grip": Vec3(*m.point)} if any(force) and not self._flight.hand.held else {}
             self._move(force=force, **grip)
 
+    def _check_listens(self, what: str) -> None:
+        if self._mission.pilot.guidance == "clock":
+            raise InputError(f"{what}: mission {self._mission.mission.name} is guided by the clock and asks nobody")
+
     @_heed.register
     def _ask(self, m: messages.Ask) -> None:
+        self._check_listens(m.what)
         with self._lock:
             self._move(**{m.what: 1.0})
             if m.what != "stop":
@@ -212,6 +249,7 @@ class Session:
 
     @_heed.register
     def _enable(self, m: messages.Enable) -> None:
+        self._check_listens("enable")
         with self._lock:
             self._move(enabled=float(m.on))
 
@@ -227,7 +265,7 @@ class Session:
 
     @_heed.register
     def _reset(self, m: messages.Reset) -> None:
-        with self._turn:
+        with self._knobs.turn:
             self._begin(renewed(self._flight.now, self._mission))
 
     @_heed.register
@@ -239,60 +277,19 @@ class Session:
         return {"type": "done", "what": "save", "detail": str(folder)}
 
     @_heed.register
-    def _kill(self, m: messages.Kill) -> dict[str, Any] | None:
-        faults = self._flight.now.faults
-        at = [i for i, f in enumerate(faults) if 4 * (f.quadrotor - 1) + f.rotor - 1 == m.rotor]
-        if not at:
-            raise InputError(f"rotor = {m.rotor}: the rotors of this mission cannot fail")
-        if faults[at[0]].time < NEVER:
-            raise InputError(f"rotor = {m.rotor}: has failed already")
-        self._change(f"faults.{at[0]}.time", self._flight.step * self._flight.dt, 0.0)
-        return None
+    def _kill(self, m: messages.Kill) -> None:
+        self._knobs.kill(self._flight, m.rotor)
 
     @_heed.register
-    def _set(self, m: messages.Set) -> dict[str, Any]:
+    def _set(self, m: messages.Set) -> list[dict[str, Any]]:
         value = list(m.value) if isinstance(m.value, tuple) else m.value
-        self._check(m.key, value)
-        return self._set_to(m.key, value)
-
-    def _set_to(self, key: str, value: Any) -> dict[str, Any]:
-        duration = 0.0 if key in CHOICES else RAMP
-        for one in keys_of(self._flight.now, key):
-            self._change(one, value, duration)
-        return {"type": "changed", "key": key, "value": value, "duration": duration}
+        return self._with_scene(self._knobs.set(self._flight, m.key, value))
 
     @_heed.register
     def _restore(self, m: messages.Restore) -> list[dict[str, Any]]:
-        start, answers = tables_of(self._mission), []
-        for key in [*CHOICES, *BY_KEY] if m.key is None else [m.key]:
-            value = value_of(start, key)
-            if value is not MISSING and value != value_of(tables_of(self._flight.now), key):
-                self._check(key, value)
-                answers.append(self._set_to(key, value))
-        return answers
+        return self._with_scene(self._knobs.restore(self._flight, m.key))
 
-    # changes
-
-    def _check(self, key: str, value: Any) -> None:
-        """Refuse what is no control, or beyond its bounds."""
-        if key in CHOICES:
-            return
-        if key not in BY_KEY:
-            raise InputError(f"{key}: is not among the controls; there are {', '.join([*CHOICES, *BY_KEY])}")
-        control = BY_KEY[key]
-        for number in value if isinstance(value, list) else [value]:
-            if isinstance(number, bool) or not isinstance(number, (int, float)):
-                raise InputError(f"{key} = {shown(value)}: must be a number, or a list of numbers")
-            if not control.low <= number <= control.high:
-                raise InputError(f"{key} = {shown(value)}: must be from {control.low:g} to {control.high:g}")
-
-    def _change(self, key: str, value: Any, duration: float) -> None:
-        """Make a change ready beside the flight, and let it begin."""
-        with self._turn:
-            flight = self._flight
-            chosen = key in CHOICES and value != value_of(tables_of(flight.now), key)
-            if chosen and not self._compiling.is_ready(changed(flight.now, key, value)):
-                raise InputError(f"{value} is being compiled for this flight: choose it again in a minute")
-            due = flight.prepare(key, value, duration)
-            with self._lock:
-                flight.change(due, key, value, duration)
+    def _with_scene(self, told: list[dict[str, Any]]) -> list[dict[str, Any]]:
+        """What to tell of changes; after a choice, also the controls, which may be others now."""
+        chosen = any(one["type"] == "changed" and one["key"] in CHOICES for one in told)
+        return [*told, {"type": "scene", **self.scene}] if chosen else told

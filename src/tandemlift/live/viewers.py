@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -15,6 +16,7 @@ BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is b
 LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
 SILENT = 2.0  # s, after which a page that holds the beam is taken for hung
 MOST_MESSAGES = 2_000  # a second; a page sends about a hundred
+FAREWELL = 1.0  # s, for pages to say good-bye
 MOST_REFUSALS = 20  # a second that are told
 
 
@@ -79,12 +81,13 @@ class Viewers:
     """All viewers.
 
     Attributes:
-        holder: who holds the beam, or None.
+        holder: who holds the beam, or None; by a spring (`pulls`), by a force (`pushes`), or by both.
     """
 
     def __init__(self) -> None:
         self._all: set[Viewer] = set()
         self.holder: Viewer | None = None
+        self.pulls = self.pushes = False
 
     def __len__(self) -> int:
         return len(self._all)
@@ -97,12 +100,16 @@ class Viewers:
         self._all.add(viewer)
 
     def leave(self, viewer: Viewer) -> bool:
-        """One is gone; whether it held the beam."""
+        """One is gone; whether nobody holds the beam now."""
         self._all.discard(viewer)
         held = self.holder is viewer
         if held:
-            self.holder = None
-        return held
+            self.let_go()
+        return held or self.holder is None
+
+    def let_go(self) -> None:
+        """Nobody holds the beam any more."""
+        self.holder, self.pulls, self.pushes = None, False, False
 
     def is_hung(self) -> bool:
         """Whether who holds the beam has been silent for too long: pages of a living browser ping."""
@@ -141,7 +148,19 @@ class Viewers:
 
     def note(self, viewer: Viewer, message: Message) -> None:
         """Who holds the beam after a message that was heeded."""
-        if isinstance(message, Release) or (isinstance(message, Force) and not any(message.force)):
-            self.holder = None
-        elif isinstance(message, (Grab, Force)):
-            self.holder = viewer
+        if isinstance(message, Release):
+            self.let_go()
+        elif isinstance(message, Grab):
+            self.holder, self.pulls = viewer, True
+        elif isinstance(message, Force):
+            self.pushes = any(message.force)
+            self.holder = viewer if self.pulls or self.pushes else None
+
+
+async def dismiss(connection: ServerConnection) -> None:
+    """Close the connection of a page that sends too much; it may not even read why."""
+    try:
+        async with asyncio.timeout(FAREWELL):
+            await connection.close(1008, "too many messages")
+    except TimeoutError:
+        connection.transport.abort()

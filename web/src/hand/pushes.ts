@@ -66,7 +66,7 @@ export class Pushes {
 
   /** Forward, left and up as the keys and the first gamepad ask for, no longer than 1, times the force. */
   private wish(): Vector {
-    let sum: Vector = stick();
+    let sum: Vector = document.hasFocus() ? stick() : [0, 0, 0];
     for (const key of this.pressed) sum = add(sum, KEYS[key]);
     return times(sum, this.force / Math.max(size(sum), 1));
   }
@@ -80,6 +80,7 @@ export class Pushes {
   }
 
   private readonly down = (event: KeyboardEvent): void => {
+    if (event.key === "Meta") this.pressed.clear(); // no key that goes up is told of while it is down
     if (!(event.code in KEYS) || event.ctrlKey || event.metaKey || event.altKey || typing(event.target)) return;
     event.preventDefault();
     this.stamp ||= event.timeStamp;

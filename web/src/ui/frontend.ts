@@ -180,7 +180,7 @@ export class Frontend {
   /** What to do first, until it was done. */
   private hint({ phase }: Status): void {
     const hint = byId("hint");
-    const ready = phase === "hold" || phase === "guided";
+    const ready = phase === "guided";
     const text =
       phase === "idle" ? "Press Lift to take off." : ready && !this.pulled ? "Drag the beam to pull it." : "";
     if (hint.textContent !== text) hint.textContent = text;

@@ -15,6 +15,8 @@ const MODES: Partial<Record<string, Mode>> = {
   land: { text: "landing", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
   hold: { text: "holding", kind: "calm", tint: "rgba(47, 111, 176, 0.12)" },
   lost: { text: "out of control", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
+  over: { text: "over: reset it", kind: "off", tint: "rgba(93, 104, 117, 0.10)" },
+  failed: { text: "failed: reset it", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
   stopped: { text: "stopped", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
 };
 

@@ -307,6 +307,18 @@ def test_a_force_holds_until_it_is_zero(live):
         assert not live.flight.held
 
 
+def test_a_push_that_ends_while_the_beam_is_pulled_does_not_let_go_of_it(live):
+    with live.viewer() as one:
+        one.say(type="force", force=[1.0, 0.0, 0.0], point=[0.0, 0.0, 0.0])
+        one.grab(1.0, 0.0, 0.0)
+        one.say(type="force", force=[0.0, 0.0, 0.0], point=[0.0, 0.0, 0.0])
+        one.say(type="ping", t=1.0)
+        one.text("pong", t=1.0)
+        assert live.flight.held
+        one.say(type="release")
+        until(lambda: not live.flight.held)
+
+
 def test_a_page_that_is_killed_lets_go(live):
     with live.viewer() as other:
         raw = live.raw()
