@@ -21,6 +21,11 @@ from tandemlift.live.server import Server
 MASS = {"type": "set", "key": "admittance.mass", "value": [2.0]}
 
 
+@pytest.fixture(autouse=True)
+def _patience(monkeypatch):
+    monkeypatch.setattr(viewers, "SILENT", PATIENCE)  # these viewers do not ping
+
+
 @pytest.fixture
 def start(tmp_path):
     """Serve a stand-in, or what is given, until the test ends."""
