@@ -286,6 +286,85 @@ def test_what_is_saved_on_the_page_flies_again_to_the_last_bit(page, live):
         np.testing.assert_array_equal(saved[channel], again[channel], channel)
 
 
+def grabbed(page, live):
+    """The beam held at its middle; where on the page that is."""
+    live.wait(rests, "rest")
+    x, y = middle_of_the_beam(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
+    return x, y
+
+
+def test_the_wheel_moves_the_target_away_from_who_looks(page, live):
+    grabbed(page, live)
+    before = live.look()["hand_target"]
+    page.mouse.wheel(0, -200)
+    live.wait(lambda seen: np.linalg.norm(seen["hand_target"] - before) > 0.1, "a target farther away or nearer")
+    page.mouse.up()
+    live.wait(rests, "rest")
+
+
+def test_pulled_at_the_centre_of_mass_the_hand_is_there(page, live):
+    panel(page, "admittance.mass")  # opens the panel
+    page.get_by_text("centre of mass", exact=True).click()
+    x, y = grabbed(page, live)
+    page.mouse.move(x + 40, y)
+    live.wait(lambda seen: np.linalg.norm(seen["push"]) > 0.3, "a pull")
+    assert np.abs(live.look()["hand_point"]).max() < 1e-6
+    page.mouse.up()
+    live.wait(rests, "rest")
+
+
+def test_a_finger_pulls_as_a_mouse_does(page, live):
+    live.wait(rests, "rest")
+    x, y = middle_of_the_beam(page)
+    touch = page.context.new_cdp_session(page)
+
+    def finger(kind, *points):
+        at = [{"x": float(px), "y": float(py)} for px, py in points]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+
+    finger("touchStart", (x, y))
+    live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
+    for i in range(10):
+        finger("touchMove", (x + 5 * i, y))
+        time.sleep(0.03)
+    live.wait(lambda seen: np.linalg.norm(seen["push"]) > 0.3, "a pull")
+    finger("touchEnd")
+    live.wait(lambda seen: seen["held"] == 0.0, "release")
+    live.wait(rests, "rest")
+
+
+def test_time_passes_as_slowly_as_is_asked(page, live):
+    page.get_by_label("Pace of time").select_option("0.25")
+    live.wait_status(lambda status: status["speed"] == 0.25, "a quarter of the pace")
+    page.get_by_label("Pace of time").select_option("1")
+    live.wait_status(lambda status: status["speed"] == 1.0, "its own pace")
+
+
+def test_all_settings_come_back_at_once(page, live):
+    for key, value in (("wind.velocity", "1"), ("admittance.mass", "3")):
+        entry = panel(page, key).locator("input[type=number]").first
+        entry.fill(value)
+        entry.press("Enter")
+        until(lambda key=key: "altered" in panel(page, key).get_attribute("class"), "a mark of what is altered")
+    page.get_by_text("All back to the mission's").click()
+    for key in ("wind.velocity", "admittance.mass"):
+        until(lambda key=key: "altered" not in panel(page, key).get_attribute("class"), "no mark")
+
+
+def test_who_is_not_to_be_heard_is_not_and_stop_stops_at_once(page, live):
+    page.get_by_role("button", name="Enabled").click()
+    live.wait_status(lambda status: not status["enabled"], "a pilot that does not listen")
+    page.get_by_role("button", name="Disabled").click()
+    live.wait_status(lambda status: status["enabled"], "a pilot that listens")
+    page.get_by_role("button", name="Stop").click()
+    live.wait_status(lambda status: status["phase"] in ("stopped", "lost"), "stopped rotors")
+    page.get_by_role("button", name="Reset").click()
+    live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
+
+
 def test_it_lands_is_reset_and_the_page_begins_anew(page, live):
     page.click("text=Land")
     live.wait_status(lambda status: status["phase"] in ("land", "idle"), "a landing")
