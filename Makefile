@@ -15,11 +15,14 @@ live: .venv/run  ## push it by hand, in the browser
 
 test: lint types imports tests   ## lint, types, import directions, all tests
 
-page:            ## build the live page from web/, checked and tested (needs Node.js 20)
-	npm --prefix web ci --silent
+page: web/node_modules/.package-lock.json  ## build the live page from web/, checked and tested (needs Node.js 20)
 	npm --prefix web run --silent check
 	npm --prefix web test --silent
 	npm --prefix web run --silent build
+
+web/node_modules/.package-lock.json: web/package-lock.json
+	npm --prefix web ci --silent
+	touch $@
 
 lint: .venv/dev  ## format and lint
 	$(BIN)/ruff format --check .
