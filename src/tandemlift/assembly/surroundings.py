@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from tandemlift.constants import GRAVITY
 from tandemlift.jit import flat, leaves
 from tandemlift.kernels.outside import GAUSSIAN, GUST, Tables
-from tandemlift.laws.contact import floor, soles_below, standing_height
+from tandemlift.laws.contact import Floor, floor, soles_below, standing_height
 from tandemlift.laws.partner import LEG, Leg
 from tandemlift.laws.push import CentralPush, Gaussian, PointPush
 from tandemlift.laws.rectangle import WALL, wall
-from tandemlift.laws.walls import nowhere, walls
+from tandemlift.laws.walls import Walls, nowhere, walls
 from tandemlift.laws.wind import Calm, Gust, Whiffs, Wind, air_drag_of, dryden, first_eddies
 from tandemlift.settings import Mission
 from tandemlift.vector import ZERO, Nothing, mat3, vec3
@@ -66,9 +66,12 @@ def whiffs_of(weather: Any) -> Any:
 
 def floor_of(mission: Mission, vehicle: Vehicle) -> Any:
     """The floor of a mission, or `Nothing`."""
+    return Nothing() if mission.ground.model == "none" else pads_of(mission, vehicle)
+
+
+def pads_of(mission: Mission, vehicle: Vehicle) -> Floor:
+    """The floor that a mission has or would have, and how the feet press on it."""
     g = mission.ground
-    if g.model == "none":
-        return Nothing()
     fleet, mass, step = vehicle.quadrotors, vehicle.mass * mission.plant.mass_scale, mission.mission.step
     soles = soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
     at_zero = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage)
@@ -79,8 +82,11 @@ def floor_of(mission: Mission, vehicle: Vehicle) -> Any:
 
 def walls_of(mission: Mission, vehicle: Vehicle) -> Any:
     """What touches the walls of a mission and how they press, or `Nothing` where it has none."""
-    if not mission.all_walls:
-        return Nothing()
+    return pressing_of(mission, vehicle) if mission.all_walls else Nothing()
+
+
+def pressing_of(mission: Mission, vehicle: Vehicle) -> Walls:
+    """What touches walls, were there any, and how they press."""
     payload, fleet = vehicle.payload, vehicle.quadrotors
     beam = (payload.length, payload.radius) if payload.length and payload.radius else None
     return walls(

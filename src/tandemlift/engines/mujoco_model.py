@@ -66,6 +66,22 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     Raises:
         TypeError: the mission has walls, but nothing says how they press.
     """
+    spec = specification(mission, vehicle, floor, walls)
+    difference = _add_difference(spec, mission, vehicle)
+    model = spec.compile()
+    quadrotors = [(q.mass, q.inertia) for q in vehicle.quadrotors]
+    _weigh(model, [(vehicle.payload.mass, vehicle.payload.moments), *quadrotors, *difference])
+    model.dof_damping[:] = [*vehicle.drag.force, *vehicle.drag.moment]
+    press(model, floor, walls)
+    return model
+
+
+def specification(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
+    """The `mujoco.MjSpec` of `model_of`, as yet without weights, drag, and stiffness of contacts.
+
+    Raises:
+        TypeError: the mission has walls, but nothing says how they press.
+    """
     spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
     if mission.all_walls and not walled:
         raise TypeError("a mission with walls needs a laws.walls.Walls that says how they press")
@@ -73,18 +89,12 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     _add_payload(spec, vehicle)
     for i, (quadrotor, center) in enumerate(zip(vehicle.quadrotors, vehicle.lever_arms, strict=True), 1):
         _add_quadrotor(spec, f"quadrotor{i}", quadrotor, center)
-    difference = _add_difference(spec, mission, vehicle)
     _add_sensors(spec, vehicle.count, touching=standing or walled)
     if standing:
         _add_floor(spec, floor, vehicle)
     if walled:
         _add_walls(spec, walls, mission.all_walls, vehicle)
-    model = spec.compile()
-    quadrotors = [(q.mass, q.inertia) for q in vehicle.quadrotors]
-    _weigh(model, [(vehicle.payload.mass, vehicle.payload.moments), *quadrotors, *difference])
-    model.dof_damping[:] = [*vehicle.drag.force, *vehicle.drag.moment]
-    _press(model, floor, walls)
-    return model
+    return spec
 
 
 def _set_options(spec: Any, step: float, *, touching: bool) -> None:
@@ -101,7 +111,7 @@ def _add_payload(spec: Any, vehicle: Vehicle) -> None:
     """The body of the payload, which carries everything; its frame is at the system's centre of mass."""
     center = -vehicle.center_of_mass
     body = spec.worldbody.add_body(name="payload", **_unweighed(center))
-    body.add_joint(type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
+    body.add_joint(name="free", type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
     body.add_site(name="payload", pos=center)
 
 
@@ -151,12 +161,13 @@ def _weigh(model: Any, weights: Sequence[Weight]) -> None:
 def _add_sensors(spec: Any, count: int, *, touching: bool) -> None:
     """The accelerometer, then force and torque of every joint, then the force of all contacts, world axes."""
     kind, at_site = mujoco.mjtSensor, mujoco.mjtObj.mjOBJ_SITE
-    spec.add_sensor(type=kind.mjSENS_ACCELEROMETER, objtype=at_site, objname="payload")
-    for what in (kind.mjSENS_FORCE, kind.mjSENS_TORQUE):
-        for i in range(count):
-            spec.add_sensor(type=what, objtype=at_site, objname=f"quadrotor{i + 1}")
+    spec.add_sensor(name="accelerometer", type=kind.mjSENS_ACCELEROMETER, objtype=at_site, objname="payload")
+    for label, what in (("force", kind.mjSENS_FORCE), ("torque", kind.mjSENS_TORQUE)):
+        for i in range(1, count + 1):
+            spec.add_sensor(name=f"{label}{i}", type=what, objtype=at_site, objname=f"quadrotor{i}")
     if touching:
         spec.add_sensor(
+            name="contact",
             type=kind.mjSENS_CONTACT,
             objtype=mujoco.mjtObj.mjOBJ_BODY,
             objname="world",
@@ -220,7 +231,7 @@ def _add_walls(spec: Any, walls: Walls, upright: Sequence[WallTable], vehicle: V
             _pair(spec, f"wall{k}", part, walls.friction)
 
 
-def _press(model: Any, floor: Any, walls: Any) -> None:
+def press(model: Any, floor: Any, walls: Any) -> None:
     """Give every pair of shapes the stiffness [N/m] and damping [N·s/m] of its surroundings."""
     ground = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, "floor")
     for p in range(model.npair):
