@@ -12,9 +12,9 @@
 // Settings of the <plugin>, all of them optional
 //   <port>      UDP port on 127.0.0.1; 19110
 //   <wait>      true: wait for the first pilot, at most a minute, before the first step; false
-//   <patience>  s of real time after which a silent pilot is given up; 1
+//   <patience>  s of real time after which a silent pilot is given up, 0 for never; 1
 //   <hold>      s of simulated time for which its last thrusts are held; 0.1
-//   <stay>      false: the server ends with its pilot; true
+//   <stay>      false: the server ends when the pilot says goodbye or the process that started it has ended; true
 //
 // Messages are a Header and a fixed number of doubles, both little-endian, N quadrotors:
 //   HELLO    pilot   flags (1: place the vehicle, 2: in real time), step [s], State (13), then of all 4 N rotors
@@ -30,6 +30,9 @@
 //   BYE      pilot   nothing
 //   REFUSE   plugin  why (enum Why)
 // State is position and velocity [world] of the vehicle's centre of mass, quaternion w, x, y, z, rates [rad/s, body].
+// Gazebo's step is v' = v + h a, then x' = x + h v': its positions are half a step ahead of its velocities. In a State
+// they are taken back by h v / 2, to the time of the velocities, and where the vehicle is placed they are put ahead by
+// as much. What is told is then of second order in h, not of first.
 // STEP k is answered by STATE k. A STEP that comes again gets the same answer again, and moves nothing.
 //
 // A person pushes on the topic ~/tandemlift/push (gazebo.msgs.GzString), in simulated time:
@@ -185,6 +188,12 @@ Vector3d Three(const std::vector<double>& values, std::size_t at, std::size_t ap
 
 void Put(std::vector<double>& values, const Vector3d& v) { values.insert(values.end(), {v.X(), v.Y(), v.Z()}); }
 
+// The rotation by a vector of an angle [rad] about its direction, world axes.
+Quaterniond Turn(const Vector3d& angle) {
+    const double size = angle.Length();
+    return size > 0.0 ? Quaterniond(angle / size, size) : Quaterniond::Identity;
+}
+
 // The links and joints of the vehicle: forces in, motion and joint wrenches out.
 class Vehicle {
   public:
@@ -217,12 +226,13 @@ class Vehicle {
     double Mass() const { return mass_; }
     const Vector3d& Center() const { return center_; }  // of mass, in the payload's frame [m]
 
-    // Put the vehicle into a State, as one rigid body.
-    void Place(const std::vector<double>& values, std::size_t at) {
-        const Vector3d position = Three(values, at), velocity = Three(values, at + 3);
+    // Put the vehicle into a State, as one rigid body, where a step takes some seconds.
+    void Place(const std::vector<double>& values, std::size_t at, double step) {
+        const Vector3d velocity = Three(values, at + 3), position = Three(values, at) + 0.5 * step * velocity;
         Quaterniond attitude(values[at + 6], values[at + 7], values[at + 8], values[at + 9]);
         attitude.Normalize();
         const Vector3d rates = attitude * Three(values, at + 10);
+        attitude = Turn(0.5 * step * rates) * attitude;
         model_->ResetPhysicsStates();
         const Pose3d base(position - attitude * center_, attitude);
         for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -238,8 +248,9 @@ class Vehicle {
     void Begin() {
         applied_ = Vector3d::Zero;
         before_ = payload_->WorldPose().Rot();
-        velocity_ = Velocity();
         payload_velocity_ = payload_->WorldLinearVel();
+        velocities_.clear();
+        for (const auto& link : links_) velocities_.push_back(link->WorldCoGLinearVel());
     }
 
     // Thrust [N] along body z and moment [N m, body] of quadrotor i's rotors.
@@ -270,15 +281,14 @@ class Vehicle {
         return push.point.Cross(before_.RotateVectorReverse(push.force));
     }
 
-    // Append the State.
-    void Tell(std::vector<double>& out) const {
-        const Quaterniond attitude = payload_->WorldPose().Rot();
-        Vector3d moment;
-        for (const auto& link : links_) moment += link->GetInertial()->Mass() * link->WorldCoGPose().Pos();
-        Put(out, moment / mass_);
-        Put(out, Velocity());
+    // Append the State, where a step takes some seconds.
+    void Tell(std::vector<double>& out, double step) const {
+        const Vector3d rates = payload_->WorldAngularVel(), velocity = Velocity();
+        const Quaterniond attitude = Turn(-0.5 * step * rates) * payload_->WorldPose().Rot();
+        Put(out, Mean([](const auto& link) { return link->WorldCoGPose().Pos(); }) - 0.5 * step * velocity);
+        Put(out, velocity);
         out.insert(out.end(), {attitude.W(), attitude.X(), attitude.Y(), attitude.Z()});
-        Put(out, attitude.RotateVectorReverse(payload_->WorldAngularVel()));
+        Put(out, attitude.RotateVectorReverse(rates));
     }
 
     // Append what was felt over a step of some seconds, in the body axes at its start.
@@ -298,7 +308,7 @@ class Vehicle {
             }
         }
         // what else changes the momentum is contact (or a wrench that someone applies in the client)
-        const Vector3d contact = mass_ * ((Velocity() - velocity_) / step - gravity) - applied_;
+        const Vector3d contact = mass_ * (Change() / step - gravity) - applied_;
         Put(out, contact.Length() < NO_CONTACT ? Vector3d::Zero : contact);
     }
 
@@ -309,9 +319,23 @@ class Vehicle {
         return link;
     }
 
+    // The mean of something of the links, weighed by their mass.
+    template <typename Of>
+    Vector3d Mean(Of of) const {
+        Vector3d sum;
+        for (const auto& link : links_) sum += link->GetInertial()->Mass() * of(link);
+        return sum / mass_;
+    }
+
     Vector3d Velocity() const {
+        return Mean([](const auto& link) { return link->WorldCoGLinearVel(); });
+    }
+
+    // Of the velocity of the vehicle's centre of mass since the step began [m/s].
+    Vector3d Change() const {
         Vector3d momentum;
-        for (const auto& link : links_) momentum += link->GetInertial()->Mass() * link->WorldCoGLinearVel();
+        for (std::size_t i = 0; i < links_.size(); ++i)
+            momentum += links_[i]->GetInertial()->Mass() * (links_[i]->WorldCoGLinearVel() - velocities_[i]);
         return momentum / mass_;
     }
 
@@ -322,8 +346,9 @@ class Vehicle {
     std::vector<Pose3d> offsets_;  // of links in the payload's frame
     Vector3d center_;
     double mass_ = 0.0;
-    Vector3d applied_, velocity_, payload_velocity_;
+    Vector3d applied_, payload_velocity_;  // of this step [N, world]; at its start [m/s]
     Quaterniond before_;
+    std::vector<Vector3d> velocities_;     // of all links' centres of mass, at its start [m/s, world]
 };
 
 class TandemliftPlugin : public gazebo::ModelPlugin {
@@ -397,16 +422,17 @@ class TandemliftPlugin : public gazebo::ModelPlugin {
     // Give up a pilot that is silent for too long, or the wait for a first one.
     void GiveUp() {
         const double silent = std::chrono::duration<double>(Clock::now() - heard_).count();
-        if (mode_ == Mode::LED && silent > patience_) {
+        if (!stay_ && getppid() != parent_) {
+            Leave();
+            ending_ = true;
+        } else if (mode_ == Mode::LED && patience_ > 0.0 && silent > patience_) {
             gzwarn << "tandemlift: the pilot is silent; its thrusts are held for " << hold_ << " s, then rotors off\n";
             mode_ = Mode::HOLDING;
             held_ = 0.0;
             std::fill(step_.begin() + 4 * vehicle_.Count(), step_.end(), 0.0);  // only rotors are held
             world_->Physics()->SetRealTimeUpdateRate(1.0 / StepSize());
-            if (!stay_) Leave();
         } else if (waiting_ && silent > LONGEST_WAIT) {
             waiting_ = false;
-            if (!stay_) Leave();
         }
     }
 
@@ -461,7 +487,7 @@ class TandemliftPlugin : public gazebo::ModelPlugin {
         step_.assign(10 * vehicle_.Count() + 12, 0.0);
         if (flags & PLACE) {
             Reset();
-            vehicle_.Place(said, 2);
+            vehicle_.Place(said, 2, StepSize());
         }
         mode_ = Mode::LED;
         waiting_ = due_ = false;
@@ -474,7 +500,7 @@ class TandemliftPlugin : public gazebo::ModelPlugin {
     void Answer(Kind kind) {
         told_.clear();
         told_.insert(told_.end(), {world_->SimTime().Double(), StepSize(), vehicle_.Mass()});
-        vehicle_.Tell(told_);
+        vehicle_.Tell(told_, StepSize());
         vehicle_.Feel(told_, StepSize(), world_->Gravity());
         Put(told_, pushed_force_);
         Put(told_, pushed_moment_);
@@ -536,6 +562,7 @@ class TandemliftPlugin : public gazebo::ModelPlugin {
     Vehicle vehicle_;
     Post post_;
     bool waiting_ = false, stay_ = true;
+    const pid_t parent_ = getppid();
     double patience_ = 1.0, hold_ = 0.1, held_ = 0.0;
     Mode mode_ = Mode::ALONE;
     bool due_ = false;             // whether the pilot's message for this step is there

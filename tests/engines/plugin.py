@@ -121,7 +121,9 @@ class Plugin:
 
     def _answer(self, message):
         magic, version, kind, session, count, sequence = HEADER.unpack_from(message)
-        numbers = np.frombuffer(message, offset=HEADER.size)
+        if (len(message) - HEADER.size) % 8:
+            return b""
+        numbers = np.frombuffer(message, offset=HEADER.size).copy()
         assert magic == MAGIC
         self.heard.append(kind)
         if version != self.version:
@@ -149,8 +151,8 @@ class Plugin:
             return b""
         self.over.add(session)
         self.session, self.sequence = session, 0
-        state = numbers[2:15].copy() if int(numbers[0]) & 1 else self.body.state()
-        self.body.place(state, numbers[15:].copy())
+        state = numbers[2:15] if int(numbers[0]) & 1 else self.body.state()
+        self.body.place(state, numbers[15:])
         self.answer = self._message(WELCOME, session, 0, self._told(np.zeros(6 * self.body.N + 6)))
         return self.answer
 

@@ -13,6 +13,7 @@ import importlib
 import os
 import socket
 import weakref
+from functools import partial
 from typing import Any
 from xml.etree import ElementTree
 
@@ -61,9 +62,11 @@ class GazeboBody:
         check = self.server.check if self.server else None
         self._wire = wire = Wire(port, vehicle.count, STARTING, check)
         self._closing = weakref.finalize(self, _close, wire, self.server)
+        real_time = os.environ.get(REAL_TIME, "0") not in ("", "0")
+        self._hello = partial(wire.hello, mission.mission.step, rotors_of(vehicle), start_of(mission), real_time)
+        self._begun = False
         try:
-            real_time = os.environ.get(REAL_TIME, "0") not in ("", "0")
-            told = wire.hello(mission.mission.step, rotors_of(vehicle), start_of(mission), real_time=real_time)
+            told = self._hello()
             _check(told, mission, vehicle)
         except BaseException as error:
             if self.server and isinstance(error, TimeoutError):
@@ -91,6 +94,8 @@ class GazeboBody:
             self.felt.fill(np.nan)
             return
         wire = self._wire
+        if not self._begun:  # again: while the loop compiled, a server that was joined may have given us up
+            self._begun = bool(self._hello())
         wire.thrusts[:] = thrusts
         self._force[:] = force + self._disturbing_force - self._drag_force * self._velocity
         self._moment[:] = moment + self._disturbing_moment - self._drag_moment * self._rates
@@ -129,7 +134,7 @@ def world_of(mission: Mission, port: int) -> str:
     plugin, solver = top.find(".//plugin[@name='tandemlift']"), top.find(".//physics/ode/solver")
     assert plugin is not None
     assert solver is not None
-    for name, value in (("wait", "true"), ("stay", "false")):
+    for name, value in (("wait", "true"), ("patience", "0"), ("stay", "false")):
         ElementTree.SubElement(plugin, name).text = value
     for child in list(solver):
         solver.remove(child)

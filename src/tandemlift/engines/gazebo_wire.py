@@ -118,7 +118,7 @@ class Wire:
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.connect(("127.0.0.1", port))
 
-    def hello(self, dt: float, rotors: ArrayLike, state: ArrayLike | None = None, *, real_time: bool = False) -> Told:
+    def hello(self, dt: float, rotors: ArrayLike, state: ArrayLike | None = None, real_time: bool = False) -> Told:
         """Begin a session.
 
         Args:
