@@ -144,7 +144,9 @@ def _show(body: Any, shapes: Sequence[Shape], origin: Array) -> None:
         halves = {"box": [0.5, 0.5, 0.5], "sphere": [1.0, 0.0, 0.0], "cylinder": [1.0, 0.5, 0.0]}[shape.kind]
         body.add_geom(
             name=f"{body.name} {shape.name} look",
-            type={"box": kinds.mjGEOM_BOX, "sphere": kinds.mjGEOM_SPHERE, "cylinder": kinds.mjGEOM_CYLINDER}[shape.kind],
+            type={"box": kinds.mjGEOM_BOX, "sphere": kinds.mjGEOM_SPHERE, "cylinder": kinds.mjGEOM_CYLINDER}[
+                shape.kind
+            ],
             size=size * halves,
             pos=origin + shape.position,
             quat=quat,

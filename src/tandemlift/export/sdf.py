@@ -197,9 +197,9 @@ def _add_walls(top: Element, mission: Mission, floor: Floor) -> None:
 
 
 def _wall(name: str, wall: WallTable, floor: float) -> Shape:
-    """A wall as a box, from below the floor to its top; a post if it has no length."""
+    """A wall as a box, from below the floor to its top."""
     start, along = np.array(wall.start), np.subtract(wall.end, wall.start)
-    foot, length = min(floor, wall.top) - BURIED, max(float(np.hypot(*along)), THIN)
+    foot, length = min(floor, wall.top) - BURIED, float(np.hypot(*along))
     turn = np.arctan2(along[1], along[0])
     c, s = np.cos(turn), np.sin(turn)
     middle = np.array([*(start + along / 2.0), (foot + wall.top) / 2.0])
