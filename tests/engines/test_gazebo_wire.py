@@ -52,10 +52,30 @@ def joined(monkeypatch):
     return fly
 
 
-def wire_to(plugin, patience=2.0):
-    wire = Wire(plugin.port, plugin.body.N, patience)
-    wire.hello(DT, rotors_of(plugin.body.vehicle), start_of(tl.load_mission("hover")))
-    return wire
+@pytest.fixture
+def wire_at():
+    """A pilot's end to a port, which is hung up after the test."""
+    wires = []
+
+    def dial(port, count=2, patience=2.0):
+        wires.append(Wire(port, count, patience))
+        return wires[-1]
+
+    yield dial
+    for wire in wires:
+        wire.close()
+
+
+@pytest.fixture
+def wire_to(wire_at):
+    """A pilot's end to a plugin that it has greeted."""
+
+    def dial(plugin, patience=2.0):
+        wire = wire_at(plugin.port, plugin.body.N, patience)
+        wire.hello(DT, rotors_of(plugin.body.vehicle), start_of(tl.load_mission("hover")))
+        return wire
+
+    return dial
 
 
 def fly_by(wire, steps):
@@ -80,7 +100,7 @@ def test_a_mission_flies_over_the_wire_as_in_the_compiled_engine(mission, vehicl
         np.testing.assert_allclose(b[name], a[name], rtol=0.0, atol=0.02, err_msg=name)
 
 
-def test_what_is_lost_doubled_late_or_spoiled_on_the_way_changes_no_bit(vehicle):
+def test_what_is_lost_doubled_late_or_spoiled_on_the_way_changes_no_bit(vehicle, wire_to):
     with Plugin(RigidBody(vehicle), DT) as plugin:
         sound = fly_by(wire_to(plugin), 150)
     network = BadNetwork(3)
@@ -91,17 +111,16 @@ def test_what_is_lost_doubled_late_or_spoiled_on_the_way_changes_no_bit(vehicle)
     assert np.array_equal(bad, sound)
 
 
-def test_a_pilot_that_comes_back_takes_the_vehicle_over_where_it_is(vehicle):
+def test_a_pilot_that_comes_back_takes_the_vehicle_over_where_it_is(vehicle, wire_to, wire_at):
     with Plugin(RigidBody(vehicle), DT) as plugin:
         last = fly_by(wire_to(plugin), 20)[-1]  # and it goes without a word
-        again = Wire(plugin.port, vehicle.count)
+        again = wire_at(plugin.port)
         np.testing.assert_array_equal(again.hello(DT, rotors_of(vehicle)).state, last)
         fly_by(again, 5)
-        again.close()
         assert len(plugin.taken) == 25
 
 
-def test_a_pilot_whose_place_was_taken_is_told(vehicle):
+def test_a_pilot_whose_place_was_taken_is_told(vehicle, wire_to):
     with Plugin(RigidBody(vehicle), DT) as plugin:
         first = wire_to(plugin)
         fly_by(first, 3)
@@ -110,7 +129,7 @@ def test_a_pilot_whose_place_was_taken_is_told(vehicle):
             first.advance()
 
 
-def test_a_server_that_dies_in_flight_ends_it_with_a_clear_error(vehicle):
+def test_a_server_that_dies_in_flight_ends_it_with_a_clear_error(vehicle, wire_to):
     with Plugin(RigidBody(vehicle), DT) as plugin:
         wire = wire_to(plugin, 0.3)
         fly_by(wire, 3)
@@ -118,31 +137,31 @@ def test_a_server_that_dies_in_flight_ends_it_with_a_clear_error(vehicle):
         wire.advance()
 
 
-def test_a_server_that_hears_and_says_nothing_is_given_up(vehicle):
+def test_a_server_that_hears_and_says_nothing_is_given_up(vehicle, wire_to):
     with Plugin(RigidBody(vehicle), DT, network=lambda message: []) as plugin:
         with pytest.raises(TimeoutError, match=r"did not answer within 0\.3 s \(HELLO 0\)"):
             wire_to(plugin, 0.3)
 
 
-def test_a_server_that_comes_late_is_waited_for(vehicle):
+def test_a_server_that_comes_late_is_waited_for(vehicle, wire_at):
     port, late = free_port(2), []
     timer = threading.Timer(0.2, lambda: late.append(Plugin(RigidBody(vehicle), DT, port=port)))
     timer.start()
-    wire = Wire(port, vehicle.count)
+    wire = wire_at(port)
     wire.hello(DT, rotors_of(vehicle))
     assert len(fly_by(wire, 3)) == 3
     late[0].close()
 
 
-def test_an_older_plugin_is_refused_with_both_versions(vehicle):
+def test_an_older_plugin_is_refused_with_both_versions(vehicle, wire_to):
     with Plugin(RigidBody(vehicle), DT, version=7) as plugin:
         with pytest.raises(tl.InputError, match=r"speaks version 7 of the protocol, this is version 1: build the plugin"):
             wire_to(plugin)
 
 
-def test_a_vehicle_with_other_quadrotors_is_refused(vehicle):
+def test_a_vehicle_with_other_quadrotors_is_refused(vehicle, wire_at):
     with Plugin(RigidBody(vehicle), DT) as plugin:
-        wire = Wire(plugin.port, 3)
+        wire = wire_at(plugin.port, 3)
         with pytest.raises(tl.InputError, match=r"in Gazebo has 2 quadrotors, the mission's has 3"):
             wire.hello(DT, np.zeros((3, 12)))
 
@@ -154,7 +173,7 @@ def test_a_world_of_another_step_or_mass_is_refused(what, changes, mission, vehi
             joined(mission, plugin)
 
 
-def test_a_body_that_is_no_longer_used_says_goodbye(mission, vehicle, monkeypatch):
+def test_a_body_that_is_no_longer_used_says_goodbye(mission, vehicle, monkeypatch, wire_to):
     with Plugin(RigidBody(vehicle), DT) as plugin:
         monkeypatch.setenv("TANDEMLIFT_GAZEBO_PORT", str(plugin.port))
         body = GazeboBody(mission, vehicle)
@@ -165,7 +184,7 @@ def test_a_body_that_is_no_longer_used_says_goodbye(mission, vehicle, monkeypatc
         assert plugin.heard[:2] == [1, 5]
 
 
-def test_a_pilot_killed_in_flight_leaves_a_plugin_that_flies_the_next(vehicle):
+def test_a_pilot_killed_in_flight_leaves_a_plugin_that_flies_the_next(vehicle, wire_to):
     code = (
         "import sys; sys.path[:0] = sys.argv[2:]\n"
         "import numpy as np\nfrom tandemlift.engines.gazebo_wire import Wire\n"
@@ -206,4 +225,4 @@ def test_the_world_of_a_flight_waits_for_its_pilot_and_solves_joints_exactly(mis
     assert "<port>12345</port>" in world
     assert "<wait>true</wait>" in world
     assert "<stay>false</stay>" in world
-    assert "<solver><type>world</type></solver>" in world.replace("\n", "").replace(" ", "")
+    assert "<type>world</type>" in world

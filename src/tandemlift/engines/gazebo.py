@@ -33,6 +33,7 @@ Array = NDArray[np.float64]
 NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none
 STARTING, STEPPING = 60.0, 10.0  # s, after which a server that does not answer is given up
+CORRECTED = 0.8  # share of a joint's gap that ODE closes in a step: what holds quadrotors on a curve lags the less
 CLOSE = 1e-9  # relative, of the world's step and mass
 
 PORT, REAL_TIME = "TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_REAL_TIME"
@@ -131,15 +132,19 @@ def world_of(mission: Mission, port: int) -> str:
     """The world of a mission for a flight of its own: it waits for its pilot, ends with it, and solves joints exactly."""
     exported = importlib.import_module("tandemlift.export.sdf")  # by name, as exports stand above the engines
     top = ElementTree.fromstring(exported.world(mission, plugin=port).encode())
-    plugin, solver = top.find(".//plugin[@name='tandemlift']"), top.find(".//physics/ode/solver")
-    assert plugin is not None
-    assert solver is not None
-    for name, value in (("wait", "true"), ("patience", "0"), ("stay", "false")):
-        ElementTree.SubElement(plugin, name).text = value
-    for child in list(solver):
-        solver.remove(child)
-    ElementTree.SubElement(solver, "type").text = "world"
+    _set(top, ".//plugin[@name='tandemlift']", {"wait": "true", "patience": "0", "stay": "false"})
+    _set(top, ".//physics/ode/solver", {"type": "world"})
+    _set(top, ".//physics/ode/constraints", {"erp": repr(CORRECTED)})
     return ElementTree.tostring(top, "unicode")
+
+
+def _set(top: ElementTree.Element, path: str, texts: dict[str, str]) -> None:
+    """Give an element's children these texts."""
+    element = top.find(path)
+    assert element is not None
+    for name, text in texts.items():
+        child = element.find(name)
+        (ElementTree.SubElement(element, name) if child is None else child).text = text
 
 
 def start_of(mission: Mission) -> Array:

@@ -20,6 +20,7 @@ ROOT = "TANDEMLIFT_GAZEBO_ROOT"
 MASTER = "GAZEBO_MASTER_URI"
 SETUP = "/usr/share/gazebo/setup.sh"
 SHOWN = 12  # last lines of what the server said
+SOUND = ("ALSA lib", "AL lib")  # about loudspeakers that there are none
 
 ENTER = """
 mount --rbind /dev "$1/dev" && mount -t proc proc "$1/proc" && exec chroot "$1" /usr/bin/env -i \
@@ -83,7 +84,7 @@ class Server:
 
     def _script(self, inside: Path | None) -> str:
         folder = self._folder if inside is None else Path("/tmp") / self._folder.name
-        return in_gazebo(self.master, f"exec gzserver {shlex.quote(str(folder / 'vehicle.world'))}", folder)
+        return in_gazebo(self.master, f"exec gzserver --verbose {shlex.quote(str(folder / 'vehicle.world'))}", folder)
 
     def check(self) -> None:
         """Raise what the server said, if it has ended.
@@ -97,7 +98,8 @@ class Server:
 
     def said(self) -> str:
         """The last lines that the server said, with a word before; empty if there are none."""
-        lines = (self._folder / "log").read_text("utf-8", "replace").strip().splitlines()[-SHOWN:]
+        lines = (self._folder / "log").read_text("utf-8", "replace").strip().splitlines()
+        lines = [line for line in lines if not line.startswith(SOUND)][-SHOWN:]
         return "; it said:\n  " + "\n  ".join(lines) if lines else ""
 
     def close(self) -> None:
