@@ -73,6 +73,6 @@ def _payload(mission: Mission, vehicle: Vehicle) -> Link:
 def _no_body(mission: Mission, what: str) -> InputError:
     plant = mission.plant
     return InputError(
-        f"plant.mass_scale = {plant.mass_scale:g}, plant.inertia_scale = {list(plant.inertia_scale)}: the difference is "
-        f"part of the payload, which then had {what}; a model file can only hold a body that there can be"
+        f"plant.mass_scale = {plant.mass_scale:g}, plant.inertia_scale = {list(plant.inertia_scale)}: the difference "
+        f"is part of the payload, which then had {what}; a model file can only hold a body that there can be"
     )

@@ -5,6 +5,7 @@ Colours and proportions are those of our pictures (`rendering.aircraft`): what i
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -111,10 +112,11 @@ def _rotors(q: Quadrotor) -> list[Shape]:
     s, shapes = spread(q), list[Shape]()
     for j, (x, y) in enumerate(q.rotors, 1):
         color, reach = FRONT if x > 1e-9 else REAR, max(float(np.hypot(x, y)), 1e-9)
-        tip, hub, out = np.array([x, y, 0.0]), np.array([x, y, 0.2 * s]), np.array([x, y, 0.0]) / reach
-        shapes += rod(f"arm_{j}", np.zeros(3), out * max(q.guard_radius, reach), 0.05 * s, CARBON)
-        shapes += rod(f"motor_{j}", tip - [0.0, 0.0, 0.05 * s], tip + [0.0, 0.0, 0.12 * s], 0.1 * s, METAL)
-        shapes += rod(f"hub_{j}", tip + [0.0, 0.0, 0.12 * s], hub + [0.0, 0.0, 0.04 * s], 0.05 * s, color)
+        low, mid, hub, high = (np.array([x, y, z * s]) for z in (-0.05, 0.12, 0.2, 0.24))
+        tip = np.array([x, y, 0.0]) * max(q.guard_radius / reach, 1.0)
+        shapes += rod(f"arm_{j}", np.zeros(3), tip, 0.05 * s, CARBON)
+        shapes += rod(f"motor_{j}", low, mid, 0.1 * s, METAL)
+        shapes += rod(f"hub_{j}", mid, high, 0.05 * s, color)
         turn = 0.7 + j
         c, n = np.cos(turn), np.sin(turn)
         axes = np.array([[c, -n, 0.0], [n, c, 0.0], [0.0, 0.0, 1.0]])
@@ -129,8 +131,9 @@ def _ring(q: Quadrotor) -> list[Shape]:
     s, turn = spread(q), np.linspace(0.0, 2.0 * np.pi, SEGMENTS + 1)
     radius, height = q.guard_radius / np.cos(np.pi / SEGMENTS), np.full(SEGMENTS + 1, 0.02 * s)
     corners = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
-    pieces = zip(corners[:-1], corners[1:], strict=True)
-    return [piece for k, (a, b) in enumerate(pieces, 1) for piece in rod(f"guard_{k}", a, b, 0.035 * s, GUARD)]
+    return [
+        piece for k, (a, b) in enumerate(pairwise(corners), 1) for piece in rod(f"guard_{k}", a, b, 0.035 * s, GUARD)
+    ]
 
 
 def _legs(q: Quadrotor) -> list[Shape]:

@@ -27,7 +27,7 @@ from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 
-GROUND = "#b9bdc3"
+GROUND, SKY, ZENITH = "#b9bdc3", "#dbe6f2", "#8fb0d3"
 CONTACT_GROUP = 3  # of shapes: MuJoCo's viewer hides it at first
 OBJECTS = mujoco.mjtObj
 EXACT = {  # attributes that MuJoCo rounds to six digits, of which objects, and the model's arrays that have them all
@@ -130,7 +130,10 @@ def _dress(spec: Any, mission: Mission, vehicle: Vehicle) -> None:
     _show(spec.body("payload"), payload_shapes(vehicle.payload, tuple(vehicle.quadrotors)), -vehicle.center_of_mass)
     for i, q in enumerate(vehicle.quadrotors, 1):
         _show(spec.body(f"quadrotor{i}"), quadrotor_shapes(q, depth), np.zeros(3))
-    spec.worldbody.add_light(name="sun", type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, pos=20.0 * SUN, dir=-SUN)
+    sun = spec.worldbody.add_light(name="sun", pos=20.0 * SUN, dir=-SUN, castshadow=not mission.all_walls)
+    sun.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
+    sky = spec.add_texture(name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, width=64, height=384)
+    sky.builtin, sky.rgb1, sky.rgb2 = mujoco.mjtBuiltin.mjBUILTIN_GRADIENT, _rgba(SKY)[:3], _rgba(ZENITH)[:3]
     spec.stat.center, spec.stat.extent = mission.initial.position, float(np.abs(vehicle.lever_arms).max()) + 1.0
 
 

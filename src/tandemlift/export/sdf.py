@@ -113,13 +113,18 @@ def _surroundings(top: Element, mission: Mission, vehicle: Vehicle) -> None:
     _fill(top, {"gravity": [0.0, 0.0, -GRAVITY]})
     physics = _add(top, "physics", name="ode", type="ode", default="1")
     _fill(physics, {"max_step_size": step, "real_time_factor": 1.0, "real_time_update_rate": 1.0 / step})
-    contact = {"cfm": 0.0, "erp": 0.2, "contact_max_correcting_vel": FASTEST, "contact_surface_layer": 0.0}
-    _fill(physics, {"ode": {"solver": {"type": "quick", "iters": 50, "sor": 1.3}, "constraints": contact}})
+    contact: dict[str, float] = {
+        "cfm": 0.0,
+        "erp": 0.2,
+        "contact_max_correcting_vel": FASTEST,
+        "contact_surface_layer": 0.0,
+    }
+    _fill(physics, {"ode": {"solver": {"type": "world"}, "constraints": contact}})  # exact, and fast for so few bodies
     _fill(top, {"scene": {"ambient": _rgba(AMBIENT), "background": _rgba(SKY), "shadows": "true"}})
     light = _add(top, "light", name="sun", type="directional")
     _pose(light, 20.0 * SUN, digits=DIGITS)
-    white = {"diffuse": _rgba("#d1c7b5"), "specular": _rgba("#333333"), "direction": numbers(-SUN, DIGITS)}
-    _fill(light, {"cast_shadows": "true", **white})
+    shining = {"diffuse": _rgba("#d1c7b5"), "specular": _rgba("#333333"), "direction": numbers(-SUN, DIGITS)}
+    _fill(light, {"cast_shadows": "true", **shining})
     camera = _add(_add(top, "gui"), "camera", name="user_camera")
     view, reach = CAMERAS["follow"], float(np.linalg.norm(vehicle.lever_arms, axis=1).max()) + 0.5
     azimuth, height = np.radians([view.azimuth, view.elevation])
@@ -132,8 +137,8 @@ def _surroundings(top: Element, mission: Mission, vehicle: Vehicle) -> None:
 def _geometry(parent: Element, kind: str, size: Sequence[float], digits: int | None = None) -> None:
     names = {"box": ["size"], "sphere": ["radius"], "cylinder": ["radius", "length"]}[kind]
     shape = _add(_add(parent, "geometry"), kind)
-    for name, value in zip(names, [size] if kind == "box" else size, strict=True):
-        _add(shape, name, numbers(value, digits))
+    for name, values in zip(names, [size] if kind == "box" else [[number] for number in size], strict=True):
+        _add(shape, name, numbers(values, digits))
 
 
 def _look(link: Element, shape: Shape) -> None:
