@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import threading
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -220,9 +221,7 @@ def test_a_port_that_is_none_is_refused(mission, monkeypatch):
         tl.fly(mission, engine="gazebo")
 
 
-def test_the_world_of_a_flight_waits_for_its_pilot_and_solves_joints_exactly(mission):
-    world = world_of(mission, 12345)
-    assert "<port>12345</port>" in world
-    assert "<wait>true</wait>" in world
-    assert "<stay>false</stay>" in world
-    assert "<type>world</type>" in world
+def test_the_world_of_a_flight_waits_for_its_pilot_and_ends_with_it(mission):
+    plugin = ElementTree.fromstring(world_of(mission, 12345).encode()).find("world/model/plugin")
+    told = {setting.tag: setting.text for setting in plugin}
+    assert told == {"port": "12345", "wait": "true", "patience": "0", "stay": "false"}

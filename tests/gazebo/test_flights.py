@@ -1,9 +1,17 @@
 """Whole flights in Gazebo beside the compiled engine: the same pilot, bodies that share no equation."""
 
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.engines import gazebo
 
 pytestmark = pytest.mark.gazebo
 DT = 1e-3
@@ -79,3 +87,28 @@ def test_a_flight_that_is_lost_is_told_of_as_in_the_compiled_engine():
     a, b = both("paper", weak)
     assert b.divergence.quantity == a.divergence.quantity
     assert b.divergence.time == pytest.approx(a.divergence.time, abs=0.02)
+
+
+def test_a_flight_that_is_killed_takes_its_server_with_it():
+    code = (
+        "import numpy as np, tandemlift as tl\nfrom tandemlift.engines.gazebo import GazeboBody\n"
+        "m = tl.load_mission('hover')\nbody = GazeboBody(m, tl.Vehicle.from_settings(m.vehicle))\n"
+        "print(body.server._process.pid, flush=True)\n"
+        "while True: body.advance(np.full(8, 4.0), np.zeros(0), np.zeros(3), np.zeros(3))"
+    )
+    pilot = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    server = Path(f"/proc/{int(pilot.stdout.readline())}/exe")
+    assert server.resolve().name.startswith("gzserver")
+    os.kill(pilot.pid, signal.SIGKILL)
+    pilot.communicate()
+    ends = time.monotonic() + 20.0
+    while server.resolve().name.startswith("gzserver") and time.monotonic() < ends:
+        time.sleep(0.1)
+    assert not server.resolve().name.startswith("gzserver")
+
+
+def test_a_server_without_the_plugin_is_told_of(monkeypatch):
+    plain = gazebo.world_of
+    monkeypatch.setattr(gazebo, "world_of", lambda *given: plain(*given).replace("libtandemlift_", "libtandemlift_not_"))
+    with pytest.raises(tl.InputError, match=r"needs its plugin .* Failed to load plugin libtandemlift_not_gazebo\.so"):
+        tl.fly(tl.load_mission("hover", {"mission.duration": 1.0}), engine="gazebo")

@@ -33,7 +33,6 @@ Array = NDArray[np.float64]
 NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none
 STARTING, STEPPING = 60.0, 10.0  # s, after which a server that does not answer is given up
-CORRECTED = 0.8  # share of a joint's gap that ODE closes in a step: what holds quadrotors on a curve lags the less
 CLOSE = 1e-9  # relative, of the world's step and mass
 
 PORT, REAL_TIME = "TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_REAL_TIME"
@@ -60,21 +59,13 @@ class GazeboBody:
 
     def __init__(self, mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:
         self.server, port = _find(mission)
-        check = self.server.check if self.server else None
-        self._wire = wire = Wire(port, vehicle.count, STARTING, check)
+        self._wire = wire = Wire(port, vehicle.count, STEPPING, self.server.check if self.server else None)
         self._closing = weakref.finalize(self, _close, wire, self.server)
         real_time = os.environ.get(REAL_TIME, "0") not in ("", "0")
         self._hello = partial(wire.hello, mission.mission.step, rotors_of(vehicle), start_of(mission), real_time)
         self._begun = False
-        try:
-            told = self._hello()
-            _check(told, mission, vehicle)
-        except BaseException as error:
-            if self.server and isinstance(error, TimeoutError):
-                error.add_note(self.server.said())
-            self.close()
-            raise
-        wire.patience = STEPPING
+        self._meet(mission, vehicle)
+        told = wire.told
         self.state, self.felt, self.pushed = told.state, told.felt, told.pushed
         self.felt.fill(0.0)
         self._velocity, self._rates, self._contact = told.state[3:6], told.state[10:], told.felt[-3:]
@@ -83,6 +74,21 @@ class GazeboBody:
         self._disturbing_force = np.array(mission.disturbance.force)
         self._disturbing_moment = np.array(mission.disturbance.moment)
         self._drag_force, self._drag_moment = np.array(vehicle.drag.force), np.array(vehicle.drag.moment)
+
+    def _meet(self, mission: Mission, vehicle: Vehicle) -> None:
+        """Wait for the plugin, and see that its world fits."""
+        try:
+            if self.server:
+                self._wire.patience = STARTING
+            _check(self._hello(), mission, vehicle)
+            self._wire.patience = STEPPING
+        except TimeoutError as error:
+            said = self.server.said() if self.server else ""
+            self.close()
+            raise TimeoutError(f"{error}{said}") from None
+        except BaseException:
+            self.close()
+            raise
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
         """Move by one step; see `engines.Body`.
@@ -96,7 +102,8 @@ class GazeboBody:
             return
         wire = self._wire
         if not self._begun:  # again: while the loop compiled, a server that was joined may have given us up
-            self._begun = bool(self._hello())
+            self._hello()
+            self._begun = True
         wire.thrusts[:] = thrusts
         self._force[:] = force + self._disturbing_force - self._drag_force * self._velocity
         self._moment[:] = moment + self._disturbing_moment - self._drag_moment * self._rates
@@ -129,22 +136,14 @@ def _find(mission: Mission) -> tuple[Server | None, int]:
 
 
 def world_of(mission: Mission, port: int) -> str:
-    """The world of a mission for a flight of its own: it waits for its pilot, ends with it, and solves joints exactly."""
+    """The world of a mission for a flight of its own: it waits for its pilot, as long as it takes, and ends with it."""
     exported = importlib.import_module("tandemlift.export.sdf")  # by name, as exports stand above the engines
     top = ElementTree.fromstring(exported.world(mission, plugin=port).encode())
-    _set(top, ".//plugin[@name='tandemlift']", {"wait": "true", "patience": "0", "stay": "false"})
-    _set(top, ".//physics/ode/solver", {"type": "world"})
-    _set(top, ".//physics/ode/constraints", {"erp": repr(CORRECTED)})
+    plugin = top.find(".//plugin[@name='tandemlift']")
+    assert plugin is not None
+    for name, text in (("wait", "true"), ("patience", "0"), ("stay", "false")):
+        ElementTree.SubElement(plugin, name).text = text
     return ElementTree.tostring(top, "unicode")
-
-
-def _set(top: ElementTree.Element, path: str, texts: dict[str, str]) -> None:
-    """Give an element's children these texts."""
-    element = top.find(path)
-    assert element is not None
-    for name, text in texts.items():
-        child = element.find(name)
-        (ElementTree.SubElement(element, name) if child is None else child).text = text
 
 
 def start_of(mission: Mission) -> Array:

@@ -20,6 +20,7 @@ ROOT = "TANDEMLIFT_GAZEBO_ROOT"
 MASTER = "GAZEBO_MASTER_URI"
 SETUP = "/usr/share/gazebo/setup.sh"
 SHOWN = 12  # last lines of what the server said
+FAILING = ("Failed to load plugin libtandemlift", "the plugin rests")
 SOUND = ("ALSA lib", "AL lib")  # about loudspeakers that there are none
 
 ENTER = """
@@ -87,25 +88,33 @@ class Server:
         return in_gazebo(self.master, f"exec gzserver --verbose {shlex.quote(str(folder / 'vehicle.world'))}", folder)
 
     def check(self) -> None:
-        """Raise what the server said, if it has ended.
+        """See that it still runs, and has the plugin.
 
         Raises:
-            ConnectionError: it has.
+            InputError: the plugin is not built, or cannot begin.
+            ConnectionError: the server has ended.
         """
         if self._process.poll() is not None:
             code = self._process.returncode
             raise ConnectionError(f"engine 'gazebo': gzserver has ended (exit code {code}){self.said()}")
+        for line in self._lines():
+            if any(failing in line for failing in FAILING):
+                raise InputError(f"engine 'gazebo' needs its plugin (docs/gazebo.md), and gzserver says: {line}")
+
+    def _lines(self) -> list[str]:
+        lines = (self._folder / "log").read_text("utf-8", "replace").strip().splitlines()
+        return [line for line in lines if not line.startswith(SOUND)]
 
     def said(self) -> str:
         """The last lines that the server said, with a word before; empty if there are none."""
-        lines = (self._folder / "log").read_text("utf-8", "replace").strip().splitlines()
-        lines = [line for line in lines if not line.startswith(SOUND)][-SHOWN:]
+        lines = self._lines()[-SHOWN:]
         return "; it said:\n  " + "\n  ".join(lines) if lines else ""
 
     def close(self) -> None:
         """End it at once: there is nothing that it would have to save."""
-        self._process.kill()
-        self._process.wait()
+        if self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()
         shutil.rmtree(self._folder, ignore_errors=True)
 
 
