@@ -1,4 +1,4 @@
-# Every target sets up what it needs, in .venv; nothing needs root.
+# Every target sets up what it needs, in .venv; only test-gazebo needs root.
 PYTHON ?= python3
 BIN := .venv/bin
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo

@@ -7,6 +7,7 @@ word, the plugin ends the server.
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import shutil
 import socket
@@ -20,6 +21,7 @@ ROOT = "TANDEMLIFT_GAZEBO_ROOT"
 MASTER = "GAZEBO_MASTER_URI"
 SETUP = "/usr/share/gazebo/setup.sh"
 SHOWN = 12  # last lines of what the server said
+COLORS = re.compile("\x1b\\[[0-9;]*m")
 FAILING = ("Failed to load plugin libtandemlift", "the plugin rests")
 SOUND = ("ALSA lib", "AL lib")  # about loudspeakers that there are none
 
@@ -102,8 +104,8 @@ class Server:
                 raise InputError(f"engine 'gazebo' needs its plugin (docs/gazebo.md), and gzserver says: {line}")
 
     def _lines(self) -> list[str]:
-        lines = (self._folder / "log").read_text("utf-8", "replace").strip().splitlines()
-        return [line for line in lines if not line.startswith(SOUND)]
+        text = COLORS.sub("", (self._folder / "log").read_text("utf-8", "replace"))
+        return [line for line in text.strip().splitlines() if line and not line.startswith(SOUND)]
 
     def said(self) -> str:
         """The last lines that the server said, with a word before; empty if there are none."""
