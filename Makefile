@@ -1,8 +1,9 @@
-# Every target sets up what it needs, in .venv; nothing needs root.
+# Every target sets up what it needs, in .venv; only test-gazebo needs root.
 PYTHON ?= python3
 BIN := .venv/bin
+GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page test lint types imports tests bench validate bench-peers lock clean help
+.PHONY: run live page test lint types imports tests test-gazebo bench validate bench-peers lock clean help
 
 help:            ## say what there is
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -36,6 +37,10 @@ imports: .venv/dev  ## imports go downward only
 
 tests: .venv/dev ## all tests
 	$(BIN)/pytest -n auto
+
+test-gazebo: .venv/dev  ## flights in a real Gazebo 11; makes a Debian 11 root for it, as root
+	tools/gazebo-root $(GAZEBO_ROOT)
+	TANDEMLIFT_GAZEBO_ROOT=$(GAZEBO_ROOT) $(BIN)/pytest -m gazebo tests/gazebo
 
 bench: .venv/dev ## speed of everything, printed
 	$(BIN)/python benchmarks/bench.py

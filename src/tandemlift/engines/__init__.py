@@ -72,6 +72,12 @@ ENGINES = {
             "tandemlift.engines.mujoco",
             "MuJoCoBody",
         ),
+        Engine(
+            "gazebo",
+            "Separate bodies on fixed joints in Gazebo 11 (ODE), led over UDP (docs/gazebo.md).",
+            "tandemlift.engines.gazebo",
+            "GazeboBody",
+        ),
     ]
 }
 

@@ -1,0 +1,54 @@
+"""How fast Gazebo flies, in lock-step and in real time: `python benchmarks/gazebo.py`; needs Gazebo (docs/gazebo.md)."""
+
+from __future__ import annotations
+
+import os
+import time
+
+from machine import describe, heading, number, table
+
+import tandemlift as tl
+from tandemlift.engines.gazebo import REAL_TIME, GazeboBody
+from tandemlift.prepared import Prepared
+from tandemlift.stepwise import Stepper
+from tandemlift.vehicle import Vehicle
+
+ROUNDS = 3
+
+
+def lock_step(name: str) -> float:
+    """Steps a second of a mission with its pilot, the best of some flights of 30 s."""
+    mission = tl.load_mission(name, {"mission.duration": 30.0})
+    walls = [tl.fly(mission, "gazebo").metrics() for _ in range(ROUNDS)]
+    return max(m["steps"] / m["wall_s"] for m in walls)
+
+
+def real_time(seconds: float = 10.0) -> tuple[float, float]:
+    """Steps a second of `hover` kept to real time, and the longest time between two [s]."""
+    mission = tl.load_mission("hover", {"mission.duration": seconds + 2.0})
+    p = Prepared(mission)
+    stepper = Stepper(p)
+    stepper.compile()
+    os.environ[REAL_TIME] = "1"
+    stepper.body = GazeboBody(mission, Vehicle.from_settings(mission.vehicle))
+    times = []
+    for k in range(round((seconds + 1.0) / p.dt)):
+        stepper.step(k)
+        times.append(time.perf_counter())
+    times = times[round(1.0 / p.dt) :]
+    longest = max(b - a for a, b in zip(times, times[1:], strict=False))
+    del os.environ[REAL_TIME]
+    return (len(times) - 1) / (times[-1] - times[0]), longest
+
+
+def main() -> None:
+    print(heading(describe(("tandemlift", "numba", "numpy"))), end="\n\n")
+    rows = [[f"`{name}`, lock-step, with its pilot", number(lock_step(name))] for name in ("one-push", "paper", "iris")]
+    rate, longest = real_time()
+    rows.append(["`hover`, in real time, with its pilot", number(rate, 4)])
+    print(table(["", "steps/s"], rows))
+    print(f"\nIn real time, the longest time from one step to the next: {1e3 * longest:.1f} ms.")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,137 @@
+"""A Gazebo 11 server of our own: started for a flight, and ended with it.
+
+It runs where Gazebo is installed, or in the Debian 11 root that `tools/gazebo-root` makes. If the pilot dies without a
+word, the plugin ends the server.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+import socket
+import subprocess
+import tempfile
+from pathlib import Path
+
+from tandemlift.errors import InputError
+
+ROOT = "TANDEMLIFT_GAZEBO_ROOT"
+MASTER = "GAZEBO_MASTER_URI"
+SETUP = "/usr/share/gazebo/setup.sh"
+SHOWN = 12  # last lines of what the server said
+COLORS = re.compile("\x1b\\[[0-9;]*m")
+FAILING = ("Failed to load plugin libtandemlift", "the plugin rests")
+SOUND = ("ALSA lib", "AL lib")  # about loudspeakers that there are none
+
+ENTER = """
+mount --rbind /dev "$1/dev" && mount -t proc proc "$1/proc" && exec chroot "$1" /usr/bin/env -i \
+PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 HOME=/tmp sh -c "$2"
+"""  # in a mount namespace of its own, so that no mount is left behind
+
+
+def root() -> Path | None:
+    """The root that Gazebo is installed in, None for this system's.
+
+    Raises:
+        InputError: there is no Gazebo.
+    """
+    given = os.environ.get(ROOT)
+    if given:
+        path = Path(given).absolute()
+        if not (path / "usr/bin/gzserver").exists():
+            raise InputError(f"{ROOT} = {given}: has no /usr/bin/gzserver; make it with: tools/gazebo-root {given}")
+        return path
+    if shutil.which("gzserver") is None:
+        raise InputError(
+            "engine 'gazebo' needs Gazebo 11: install it, or make a Debian 11 root that has it by "
+            f"tools/gazebo-root ROOT (as root, 2.3 GB) and set {ROOT}=ROOT; docs/gazebo.md"
+        )
+    return None
+
+
+def free_port(kind: socket.SocketKind) -> int:
+    """A port of this machine that nobody has."""
+    with socket.socket(socket.AF_INET, kind) as s:
+        s.bind(("127.0.0.1", 0))
+        return int(s.getsockname()[1])
+
+
+class Server:
+    """A gzserver.
+
+    Args:
+        world: the text of its world.
+
+    Attributes:
+        master: address of Gazebo's own transport, for `gz` and `gzclient`; `GAZEBO_MASTER_URI` if that is set.
+
+    Raises:
+        InputError: there is no Gazebo.
+    """
+
+    def __init__(self, world: str) -> None:
+        inside = root()
+        self.master = os.environ.get(MASTER) or f"http://127.0.0.1:{free_port(socket.SOCK_STREAM)}"
+        self._folder = Path(tempfile.mkdtemp(prefix="tandemlift-", dir=None if inside is None else inside / "tmp"))
+        (self._folder / "vehicle.world").write_text(world, "utf-8")
+        with (self._folder / "log").open("wb") as log:
+            self._process = subprocess.Popen(
+                command(inside, self._script(inside)),
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,  # Ctrl-C is ours
+            )
+
+    def _script(self, inside: Path | None) -> str:
+        folder = self._folder if inside is None else Path("/tmp") / self._folder.name
+        return in_gazebo(self.master, f"exec gzserver --verbose {shlex.quote(str(folder / 'vehicle.world'))}", folder)
+
+    def check(self) -> None:
+        """See that it still runs, and has the plugin.
+
+        Raises:
+            InputError: the plugin is not built, or cannot begin.
+            ConnectionError: the server has ended.
+        """
+        if self._process.poll() is not None:
+            code = self._process.returncode
+            raise ConnectionError(f"engine 'gazebo': gzserver has ended (exit code {code}){self.said()}")
+        for line in self._lines():
+            if any(failing in line for failing in FAILING):
+                raise InputError(f"engine 'gazebo' needs its plugin (docs/gazebo.md), and gzserver says: {line}")
+
+    def _lines(self) -> list[str]:
+        text = COLORS.sub("", (self._folder / "log").read_text("utf-8", "replace"))
+        return [line for line in text.strip().splitlines() if line and not line.startswith(SOUND)]
+
+    def said(self) -> str:
+        """The last lines that the server said, with a word before; empty if there are none."""
+        lines = self._lines()[-SHOWN:]
+        return "; it said:\n  " + "\n  ".join(lines) if lines else ""
+
+    def close(self) -> None:
+        """End it at once: there is nothing that it would have to save."""
+        if self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+
+def in_gazebo(master: str, script: str, logs: Path = Path("/tmp")) -> str:
+    """A shell script run with Gazebo's environment, on loopback alone, and with no model database to look for."""
+    # the setup first: it sets a database and a master of its own
+    return (
+        f"[ ! -e {SETUP} ] || . {SETUP}; export {MASTER}={shlex.quote(master)} GAZEBO_MODEL_DATABASE_URI= "
+        f"GAZEBO_IP=127.0.0.1 GAZEBO_LOG_PATH={shlex.quote(str(logs))}; {script}"
+    )
+
+
+def command(inside: Path | None, script: str) -> list[str]:
+    """The command that runs a shell script where Gazebo is."""
+    if inside is None:
+        return ["sh", "-c", script]
+    own = [] if os.geteuid() == 0 else ["--map-root-user"]
+    return ["unshare", *own, "--mount", "sh", "-c", ENTER, "sh", str(inside), script]

@@ -1,0 +1,227 @@
+"""The pilot's end of the wire to Gazebo, beside a plugin that stands in for the real one."""
+
+import gc
+import os
+import signal
+import subprocess
+import sys
+import threading
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.engines.gazebo import GazeboBody, rotors_of, start_of, world_of
+from tandemlift.engines.gazebo_server import free_port
+from tandemlift.engines.gazebo_wire import Wire
+
+from .plugin import BadNetwork, Plugin, RigidBody
+
+DT = 1e-3
+MISSION = {
+    "mission.duration": 0.4,
+    "mission.log_interval": DT,
+    "initial.euler": [0.1, -0.1, 0.3],
+    "initial.rates": [0.2, 0.1, -0.3],
+    "pushes": [{"force": [2.0, 1.0, -1.0], "time": 0.2, "sigma": 0.1, "point": [0.1, 0.9, 0.0]}],
+    "disturbance.force": [0.3, -0.2, 0.1],
+    "disturbance.moment": [0.02, 0.01, -0.03],
+    "wind.model": "air",
+    "wind.velocity": [3.0, -2.0, 0.5],
+}
+
+
+@pytest.fixture(scope="module")
+def mission():
+    return tl.load_mission("one-push", MISSION)
+
+
+@pytest.fixture(scope="module")
+def vehicle(mission):
+    return tl.Vehicle.from_settings(mission.vehicle)
+
+
+@pytest.fixture
+def joined(monkeypatch):
+    """Flies a mission in the plugin that stands in."""
+
+    def fly(mission, plugin):
+        monkeypatch.setenv("TANDEMLIFT_GAZEBO_PORT", str(plugin.port))
+        return tl.fly(mission, engine="gazebo")
+
+    return fly
+
+
+@pytest.fixture
+def wire_at():
+    """A pilot's end to a port, which is hung up after the test."""
+    wires = []
+
+    def dial(port, count=2, patience=2.0):
+        wires.append(Wire(port, count, patience))
+        return wires[-1]
+
+    yield dial
+    for wire in wires:
+        wire.close()
+
+
+@pytest.fixture
+def wire_to(wire_at):
+    """A pilot's end to a plugin that it has greeted."""
+
+    def dial(plugin, patience=2.0):
+        wire = wire_at(plugin.port, plugin.body.N, patience)
+        wire.hello(DT, rotors_of(plugin.body.vehicle), start_of(tl.load_mission("hover")))
+        return wire
+
+    return dial
+
+
+def fly_by(wire, steps):
+    """A flight of that many steps, with other thrusts at each; the states."""
+    states = []
+    for k in range(steps):
+        wire.thrusts[:] = 4.3 + 0.3 * np.sin(0.7 * k + np.arange(wire.thrusts.size))
+        states.append(wire.advance().state.copy())
+    return np.array(states)
+
+
+def test_a_mission_flies_over_the_wire_as_in_the_compiled_engine(mission, vehicle, joined):
+    with Plugin(RigidBody(vehicle), DT) as plugin:
+        a, b = tl.fly(mission), joined(mission, plugin)
+        assert plugin.taken == list(range(1, mission.mission.steps + 2))
+    assert b.version["engine"] == "gazebo"
+    assert np.abs(a["rates"]).max() > 0.3
+    assert np.ptp(a["joint_force"], axis=0).max() > 1.0
+    for name, tolerance in (("position", 1e-7), ("attitude", 1e-6), ("rates", 1e-4), ("velocity", 1e-5)):
+        np.testing.assert_allclose(b[name], a[name], rtol=0.0, atol=tolerance, err_msg=name)
+    for name in ("joint_force", "joint_torque"):  # the push's mean over a step beside its start
+        np.testing.assert_allclose(b[name], a[name], rtol=0.0, atol=0.02, err_msg=name)
+
+
+def test_what_is_lost_doubled_late_or_spoiled_on_the_way_changes_no_bit(vehicle, wire_to):
+    with Plugin(RigidBody(vehicle), DT) as plugin:
+        sound = fly_by(wire_to(plugin), 150)
+    network = BadNetwork(3)
+    with Plugin(RigidBody(vehicle), DT, network=network) as plugin:
+        bad = fly_by(wire_to(plugin, 10.0), 150)
+        assert plugin.taken == list(range(1, 151))
+    assert network.counts.min() > 10
+    assert np.array_equal(bad, sound)
+
+
+def test_a_pilot_that_comes_back_takes_the_vehicle_over_where_it_is(vehicle, wire_to, wire_at):
+    with Plugin(RigidBody(vehicle), DT) as plugin:
+        last = fly_by(wire_to(plugin), 20)[-1]  # and it goes without a word
+        again = wire_at(plugin.port)
+        np.testing.assert_array_equal(again.hello(DT, rotors_of(vehicle)).state, last)
+        fly_by(again, 5)
+        assert len(plugin.taken) == 25
+
+
+def test_a_pilot_whose_place_was_taken_is_told(vehicle, wire_to):
+    with Plugin(RigidBody(vehicle), DT) as plugin:
+        first = wire_to(plugin)
+        fly_by(first, 3)
+        wire_to(plugin)
+        with pytest.raises(ConnectionError, match=r"refuses step 4: the session is over: .* another one has said hello"):
+            first.advance()
+
+
+def test_a_server_that_dies_in_flight_ends_it_with_a_clear_error(vehicle, wire_to):
+    with Plugin(RigidBody(vehicle), DT) as plugin:
+        wire = wire_to(plugin, 0.3)
+        fly_by(wire, 3)
+    with pytest.raises(TimeoutError, match=rf"UDP port {plugin.port} did not answer within 0\.3 s \(STEP 4\)"):
+        wire.advance()
+
+
+def test_a_server_that_hears_and_says_nothing_is_given_up(vehicle, wire_to):
+    with Plugin(RigidBody(vehicle), DT, network=lambda message: []) as plugin:
+        with pytest.raises(TimeoutError, match=r"did not answer within 0\.3 s \(HELLO 0\)"):
+            wire_to(plugin, 0.3)
+
+
+def test_a_server_that_comes_late_is_waited_for(vehicle, wire_at):
+    port, late = free_port(2), []
+    timer = threading.Timer(0.2, lambda: late.append(Plugin(RigidBody(vehicle), DT, port=port)))
+    timer.start()
+    wire = wire_at(port)
+    wire.hello(DT, rotors_of(vehicle))
+    assert len(fly_by(wire, 3)) == 3
+    late[0].close()
+
+
+def test_an_older_plugin_is_refused_with_both_versions(vehicle, wire_to):
+    with Plugin(RigidBody(vehicle), DT, version=7) as plugin:
+        with pytest.raises(tl.InputError, match=r"speaks version 7 of the protocol, this is version 1: build the plugin"):
+            wire_to(plugin)
+
+
+def test_a_vehicle_with_other_quadrotors_is_refused(vehicle, wire_at):
+    with Plugin(RigidBody(vehicle), DT) as plugin:
+        wire = wire_at(plugin.port, 3)
+        with pytest.raises(tl.InputError, match=r"in Gazebo has 2 quadrotors, the mission's has 3"):
+            wire.hello(DT, np.zeros((3, 12)))
+
+
+@pytest.mark.parametrize(("what", "changes"), [("step", {"dt": 2e-3}), ("mass", {"dt": DT, "mass": 3.0})])
+def test_a_world_of_another_step_or_mass_is_refused(what, changes, mission, vehicle, joined):
+    with Plugin(RigidBody(vehicle), **changes) as plugin:
+        with pytest.raises(tl.InputError, match=rf"the world in Gazebo has a {what} of .* export the mission again"):
+            joined(mission, plugin)
+
+
+def test_a_body_that_is_no_longer_used_says_goodbye(mission, vehicle, monkeypatch, wire_to):
+    with Plugin(RigidBody(vehicle), DT) as plugin:
+        monkeypatch.setenv("TANDEMLIFT_GAZEBO_PORT", str(plugin.port))
+        body = GazeboBody(mission, vehicle)
+        del body
+        gc.collect()
+        again = wire_to(plugin)  # heard after the goodbye
+        again.advance()
+        assert plugin.heard[:2] == [1, 5]
+
+
+def test_a_pilot_killed_in_flight_leaves_a_plugin_that_flies_the_next(vehicle, wire_to):
+    code = (
+        "import sys; sys.path[:0] = sys.argv[2:]\n"
+        "import numpy as np\nfrom tandemlift.engines.gazebo_wire import Wire\n"
+        "wire = Wire(int(sys.argv[1]), 2)\nwire.hello(1e-3, np.zeros((3, 8)))\n"
+        "while True: wire.advance(); print(flush=True)"
+    )
+    with Plugin(RigidBody(vehicle), DT) as plugin:
+        pilot = subprocess.Popen([sys.executable, "-c", code, str(plugin.port), *sys.path], stdout=subprocess.PIPE)
+        for _ in range(10):
+            pilot.stdout.readline()
+        os.kill(pilot.pid, signal.SIGKILL)
+        pilot.communicate()
+        flown = len(plugin.taken)
+        assert flown >= 10
+        fly_by(wire_to(plugin), 4)
+        assert plugin.taken[flown:] == [1, 2, 3, 4]
+
+
+def test_without_gazebo_the_error_says_how_to_get_it(mission, monkeypatch, tmp_path):
+    for name in ("TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_ROOT"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(tl.InputError, match=r"^engine 'gazebo' needs Gazebo 11: install it, or make a Debian 11 root"):
+        tl.fly(mission, engine="gazebo")
+    monkeypatch.setenv("TANDEMLIFT_GAZEBO_ROOT", str(tmp_path))
+    with pytest.raises(tl.InputError, match=r"has no /usr/bin/gzserver; make it with: tools/gazebo-root"):
+        tl.fly(mission, engine="gazebo")
+
+
+def test_a_port_that_is_none_is_refused(mission, monkeypatch):
+    monkeypatch.setenv("TANDEMLIFT_GAZEBO_PORT", "gazebo")
+    with pytest.raises(tl.InputError, match=r"TANDEMLIFT_GAZEBO_PORT = gazebo: must be a UDP port, 1 to 65535"):
+        tl.fly(mission, engine="gazebo")
+
+
+def test_the_world_of_a_flight_waits_for_its_pilot_and_ends_with_it(mission):
+    plugin = ElementTree.fromstring(world_of(mission, 12345).encode()).find("world/model/plugin")
+    told = {setting.tag: setting.text for setting in plugin}
+    assert told == {"port": "12345", "wait": "true", "patience": "0", "stay": "false"}

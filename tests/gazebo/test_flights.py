@@ -1,0 +1,122 @@
+"""Whole flights in Gazebo beside the compiled engine: the same pilot, bodies that share no equation."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.engines import gazebo
+
+pytestmark = pytest.mark.gazebo
+DT = 1e-3
+HALF_MINUTE = {"mission.duration": 30.0, "mission.log_interval": DT}
+WINDY = {
+    "wind.model": "air",
+    "wind.velocity": [3.0, -2.0, 0.3],
+    "wind.turbulence": 1.0,
+    "disturbance.moment": [0.05, 0.02, 0.01],
+    "plant.mass_scale": 1.1,
+}
+OFF_CENTRE = {"pushes": [{"force": [1.0, 0.5, 0.0], "time": 4.0, "sigma": 0.5, "point": [0.0, 0.8, 0.0]}]}
+
+
+def both(name, changes):
+    mission = tl.load_mission(name, HALF_MINUTE | changes)
+    return tl.fly(mission), tl.fly(mission, engine="gazebo")
+
+
+def apart(a, b, name, part=slice(None)):
+    return np.abs(a[name][part] - b[name][part]).max()
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [("one-push", {}), ("paper", {}), ("one-push", WINDY), ("one-push", OFF_CENTRE)],
+    ids=["one push", "paper", "another vehicle in the wind", "a push off the centre"],
+)
+def test_half_a_minute_without_contact_is_the_same_in_both(name, changes):
+    a, b = both(name, changes)
+    assert a.divergence is None
+    assert b.divergence is None
+    settled = a.time > 0.1
+    assert apart(a, b, "position") < 1e-5  # m
+    assert apart(a, b, "attitude") < 1e-4
+    assert apart(a, b, "joint_force", settled) < 0.05  # N
+    assert apart(a, b, "joint_torque", settled) < 0.05  # N m
+    assert b.version["engine"] == "gazebo"
+
+
+def test_a_vehicle_stands_takes_off_and_flies_on_its_sensors_as_in_the_compiled_engine():
+    a, b = both("iris", {"mission.duration": 20.0})
+    standing = a.time < 1.9
+    assert apart(a, b, "position", standing) < 1e-6  # m
+    assert apart(a, b, "contact_force", standing) < 1e-3  # N
+    left = [f.time[np.flatnonzero(f["contact_force"][:, 2] == 0.0)[0]] for f in (a, b)]
+    assert left[0] > 2.0
+    assert abs(left[0] - left[1]) < 0.01  # s
+    assert apart(a, b, "position") < 1e-3  # m
+    assert apart(a, b, "push_estimate") < 0.01  # N
+
+
+def test_a_landing_ends_at_the_same_height():
+    a, b = both("iris", {"mission.duration": 90.0, "mission.log_interval": 0.01})
+    assert a.divergence is None
+    assert b.divergence is None
+    assert abs(a["contact_force"][-1, 2] - b["contact_force"][-1, 2]) < 0.5  # N
+    assert np.abs(a["position"][-1] - b["position"][-1]).max() < 0.01  # m
+
+
+def test_the_same_flight_twice_is_the_same_to_the_last_bit():
+    mission = tl.load_mission("iris", {"mission.duration": 6.0})
+    a, b = (tl.fly(mission, engine="gazebo") for _ in range(2))
+    assert all(np.array_equal(a[name], b[name], equal_nan=True) for name in a)
+
+
+def test_a_flight_that_is_lost_is_told_of_as_in_the_compiled_engine():
+    weak = {
+        "controller.gains.lambda_1": 0.0,
+        "controller.gains.lambda_2": 0.0,
+        "controller.gains.xi": [4.0, 2.0, 11.0, 0.1, 0.1, 0.1],
+    }
+    mission = tl.load_mission("paper", weak)
+    a, b = tl.fly(mission), tl.fly(mission, engine="gazebo")
+    assert b.divergence.quantity == a.divergence.quantity
+    assert b.divergence.time == pytest.approx(a.divergence.time, abs=0.02)
+
+
+def runs(server):
+    """Whether a process is a gzserver that has not ended."""
+    try:
+        return os.readlink(f"/proc/{server}/exe").rpartition("/")[2].startswith("gzserver")
+    except FileNotFoundError:
+        return False
+
+
+def test_a_flight_that_is_killed_takes_its_server_with_it():
+    code = (
+        "import numpy as np, tandemlift as tl\nfrom tandemlift.engines.gazebo import GazeboBody\n"
+        "m = tl.load_mission('hover')\nbody = GazeboBody(m, tl.Vehicle.from_settings(m.vehicle))\n"
+        "print(body.server._process.pid, flush=True)\n"
+        "while True: body.advance(np.full(8, 4.0), np.zeros(0), np.zeros(3), np.zeros(3))"
+    )
+    pilot = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    server = int(pilot.stdout.readline())
+    assert runs(server)
+    os.kill(pilot.pid, signal.SIGKILL)
+    pilot.communicate()
+    ends = time.monotonic() + 20.0
+    while runs(server) and time.monotonic() < ends:
+        time.sleep(0.1)
+    assert not runs(server)
+
+
+def test_a_server_without_the_plugin_is_told_of(monkeypatch):
+    plain = gazebo.world_of
+    monkeypatch.setattr(gazebo, "world_of", lambda *given: plain(*given).replace("libtandemlift_", "libtandemlift_not_"))
+    with pytest.raises(tl.InputError, match=r"needs its plugin .* Failed to load plugin libtandemlift_not_gazebo\.so"):
+        tl.fly(tl.load_mission("hover", {"mission.duration": 1.0}), engine="gazebo")
