@@ -1,7 +1,8 @@
-"""How fast Gazebo flies, in lock-step and in real time: `python benchmarks/gazebo.py`; needs Gazebo (docs/gazebo.md)."""
+"""How fast Gazebo flies, in lock-step and real time: `python benchmarks/gazebo.py`; needs Gazebo (docs/gazebo.md)."""
 
 from __future__ import annotations
 
+import itertools
 import os
 import time
 
@@ -36,7 +37,7 @@ def real_time(seconds: float = 10.0) -> tuple[float, float]:
         stepper.step(k)
         times.append(time.perf_counter())
     times = times[round(1.0 / p.dt) :]
-    longest = max(b - a for a, b in zip(times, times[1:], strict=False))
+    longest = max(b - a for a, b in itertools.pairwise(times))
     del os.environ[REAL_TIME]
     return (len(times) - 1) / (times[-1] - times[0]), longest
 

@@ -126,7 +126,9 @@ def test_a_pilot_whose_place_was_taken_is_told(vehicle, wire_to):
         first = wire_to(plugin)
         fly_by(first, 3)
         wire_to(plugin)
-        with pytest.raises(ConnectionError, match=r"refuses step 4: the session is over: .* another one has said hello"):
+        with pytest.raises(
+            ConnectionError, match=r"refuses step 4: the session is over: .* another one has said hello"
+        ):
             first.advance()
 
 
@@ -139,9 +141,11 @@ def test_a_server_that_dies_in_flight_ends_it_with_a_clear_error(vehicle, wire_t
 
 
 def test_a_server_that_hears_and_says_nothing_is_given_up(vehicle, wire_to):
-    with Plugin(RigidBody(vehicle), DT, network=lambda message: []) as plugin:
-        with pytest.raises(TimeoutError, match=r"did not answer within 0\.3 s \(HELLO 0\)"):
-            wire_to(plugin, 0.3)
+    with (
+        Plugin(RigidBody(vehicle), DT, network=lambda message: []) as plugin,
+        pytest.raises(TimeoutError, match=r"did not answer within 0\.3 s \(HELLO 0\)"),
+    ):
+        wire_to(plugin, 0.3)
 
 
 def test_a_server_that_comes_late_is_waited_for(vehicle, wire_at):
@@ -155,9 +159,11 @@ def test_a_server_that_comes_late_is_waited_for(vehicle, wire_at):
 
 
 def test_an_older_plugin_is_refused_with_both_versions(vehicle, wire_to):
-    with Plugin(RigidBody(vehicle), DT, version=7) as plugin:
-        with pytest.raises(tl.InputError, match=r"speaks version 7 of the protocol, this is version 1: build the plugin"):
-            wire_to(plugin)
+    with (
+        Plugin(RigidBody(vehicle), DT, version=7) as plugin,
+        pytest.raises(tl.InputError, match=r"speaks version 7 of the protocol, this is version 1: build the plugin"),
+    ):
+        wire_to(plugin)
 
 
 def test_a_vehicle_with_other_quadrotors_is_refused(vehicle, wire_at):
@@ -169,9 +175,11 @@ def test_a_vehicle_with_other_quadrotors_is_refused(vehicle, wire_at):
 
 @pytest.mark.parametrize(("what", "changes"), [("step", {"dt": 2e-3}), ("mass", {"dt": DT, "mass": 3.0})])
 def test_a_world_of_another_step_or_mass_is_refused(what, changes, mission, vehicle, joined):
-    with Plugin(RigidBody(vehicle), **changes) as plugin:
-        with pytest.raises(tl.InputError, match=rf"the world in Gazebo has a {what} of .* export the mission again"):
-            joined(mission, plugin)
+    with (
+        Plugin(RigidBody(vehicle), **changes) as plugin,
+        pytest.raises(tl.InputError, match=rf"the world in Gazebo has a {what} of .* export the mission again"),
+    ):
+        joined(mission, plugin)
 
 
 def test_a_body_that_is_no_longer_used_says_goodbye(mission, vehicle, monkeypatch, wire_to):

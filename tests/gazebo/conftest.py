@@ -23,7 +23,11 @@ class Gazebo:
         self.dt = self.mission.mission.step
         self.port = free_port(socket.SOCK_DGRAM)
         world = world_of(self.mission, self.port)
-        for own, other in (("wait>true", "wait>false"), ("stay>false", "stay>true"), ("patience>0", f"patience>{PATIENCE}")):
+        for own, other in (
+            ("wait>true", "wait>false"),
+            ("stay>false", "stay>true"),
+            ("patience>0", f"patience>{PATIENCE}"),
+        ):
             assert own in world
             world = world.replace(own, other)
         self.server = Server(world)

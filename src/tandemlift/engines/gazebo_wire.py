@@ -8,6 +8,7 @@ So a packet that is lost, doubled or late moves nothing, or once.
 
 from __future__ import annotations
 
+import contextlib
 import secrets
 import socket
 import struct
@@ -154,10 +155,8 @@ class Wire:
 
     def close(self) -> None:
         """Say goodbye, and hang up."""
-        try:
+        with contextlib.suppress(OSError):  # it is gone already
             self._socket.send(self._head(Kind.BYE))
-        except OSError:
-            pass  # it is gone already
         self._socket.close()
 
     def _head(self, kind: Kind) -> bytes:
