@@ -14,7 +14,6 @@ import json
 import math
 import os
 import re
-import signal
 import subprocess
 import sys
 import tempfile
@@ -91,7 +90,7 @@ def started(out: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
     try:
         yield process, next(f for line in process.stdout if (f := re.search(r"http://\S+", line)))[0]
     finally:
-        process.send_signal(signal.SIGINT)
+        process.terminate()  # a process in the background is deaf to Ctrl-C
         process.wait()
 
 

@@ -42,6 +42,7 @@ class RecordedFlight:
         engine: name of the body's engine.
 
     Attributes:
+        layout: of a sample.
         now: the mission as it has become.
         step: steps flown.
 
@@ -56,6 +57,7 @@ class RecordedFlight:
         body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.module else None
         self.start, self.now, self.engine, self.step = mission, mission, engine, 0
         self._p, self._early, self._wall = p, EMPTY, 0.0
+        self.layout = p.sample
         self._stepper = Stepper(p, body)
         self._stepper.compile()
         self._log = np.zeros((p.steps // p.every + 1, leaves(p.sample)))
@@ -72,11 +74,6 @@ class RecordedFlight:
     def sample(self) -> Array:
         """The last sample (columns,), laid out as a row of the log."""
         return self._stepper.row
-
-    @property
-    def layout(self) -> Any:
-        """The layout of a sample."""
-        return self._p.sample
 
     @property
     def over(self) -> bool:
