@@ -63,7 +63,6 @@ def test_a_vehicle_stands_takes_off_and_flies_on_its_sensors_as_in_the_compiled_
     assert apart(a, b, "push_estimate") < 0.01  # N
 
 
-@pytest.mark.xfail(strict=True, reason="ODE's exact solver gives NaN for a vehicle that stands again (docs/gazebo.md)")
 def test_a_landing_ends_at_the_same_height():
     a, b = both("iris", {"mission.duration": 90.0, "mission.log_interval": 0.01})
     assert a.divergence is None
