@@ -53,7 +53,7 @@ class RigidBody:
         a, alpha = rates(self.turn, self.w)
         felt = self._felt(a, alpha, lifts, couples, on_quadrotors)
 
-        def motion(_, s):  # attitude as a turn from the step's start, in body axes: small, so w to first order
+        def motion(_, s):  # attitude as a turn from the step's start, in body axes; it is small
             turned, w = s[6:9], s[9:]
             linear, angular = rates(self.turn * Rotation.from_rotvec(turned), w)
             return [*s[3:6], *linear, *(w + 0.5 * np.cross(turned, w)), *angular]

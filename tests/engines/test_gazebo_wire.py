@@ -126,9 +126,7 @@ def test_a_pilot_whose_place_was_taken_is_told(vehicle, wire_to):
         first = wire_to(plugin)
         fly_by(first, 3)
         wire_to(plugin)
-        with pytest.raises(
-            ConnectionError, match=r"refuses step 4: the session is over: .* another one has said hello"
-        ):
+        with pytest.raises(ConnectionError, match=r"refuses step 4: the session is over: .* another one has said"):
             first.advance()
 
 
@@ -161,7 +159,7 @@ def test_a_server_that_comes_late_is_waited_for(vehicle, wire_at):
 def test_an_older_plugin_is_refused_with_both_versions(vehicle, wire_to):
     with (
         Plugin(RigidBody(vehicle), DT, version=7) as plugin,
-        pytest.raises(tl.InputError, match=r"speaks version 7 of the protocol, this is version 1: build the plugin"),
+        pytest.raises(tl.InputError, match=r"speaks version 7 of the protocol, this is version 1: build"),
     ):
         wire_to(plugin)
 

@@ -23,13 +23,9 @@ class Gazebo:
         self.dt = self.mission.mission.step
         self.port = free_port(socket.SOCK_DGRAM)
         world = world_of(self.mission, self.port)
-        for own, other in (
-            ("wait>true", "wait>false"),
-            ("stay>false", "stay>true"),
-            ("patience>0", f"patience>{PATIENCE}"),
-        ):
-            assert own in world
-            world = world.replace(own, other)
+        for name, own, other in (("wait", "true", "false"), ("stay", "false", "true"), ("patience", "0", PATIENCE)):
+            assert f"<{name}>{own}<" in world
+            world = world.replace(f"<{name}>{own}<", f"<{name}>{other}<")
         self.server = Server(world)
         self.wires = []
 

@@ -63,7 +63,6 @@ def test_a_vehicle_stands_takes_off_and_flies_on_its_sensors_as_in_the_compiled_
     assert apart(a, b, "push_estimate") < 0.01  # N
 
 
-@pytest.mark.xfail(strict=True, reason="ODE's exact solver gives NaN for a vehicle that stands again (docs/gazebo.md)")
 def test_a_landing_ends_at_the_same_height():
     a, b = both("iris", {"mission.duration": 90.0, "mission.log_interval": 0.01})
     assert a.divergence is None
@@ -118,8 +117,7 @@ def test_a_flight_that_is_killed_takes_its_server_with_it():
 
 def test_a_server_without_the_plugin_is_told_of(monkeypatch):
     plain = gazebo.world_of
-    monkeypatch.setattr(
-        gazebo, "world_of", lambda *given: plain(*given).replace("libtandemlift_", "libtandemlift_not_")
-    )
+    other = ("libtandemlift_", "libtandemlift_not_")
+    monkeypatch.setattr(gazebo, "world_of", lambda *given: plain(*given).replace(*other))
     with pytest.raises(tl.InputError, match=r"needs its plugin .* Failed to load plugin libtandemlift_not_gazebo\.so"):
         tl.fly(tl.load_mission("hover", {"mission.duration": 1.0}), engine="gazebo")

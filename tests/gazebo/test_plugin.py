@@ -45,7 +45,7 @@ def fly(wire, steps, amplitude=0.3):
 
 
 def pushed(gazebo, wire, text, steps=600):
-    """A flight of at least so many steps from when Gazebo's own tool has said this; while it does, the pilot flies."""
+    """A flight of at least that many steps after Gazebo's own tool has said this, and of those meanwhile."""
     script = ["topic", "-p", PUSH, "-m", f'data: "{text}"']
     told = []
     with ThreadPoolExecutor(1) as pool:

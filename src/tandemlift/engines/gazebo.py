@@ -1,4 +1,4 @@
-"""The body in Gazebo 11: the model that `tandemlift export` writes, moved by ODE, a step of the world for one of ours.
+"""The body in Gazebo 11: the model that `tandemlift export` writes, moved by ODE, a step for each of ours.
 
 The plugin in the model (`gazebo/`) is led over UDP (`gazebo_wire`). Gazebo's step is semi-implicit Euler. Thrusts turn
 with the quadrotors from step to step, pushes and loads are held in world axes, drag is that of the step's start.
@@ -48,8 +48,8 @@ class GazeboBody:
         walls: a `laws.walls.Walls` that says how the mission's walls press, or `Nothing`.
 
     Attributes:
-        pushed: (6,) force [N, world axes] and moment about the centre of mass [N·m, body axes] of who pushed by
-            Gazebo's topic over the last step.
+        pushed: (6,) force [N, world axes] and moment about the centre of mass [N·m, body axes] of pushes by Gazebo's
+            topic over the last step.
         server: the server that was started; None if one was joined.
 
     Raises:
@@ -169,6 +169,6 @@ def _check(told: Told, mission: Mission, vehicle: Vehicle) -> None:
     for what, given, wanted, unit in (("step", step, mission.mission.step, "s"), ("mass", mass, true_mass, "kg")):
         if abs(given - wanted) > CLOSE * wanted:
             raise InputError(
-                f"engine 'gazebo': the world in Gazebo has a {what} of {given:g} {unit}, the mission {wanted:g} {unit};"
-                " export the mission again and start Gazebo with it"
+                f"engine 'gazebo': the world in Gazebo has a {what} of {given:g} {unit}, the mission {wanted:g} "
+                f"{unit}; export the mission again and start Gazebo with it"
             )

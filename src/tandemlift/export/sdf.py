@@ -38,6 +38,7 @@ Element = ElementTree.Element
 PLUGIN = "libtandemlift_gazebo.so"
 FLOOR_BIT, WALL_BIT = 1, 2  # of collide_bitmask: what has none in common does not touch
 HARD = 1e15  # N/m, of floor and walls: the vehicle's own stiffness is next to nothing beside it
+CREEP = 1e-7  # (m/s)/N, of what holds by friction: without it ODE's exact solver fails on more feet than are needed
 CORRECTED = 0.8  # share of a joint's gap that is closed in a step: what holds quadrotors on a curve lags the less
 FASTEST = 100.0  # m/s, at which contacts may push apart; Gazebo's own 0.01 m/s would cut their springs
 THIN, SHOWN = 1e-4, 0.02  # m, thickness of a wall that touches, and of one to look at
@@ -166,7 +167,7 @@ def _touching(link: Element, shape: Shape, surface: dict[str, Any]) -> None:
 def _surface(bit: int, friction: float, stiffness: float = HARD, damping: float = 0.0) -> dict[str, Any]:
     """Of what touches with these [N/m, N·s/m], and only what shares the bit."""
     spring = {"kp": stiffness, "kd": damping, "max_vel": FASTEST, "min_depth": 0.0}
-    slip = {"mu": friction, "mu2": friction}
+    slip = {"mu": friction, "mu2": friction, "slip1": CREEP, "slip2": CREEP}
     return {"contact": {"collide_bitmask": bit, "ode": spring}, "friction": {"ode": slip}}
 
 
