@@ -65,7 +65,7 @@ def bounds_of(control: Control, first: Mission) -> tuple[float, float]:
     """The bounds of a control, which hold what the mission says."""
     value = value_of(tables_of(first), control.key)
     own = [] if value is MISSING else value if isinstance(value, list) else [value]
-    return min(control.low, *own, control.high), max(control.high, *own)
+    return min([control.low, *own]), max([control.high, *own])
 
 
 def _may_be_changed(mission: Mission, key: str) -> bool:

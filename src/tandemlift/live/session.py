@@ -76,7 +76,7 @@ class Session:
     def _begin(self, mission: Mission) -> None:
         flight = RecordedFlight(mission, self._engine)
         with self._lock:
-            self._flight, self._grip = flight, Grip()
+            self._flight, self._grip, self._failed = flight, Grip(), False
             self._fields = fields_of(Vehicle.from_settings(mission.vehicle).rotor_count)
             self._scene = scene_of(mission, self._engine)
             self._phases = tables_of(mission)["phases"]
@@ -110,23 +110,22 @@ class Session:
     def _run(self) -> None:
         switching = sys.getswitchinterval()
         sys.setswitchinterval(SWITCHING)
-        try:
-            while not self._stopping.is_set():
-                with self._lock:
-                    steps = self._fly(min(self._pace.due(), BATCH))
-                time.sleep(NAP if steps < BATCH else BREATH)
-        except Exception:
-            self._failed = True
-            log.exception("the flight ended by an error")
-        finally:
-            sys.setswitchinterval(switching)
+        while not self._stopping.is_set():
+            with self._lock:
+                steps = self._fly(min(self._pace.due(), BATCH))
+            time.sleep(NAP if steps < BATCH else BREATH)
+        sys.setswitchinterval(switching)
 
     def _fly(self, steps: int) -> int:
         """Fly some steps, as far as the flight goes; how many."""
         before = self._flight.step
-        while self._flight.step < before + steps and not self._flight.over:
-            self._forget_wishes()
-            self._flight.advance()
+        try:
+            while self._flight.step < before + steps and not self._flight.over and not self._failed:
+                self._forget_wishes()
+                self._flight.advance()
+        except Exception:
+            self._failed = True  # until a reset
+            log.exception("the flight ended by an error")
         flown = self._flight.step - before
         self._pace.flew(flown)
         return flown
@@ -174,8 +173,6 @@ class Session:
             InputError: it cannot be done; the text says why.
         """
         with self._lock:
-            if isinstance(message, (messages.Grab, messages.Force)) and any(getattr(message, "force", (1.0,))):
-                self._check_tare()
             if isinstance(message, (messages.Grab, messages.Move, messages.Release, messages.Force)):
                 self._grip.seq = seq
         return self._heed(message)
@@ -211,6 +208,7 @@ class Session:
     @_heed.register
     def _grab(self, m: messages.Grab) -> None:
         with self._lock:
+            self._check_tare()
             point, attitude = Vec3(*m.point), Quat(*map(float, self._values()["attitude"][0]))
             arm = apply(rotation_from_quaternion(attitude), point)
             centre = m.at == "centre"
@@ -232,6 +230,8 @@ class Session:
     def _push(self, m: messages.Force) -> None:
         with self._lock:
             force = Vec3(*m.force)
+            if any(force):
+                self._check_tare()
             grip = {"grip": Vec3(*m.point)} if any(force) and not self._flight.hand.held else {}
             self._move(force=force, **grip)
 
