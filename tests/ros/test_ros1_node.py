@@ -2,51 +2,25 @@
 
 import json
 import os
-import signal
 import socket
 import subprocess
-import sys
-import time
 import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
-from ros_trial import GUIDED
+from processes import ended, node, started
 
 import tandemlift as tl
 from tandemlift.flight import Flight
 
 HERE = Path(__file__).parent
-SETTINGS = [f"--set={key}={json.dumps(value)}" for key, value in GUIDED.items()]
 
 
 def free_port():
     with socket.socket() as one:
         one.bind(("127.0.0.1", 0))
         return one.getsockname()[1]
-
-
-def started(*command, log, **more):
-    with log.open("wb") as file:
-        return subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, **more)
-
-
-def ended(process, number=signal.SIGINT):
-    """Its exit status, once it has been asked to end."""
-    process.send_signal(number)
-    try:
-        return process.wait(30.0)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        raise
-
-
-def until(what, log, patience=120.0):
-    end = time.monotonic() + patience
-    while not what():
-        assert time.monotonic() < end, log.read_text("utf-8", "replace")
-        time.sleep(0.1)
 
 
 @pytest.fixture(scope="module")
@@ -66,18 +40,15 @@ def tried(surroundings, program):
     """What came of a node that was recorded, pushed and asked."""
     environment, folder = surroundings
     bag, saved, log = folder / "tried.bag", folder / "saved", folder / "node.log"
-    path = {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
-    command = [sys.executable, "-m", "tandemlift", "ros", "hover", *SETTINGS, "--save", str(saved)]
-    node = started(*command, log=log, env=environment | path)
+    flying = node(log, "--save", str(saved), environment=environment)
     python = Path(program("rosbag")).read_text("utf-8").splitlines()[0].removeprefix("#!").split()
     try:
-        until(lambda: b"topics below /tandemlift" in log.read_bytes() or node.poll() is not None, log)
         recorder = started(program("rosbag"), "record", "-a", "-O", str(bag), log=folder / "bag.log", env=environment)
         client = [*python, str(HERE / "ros1_client.py")]
         said = subprocess.run(client, capture_output=True, text=True, env=environment, timeout=150.0)
         ended(recorder)
     finally:
-        assert ended(node) == 0, log.read_text("utf-8")
+        assert ended(flying) == 0, log.read_text("utf-8")
     assert said.returncode == 0, said.stderr
     return json.loads(said.stdout.splitlines()[-1]), bag, saved, python
 

@@ -27,7 +27,7 @@ BAD_ENDS = ("lost", "failed")
 @click.option("--version", type=click.Choice(["1", "2"]), default="1", show_default=True, help="Of ROS.")
 @click.option("--rate", type=float, default=100.0, show_default=True, help="Of samples [Hz].")
 @click.option("--save", metavar="DIR", help="Where to save the flight at its end; it flies again from there.")
-@click.option("--rviz", is_flag=True, help="Start RViz beside it, which shows everything.")
+@click.option("--rviz", is_flag=True, help="Start ROS 1's RViz beside it, which shows everything.")
 @click.option("--folder", is_flag=True, help="Print the folder of the launch file and of RViz's file, and fly nothing.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of the mission, as in run.")
 def ros(
@@ -66,12 +66,14 @@ def ros(
     if folder:
         say(str(package()))
         return
+    if rviz and version != "1":
+        raise InputError("--rviz: its file is for ROS 1")
     mission, arguments = _words(words)
     engine_named(engine)
     loaded = _load(mission, settings)
     middleware = _middleware(version, arguments)
     session = _session(loaded, engine, save)
-    beside = start_rviz(version) if rviz else None
+    beside = start_rviz() if rviz else None
     try:
         end = _fly(session, middleware, rate, f"{mission} in ROS {version}")
     finally:

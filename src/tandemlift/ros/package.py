@@ -17,14 +17,13 @@ def folder() -> Path:
     return FOLDER
 
 
-def start_rviz(version: str) -> subprocess.Popen[bytes]:
-    """Start RViz of a ROS, with everything that there is to see.
+def start_rviz() -> subprocess.Popen[bytes]:
+    """Start RViz of ROS 1, with everything that there is to see.
 
     Raises:
         InputError: it is not installed.
     """
-    name = {"1": "rviz", "2": "rviz2"}[version]
-    program = shutil.which(name)
+    program = shutil.which("rviz")
     if program is None:
-        raise InputError(f"--rviz: {name} is not installed")
+        raise InputError("--rviz: rviz is not installed: on Debian apt-get install rviz")
     return subprocess.Popen([program, "-d", str(FOLDER / SHOWN)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -1,0 +1,182 @@
+"""The ROS front in real time: `python benchmarks/ros.py [--seconds 30] [--versions 12]`, which prints Markdown.
+
+Flies `zigzag` as `tandemlift ros` does, in ROS 1 beside a `rosmaster` of its own and in ROS 2 by DDS; listens to one
+topic, and to all of them; and tells how many samples a second arrive, how old they are then, and what the node takes of
+a processor. Needs Linux; for ROS 1 rospy, for ROS 2 the extra `ros2`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from machine import describe, heading, table
+
+TOPIC, KIND = "/tandemlift/odometry", "nav_msgs/Odometry"
+PATIENCE = 180.0  # s, for a flight to begin: it may have to be compiled
+SETTLE = 5.0  # s
+TICKS = os.sysconf("SC_CLK_TCK")
+NAMES = {"1": "ROS 1, rospy", "2": "ROS 2, DDS"}
+
+
+def processor_time(pid: int) -> float:
+    """What a process has taken of a processor until now [s]."""
+    fields = Path(f"/proc/{pid}/stat").read_text("ascii").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / TICKS
+
+
+@contextlib.contextmanager
+def running(*command: str, environment: Mapping[str, str], until: str = "") -> Iterator[subprocess.Popen[Any]]:
+    """A process, once it has said something."""
+    with tempfile.TemporaryFile() as log:
+        process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, env=environment)
+        try:
+            end = time.monotonic() + PATIENCE
+            while until.encode() not in os.pread(log.fileno(), 100_000, 0):
+                if process.poll() is not None or time.monotonic() > end:
+                    sys.exit(os.pread(log.fileno(), 100_000, 0).decode())
+                time.sleep(0.1)
+            yield process
+        finally:
+            process.send_signal(signal.SIGINT)
+            process.wait(30.0)
+
+
+class Listener:
+    """Notes when messages came, and how old they were."""
+
+    def __init__(self) -> None:
+        self.ages, self.others = list[float](), 0
+
+    def hear(self, message: Any) -> None:
+        """A message with a stamp."""
+        stamp = message.header.stamp
+        sec, nanosec = (stamp.secs, stamp.nsecs) if hasattr(stamp, "secs") else (stamp.sec, stamp.nanosec)
+        self.ages.append(time.time() - sec - nanosec * 1e-9)
+
+    def hear_other(self, message: Any) -> None:
+        """Any other."""
+        self.others += 1
+
+
+def listen(version: str, *, everything: bool) -> Listener:
+    """Listen to odometry, or to every topic."""
+    if version == "1":
+        from tandemlift.ros.ros1 import Ros1 as Ros
+    else:
+        from tandemlift.ros.ros2 import Ros2 as Ros
+    listener, middleware = Listener(), Ros(["__name:=listener"]) if version == "1" else Ros()
+    middleware.subscribe(TOPIC, KIND, listener.hear)
+    if everything:
+        for name, kind in topics().items():
+            middleware.subscribe(name, kind, listener.hear_other)
+    return listener
+
+
+def topics() -> dict[str, str]:
+    """Every topic that has a message for each sample, but odometry."""
+    from tandemlift.export.topics import recipes_of
+    from tandemlift.live.session import Session
+    from tandemlift.missions import load_mission
+    from tandemlift.ros.feed import Feed, as_flight
+    from tandemlift.vehicle import Vehicle
+
+    session, feed = Session(load_mission("zigzag")), Feed(1)
+    feed.note(session.flight)
+    taken = feed.take(0.0)
+    assert taken
+    flight = as_flight(taken, session.flight, {})
+    vehicle = Vehicle.from_settings(session.flight.now.vehicle)
+    session.stop()
+    return {r.name: r.kind for r in recipes_of(flight, vehicle) if r.name != TOPIC} | {"/tf": "tf2_msgs/TFMessage"}
+
+
+def listening(version: str, everything: bool, seconds: float) -> dict[str, float]:
+    """Listen in a process of its own: messages a second, and their ages [ms]."""
+    listener = listen(version, everything=everything)
+    time.sleep(SETTLE)
+    first, others, began = len(listener.ages), listener.others, time.monotonic()
+    time.sleep(seconds)
+    span, ages = time.monotonic() - began, 1e3 * np.array(listener.ages[first:])
+    return {
+        "rate": len(ages) / span,
+        "others": (listener.others - others) / span,
+        "median": float(np.median(ages)),
+        "most": float(np.quantile(ages, 0.99)),
+    }
+
+
+def measure(version: str, seconds: float, environment: Mapping[str, str]) -> Iterator[list[str]]:
+    """A row for each way to listen."""
+    node = [sys.executable, "-m", "tandemlift", "ros", "zigzag", "--version", version]
+    for everything in (False, True):
+        with running(*node, environment=environment, until="topics below") as flying:
+            command = [sys.executable, __file__, "--listen", version, "--seconds", str(seconds)]
+            before, began = processor_time(flying.pid), time.monotonic()
+            told = subprocess.run(
+                command + ["--all"] * everything, env=environment, stdout=subprocess.PIPE, check=True, text=True
+            ).stdout
+            share = (processor_time(flying.pid) - before) / (time.monotonic() - began)
+        t = json.loads(told.splitlines()[-1])
+        what = f"all topics, {t['rate'] + t['others']:.0f} messages/s" if everything else "odometry"
+        yield [
+            f"{NAMES[version]}: {what}",
+            f"{t['rate']:.1f}",
+            f"{t['median']:.1f}",
+            f"{t['most']:.1f}",
+            f"{100 * share:.0f} %",
+        ]
+
+
+@contextlib.contextmanager
+def surroundings(version: str) -> Iterator[Mapping[str, str]]:
+    """An environment with a master, or a domain, of its own."""
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        port = one.getsockname()[1]
+    if version == "2":
+        yield os.environ | {"ROS_DOMAIN_ID": str(100 + port % 100)}
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        own = {"ROS_MASTER_URI": f"http://127.0.0.1:{port}", "ROS_IP": "127.0.0.1", "ROS_HOME": folder}
+        bare = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+        with running("rosmaster", "--core", "-p", str(port), environment=bare | own):
+            time.sleep(2.0)
+            yield os.environ | own
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seconds", type=float, default=30.0)
+    parser.add_argument("--versions", default="12")
+    parser.add_argument("--listen", help=argparse.SUPPRESS)
+    parser.add_argument("--all", action="store_true", help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.listen:
+        print(json.dumps(listening(given.listen, given.all, given.seconds)))
+        sys.stdout.flush()
+        os._exit(0)
+    machine, rows = describe(["tandemlift", "cyclonedds", "numpy"]), list[list[str]]()
+    for version in given.versions:
+        with surroundings(version) as environment:
+            rows += measure(version, given.seconds, environment)
+    print(heading(machine))
+    print(f"\n`zigzag`, {given.seconds:g} s each.\n")
+    print(table(["listening to", "odometry/s", "age [ms], median", "99 %", "node, of one core"], rows))
+
+
+if __name__ == "__main__":
+    main()

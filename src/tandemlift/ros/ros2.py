@@ -1,0 +1,181 @@
+"""ROS 2, by the DDS that it speaks on the wire; nothing of ROS needs to be installed.
+
+Topics are called, typed and encoded (XCDR1) as ROS 2 does. Services and parameters of ROS 2 are conversations of
+several topics, with a header that each of its middlewares writes in its own way: here both are plain topics.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+import threading
+import time
+import tomllib
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+from tandemlift.errors import InputError
+from tandemlift.export.messages import Types
+from tandemlift.export.topics import ROOT
+from tandemlift.ros.dds_types import Classes, check_installed
+from tandemlift.ros.middleware import Answer, Channel
+
+REQUEST, ANSWER, TEXT = f"{ROOT}/request", f"{ROOT}/answer", "std_msgs/String"
+PARAMETER, PAIR = f"{ROOT}/parameter", "diagnostic_msgs/KeyValue"
+DEPTH = 10  # messages that may wait, as in ROS 2 unless told otherwise
+NAP = 0.1  # s, for which we listen before we look whether to go on
+AGAIN = 0.2  # s, after which we look again whether anybody listens
+DOMAINS = 232  # the greatest domain whose ports there are
+
+log = logging.getLogger(__name__)
+
+
+class Ros2:
+    """A participant of ROS 2's DDS; see `middleware.Middleware`.
+
+    Args:
+        domain: as ROS_DOMAIN_ID; None for what that says, or 0.
+
+    Raises:
+        InputError: a package is missing, or the domain is none.
+    """
+
+    answered = "ros2 topic pub"
+
+    def __init__(self, domain: int | None = None) -> None:
+        check_installed()
+        from cyclonedds.core import WaitSet
+        from cyclonedds.domain import DomainParticipant
+
+        self._participant = DomainParticipant(_domain() if domain is None else domain)
+        self.types, self.over = Types(Classes(), numbered=False), False
+        self._heed: list[tuple[Any, Callable[[Any], None]]] = []
+        self._services: dict[str, Callable[[], Answer]] = {}
+        self._set: dict[str, Any] = {}
+        self._some, self._worker = WaitSet(self._participant), ThreadPoolExecutor(1, "requests")
+        self._answer = self.advertise(ANSWER, TEXT, depth=DEPTH)
+        self.subscribe(REQUEST, TEXT, lambda message: self._worker.submit(self._serve, message.data.strip()))
+        self.subscribe(PARAMETER, PAIR, lambda message: self._set.update({message.key: _value(message.value)}))
+        self._listener = threading.Thread(target=self._listen, name="dds", daemon=True)
+        self._listener.start()
+
+    def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> Channel:
+        """A topic to publish on: reliable, ten or more may wait; of a latched one, who comes late gets the last."""
+        from cyclonedds.pub import DataWriter
+
+        qos = _qos(latched, 1 if latched else max(depth, DEPTH))
+        return _Writer(DataWriter(self._participant, self._topic(topic, kind), qos), latched)
+
+    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], None]) -> None:
+        """Let a function heed the messages of a topic."""
+        from cyclonedds.core import InstanceState, ReadCondition, SampleState, ViewState
+        from cyclonedds.sub import DataReader
+
+        reader = DataReader(self._participant, self._topic(topic, kind), _qos(False, DEPTH))
+        self._heed.append((reader, heed))
+        self._some.attach(ReadCondition(reader, SampleState.NotRead | ViewState.Any | InstanceState.Alive))
+
+    def serve(self, name: str, answer: Callable[[], Answer]) -> None:
+        """Answer the last word of a service's name, as it comes on the topic of requests."""
+        self._services[name.rpartition("/")[2]] = answer
+
+    def parameters(self) -> dict[str, Any]:
+        """What came on the topic of parameters since the last time."""
+        found, self._set = self._set, {}
+        return found
+
+    def keep(self, values: Mapping[str, Any]) -> None:
+        """Nothing: the latched mission tells how settings are."""
+
+    def shutdown(self) -> None:
+        """Leave the domain."""
+        self.over = True
+        self._listener.join()
+        self._worker.shutdown()
+        self._heed.clear()
+        del self._some, self._participant
+
+    def _topic(self, name: str, kind: str) -> Any:
+        from cyclonedds.topic import Topic
+
+        return Topic(self._participant, f"rt{name}", self.types[kind])
+
+    def _listen(self) -> None:
+        """Hand messages on as they come."""
+        from cyclonedds.internal import InvalidSample
+
+        while not self.over:
+            self._some.wait(round(NAP * 1e9))
+            for reader, heed in tuple(self._heed):
+                try:
+                    for message in reader.take(DEPTH):
+                        if not isinstance(message, InvalidSample):  # a notice that a writer has gone
+                            heed(message)
+                except Exception:  # of bytes that are no such message
+                    log.exception("a message could not be heeded")
+
+    def _serve(self, what: str) -> None:
+        """Do what is asked for, and say what came of it."""
+        answer = self._services.get(what)
+        done, words = answer() if answer else (False, f"unknown; there are {', '.join(self._services)}")
+        text = f"{what[:40]}: {'done' if done else 'refused'}: {words}"
+        self._answer.publish(self.types[TEXT](text))
+
+
+class _Writer:
+    """A topic of DDS."""
+
+    def __init__(self, writer: Any, latched: bool) -> None:
+        self._writer, self._latched = writer, latched
+        self._looked, self._wanted = 0.0, False
+
+    @property
+    def wanted(self) -> bool:
+        """Whether somebody listens, or may come late."""
+        now = time.monotonic()
+        if not self._latched and now - self._looked > AGAIN:
+            self._looked, self._wanted = now, bool(self._writer.get_matched_subscriptions())
+        return self._latched or self._wanted
+
+    def publish(self, message: Any) -> None:
+        """Send a message; to nobody if those who listen are too far behind."""
+        from cyclonedds.core import DDSException
+
+        try:
+            self._writer.write(message)
+        except DDSException as error:
+            if error.code != DDSException.DDS_RETCODE_TIMEOUT:
+                raise
+
+
+def _qos(latched: bool, depth: int) -> Any:
+    """As ROS 2 offers and asks; a writer never waits for readers."""
+    from cyclonedds.qos import Policy, Qos
+
+    return Qos(
+        Policy.Reliability.Reliable(0),
+        Policy.Durability.TransientLocal if latched else Policy.Durability.Volatile,
+        Policy.History.KeepLast(depth),
+        Policy.DataRepresentation(use_cdrv0_representation=True),
+    )
+
+
+def _domain() -> int:
+    """The domain that ROS_DOMAIN_ID names.
+
+    Raises:
+        InputError: it names none.
+    """
+    text = os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
+    if not text.isdecimal() or int(text) > DOMAINS:
+        raise InputError(f"ROS_DOMAIN_ID = {text[:40]}: must be a whole number from 0 to {DOMAINS}")
+    return int(text)
+
+
+def _value(text: str) -> Any:
+    """A value as TOML writes it, or a word."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except ValueError:
+        return text
