@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import logging
 import sys
 import threading
 import warnings
@@ -28,7 +29,9 @@ def import_rospy() -> ModuleType:
     _mend_threads()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of ROS's own age
-        return _import("rospy", [folder for folder in FOLDERS if (Path(folder) / "rospy").is_dir()])
+        rospy = _import("rospy", [folder for folder in FOLDERS if (Path(folder) / "rospy").is_dir()])
+        _mend_logging()
+    return rospy
 
 
 def message_type(name: str) -> type:
@@ -60,6 +63,13 @@ def _import(name: str, more: list[str]) -> ModuleType:
         f"ROS 1 needs the Python package {absent!r}, which is not to be found: on Debian apt-get install {debian}; "
         "elsewhere set PYTHONPATH to the folder that has it"
     )
+
+
+def _mend_logging() -> None:
+    """Let loggers look for who called them as Python does: the way of rospy 1.15.9 never ends in Python 3.11."""
+    loggers = getattr(_import("rosgraph.roslogging", []), "RospyLogger", None)
+    if loggers is not None:
+        loggers.findCaller = logging.Logger.findCaller
 
 
 def _mend_threads() -> None:

@@ -32,8 +32,6 @@ class Channel:
 
 
 class Middleware:
-    answered = "asked"
-
     def __init__(self):
         self.types = Types(message_class, numbered=False)
         self.channels, self.kinds, self.latched = defaultdict(Channel), {}, set()

@@ -152,7 +152,7 @@ def test_a_push_by_fast_dds_moves_the_beam(tried):
 
 def test_requests_are_answered_and_settings_are_heeded(tried):
     (lift,), (dance,), (land,) = seen(tried, "request")
-    assert lift.startswith("lift: refused: lift: not while the phase is ")
-    assert dance == "dance: refused: unknown; there are lift, land, stop, tare"
-    assert land == "land: done: land"
+    assert lift.startswith("refused: lift: not while the phase is ")
+    assert dance == "refused: unknown request 'dance'; there are lift, land, stop, tare."
+    assert land == "done: land"
     assert "mass = [4.0, 4.0, 4.0]" in " ".join(seen(tried, "mission")[0])

@@ -60,6 +60,7 @@ def ros(
       3   the vehicle was lost
     """
     from tandemlift.engines import engine_named
+    from tandemlift.ros.feed import every_of
     from tandemlift.ros.package import folder as package
     from tandemlift.ros.package import start_rviz
 
@@ -71,6 +72,7 @@ def ros(
     mission, arguments = _words(words)
     engine_named(engine)
     loaded = _load(mission, settings)
+    every_of(rate, loaded.mission.step)
     middleware = _middleware(version, arguments)
     session = _session(loaded, engine, save)
     beside = start_rviz() if rviz else None

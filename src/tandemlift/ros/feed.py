@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.errors import InputError
 from tandemlift.flight import Flight
 from tandemlift.flown import channels_of
 from tandemlift.live.recorded import RecordedFlight
@@ -54,3 +55,14 @@ def as_flight(taken: Taken, flight: RecordedFlight, tables: dict) -> Flight:
     """Samples as a flight, by which topics are made; `tables`: of its mission."""
     time = np.array(taken.steps) * flight.dt
     return Flight(time, dict(channels_of(flight.layout, taken.rows)), tables, {})
+
+
+def every_of(rate: float, dt: float) -> int:
+    """Steps from a sample to the next, at a rate [Hz].
+
+    Raises:
+        InputError: steps are not that often, or it is not positive.
+    """
+    if not 0.1 <= rate <= 1.0 / dt + 1e-6:
+        raise InputError(f"--rate {rate:g}: must be from 0.1 to {1.0 / dt:g} Hz, which is every step")
+    return max(1, round(1.0 / (rate * dt)))

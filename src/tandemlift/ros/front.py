@@ -7,13 +7,12 @@ import threading
 import time
 from functools import partial
 
-from tandemlift.errors import InputError
 from tandemlift.export.topics import ROOT, WRENCH
 from tandemlift.flight import Flight
 from tandemlift.live.session import Session
 from tandemlift.missions import tables_of
 from tandemlift.ros.clock import Clock
-from tandemlift.ros.feed import Feed, Taken, as_flight
+from tandemlift.ros.feed import Feed, Taken, as_flight, every_of
 from tandemlift.ros.middleware import Middleware
 from tandemlift.ros.parameters import Parameters
 from tandemlift.ros.pushes import Pushes
@@ -24,7 +23,7 @@ from tandemlift.vehicle import Vehicle
 
 PUSH = f"{ROOT}/push"
 RATE = 100.0  # Hz
-MARKERS, WAYS, STATUS, PARAMETERS = 0.05, 0.2, 1.0, 0.2  # s, from one to the next
+MARKERS, WAYS, STATUS, STILL, PARAMETERS = 0.05, 0.2, 1.0, 2.0, 0.2  # s, from one to the next
 PATIENCE = 0.1  # s, for a sample
 ENDS = ("over", "lost", "failed")  # phases in which nothing moves any more
 
@@ -54,7 +53,7 @@ class Front:
         self._parameters = Parameters(session, middleware, self.telling.tell)
         self._samples, self._shown = Samples(middleware, self._first(), vehicle), Shown(middleware, vehicle)
         self._once, self._vehicle = Once(middleware), vehicle
-        self._due = dict.fromkeys((MARKERS, WAYS, STATUS), 0.0)
+        self._due = dict.fromkeys((MARKERS, WAYS, STATUS, STILL), 0.0)
         self._told, self._stopping = 0, threading.Event()
         self._keeper = threading.Thread(target=self._keep_parameters, name="parameters", daemon=True)
 
@@ -114,6 +113,8 @@ class Front:
             self._shown.move(flight, stamps[-1])
         if self._is_due(WAYS):
             self._shown.go_on(flight, stamps[-1])
+        if self._is_due(STILL):
+            self._once.draw()
         if self._is_due(STATUS):
             self._report(stamps[-1])
 
@@ -149,14 +150,3 @@ class Front:
 
     def _tell_mission(self) -> None:
         self._once.tell_mission(tables_of(self._flight.now))
-
-
-def every_of(rate: float, dt: float) -> int:
-    """Steps from a sample to the next, at a rate [Hz].
-
-    Raises:
-        InputError: steps are not that often, or it is not positive.
-    """
-    if not 0.1 <= rate <= 1.0 / dt + 1e-6:
-        raise InputError(f"--rate {rate:g}: must be from 0.1 to {1.0 / dt:g} Hz, which is every step")
-    return max(1, round(1.0 / (rate * dt)))

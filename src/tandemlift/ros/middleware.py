@@ -26,11 +26,9 @@ class Middleware(Protocol):
 
     Attributes:
         types: the classes of its messages.
-        answered: how services are asked for there, for people.
     """
 
     types: Types
-    answered: str
 
     @property
     def over(self) -> bool:
@@ -46,7 +44,7 @@ class Middleware(Protocol):
             depth: how many may wait for somebody who is slow.
         """
 
-    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], None]) -> None:
+    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], object]) -> None:
         """Let a function heed every message of a topic, in a thread of the middleware's."""
 
     def serve(self, name: str, answer: Callable[[], Answer]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
@@ -24,8 +25,6 @@ class Ros1:
         InputError: there is no rospy, or no master.
     """
 
-    answered = "rosservice call"
-
     def __init__(self, arguments: Sequence[str] = ()) -> None:
         self._rospy = rospy = import_rospy()
         import rosgraph
@@ -35,6 +34,7 @@ class Ros1:
         rospy.init_node(NAME, argv=["tandemlift", *arguments], disable_signals=True)
         self.types = Types(self._class_of, numbered=True)
         self._kept: dict[str, Any] = {}
+        self._own: set[str] = set()  # parameters that nobody else has set
 
     def _class_of(self, name: str) -> type:
         return getattr(self._rospy, OLD[name]) if name in OLD else message_type(name)
@@ -49,7 +49,7 @@ class Ros1:
         make, of = self._rospy.Publisher, message_type(kind)
         return _Publisher(make(topic, of, queue_size=depth, latch=latched, tcp_nodelay=True), latched)
 
-    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], None]) -> None:
+    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], object]) -> None:
         """Let a function heed the messages of a topic; of several that wait, the last."""
         self._rospy.Subscriber(topic, message_type(kind), heed, queue_size=1, tcp_nodelay=True)
 
@@ -69,11 +69,17 @@ class Ros1:
         found = dict(_leaves(self._rospy.get_param("~", {})))
         for key, value in values.items():
             if found.get(key) != value:
-                self._rospy.set_param("~" + key.replace(".", "/"), value)
+                self._rospy.set_param(_private(key), value)
+        if not self._kept:
+            self._own = set(values) - set(found)
         self._kept = {**found, **values}
 
     def shutdown(self) -> None:
-        """Unregister from the master."""
+        """Unregister from the master, and take away what the next flight would take for its parameters."""
+        if not self.over:
+            for key in self._own:
+                with contextlib.suppress(KeyError):
+                    self._rospy.delete_param(_private(key))
         self._rospy.signal_shutdown("the flight has ended")
 
 
@@ -88,6 +94,11 @@ class _Publisher:
     def wanted(self) -> bool:
         """Whether somebody listens, or may come late."""
         return self._latched or self._publisher.get_num_connections() > 0
+
+
+def _private(key: str) -> str:
+    """A parameter's name in the node's namespace."""
+    return "~" + key.replace(".", "/")
 
 
 def _leaves(tree: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from tandemlift.errors import InputError
+from tandemlift.errors import InputError, unknown
 from tandemlift.export.messages import Types
 from tandemlift.export.topics import ROOT
 from tandemlift.ros.dds_types import Classes, check_installed
@@ -41,8 +41,6 @@ class Ros2:
         InputError: a package is missing, or the domain is none.
     """
 
-    answered = "ros2 topic pub"
-
     def __init__(self, domain: int | None = None) -> None:
         check_installed()
         from cyclonedds.core import WaitSet
@@ -50,7 +48,7 @@ class Ros2:
 
         self._participant = DomainParticipant(_domain() if domain is None else domain)
         self.types, self.over = Types(Classes(), numbered=False), False
-        self._heed: list[tuple[Any, Callable[[Any], None]]] = []
+        self._heed: list[tuple[Any, Callable[[Any], object]]] = []
         self._services: dict[str, Callable[[], Answer]] = {}
         self._set: dict[str, Any] = {}
         self._some, self._worker = WaitSet(self._participant), ThreadPoolExecutor(1, "requests")
@@ -67,7 +65,7 @@ class Ros2:
         qos = _qos(latched, 1 if latched else max(depth, DEPTH))
         return _Writer(DataWriter(self._participant, self._topic(topic, kind), qos), latched)
 
-    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], None]) -> None:
+    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], object]) -> None:
         """Let a function heed the messages of a topic."""
         from cyclonedds.core import InstanceState, ReadCondition, SampleState, ViewState
         from cyclonedds.sub import DataReader
@@ -118,9 +116,8 @@ class Ros2:
     def _serve(self, what: str) -> None:
         """Do what is asked for, and say what came of it."""
         answer = self._services.get(what)
-        done, words = answer() if answer else (False, f"unknown; there are {', '.join(self._services)}")
-        text = f"{what[:40]}: {'done' if done else 'refused'}: {words}"
-        self._answer.publish(self.types[TEXT](text))
+        done, words = answer() if answer else (False, str(unknown("request", what, self._services)))
+        self._answer.publish(self.types[TEXT](f"{'done' if done else 'refused'}: {words}"))
 
 
 class _Writer:

@@ -69,7 +69,7 @@ class Once:
     """
 
     def __init__(self, middleware: Middleware) -> None:
-        self._types = middleware.types
+        self._types, self._drawn = middleware.types, None
         self._mission = middleware.advertise(MISSION, TEXT, latched=True)
         self._static = middleware.advertise(TF_STATIC, TRANSFORMS, latched=True)
         self._still = middleware.advertise(STILL, MARKERS, latched=True)
@@ -81,7 +81,12 @@ class Once:
     def tell_vehicle(self, scene: Mapping[str, Any], vehicle: Vehicle, stamp: int) -> None:
         """Publish where the vehicle's parts are, and what it and its surroundings look like."""
         self._static.publish(Transforms(self._types).fixed(stamp, list(fixed(vehicle))))
-        self._still.publish(scenery.still(self._types, scene, vehicle))
+        self._drawn = scenery.still(self._types, scene, vehicle)
+        self.draw()
+
+    def draw(self) -> None:
+        """Publish what the vehicle and its surroundings look like; RViz drops what comes before its frame."""
+        self._still.publish(self._drawn)
 
 
 class Shown:

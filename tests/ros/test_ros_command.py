@@ -1,0 +1,137 @@
+"""`tandemlift ros` on the command line, its files for ROS's own tools, and where rospy is found."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from tandemlift.cli import cli
+from tandemlift.errors import InputError
+from tandemlift.ros.clock import LATE, Clock
+from tandemlift.ros.package import folder
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["papr"], "unknown mission 'papr'"),
+        (["zigzag", "iris"], "zigzag iris: one mission is flown at a time"),
+        (["hover", "--rate", "0"], "--rate 0: must be from 0.1 to 1000 Hz"),
+        (["hover", "--rate", "2000"], "--rate 2000: must be from 0.1 to 1000 Hz"),
+        (["hover", "--engine", "compild"], "unknown engine 'compild'"),
+        (["hover", "--version", "2", "--rviz"], "--rviz: its file is for ROS 1"),
+        (["hover", "--set", "admittance.mass"], "must be KEY=VALUE"),
+    ],
+)
+def test_bad_input_is_refused_before_anything_is_compiled(arguments, words):
+    result = CliRunner().invoke(cli, ["ros", *arguments])
+    assert isinstance(result.exception, InputError)
+    assert words in str(result.exception)
+
+
+def test_the_files_of_ros_s_tools_are_a_package_whose_node_can_be_run():
+    result = CliRunner().invoke(cli, ["ros", "--folder"])
+    assert Path(result.output.strip()) == folder()
+    assert ElementTree.parse(folder() / "package.xml").getroot().findtext("name") == "tandemlift"
+    launch = ElementTree.parse(folder() / "launch" / "tandemlift.launch").getroot()
+    own = launch.find("node")
+    assert (own.get("pkg"), own.get("type")) == ("tandemlift", "node")
+    assert os.access(folder() / "node", os.X_OK)
+
+
+def test_rviz_shows_topics_that_there_are(trial):
+    lines = (folder() / "tandemlift.rviz").read_text("utf-8").splitlines()
+    shown = {line.split()[-1] for line in lines if line.strip().startswith(("Topic:", "Marker Topic:"))}
+    assert shown
+    assert shown <= set(trial.middleware.kinds)
+
+
+# rospy
+
+
+def python(code, path, *folders):
+    """What a Python prints that looks for rospy in these folders."""
+    code = f"import tandemlift.noetic as noetic\nnoetic.FOLDERS = {tuple(map(str, folders))}\n{code}"
+    source = str(Path(__file__).parents[2] / "src")
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([source, *map(str, path)])}
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+
+
+LOGGING = """
+import logging
+
+class RospyLogger(logging.Logger):
+    def findCaller(self, *args, **kwargs):
+        raise RecursionError
+
+logging.setLoggerClass(RospyLogger)
+"""
+
+
+@pytest.fixture
+def somewhere(tmp_path):
+    """A folder with a rospy of the age of 1.15.9, and a module that must not hide another."""
+    (tmp_path / "rospy").mkdir()
+    (tmp_path / "rospy" / "__init__.py").write_text("import threading\nthreading.Thread.isAlive\n")
+    (tmp_path / "rosgraph").mkdir()
+    (tmp_path / "rosgraph" / "__init__.py").write_text("")
+    (tmp_path / "rosgraph" / "roslogging.py").write_text(LOGGING)
+    (tmp_path / "numpy.py").write_text("raise ImportError('this one is not meant')\n")
+    (tmp_path / "few_msgs").mkdir()
+    (tmp_path / "few_msgs" / "__init__.py").write_text("")
+    (tmp_path / "few_msgs" / "msg.py").write_text("class Word: pass\n")
+    return tmp_path
+
+
+def test_rospy_is_found_where_the_system_has_it_and_hides_nothing(somewhere):
+    done = python(
+        "print(noetic.import_rospy().__file__)\nimport sys, numpy\nprint(sys.path[-1])\n"
+        "print(noetic.message_type('few_msgs/Word'))\n"
+        "import logging; logging.getLogger('of rospy').warning('said')",
+        [],
+        somewhere,
+    )
+    file, last, kind = done.stdout.splitlines()
+    assert Path(file).parent == somewhere / "rospy"
+    assert last == str(somewhere)
+    assert kind == "<class 'few_msgs.msg.Word'>"
+    assert done.stderr == "said\n"
+
+
+def test_a_rospy_of_one_s_own_path_comes_first(somewhere, tmp_path_factory):
+    other = tmp_path_factory.mktemp("other")
+    (other / "rospy").mkdir()
+    (other / "rospy" / "__init__.py").write_text("")
+    done = python("print(noetic.import_rospy().__file__)", [other, somewhere], somewhere)
+    assert Path(done.stdout.strip()).parent == other / "rospy"
+
+
+def test_without_rospy_it_is_told_what_to_install(somewhere):
+    done = python("noetic.import_rospy()", [])
+    assert "ROS 1 needs the Python package 'rospy'" in done.stderr
+    assert "apt-get install python3-rospy" in done.stderr
+    done = python("noetic.import_rospy()\nnoetic.message_type('tf2_msgs/TFMessage')", [], somewhere)
+    assert "apt-get install python3-tf2-msgs" in done.stderr
+    done = python("noetic.import_rospy()\nnoetic.message_type('few_msgs/Sentence')", [], somewhere)
+    assert "few_msgs has no Sentence" in done.stderr
+
+
+# stamps
+
+
+def test_stamps_are_even_and_jump_only_when_the_flight_was_held_up(monkeypatch):
+    now = 1_000_000_000_000_000_000
+    monkeypatch.setattr("time.time_ns", lambda: now)
+    clock = Clock(0.001, 0)
+    before = [clock.stamp(k) for k in range(0, 100, 10)]
+    assert np.all(np.diff(before) == 10_000_000)
+    now += 100 * 1_000_000 + LATE // 2
+    assert clock.catch_up(100) == 0.0
+    now += LATE
+    assert clock.catch_up(100) == pytest.approx(1.5 * LATE * 1e-9)
+    assert clock.stamp(100) == now
