@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from exported import flight_of
 from processes import ended, node
 from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
@@ -15,7 +16,9 @@ from tandemlift.flight import Flight
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed")
 
-from tandemlift.export.messages import Types, modern
+from tandemlift.export.frames import vehicle_of
+from tandemlift.export.messages import Types, maker_of, modern
+from tandemlift.export.topics import topics_of
 from tandemlift.ros.dds_types import Classes
 from tandemlift.ros.ros2 import _domain, _value
 
@@ -68,6 +71,16 @@ def test_what_is_on_the_wire_is_what_another_reader_of_cdr_reads(types, kind):
     assert plain(store.deserialize_cdr(wire, modern(kind)), message) == plain(message, message)
     package, name = kind.split("/")
     assert type(message).__idl_typename__.replace(".", "::") == f"{package}::msg::dds_::{name}_"
+
+
+def test_every_topic_of_a_flight_can_be_put_on_the_wire(types):
+    flight, store = flight_of("iris"), get_typestore(Stores.ROS2_HUMBLE)
+    bag = Types(lambda name: store.types[modern(name)], numbered=False, numbers=np.array)
+    for topic in topics_of(flight, vehicle_of(flight)):
+        row = topic.rows[7].tolist()
+        message, other = (maker_of(one, topic)(5, row) for one in (types, bag))
+        wire = message.serialize(use_version_2=False)
+        assert bytes(wire) == bytes(store.serialize_cdr(other, modern(topic.kind))), topic.name
 
 
 def test_what_is_not_given_is_zero(types):

@@ -104,7 +104,7 @@ def _rosbags() -> ModuleType:
 
 def _types_of(store: Any, *, numbered: bool) -> Types:
     """The classes that `rosbags` has of the messages of one ROS."""
-    return Types(lambda name: store.types[modern(name)], numbered=numbered)
+    return Types(lambda name: store.types[modern(name)], numbered=numbered, numbers=np.array)
 
 
 def write_mcap(flight: Flight, path: Path) -> None:

@@ -9,8 +9,6 @@ import itertools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array
 from tandemlift.export.topics import IMU, ODOMETRY, POINT, POSE, ROTORS, VECTOR, WRENCH, Recipe, Topic
 
@@ -26,10 +24,13 @@ class Types:
     Args:
         class_of: the class of a type by that name, such as `geometry_msgs/Wrench`.
         numbered: whether a header begins with a number, as in ROS 1.
+        numbers: what makes of numbers what a field of several numbers takes.
     """
 
-    def __init__(self, class_of: Callable[[str], Any], *, numbered: bool) -> None:
-        self._class_of, self.numbered = class_of, numbered
+    def __init__(
+        self, class_of: Callable[[str], Any], *, numbered: bool, numbers: Callable[[Sequence[float]], Any] = list
+    ) -> None:
+        self._class_of, self.numbered, self.numbers = class_of, numbered, numbers
         self.Vector, self.Point = self["geometry_msgs/Vector3"], self["geometry_msgs/Point"]
         self._Quaternion = self["geometry_msgs/Quaternion"]
 
@@ -61,7 +62,7 @@ def modern(name: str) -> str:
 def _odometry(types: Types, topic: About) -> Maker:
     Odometry, Pose, Twist = types[ODOMETRY], types["geometry_msgs/Pose"], types["geometry_msgs/Twist"]
     Placed, Moving = types["geometry_msgs/PoseWithCovariance"], types["geometry_msgs/TwistWithCovariance"]
-    header, untold = types.headers(topic.frame), np.zeros(36)
+    header, untold = types.headers(topic.frame), types.numbers([0.0] * 36)
 
     def make(stamp: int, v: Sequence[float]) -> Any:
         pose = Pose(types.Point(*v[:3]), types.quaternion(v[3:7]))
@@ -92,14 +93,14 @@ def _wrench(types: Types, topic: About) -> Maker:
 
 
 def _rotors(types: Types, topic: About) -> Maker:
-    State, header, none = types[ROTORS], types.headers(topic.frame), np.zeros(0)
+    State, header, none = types[ROTORS], types.headers(topic.frame), types.numbers([])
     names = list(topic.labels)
-    return lambda stamp, v: State(header(stamp), names, none, none, np.array(v))
+    return lambda stamp, v: State(header(stamp), names, none, none, types.numbers(v))
 
 
 def _imu(types: Types, topic: About) -> Maker:
-    Imu, header, zero = types[IMU], types.headers(topic.frame), np.zeros(9)
-    unknown, unturned = np.array([-1.0, *zero[1:]]), types.quaternion((1.0, 0.0, 0.0, 0.0))
+    Imu, header, zero = types[IMU], types.headers(topic.frame), types.numbers([0.0] * 9)
+    unknown, unturned = types.numbers([-1.0, *zero[1:]]), types.quaternion((1.0, 0.0, 0.0, 0.0))
 
     def make(stamp: int, v: Sequence[float]) -> Any:
         return Imu(header(stamp), unturned, unknown, types.Vector(*v[:3]), zero, types.Vector(*v[3:]), zero)
