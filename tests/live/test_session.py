@@ -1,5 +1,6 @@
 """What a page says to a flight, and what becomes of it; the flight is moved by the tests, not by the clock."""
 
+import threading
 import time
 
 import numpy as np
@@ -10,6 +11,7 @@ from tandemlift.live import messages
 from tandemlift.live.by_hand import NEVER, by_hand, renewed
 from tandemlift.live.controls import BY_KEY, controls_of
 from tandemlift.live.frames import read_frames
+from tandemlift.live.knobs import Knobs
 from tandemlift.live.pace import MOST_BEHIND, Pace
 from tandemlift.live.session import Session
 from tandemlift.live.taring import check_in_time
@@ -216,6 +218,30 @@ def test_a_tare_wants_hover_and_no_hand_and_begins_in_time(session):
         say(session, "tare")
     with pytest.raises(tl.InputError, match="took too long"):
         check_in_time(session.flight, session.flight.step * session.flight.dt)
+
+
+class Flown:
+    """A flight whose mission tares, as far as knobs see it; making a change ready takes so many steps."""
+
+    def __init__(self, takes):
+        self.now, self.dt, self.step, self.takes = tl.load_mission("zigzag"), 0.001, 12_000, takes
+
+    def prepare(self, key, value):
+        self.step += self.takes
+        return changed(self.now, key, value)
+
+    def change(self, due, key, value):
+        self.now = due
+
+
+def test_a_tare_begins_a_second_after_it_was_asked_for_or_is_asked_for_again():
+    knobs, flight, slow = Knobs(by_hand(tl.load_mission("zigzag")), threading.RLock()), Flown(300), Flown(999)
+    assert knobs.tare(flight) == "from 13 s to 15 s"
+    assert flight.now.estimator.tare_start == 13.0
+    with pytest.raises(tl.InputError, match="took too long to make ready"):
+        knobs.tare(slow)
+    assert slow.now.estimator.tare_start == 5.0
+    knobs.close()
 
 
 def test_a_mission_that_is_guided_by_the_clock_says_that_it_asks_nobody(session):

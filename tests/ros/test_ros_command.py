@@ -1,6 +1,7 @@
 """`tandemlift ros` on the command line, its files for ROS's own tools, and where rospy is found."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -49,6 +50,18 @@ def test_rviz_shows_topics_that_there_are(trial):
     shown = {line.split()[-1] for line in lines if line.strip().startswith(("Topic:", "Marker Topic:"))}
     assert shown
     assert shown <= set(trial.middleware.kinds)
+
+
+def test_the_document_names_every_topic_request_and_parameter(trial):
+    text = (Path(__file__).parents[2] / "docs" / "ros.md").read_text("utf-8")
+    bags = (Path(__file__).parents[2] / "docs" / "export.md").read_text("utf-8")
+    for topic in trial.middleware.kinds:
+        name = re.sub(r"joint_\d", "joint_N", topic.removeprefix("/tandemlift/"))
+        assert f"`{topic}`" in text or f"`{name}`" in bags, topic
+    assert all(service in text for service in trial.middleware.services)
+    trial.front._parameters.turn()
+    for key in trial.middleware.kept:
+        assert f"`{key}`" in text or f"`….{key.rpartition('.')[2]}`" in text, key
 
 
 # rospy

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import sys
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -144,6 +145,10 @@ def _fly(session: Session, middleware: Middleware, rate: float, what: str) -> st
 
 
 def _save(session: Session, save: str | None) -> None:
+    from tandemlift.errors import FlightWarning
+
     if save:
-        session.flight.snapshot().save(Path(save))
+        with warnings.catch_warnings():  # of what may go badly with rotors that may fail
+            warnings.simplefilter("ignore", FlightWarning)
+            session.flight.snapshot().save(Path(save))
         say(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")

@@ -22,7 +22,7 @@ THICK = 0.02  # m, of the floor as drawn
 MARGIN = 4.0  # m, of the floor around all there is
 REFERENCE, OPACITY = "#2f6fb0", 0.45
 APART = 0.02  # m: a reference that is nearer to the vehicle is not shown
-PER_NEWTON, WIDTH, TEXT = 0.22, 0.035, 0.14  # m/N and m: of the arrow of a push, and of its words
+PER_NEWTON, WIDTH, TEXT = 0.22, 0.05, 0.2  # m/N and m: of the arrow of a push, and of its words
 ABOVE = np.array([0.0, 0.0, TEXT])  # m
 FAINTEST = 0.05  # N
 
