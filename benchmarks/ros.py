@@ -93,7 +93,7 @@ def topics() -> dict[str, str]:
     from tandemlift.ros.feed import Feed, as_flight
     from tandemlift.vehicle import Vehicle
 
-    session, feed = Session(load_mission("zigzag")), Feed(1)
+    session, feed = Session(load_mission("zigzag")), Feed(1, lambda step: 0)
     feed.note(session.flight)
     taken = feed.take(0.0)
     assert taken

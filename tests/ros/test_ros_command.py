@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -13,7 +14,8 @@ from click.testing import CliRunner
 
 from tandemlift.cli import cli
 from tandemlift.errors import InputError
-from tandemlift.ros.clock import LATE, Clock
+from tandemlift.live.pace import MOST_BEHIND
+from tandemlift.ros.clock import Clock
 from tandemlift.ros.package import folder
 
 
@@ -137,14 +139,15 @@ def test_without_rospy_it_is_told_what_to_install(somewhere):
 # stamps
 
 
-def test_stamps_are_even_and_jump_only_when_the_flight_was_held_up(monkeypatch):
-    now = 1_000_000_000_000_000_000
-    monkeypatch.setattr("time.time_ns", lambda: now)
-    clock = Clock(0.001, 0)
-    before = [clock.stamp(k) for k in range(0, 100, 10)]
+def test_stamps_are_even_and_the_time_of_day_also_after_a_delay_that_is_not_made_good(trial):
+    clock, pace = Clock(trial.session), trial.session.pace
+    now, step = time.time_ns(), trial.session.flight.step
+    before = [clock.stamp(k) for k in range(step, step + 1000, 10)]
     assert np.all(np.diff(before) == 10_000_000)
-    now += 100 * 1_000_000 + LATE // 2
-    assert clock.catch_up(100) == 0.0
-    now += LATE
-    assert clock.catch_up(100) == pytest.approx(1.5 * LATE * 1e-9)
-    assert clock.stamp(100) == now
+    assert abs(before[0] - now) < 1e9
+    pace.due()
+    late = clock.late
+    pace._then -= 3.0  # s, in which nothing was flown
+    pace.due()
+    assert clock.late - late == pytest.approx(3.0, abs=MOST_BEHIND + 0.05)
+    assert clock.stamp(step) - before[0] == pytest.approx(1e9 * clock.late, abs=1.0)

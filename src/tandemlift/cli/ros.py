@@ -63,7 +63,6 @@ def ros(
     from tandemlift.engines import engine_named
     from tandemlift.ros.feed import every_of
     from tandemlift.ros.package import folder as package
-    from tandemlift.ros.package import start_rviz
 
     if folder:
         say(str(package()))
@@ -75,13 +74,11 @@ def ros(
     loaded = _load(mission, settings)
     every_of(rate, loaded.mission.step)
     middleware = _middleware(version, arguments)
-    session = _session(loaded, engine, save)
-    beside = start_rviz() if rviz else None
     try:
-        end = _fly(session, middleware, rate, f"{mission} in ROS {version}")
+        session = _session(loaded, engine, save)
+        end = _fly(session, middleware, rate, f"{mission} in ROS {version}", rviz=rviz)
     finally:
-        if beside:
-            beside.terminate()
+        middleware.shutdown()
     _save(session, save)
     if end in BAD_ENDS:
         click.echo(f"{mission}: {end}", err=True)
@@ -124,10 +121,12 @@ def _session(mission: Mission, engine: str, save: str | None) -> Session:
     return Session(mission, engine, Path(save or ".").parent)
 
 
-def _fly(session: Session, middleware: Middleware, rate: float, what: str) -> str:
+def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
     """Fly until it ends; the phase that it ends in."""
     from tandemlift.ros.front import Front
+    from tandemlift.ros.package import start_rviz
 
+    beside = start_rviz() if rviz else None
     front = Front(session, middleware, rate)
     for number in (signal.SIGINT, signal.SIGTERM):  # from roslaunch too, which may have had them ignored
         signal.signal(number, signal.default_int_handler)
@@ -141,7 +140,8 @@ def _fly(session: Session, middleware: Middleware, rate: float, what: str) -> st
         return "stopped"
     finally:
         front.stop()
-        middleware.shutdown()
+        if beside:
+            beside.terminate()
 
 
 def _save(session: Session, save: str | None) -> None:

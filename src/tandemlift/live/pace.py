@@ -20,11 +20,12 @@ class Pace:
         paused: whether time stands still.
         behind: s of flight that are owed.
         most_behind: the most that were owed since this was last set to 0.
+        forgotten: s of flight that were owed and will never be flown.
     """
 
     def __init__(self, dt: float) -> None:
         self.dt, self.speed, self.paused, self.behind = dt, 1.0, False, 0.0
-        self.most_behind = 0.0
+        self.most_behind, self.forgotten = 0.0, 0.0
         self._then = time.perf_counter()
         self._flown: deque[tuple[float, int]] = deque()
 
@@ -35,7 +36,9 @@ class Pace:
         if self.paused:
             self.behind = 0.0
             return 0
-        self.behind = min(self.behind + passed * self.speed, MOST_BEHIND)
+        owed = self.behind + passed * self.speed
+        self.behind = min(owed, MOST_BEHIND)
+        self.forgotten += owed - self.behind
         self.most_behind = max(self.most_behind, self.behind)
         return int(self.behind / self.dt)
 

@@ -58,6 +58,7 @@ class Session:
 
     Attributes:
         watchers: told of every step, in the flight's thread.
+        pace: how the flight keeps up with the clock.
     """
 
     def __init__(self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live")) -> None:
@@ -65,7 +66,7 @@ class Session:
         self._lock, self._stopping = threading.RLock(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
         self._knobs, self._names, self._failed = Knobs(self._mission, self._lock), alarm_names(), False
-        self._pace = Pace(mission.mission.step)
+        self.pace = Pace(mission.mission.step)
         self.generation, self.watchers = 0, list[Callable[[RecordedFlight], None]]()
         self._begin(self._mission)
 
@@ -98,7 +99,7 @@ class Session:
 
     def start(self) -> None:
         """Begin to fly."""
-        self._pace = Pace(self._flight.dt)
+        self.pace = Pace(self._flight.dt)
         self._thread.start()
 
     def stop(self) -> None:
@@ -113,7 +114,7 @@ class Session:
         sys.setswitchinterval(SWITCHING)
         while not self._stopping.is_set():
             with self._lock:
-                steps = self._fly(min(self._pace.due(), BATCH))
+                steps = self._fly(min(self.pace.due(), BATCH))
             time.sleep(NAP if steps < BATCH else BREATH)
         sys.setswitchinterval(switching)
 
@@ -130,7 +131,7 @@ class Session:
             self._failed = True  # until a reset
             log.exception("the flight ended by an error")
         flown = self._flight.step - before
-        self._pace.flew(flown)
+        self.pace.flew(flown)
         return flown
 
     # what is shown
@@ -153,7 +154,7 @@ class Session:
     def status(self) -> dict[str, Any]:
         """Phase, alarm, pace and what was recorded, for people."""
         with self._lock:
-            flight, pace, values = self._flight, self._pace, self._values()
+            flight, pace, values = self._flight, self.pace, self._values()
             most, pace.most_behind = pace.most_behind, 0.0
             return {
                 "phase": self._phase(int(values["phase"][0])),
@@ -252,12 +253,12 @@ class Session:
     @_heed.register
     def _pause(self, m: messages.Pause) -> None:
         with self._lock:
-            self._pace.paused = m.on
+            self.pace.paused = m.on
 
     @_heed.register
     def _slow_down(self, m: messages.Speed) -> None:
         with self._lock:
-            self._pace.speed = m.factor
+            self.pace.speed = m.factor
 
     @_heed.register
     def _reset(self, m: messages.Reset) -> None:

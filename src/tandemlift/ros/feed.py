@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -18,9 +19,10 @@ MOST = 1000  # samples that may wait; more are forgotten, the oldest first
 
 
 class Taken(NamedTuple):
-    """Steps (T,) and, for each, its sample (T, n)."""
+    """Steps (T,) and, for each, its stamp [ns] and its sample (T, n)."""
 
     steps: list[int]
+    stamps: list[int]
     rows: Array
 
 
@@ -29,18 +31,19 @@ class Feed:
 
     Args:
         every: steps from one to the next.
+        stamp: the time of day of a step that is flown now [ns].
     """
 
-    def __init__(self, every: int) -> None:
-        self._every = every
-        self._waiting: deque[tuple[int, Array]] = deque(maxlen=MOST)
+    def __init__(self, every: int, stamp: Callable[[int], int]) -> None:
+        self._every, self._stamp = every, stamp
+        self._waiting: deque[tuple[int, int, Array]] = deque(maxlen=MOST)
         self._some = threading.Event()
 
     def note(self, flight: RecordedFlight) -> None:
         """Note the sample of the last step, if it is one of these."""
         step = flight.step - 1
         if step % self._every == 0:
-            self._waiting.append((step, flight.sample.copy()))
+            self._waiting.append((step, self._stamp(step), flight.sample.copy()))
             self._some.set()
 
     def take(self, patience: float) -> Taken | None:
@@ -48,7 +51,10 @@ class Feed:
         self._some.wait(patience)
         self._some.clear()
         taken = [self._waiting.popleft() for _ in range(len(self._waiting))]
-        return Taken([step for step, _ in taken], np.array([row for _, row in taken])) if taken else None
+        if not taken:
+            return None
+        steps, stamps, rows = zip(*taken, strict=True)
+        return Taken(list(steps), list(stamps), np.array(rows))
 
 
 def as_flight(taken: Taken, flight: RecordedFlight, tables: dict) -> Flight:

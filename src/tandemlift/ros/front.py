@@ -44,10 +44,11 @@ class Front:
 
     def __init__(self, session: Session, middleware: Middleware, rate: float = RATE) -> None:
         self._session, self._middleware = session, middleware
-        self._flight, self._every = session.flight, every_of(rate, session.flight.dt)
+        self._flight = session.flight
         vehicle = Vehicle.from_settings(self._flight.now.vehicle)
         self._tables = tables_of(self._flight.now)
-        self._clock, self._feed = Clock(self._flight.dt, self._flight.step), Feed(self._every)
+        self._clock = Clock(session)
+        self._feed = Feed(every_of(rate, self._flight.dt), lambda step: self._clock.stamp(step))
         self.telling = Telling(middleware.advertise(TOPIC, KIND, depth=100), middleware.types)
         self._pushes = Pushes(session, self.telling.tell)
         self._parameters = Parameters(session, middleware, self.telling.tell)
@@ -66,7 +67,6 @@ class Front:
     def start(self) -> None:
         """Set what parameters say, listen, and begin to fly."""
         self._parameters.turn()
-        self._feed.note(self._flight)
         self._session.watchers += [self._feed.note, self._pushes.watch]
         self._once.tell_vehicle(self._session.scene, self._vehicle, time.time_ns())
         self._tell_mission()
@@ -74,7 +74,8 @@ class Front:
         requests = Requests(self._session)
         for what in REQUESTS:
             self._middleware.serve(f"{ROOT}/{what}", partial(requests.answer, what))
-        self._clock = Clock(self._flight.dt, self._flight.step)
+        self._clock = Clock(self._session)
+        self._feed.note(self._flight)
         self._session.start()
         self._keeper.start()
 
@@ -101,10 +102,7 @@ class Front:
         return taken is not None
 
     def _publish(self, taken: Taken) -> None:
-        late = self._clock.catch_up(taken.steps[-1])
-        if late:
-            self.telling.tell(f"late: the flight was held up for {late:.2g} s; stamps go on from now")
-        stamps = [self._clock.stamp(step) for step in taken.steps]
+        stamps = taken.stamps
         flight = as_flight(taken, self._flight, self._tables)
         self._samples.publish(flight, stamps)
         self.telling.follow(flight, stamps)
@@ -134,6 +132,7 @@ class Front:
             "samples in the last second": f"{told}",
             "time of the flight over time of the wall": f"{status['factor']:.3f}",
             "behind the clock, at most [ms]": f"{status['behind_ms']:.1f}",
+            "late for good [s]": f"{self._clock.late:.3f}",
             "alarm": status["alarm"],
             "flown [s]": f"{status['recorded_s']:.1f}",
         }

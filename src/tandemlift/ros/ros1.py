@@ -33,6 +33,7 @@ class Ros1:
             raise InputError(f"no ROS master at {rosgraph.get_master_uri()}: start roscore, or set ROS_MASTER_URI")
         rospy.init_node(NAME, argv=["tandemlift", *arguments], disable_signals=True)
         self.types = Types(self._class_of, numbered=True)
+        self._seen: dict[str, Any] = {}
         self._kept: dict[str, Any] = {}
         self._own: set[str] = set()  # parameters that nobody else has set
 
@@ -61,18 +62,20 @@ class Ros1:
     def parameters(self) -> dict[str, Any]:
         """Of the node's private namespace, what is not as it was kept."""
         tree = self._rospy.get_param("~", {})
-        found = dict(_leaves(tree)) if isinstance(tree, dict) else {}
+        self._seen = found = dict(_leaves(tree)) if isinstance(tree, dict) else {}
         return {key: value for key, value in found.items() if key not in self._kept or self._kept[key] != value}
 
     def keep(self, values: Mapping[str, Any]) -> None:
-        """Write what has changed, or was set to something else, to the parameter server."""
-        found = dict(_leaves(self._rospy.get_param("~", {})))
+        """Write what has changed, or was set to something else, to the parameter server.
+
+        What is set since `parameters` looked is left, for it to see the next time.
+        """
         for key, value in values.items():
-            if found.get(key) != value:
+            if self._seen.get(key) != value:
                 self._rospy.set_param(_private(key), value)
         if not self._kept:
-            self._own = set(values) - set(found)
-        self._kept = {**found, **values}
+            self._own = set(values) - set(self._seen)
+        self._kept = {**self._seen, **values}
 
     def shutdown(self) -> None:
         """Unregister from the master, and take away what the next flight would take for its parameters."""
