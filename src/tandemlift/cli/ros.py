@@ -75,7 +75,7 @@ def ros(
     every_of(rate, loaded.mission.step)
     middleware = _middleware(version, arguments)
     try:
-        session = _session(loaded, engine, save)
+        session = _session(loaded, engine)
         end = _fly(session, middleware, rate, f"{mission} in ROS {version}", rviz=rviz)
     finally:
         middleware.shutdown()
@@ -110,7 +110,7 @@ def _middleware(version: str, arguments: list[str]) -> Middleware:
     return Ros2()
 
 
-def _session(mission: Mission, engine: str, save: str | None) -> Session:
+def _session(mission: Mission, engine: str) -> Session:
     """The flight, compiled; who waits for that is told."""
     from tandemlift.live.by_hand import by_hand
     from tandemlift.live.session import Session
@@ -118,7 +118,7 @@ def _session(mission: Mission, engine: str, save: str | None) -> Session:
 
     if needs_compiling(by_hand(mission)):
         click.echo("Compiling the flight loop for this machine (once, a minute or two) …", err=True)
-    return Session(mission, engine, Path(save or ".").parent)
+    return Session(mission, engine)
 
 
 def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import threading
 import time
 from functools import partial
@@ -26,8 +25,6 @@ RATE = 100.0  # Hz
 MARKERS, WAYS, STATUS, STILL, PARAMETERS = 0.05, 0.2, 1.0, 2.0, 0.2  # s, from one to the next
 PATIENCE = 0.1  # s, for a sample
 ENDS = ("over", "lost", "failed")  # phases in which nothing moves any more
-
-log = logging.getLogger(__name__)
 
 
 class Front:
@@ -145,7 +142,7 @@ class Front:
                 if self._parameters.turn():
                     self._tell_mission()
             except Exception as error:  # of a middleware that is not there for a while
-                log.debug("parameters: %r", error)
+                self.telling.tell(f"parameters: {error!r}"[:300])
 
     def _tell_mission(self) -> None:
         self._once.tell_mission(tables_of(self._flight.now))

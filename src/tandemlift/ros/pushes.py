@@ -7,6 +7,7 @@ whatever becomes of the middleware.
 from __future__ import annotations
 
 import math
+import threading
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,7 @@ class Pushes:
 
     def __init__(self, session: Session, tell: Tell) -> None:
         self._session, self._tell, self._until = session, tell, math.inf
+        self._turn = threading.Lock()  # of several who push; the flight's thread never takes it
         vehicle = Vehicle.from_settings(session.flight.now.vehicle)
         self._origins = {WORLD: np.zeros(3), ALIGNED: np.zeros(3), BASE: np.zeros(3), **dict(fixed(vehicle))}
         guards = np.array([q.guard_radius for q in vehicle.quadrotors])
@@ -42,13 +44,14 @@ class Pushes:
 
     def heed(self, message: Any) -> None:
         """Push as a `geometry_msgs/WrenchStamped` says, or tell why not; whatever was pushed before is over then."""
-        try:
-            force, point = self._read(message)
-            self._push(force, point)
-            self._until = self._session.flight.step + HELD / self._session.flight.dt if any(force) else math.inf
-        except InputError as error:
-            self.let_go()
-            self._tell(f"push refused: {error}")
+        with self._turn:
+            try:
+                force, point = self._read(message)
+                self._push(force, point)
+                self._until = self._session.flight.step + HELD / self._session.flight.dt if any(force) else math.inf
+            except InputError as error:
+                self.let_go()
+                self._tell(f"push refused: {error}")
 
     def watch(self, flight: RecordedFlight) -> None:
         """After every step: let go when nothing has been heard for too long."""
