@@ -7,6 +7,7 @@ import subprocess
 import tomllib
 from pathlib import Path
 from typing import NamedTuple
+from xmlrpc.client import ServerProxy
 
 import numpy as np
 import pytest
@@ -37,12 +38,13 @@ def surroundings(tmp_path_factory, program):
 
 
 class Tried(NamedTuple):
-    """What the client saw, what `rosbag` knows of the bag, the bag's odometry, and the folder that was saved."""
+    """What the client saw, what `rosbag` knows of the bag, its odometry, the folder saved, the parameters left."""
 
     told: dict
     info: str
     odometry: list
     saved: Path
+    left: list
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +69,9 @@ def tried(surroundings, program):
     lines = map(json.loads, output(*python, str(HERE.parent / "messages_as_numbers.py"), str(bag)).splitlines())
     odometry = [leaves for topic, _, _, leaves in lines if topic == "/tandemlift/odometry"]
     info = output(program("rosbag"), "info", "-y", str(bag))
-    return Tried(json.loads(told.splitlines()[-1]), info, odometry, saved)
+    with ServerProxy(environment["ROS_MASTER_URI"]) as master:
+        _, _, left = master.getParamNames("/test")
+    return Tried(json.loads(told.splitlines()[-1]), info, odometry, saved, left)
 
 
 def test_a_push_by_a_message_moves_the_beam_and_bad_ones_are_refused(tried):
@@ -85,6 +89,10 @@ def test_services_answer_and_parameters_are_heeded_or_set_back(tried):
     assert tried.told["phases"][-1] == "idle"
     assert tomllib.loads(tried.told["mission"])["admittance"]["mass"] == [4.0, 4.0, 4.0]
     assert any('parameter refused: admittance.threshold = "none"' in event for event in tried.told["events"])
+
+
+def test_the_next_node_finds_no_parameters_of_this_one(tried):
+    assert not [name for name in tried.left if name.startswith("/tandemlift")]
 
 
 def test_rosbag_knows_every_topic_and_type(tried):
