@@ -46,7 +46,7 @@ class Body(Protocol):
 
 
 class Engine(NamedTuple):
-    """An entry of the registry; `module` and `body` name the class that a flight's body is made of."""
+    """An entry of the registry; `module` and `body` name what a flight's body is made by."""
 
     name: str
     summary: str
@@ -77,6 +77,12 @@ ENGINES = {
             "Separate bodies on fixed joints in Gazebo 11 (ODE), led over UDP (docs/gazebo.md).",
             "tandemlift.engines.gazebo",
             "GazeboBody",
+        ),
+        Engine(
+            "gazebo-ros",
+            "The same, led over topics of ROS 1 (docs/gazebo.md#over-ros).",
+            "tandemlift.engines.gazebo_ros",
+            "over_ros",
         ),
     ]
 }

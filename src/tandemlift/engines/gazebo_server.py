@@ -6,20 +6,25 @@ word, the plugin ends the server.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import shlex
 import shutil
+import signal
 import socket
 import subprocess
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from tandemlift.errors import InputError
 
 ROOT = "TANDEMLIFT_GAZEBO_ROOT"
 MASTER = "GAZEBO_MASTER_URI"
 SETUP = "/usr/share/gazebo/setup.sh"
+NOTHING_MORE: Mapping[str, str] = MappingProxyType({})
 SHOWN = 12  # last lines of what the server said
 COLORS = re.compile("\x1b\\[[0-9;]*m")
 FAILING = ("Failed to load plugin libtandemlift", "the plugin rests")
@@ -63,6 +68,8 @@ class Server:
 
     Args:
         world: the text of its world.
+        environment: variables that it has beside Gazebo's own.
+        grace: seconds in which it may end by itself when it is closed.
 
     Attributes:
         master: address of Gazebo's own transport, for `gz` and `gzclient`; `GAZEBO_MASTER_URI` if that is set.
@@ -71,14 +78,14 @@ class Server:
         InputError: there is no Gazebo.
     """
 
-    def __init__(self, world: str) -> None:
-        inside = root()
+    def __init__(self, world: str, environment: Mapping[str, str] = NOTHING_MORE, grace: float = 0.0) -> None:
+        inside, self._grace = root(), grace
         self.master = os.environ.get(MASTER) or f"http://127.0.0.1:{free_port(socket.SOCK_STREAM)}"
         self._folder = Path(tempfile.mkdtemp(prefix="tandemlift-", dir=None if inside is None else inside / "tmp"))
         (self._folder / "vehicle.world").write_text(world, "utf-8")
         with (self._folder / "log").open("wb") as log:
             self._process = subprocess.Popen(
-                command(inside, self._script(inside)),
+                command(inside, exported(environment) + self._script(inside)),
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
@@ -113,7 +120,11 @@ class Server:
         return "; it said:\n  " + "\n  ".join(lines) if lines else ""
 
     def close(self) -> None:
-        """End it at once: there is nothing that it would have to save."""
+        """End it, at once without a grace: there is nothing that it would have to save."""
+        if self._grace > 0.0 and self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(self._grace)
         if self._process.poll() is None:
             self._process.kill()
             self._process.wait()
@@ -125,8 +136,13 @@ def in_gazebo(master: str, script: str, logs: Path = Path("/tmp")) -> str:
     # the setup first: it sets a database and a master of its own
     return (
         f"[ ! -e {SETUP} ] || . {SETUP}; export {MASTER}={shlex.quote(master)} GAZEBO_MODEL_DATABASE_URI= "
-        f"GAZEBO_IP=127.0.0.1 GAZEBO_LOG_PATH={shlex.quote(str(logs))}; {script}"
+        f"GAZEBO_IP=127.0.0.1 GAZEBO_LOG_PATH={(folder := shlex.quote(str(logs)))} ROS_LOG_DIR={folder}; {script}"
     )
+
+
+def exported(environment: Mapping[str, str]) -> str:
+    """The beginning of a shell script that has these variables."""
+    return "".join(f"export {name}={shlex.quote(value)}; " for name, value in environment.items())
 
 
 def command(inside: Path | None, script: str) -> list[str]:

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tandemlift.assembly.surroundings import floor_of, pads_of, pressing_of
 from tandemlift.constants import GRAVITY
+from tandemlift.engines.gazebo import rotors_of
 from tandemlift.export.links import Link, links_of
 from tandemlift.export.looks import ALONG_Y, LEVEL, Shape, payload_shapes, quadrotor_shapes
 from tandemlift.laws.contact import Floor
@@ -35,7 +36,7 @@ from tandemlift.vehicle import Vehicle
 Array = NDArray[np.float64]
 Element = ElementTree.Element
 
-PLUGIN = "libtandemlift_gazebo.so"
+PLUGIN, OVER_ROS = "libtandemlift_gazebo.so", "libtandemlift_gazebo_ros.so"
 FLOOR_BIT, WALL_BIT = 1, 2  # of collide_bitmask: what has none in common does not touch
 HARD = 1e15  # N/m, of floor and walls: the vehicle's own stiffness is next to nothing beside it
 CREEP = 1e-7  # (m/s)/N, of what holds by friction: without it ODE's exact solver fails on more feet than are needed
@@ -49,12 +50,13 @@ DIGITS = 6  # after the point, in m and rad, of what is only looked at
 FAR = 3.5  # reaches of the vehicle, from where the eye looks at it first
 
 
-def world(mission: Mission, plugin: int | None = None) -> str:
+def world(mission: Mission, plugin: int | str | None = None) -> str:
     """The text of a mission's world.
 
     Args:
         mission: its vehicle, start, floor, walls and step.
-        plugin: port of the plugin that carries rotor forces in and states out; without it, there is no plugin.
+        plugin: of the plugin that carries rotor forces in and states out, the UDP port, or "ros" for the one that is
+            led over ROS 1; without it, there is no plugin.
 
     Raises:
         InputError: its true vehicle cannot be a model (`links_of`).
@@ -214,7 +216,7 @@ def _wall(name: str, wall: WallTable, floor: float) -> Shape:
     return Shape(name, "box", (length, THIN, wall.top - foot), middle, axes, WALL, GLASS)
 
 
-def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int | None) -> None:
+def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int | str | None) -> None:
     """The model as the mission starts; it never goes to sleep."""
     model = _add(top, "model", name="tandemlift")
     R = np.array(rotation_from_quaternion(quaternion_from_euler(vec3(mission.initial.euler))))
@@ -232,7 +234,9 @@ def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int |
         joint = _add(model, "joint", name=f"joint_{i}", type="fixed")
         _pose(joint, np.subtract(q.joint_position, q.position))
         _fill(joint, {"parent": "payload", "child": f"quadrotor_{i}"})
-    if plugin is not None:
+    if plugin == "ros":
+        _fill(_add(model, "plugin", name="tandemlift", filename=OVER_ROS), {"rotors": rotors_of(vehicle)})
+    elif plugin is not None:
         _fill(_add(model, "plugin", name="tandemlift", filename=PLUGIN), {"port": plugin})
 
 
