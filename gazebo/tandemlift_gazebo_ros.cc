@@ -1,15 +1,16 @@
-// The body of a flight in Gazebo 11, led step by step over ROS 1: the node /tandemlift_gazebo.
+// The body of a flight in Gazebo 11: a plugin of the model `tandemlift`, led step by step over ROS 1.
 // The model: vehicle.hh. Modes, settings, and the numbers of a Command, Told and Rotors: body.hh. Pushes: push.hh.
 //
-// Setting of the <plugin>
-//   <rotors>   Rotors (12 N numbers)
+// Settings of the <plugin>
+//   <rotors>     Rotors (12 N numbers)
+//   <namespace>  of topics and parameters, and with _ for / the node's name; /tandemlift/gazebo
 //
 // Lock-step is by stamp. Every state has a stamp of its own: 1 s at first, and a step more after each step or placement.
 // A command says with its stamp which state it answers; one of any other stamp moves nothing. It is complete in itself:
 // there is no order between topics. The first node whose command is heard while nobody leads becomes the pilot; from
 // then on the world waits. While it waits, its state is told again every 0.1 s, with the same stamp.
 //
-// Topics, below /tandemlift/gazebo/; frames as in docs/export.md
+// Topics, below the namespace; frames as in docs/export.md
 //   state            out  sensor_msgs/MultiDOFJointState, latched. All there is, to the last bit, in joints named
 //                           base_link  transform and twist: State, linear velocity in world axes, rates in body axes
 //                           imu        wrench: specific force [N for each kg, body]
@@ -167,12 +168,15 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
         try {
             body_.Load(model, settings);
             ReadRotors(settings->Get<std::string>("rotors", "").first);
+            namespace_ = settings->Get<std::string>("namespace", "/tandemlift/gazebo").first;
         } catch (const std::runtime_error& error) {
             gzerr << "tandemlift: model " << model->GetName() << " has " << error.what() << "; the plugin rests\n";
             return;
         }
+        std::string name = namespace_.substr(namespace_.find_first_not_of('/'));
+        std::replace(name.begin(), name.end(), '/', '_');
         if (!ros::isInitialized())
-            ros::init(ros::M_string(), "tandemlift_gazebo", ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
+            ros::init(ros::M_string(), name, ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
         if (!ros::master::check()) {
             gzerr << "tandemlift: no ROS master at " << ros::master::getURI() << "; the plugin rests\n";
             return;
@@ -194,7 +198,7 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
     }
 
     void Open() {
-        node_.reset(new ros::NodeHandle("/tandemlift/gazebo"));
+        node_.reset(new ros::NodeHandle(namespace_));
         node_->setCallbackQueue(&queue_);  // which the physics thread serves, step by step
         const auto hints = ros::TransportHints().tcpNoDelay();
         state_topic_ = node_->advertise<MultiDOFJointState>("state", ROOM, true);
@@ -404,7 +408,7 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
     MultiDOFJointState state_;
     ros::Duration tick_;
     Clock::time_point published_;
-    std::string pilot_;
+    std::string namespace_, pilot_;
     std::set<std::string> refused_;
     Body body_;  // ends first: its events call the rest
 };

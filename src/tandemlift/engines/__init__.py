@@ -8,7 +8,7 @@ its start and its ground.
 from __future__ import annotations
 
 import importlib
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +43,14 @@ class Body(Protocol):
             force: of the person [N, world axes] (3,), the mean over the step.
             moment: of the person about the centre of mass [N m, body axes] (3,), at the start of the step.
         """
+
+
+@runtime_checkable
+class Waiting(Protocol):
+    """A body that waits for its pilot, and gives it up when it is silent."""
+
+    def rest(self) -> None:
+        """Take no step for now, and stay the pilot; to be called ten times a second."""
 
 
 class Engine(NamedTuple):

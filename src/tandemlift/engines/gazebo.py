@@ -153,7 +153,7 @@ class GazeboBody:
             self._contact.fill(0.0)
 
     def rest(self) -> None:
-        """Take no step for a moment, and stay the pilot; to be called again within half a second."""
+        """Take no step for now, and stay the pilot; see `engines.Waiting`."""
         now = time.monotonic()
         if self._begun and now - self._rested > RESTING:
             self._wire.keep()
@@ -165,9 +165,9 @@ class GazeboBody:
 
 
 def _close(wire: Line, server: Server | None) -> None:
-    wire.close()
     if server:
         server.close()
+    wire.close()
 
 
 def _find(mission: Mission) -> tuple[Server | None, int]:
@@ -181,13 +181,13 @@ def _find(mission: Mission) -> tuple[Server | None, int]:
     return None, int(given)
 
 
-def world_of(mission: Mission, plugin: int | str) -> str:
+def world_of(mission: Mission, plugin: int | str, **more: str) -> str:
     """The world of a mission for a flight of its own: it waits for its pilot, as long as it takes, and ends with it."""
     exported = importlib.import_module("tandemlift.export.sdf")  # by name, as exports stand above the engines
     top = ElementTree.fromstring(exported.world(mission, plugin).encode())
     settings = top.find(".//plugin[@name='tandemlift']")
     assert settings is not None
-    for name, text in (("wait", "true"), ("patience", "0"), ("stay", "false")):
+    for name, text in {"wait": "true", "patience": "0", "stay": "false", **more}.items():
         ElementTree.SubElement(settings, name).text = text
     return ElementTree.tostring(top, "unicode")
 

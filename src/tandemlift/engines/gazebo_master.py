@@ -17,6 +17,7 @@ import subprocess
 import tempfile
 import time
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -25,7 +26,8 @@ from tandemlift.errors import InputError
 from tandemlift.noetic import import_rospy
 
 JOIN = "TANDEMLIFT_GAZEBO_ROS"
-URI, IP, LOGS = "ROS_MASTER_URI", "ROS_IP", "ROS_LOG_DIR"
+URI, IP, HOST = "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME"
+LOGS, LOGGING = "ROS_LOG_DIR", "ROS_PYTHON_LOG_CONFIG_FILE"
 NODE = "tandemlift_pilot"
 STARTING = 30.0  # s, after which a master that does not answer is given up
 SCRIPT = "rosmaster --core -p {port} & read -r end; kill $!; wait"  # ends with the pipe that it reads
@@ -57,16 +59,35 @@ def node() -> ModuleType:
         _check_master()
     else:
         os.environ.update({URI: Master().uri, IP: "127.0.0.1"})
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), _quiet():
         warnings.simplefilter("ignore")
         rospy.init_node(NODE, anonymous=True, disable_signals=True, disable_rosout=True)
     atexit.register(rospy.signal_shutdown, "the process ends")
     return rospy
 
 
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Let a node begin without a log of its own, for which it would set the logging of the whole process."""
+    with tempfile.TemporaryDirectory() as folder:
+        config = Path(folder, "as_it_is.yaml")
+        config.write_text("version: 1\nincremental: true\n", "utf-8")
+        before = {name: os.environ.get(name) for name in (LOGS, LOGGING)}
+        os.environ.update({LOGS: folder, LOGGING: str(config)})
+        try:
+            yield
+        finally:
+            for name, value in before.items():
+                os.environ.pop(name)
+                if value is not None:
+                    os.environ[name] = value
+
+
 def environment() -> dict[str, str]:
-    """The variables by which another process finds the same master."""
-    return {name: os.environ[name] for name in (URI, IP) if name in os.environ}
+    """The variables by which another process finds the master of this node."""
+    import rosgraph
+
+    return {URI: rosgraph.get_master_uri()} | {name: os.environ[name] for name in (IP, HOST) if name in os.environ}
 
 
 def _check_master() -> None:

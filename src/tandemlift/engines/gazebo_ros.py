@@ -28,10 +28,13 @@ from tandemlift.vehicle import Vehicle
 Array = NDArray[np.float64]
 Stamp = tuple[int, int]  # s, ns
 ROOT = "/tandemlift/gazebo"
+PLACES = (ROOT, *(f"{ROOT}_{k}" for k in range(2, 100)))  # of servers of this process, one beside the other
 MOVED = "sensor_msgs/MultiDOFJointState"
 ENDING = 5.0  # s, in which a server ends by itself
 SILENCE = 0.2  # s, after which a command is said again
 WAITING = 0.02  # s, between words of who wants to be the pilot
+
+_taken: set[str] = set()
 
 
 def over_ros(mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> GazeboBody:
@@ -41,8 +44,12 @@ def over_ros(mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any =
 
 def _dial(mission: Mission, vehicle: Vehicle) -> tuple[Server | None, RosWire]:
     node()
-    server = None if joined() == "world" else Server(world_of(mission, "ros"), environment(), ENDING)
-    return server, RosWire(vehicle.count, STEPPING, server.check if server else None)
+    if joined() == "world":
+        return None, RosWire(vehicle.count, STEPPING)
+    place = next(place for place in PLACES if place not in _taken)
+    _taken.add(place)
+    server = Server(world_of(mission, "ros", namespace=place), environment(), ENDING)
+    return server, RosWire(vehicle.count, STEPPING, server.check, place)
 
 
 class RosWire:
@@ -52,10 +59,13 @@ class RosWire:
         count: N, the number of quadrotors.
         patience: seconds after which a silent plugin is given up.
         alive: called while nothing is heard; raises if the server has ended.
+        place: namespace of the plugin's topics.
     """
 
-    def __init__(self, count: int, patience: float = 5.0, alive: Callable[[], None] | None = None) -> None:
-        self._rospy, self._alive = node(), alive or (lambda: None)
+    def __init__(
+        self, count: int, patience: float = 5.0, alive: Callable[[], None] | None = None, place: str = ROOT
+    ) -> None:
+        self._rospy, self._alive, self._place = node(), alive or (lambda: None), place
         self.count, self.patience, self.told = count, patience, Told(count)
         self.thrusts, self.wrench, self.loads = np.zeros(4 * count), np.zeros(6), np.zeros(6 + 6 * count)
         self._name, self._over = self._rospy.get_name(), False
@@ -65,11 +75,11 @@ class RosWire:
         self._step, self._values = self._wrenches()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # that it is sent at once, and not by another thread
-            self._commands = self._rospy.Publisher(f"{ROOT}/command", message_type(MOVED), tcp_nodelay=True)
-            self._calls = self._rospy.Publisher(f"{ROOT}/lead", message_type("std_msgs/Empty"), tcp_nodelay=True)
+            self._commands = self._rospy.Publisher(f"{place}/command", message_type(MOVED), tcp_nodelay=True)
+            self._calls = self._rospy.Publisher(f"{place}/lead", message_type("std_msgs/Empty"), tcp_nodelay=True)
         self._listening = [
-            self._rospy.Subscriber(f"{ROOT}/state", message_type(MOVED), self._states.put, tcp_nodelay=True),
-            self._rospy.Subscriber(f"{ROOT}/pilot", message_type("std_msgs/Header"), self._hear_of_pilot),
+            self._rospy.Subscriber(f"{place}/state", message_type(MOVED), self._states.put, tcp_nodelay=True),
+            self._rospy.Subscriber(f"{place}/pilot", message_type("std_msgs/Header"), self._hear_of_pilot),
         ]
 
     def _wrenches(self) -> tuple[Any, Array]:
@@ -90,9 +100,9 @@ class RosWire:
             InputError: the world is of another vehicle.
             TimeoutError: nothing answers.
         """
-        self._rospy.set_param(f"{ROOT}/real_time", bool(real_time))
+        self._rospy.set_param(f"{self._place}/real_time", bool(real_time))
         standing = self._lead()
-        step, mass, count = (self._rospy.get_param(f"{ROOT}/{name}") for name in ("step", "mass", "quadrotors"))
+        step, mass, count = (self._rospy.get_param(f"{self._place}/{name}") for name in ("step", "mass", "quadrotors"))
         if count != self.count:
             raise InputError(
                 f"engine 'gazebo-ros': the vehicle in Gazebo has {count} quadrotors, the mission's has {self.count}"
@@ -123,7 +133,8 @@ class RosWire:
 
     def keep(self) -> None:
         """Say that the pilot lives, without a step: the last one again, which comes too late to move anything."""
-        self._commands.publish(self._step)
+        if not self._over:
+            self._commands.publish(self._step)
 
     def close(self) -> None:
         """Say goodbye, and hang up."""
@@ -131,6 +142,7 @@ class RosWire:
             self._commands.publish(message_type(MOVED)())
         for topic in (self._commands, self._calls, *self._listening):
             topic.unregister()
+        _taken.discard(self._place)
 
     def _placement(self, state: Array) -> Any:
         """The message that asks for a state (13,)."""
@@ -193,6 +205,6 @@ class RosWire:
 
     def _no_answer(self) -> str:
         return (
-            f"engine 'gazebo-ros': the plugin at {ROOT} did not answer within {self.patience:g} s; is the world "
+            f"engine 'gazebo-ros': the plugin at {self._place} did not answer within {self.patience:g} s; is the world "
             "paused, or Gazebo gone?"
         )

@@ -104,6 +104,10 @@ class RecordedFlight:
         self.step += 1
         self._wall += time.perf_counter() - began
 
+    def rest(self) -> None:
+        """Take no step for now; to be called again and again while it lasts."""
+        self._stepper.rest()
+
     def hold(self, hand: Held) -> None:
         """Move the hand, from the next step on."""
         numbers = np.array(flat(hand))

@@ -123,6 +123,8 @@ class Session:
             while self._flight.step < before + steps and not self._flight.over and not self._failed:
                 self._forget_wishes()
                 self._flight.advance()
+            if steps == 0:
+                self._flight.rest()
         except Exception:
             self._failed = True  # until a reset
             log.exception("the flight ended by an error")
