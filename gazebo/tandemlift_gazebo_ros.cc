@@ -241,9 +241,8 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
             TellPilot("");
         }
         if (!pilot_.empty() && !body_.Led()) TellPilot("");
-        if (queue_.callOne(ros::WallDuration(1e-3 * milliseconds)) == ros::CallbackQueue::Called) return true;
         if (milliseconds > 0 && Clock::now() - published_ > AGAIN) Publish();
-        return false;
+        return queue_.callOne(ros::WallDuration(1e-3 * milliseconds)) == ros::CallbackQueue::Called;
     }
 
     void Tell() override {

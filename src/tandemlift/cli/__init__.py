@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import warnings
 from collections.abc import Mapping
@@ -118,6 +119,7 @@ def main() -> None:
     """Run the command line: bad input ends with one message and exit code 2, never with a traceback."""
     warnings.simplefilter("always", FlightWarning)
     warnings.showwarning = _show_warning
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: what was started is ended too
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a character shows '?'
     try:

@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 
 NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none
-RESTING = 0.2  # s, between words of a pilot that rests
+RESTING = 0.1  # s, between words of a pilot that rests
 STARTING, STEPPING = 60.0, 10.0  # s, after which a server that does not answer is given up
 CLOSE = 1e-9  # relative, of the world's step and mass
 

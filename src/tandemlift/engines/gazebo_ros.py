@@ -91,9 +91,7 @@ class RosWire:
         step.wrench = [message_type("geometry_msgs/Wrench")() for _ in step.joint_names]
         return step, np.zeros((len(step.joint_names), 6))
 
-    def hello(
-        self, dt: float, rotors: ArrayLike, state: ArrayLike | None = None, real_time: bool = False
-    ) -> Told:
+    def hello(self, dt: float, rotors: ArrayLike, state: ArrayLike | None = None, real_time: bool = False) -> Told:
         """Begin a session; see `gazebo_wire.Wire.hello`. The rotors are those of the world.
 
         Raises:
