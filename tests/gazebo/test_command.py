@@ -46,9 +46,7 @@ def gz(master, *arguments):
 
 
 def test_a_corridor_is_flown_from_ground_to_ground_and_photographed(tmp_path):
-    short = ["mission.duration=75.0"]
-    sets = [word for value in short for word in ("--set", value)]
-    process, _ = begun("zigzag", "--fast", "--pictures", "--no-window", *sets, folder=tmp_path)
+    process, _ = begun("zigzag", "--fast", "--pictures", "--no-window", folder=tmp_path)
     process.communicate(timeout=2.0 * LONGEST)
     assert process.returncode == 0
     flight, alike = tl.Flight.load(tmp_path / "flight.npz"), tl.fly(tl.load_mission("zigzag"))
@@ -68,8 +66,7 @@ def test_a_corridor_is_flown_from_ground_to_ground_and_photographed(tmp_path):
 def test_a_flight_by_hand_yields_to_the_topic_and_is_kept(tmp_path):
     process, master = begun("iris", "--by-hand", "--no-window", folder=tmp_path)
     time.sleep(16.0)  # s: it lifts, and tares until 12 s
-    push = "gz topic -p /gazebo/default/tandemlift/push -m 'data: \"force 2 0 0 duration 2\"'".removeprefix("gz ")
-    gz(master, push)
+    gz(master, "topic", "-p", "/gazebo/default/tandemlift/push", "-m", """'data: "force 2 0 0 duration 2"'""")
     time.sleep(6.0)
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=60.0)
@@ -101,4 +98,4 @@ def test_the_window_opens_and_closes_with_the_flight(tmp_path, monkeypatch):
         assert np.mean(np.frombuffer(dark, np.uint8) != np.frombuffer(shown, np.uint8)) > 0.2
     finally:
         display.kill()
-        display.wait()
+        display.communicate()
