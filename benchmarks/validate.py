@@ -16,6 +16,7 @@ from machine import describe, heading, table
 from numba import njit
 
 import tandemlift as tl
+from tandemlift.apart import turned
 from tandemlift.engines import engine_named
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.jit import flat, install
@@ -57,12 +58,6 @@ class Row(NamedTuple):
     @property
     def cells(self) -> list[str]:
         return [f"{self.tolerance:.0e}", f"{self.difference:.1e}"]
-
-
-def turned(a: np.ndarray, b: np.ndarray) -> float:
-    """Largest angle [rad] between two series of quaternions (T, 4)."""
-    same = np.sign(np.sum(a * b, axis=1))[:, None]
-    return float(4.0 * np.arcsin(0.5 * np.linalg.norm(a - same * b, axis=1)).max())
 
 
 def rows_of(flight: str, apart: dict[str, float], tolerances: dict[str, float]) -> Iterator[Row]:
@@ -115,7 +110,7 @@ def open_loop(engine: str, count: int) -> dict[str, float]:
         state, felt = moved.state, np.abs(np.array(flat(moved.felt)) - body.felt)
         found = {name: felt[part].max() * looked_at(engine, k * h) for name, part in joints.items()}
         found["position"] = np.abs(np.array(state.position) - body.state[:3]).max()
-        found["attitude"] = turned(np.array([state.attitude]), body.state[None, 6:10])
+        found["attitude"] = turned(np.array([state.attitude]), body.state[None, 6:10])[0]
         apart = {name: max(apart[name], float(found[name])) for name in apart}
     return apart
 
@@ -137,7 +132,7 @@ def differences(a: tl.Flight, b: tl.Flight, part: Any = slice(None)) -> dict[str
     for name in ("joint_force", "joint_torque"):
         apart[name] = apart[name][looked_at(b.version["engine"], a.time[part])]
     found = {name: float(x.max()) for name, x in apart.items()}
-    return {**found, "attitude": turned(a["attitude"][part], b["attitude"][part])}
+    return {**found, "attitude": float(turned(a["attitude"][part], b["attitude"][part]).max())}
 
 
 def changes_of_floor(flight: tl.Flight) -> tuple[float, float]:
