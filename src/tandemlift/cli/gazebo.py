@@ -115,7 +115,7 @@ def _views(photos: Sequence[Photo]) -> Figure | None:
 
     if not photos:
         return None
-    return draw_views([(f"{p.shot.title}, {p.shot.time:.1f} s", p.jpeg) for p in photos])
+    return draw_views([(f"{p.shot.title}, {p.shot.time:.0f} s", p.jpeg) for p in photos])
 
 
 def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:

@@ -19,7 +19,7 @@ from tandemlift.export.eyes import PICTURES, add_eyes
 from tandemlift.gazebo.views import Shot
 from tandemlift.settings import Mission
 
-EVERY = 1.0  # s, from one picture of a camera to the next
+EVERY = 0.5  # s, from one picture of a camera to the next
 PATIENCE = 60.0  # s, until every camera has drawn for the first time
 GLANCE = 0.1  # s, between looks whether it has
 WAITING = "<wait>true</wait>", "<wait>false</wait>"  # a world that waits for its pilot draws nothing meanwhile
