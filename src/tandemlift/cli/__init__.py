@@ -16,6 +16,7 @@ from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.live import live
 from tandemlift.cli.render import render
 from tandemlift.cli.replay import replay
+from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run, say
 from tandemlift.cli.validate import validate
 from tandemlift.errors import FlightWarning, InputError, suggestion
@@ -60,6 +61,7 @@ cli.add_command(render)
 cli.add_command(live)
 cli.add_command(replay)
 cli.add_command(gazebo)
+cli.add_command(ros)
 cli.add_command(validate)
 cli.add_command(export)
 
