@@ -112,6 +112,7 @@ OTHERS = {
     "joint_2/wrench": (WRENCH, "joint_2"),
     "joint_1/measured": (WRENCH, "joint_1"),
     "joint_2/measured": (WRENCH, "joint_2"),
+    "pilot": (ROTORS, ""),
 }
 ONCE = {"/tandemlift/mission": "std_msgs/String", "/tf_static": "tf2_msgs/TFMessage"}
 MOVING = {"/tf": "tf2_msgs/TFMessage", "/diagnostics": "diagnostic_msgs/DiagnosticArray"}
@@ -207,6 +208,17 @@ def test_every_rotor_has_its_name_and_thrust(read, flight, topic, channel):
     names = [f"rotor_{quadrotor}_{rotor}" for quadrotor in (1, 2) for rotor in (1, 2, 3, 4)]
     assert {tuple(v[f"name.{i}"] for i in range(8)) for _, _, v in messages} == {tuple(names)}
     np.testing.assert_array_equal(numbers(messages, *(f"effort.{i}" for i in range(8))), flight[channel])
+
+
+def test_what_the_pilot_knows_besides_bears_the_names_of_channels(read, flight):
+    messages = read["/tandemlift/pilot"]
+    names = [messages[0][2][f"name.{i}"] for i in range(sum(key.startswith("name.") for key in messages[0][2]))]
+    assert {"phase", "push_on.x", "push_on.y", "push_on.z", "payload_mass_estimate", "alarm"} <= set(names)
+    told = numbers(messages, *(f"position.{i}" for i in range(len(names))))
+    for name, column in zip(names, told.T, strict=True):
+        channel, _, axis = name.partition(".")
+        own = flight[channel][:, "xyz".index(axis)] if axis else flight[channel]
+        np.testing.assert_array_equal(column, own)
 
 
 @pytest.mark.parametrize(("topic", "prefix"), [("wrench", ""), ("measured", "measured_")])

@@ -16,6 +16,7 @@ from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.live import live
 from tandemlift.cli.render import render
 from tandemlift.cli.replay import replay
+from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run, say
 from tandemlift.cli.validate import validate
@@ -64,6 +65,7 @@ cli.add_command(gazebo)
 cli.add_command(ros)
 cli.add_command(validate)
 cli.add_command(export)
+cli.add_command(report)
 
 
 def _print_table(rows: Mapping[str, str]) -> None:

@@ -8,7 +8,8 @@ import time
 from functools import partial
 
 from tandemlift.errors import InputError
-from tandemlift.export.topics import ROOT, WRENCH
+from tandemlift.export.recipes import WRENCH
+from tandemlift.export.topics import ROOT
 from tandemlift.flight import Flight
 from tandemlift.live.session import Session
 from tandemlift.missions import tables_of
