@@ -7,6 +7,7 @@ Python: so its folder is put at the end of the path, where it hides nothing.
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import sys
 import threading
 import warnings
@@ -37,10 +38,12 @@ def message_type(name: str) -> type:
         InputError: its package is not installed.
     """
     package, _, kind = name.partition("/")
-    for folder in (f"{package}.msg", f"{package}.srv"):
-        found = getattr(_import(folder, []), kind, None)
-        if found is not None:
-            return found
+    _import(package, [])
+    for part in ("msg", "srv"):
+        if importlib.util.find_spec(f"{package}.{part}"):
+            found = getattr(_import(f"{package}.{part}", []), kind, None)
+            if found is not None:
+                return found
     raise InputError(f"{package} has no {kind}")
 
 

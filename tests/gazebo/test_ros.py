@@ -1,4 +1,4 @@
-"""The plugin that is led over ROS 1: pilots that die, are late, doubled or plain, and the topics that ROS's tools read."""
+"""The plugin that is led over ROS 1: pilots that die, are late, doubled or plain; the topics that ROS's tools read."""
 
 import os
 import random
@@ -49,9 +49,9 @@ def another():
     started = []
 
     def start(code):
-        folders = list(node().__path__)[0].rsplit("/", 1)[:1]
+        folder = str(Path(node().__file__).parents[1])
         with_master = os.environ | {"TANDEMLIFT_GAZEBO_ROS": "world"}
-        command = [sys.executable, "-c", FIND + code, *folders]
+        command = [sys.executable, "-c", FIND + code, folder]
         started.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=with_master))
         return started[-1]
 

@@ -12,6 +12,7 @@ from tandemlift.live.controls import BY_KEY, controls_of
 from tandemlift.live.frames import read_frames
 from tandemlift.live.pace import MOST_BEHIND, Pace
 from tandemlift.live.session import Session
+from tandemlift.live.taring import check_in_time
 from tandemlift.missions import changed
 
 GUIDED = {
@@ -183,6 +184,38 @@ def test_hands_are_refused_while_the_sensors_are_tared(session, monkeypatch):
     say(session, "force", force=(0.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
     fly(session, 7.0)
     say(session, "grab", point=(0.0, 0.0, 0.0), target=(1.0, 0.0, 0.0), at="point")
+
+
+@pytest.mark.parametrize(
+    ("estimator", "push", "words"),
+    [
+        ({}, "truth", "reads no sensor that could be tared"),
+        ({"tare": "hover"}, "estimate", "tares by itself, in steady hover"),
+        ({}, "estimate", "the mission has none (estimator.tare_start)"),
+    ],
+)
+def test_a_mission_without_a_tare_that_can_be_begun_says_so(session, estimator, push, words):
+    up(session)
+    now = session._flight.now
+    told = {
+        "estimator": now.estimator.model_copy(update=estimator),
+        "pilot": now.pilot.model_copy(update={"push": push}),
+    }
+    session._flight.now = now.model_copy(update=told)
+    with pytest.raises(tl.InputError) as refused:
+        say(session, "tare")
+    assert words in str(refused.value)
+
+
+def test_a_tare_wants_hover_and_no_hand_and_begins_in_time(session):
+    with pytest.raises(tl.InputError, match="only in the air, hovering; the phase is idle"):
+        say(session, "tare")
+    at = up(session)
+    say(session, "grab", point=(0.0, 0.0, 0.0), target=tuple(map(float, at)), at="point")
+    with pytest.raises(tl.InputError, match="hands off first"):
+        say(session, "tare")
+    with pytest.raises(tl.InputError, match="took too long"):
+        check_in_time(session.flight, session.flight.step * session.flight.dt)
 
 
 def test_a_mission_that_is_guided_by_the_clock_says_that_it_asks_nobody(session):

@@ -1,7 +1,7 @@
 """The body in Gazebo 11 as in `gazebo`, led over ROS 1 (`gazebo/tandemlift_gazebo_ros.cc`), by rospy.
 
-Environment: `TANDEMLIFT_GAZEBO_ROS`, set to `master`, joins the ROS master at `ROS_MASTER_URI`; set to `world`, also the
-Gazebo that runs there; not set, both are started for the flight. `TANDEMLIFT_GAZEBO_REAL_TIME` as in `gazebo`.
+Environment: `TANDEMLIFT_GAZEBO_ROS`, set to `master`, joins the ROS master at `ROS_MASTER_URI`; set to `world`, also
+the Gazebo that runs there; not set, both are started for the flight. `TANDEMLIFT_GAZEBO_REAL_TIME` as in `gazebo`.
 """
 
 from __future__ import annotations

@@ -7,6 +7,7 @@ that there is none, and a ROS 1 bag's player leaves such messages out.
 from __future__ import annotations
 
 import heapq
+import importlib
 import itertools
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
@@ -86,29 +87,33 @@ def events_of(flight: Flight) -> list[tuple[float, str]]:
     return sorted(events)
 
 
-def _rosbags() -> ModuleType:
-    """The package that knows the formats of bags.
+def rosbags(part: str) -> ModuleType:
+    """A part of the package that knows the formats of bags.
 
     Raises:
         InputError: it is not installed.
     """
     try:
-        import rosbags.typesys
+        return importlib.import_module(f"rosbags.{part}")
     except ModuleNotFoundError as error:
         raise InputError(
             f"a bag needs the package rosbags, and {error.name} is missing: pip install 'tandemlift[export]'; "
             "a .csv does not"
         ) from error
-    return rosbags
+
+
+def _types_of(store: Any, *, numbered: bool) -> Types:
+    """The classes that `rosbags` has of the messages of one ROS."""
+    return Types(lambda name: store.types[modern(name)], numbered=numbered)
 
 
 def write_mcap(flight: Flight, path: Path) -> None:
     """Write the flight as a ROS 2 bag in one MCAP file (chunks in Zstandard)."""
-    ros = _rosbags().typesys
+    ros = rosbags("typesys")
     from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
     store = ros.get_typestore(ros.Stores.ROS2_HUMBLE)
-    streams = streams_of(flight, Types(store))
+    streams = streams_of(flight, _types_of(store, numbered=False))
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=f"{path.name}.") as folder:
         bag = Writer(Path(folder) / NAME, version=8, storage_plugin=StoragePlugin.MCAP)
         bag.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
@@ -133,12 +138,12 @@ def _qos(latched: bool) -> list[Any]:
 
 def write_bag(flight: Flight, path: Path) -> None:
     """Write the flight as a ROS 1 bag (chunks in LZ4)."""
-    ros = _rosbags().typesys
+    ros = rosbags("typesys")
     from rosbags.rosbag1 import Writer
 
     store = ros.get_typestore(ros.Stores.ROS1_NOETIC)
     store.register(ros.get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage"))
-    streams = streams_of(flight, Types(store))
+    streams = streams_of(flight, _types_of(store, numbered=True))
     bag = Writer(path)
     bag.set_compression(Writer.CompressionFormat.LZ4)
     bag.compressor = _frame_that_ros_reads

@@ -175,6 +175,14 @@ class Snapshot:
         flight.save(folder / FLIGHT)
         return flight
 
+    def alone(self) -> Flight:
+        """The flight for itself, of a mission that lasts as long and tells neither of a hand nor of changes."""
+        duration = self._steps * self._start.mission.step
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", FlightWarning)
+            p = Prepared(changed(self._start, "mission.duration", duration))
+        return flight_of(p, self._flown(), self._engine)
+
     def _flown(self) -> Flown:
         return Flown(self._moving, self._early, self._steps, self._log, self._last, self._wall)
 

@@ -10,7 +10,7 @@ import logging
 import sys
 import threading
 import time
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from functools import singledispatchmethod
 from pathlib import Path
 from typing import Any
@@ -26,10 +26,12 @@ from tandemlift.live import messages
 from tandemlift.live.by_hand import by_hand, renewed
 from tandemlift.live.controls import CHOICES, controls_of
 from tandemlift.live.frames import fields_of, frames_of
+from tandemlift.live.grip import Grip
 from tandemlift.live.knobs import Knobs
 from tandemlift.live.pace import Pace
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.live.scene import alarm_names, scene_of
+from tandemlift.live.taring import check_hands_off, check_may_tare
 from tandemlift.live.values import values_of
 from tandemlift.missions import tables_of
 from tandemlift.settings import Mission
@@ -46,15 +48,6 @@ WISH = 0.2  # s, for which a wish to lift or to land is said
 log = logging.getLogger(__name__)
 
 
-@dataclass
-class Grip:
-    """How the page holds the beam: what is to be added to its targets [m], and the last word it said."""
-
-    offset: Vec3 = ZERO
-    seq: int = 0
-    wishes: dict[str, int] = field(default_factory=dict)  # until which step each is said
-
-
 class Session:
     """See the module; `server.LiveFlight` says what a server needs of it.
 
@@ -62,6 +55,9 @@ class Session:
         mission: flown by hand: its pushes and its person are left out.
         engine: name of the body's engine.
         out: folder that flights are saved in, each in one of its name.
+
+    Attributes:
+        watchers: told of every step, in the flight's thread.
     """
 
     def __init__(self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live")) -> None:
@@ -70,7 +66,7 @@ class Session:
         self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
         self._knobs, self._names, self._failed = Knobs(self._mission, self._lock), alarm_names(), False
         self._pace = Pace(mission.mission.step)
-        self.generation = 0
+        self.generation, self.watchers = 0, list[Callable[[RecordedFlight], None]]()
         self._begin(self._mission)
 
     def _begin(self, mission: Mission) -> None:
@@ -83,6 +79,11 @@ class Session:
             flight.hold(NOBODY_HOLDS)
             flight.advance()
             self.generation += 1
+
+    @property
+    def flight(self) -> RecordedFlight:
+        """What is flown, until a reset."""
+        return self._flight
 
     @property
     def scene(self) -> dict[str, Any]:
@@ -123,6 +124,8 @@ class Session:
             while self._flight.step < before + steps and not self._flight.over and not self._failed:
                 self._forget_wishes()
                 self._flight.advance()
+                for watch in self.watchers:
+                    watch(self._flight)
             if steps == 0:
                 self._flight.rest()
         except Exception:
@@ -141,10 +144,13 @@ class Session:
         held = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
         return frames_of(self._fields, {**values, **held, "seq": seq % 2**24}).tobytes()
 
+    def channels(self) -> dict[str, Any]:
+        """The channels of the latest sample (1, …)."""
+        return dict(channels_of(self._flight.layout, self._flight.sample[None, :].copy()))
+
     def _values(self) -> dict[str, Any]:
         flight = self._flight
-        channels = dict(channels_of(flight.layout, flight.sample[None, :].copy()))
-        return values_of(channels, np.array([(flight.step - 1) * flight.dt]), self._phases)
+        return values_of(self.channels(), np.array([(flight.step - 1) * flight.dt]), self._phases)
 
     def status(self) -> dict[str, Any]:
         """Phase, alarm, pace and what was recorded, for people."""
@@ -179,16 +185,6 @@ class Session:
                 self._grip.seq = seq
         return self._heed(message)
 
-    def _check_tare(self) -> None:
-        """Refuse a hand while sensors are tared, which would take it for a bias."""
-        mission = self._flight.now
-        start, at = mission.estimator.tare_start, self._flight.step * self._flight.dt
-        if mission.pilot.push == "truth" or start is None:
-            return
-        end = start + mission.estimator.tare_duration
-        if at < end:
-            raise InputError(f"hands off until {end:g} s: the force sensors are tared in hover")
-
     def release(self) -> None:
         """Nobody holds the beam any more."""
         with self._lock:
@@ -210,7 +206,7 @@ class Session:
     @_heed.register
     def _grab(self, m: messages.Grab) -> None:
         with self._lock:
-            self._check_tare()
+            check_hands_off(self._flight)
             point, attitude = Vec3(*m.point), Quat(*map(float, self._values()["attitude"][0]))
             arm = apply(rotation_from_quaternion(attitude), point)
             centre = m.at == "centre"
@@ -233,7 +229,7 @@ class Session:
         with self._lock:
             force = Vec3(*m.force)
             if any(force):
-                self._check_tare()
+                check_hands_off(self._flight)
             grip = {"grip": Vec3(*m.point)} if any(force) and not self._flight.hand.held else {}
             self._move(force=force, **grip)
 
@@ -277,6 +273,12 @@ class Session:
         folder = self._out / m.name
         snapshot.save(folder)
         return {"type": "done", "what": "save", "detail": str(folder)}
+
+    @_heed.register
+    def _tare(self, m: messages.Tare) -> dict[str, Any]:
+        with self._lock:
+            check_may_tare(self._flight, self._phase(int(self._values()["phase"][0])))
+        return {"type": "done", "what": "tare", "detail": self._knobs.tare(self._flight)}
 
     @_heed.register
     def _kill(self, m: messages.Kill) -> None:
