@@ -13,8 +13,9 @@
 //   <stay>      false: the server ends when the pilot says goodbye or the process that started it has ended; true
 //
 // Numbers, of N quadrotors
-//   Command  thrusts (4 N) [N]; at the vehicle's centre of mass force [N, world] and moment [N m, body]; at the payload's
-//            origin, likewise; on every quadrotor at its centre of mass force x, y, z (each of all N) and moment, likewise
+//   Command  thrusts (4 N) [N]; at the vehicle's centre of mass force [N, world] and moment [N m, body]; at the
+//            payload's origin, likewise; on every quadrotor at its centre of mass force x, y, z (each of all N) and
+//            moment, likewise
 //   Told     time [s], step [s], mass [kg]; State after the step; what was felt at its start: specific force at the
 //            payload's origin (3), force x, y, z and torque x, y, z of every quadrotor on the payload at its joint
 //            (6 N, body), force of contacts (3, world); force [N, world] and moment [N m, body] about the centre of

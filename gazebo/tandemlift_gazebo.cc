@@ -11,8 +11,8 @@
 //   STATE    plugin  Told
 //   BYE      pilot   nothing
 //   REFUSE   plugin  why (enum Why)
-// STEP k is answered by STATE k. A STEP that comes again gets the same answer again, and moves nothing; it says that the
-// pilot lives.
+// STEP k is answered by STATE k. A STEP that comes again gets the same answer again, and moves nothing; it says that
+// the pilot lives.
 
 #include <arpa/inet.h>
 #include <poll.h>

@@ -5,10 +5,10 @@
 //   <rotors>     Rotors (12 N numbers)
 //   <namespace>  of topics and parameters, and with _ for / the node's name; /tandemlift/gazebo
 //
-// Lock-step is by stamp. Every state has a stamp of its own: 1 s at first, and a step more after each step or placement.
-// A command says with its stamp which state it answers; one of any other stamp moves nothing. It is complete in itself:
-// there is no order between topics. The first node whose command is heard while nobody leads becomes the pilot; from
-// then on the world waits. While it waits, its state is told again every 0.1 s, with the same stamp.
+// Lock-step is by stamp. Every state has a stamp of its own: 1 s at first, and a step more after each step or
+// placement. A command says with its stamp which state it answers; one of any other stamp moves nothing. It is complete
+// in itself, as there is no order between topics. The first node whose command is heard while nobody leads becomes the
+// pilot; from then on the world waits. While it waits, its state is told again every 0.1 s, with the same stamp.
 //
 // Topics, below the namespace; frames as in docs/export.md
 //   state            out  sensor_msgs/MultiDOFJointState, latched. All there is, to the last bit, in joints named
@@ -23,139 +23,39 @@
 //                         of base_link as in `state`: place the vehicle there. No joints at all: goodbye
 //   push             in   geometry_msgs/WrenchStamped at the centre of mass, world axes: held until the next, for 1 s
 //   lead             in   std_msgs/Empty: the node that says it is the pilot from now on, whoever led
-//   pilot            out  std_msgs/Header, latched: frame_id, the node that leads (empty when none does); the stamp of the
-//                         state that it found
+//   pilot            out  std_msgs/Header, latched: frame_id, the node that leads (empty when none does); the stamp of
+//                         the state that it found
 //   odometry         out  nav_msgs/Odometry, velocities in body axes
 //   imu              out  sensor_msgs/Imu without orientation
 //   joint_I/wrench, contact/force, push/wrench   out  geometry_msgs/WrenchStamped
 //   /clock           out  rosgraph_msgs/Clock: the stamp
-// Parameters, there too: step [s], mass [kg], quadrotors (their number); real_time, heeded when a pilot begins: whether the
-// world is kept to real time, false if not set
+// Parameters, there too: step [s], mass [kg], quadrotors (their number); real_time, heeded when a pilot begins: whether
+// the world is kept to real time, false if not set
 
 #include <map>
 #include <memory>
 #include <set>
 
-#include <geometry_msgs/WrenchStamped.h>
-#include <nav_msgs/Odometry.h>
 #include <ros/callback_queue.h>
-#include <ros/ros.h>
-#include <rosgraph_msgs/Clock.h>
-#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
-#include <sensor_msgs/MultiDOFJointState.h>
 #include <std_msgs/Empty.h>
 #include <std_msgs/Header.h>
 
 #include "body.hh"
+#include "ros_topics.hh"
 
 namespace tandemlift {
 
-using geometry_msgs::Wrench;
-using geometry_msgs::WrenchStamped;
 using sensor_msgs::JointState;
-using sensor_msgs::MultiDOFJointState;
 using Values = std::vector<double>;
 
 constexpr double LARGEST_COMMAND = 1e8;  // N
 constexpr double PUSH_HELD = 1.0;        // s
 constexpr std::chrono::milliseconds AGAIN{100};
-constexpr int ROOM = 1000;               // messages kept for those who are slow to hear them
-
-// Where the parts of Told begin.
-enum At : std::size_t { STATE = 3, POSITION = 3, VELOCITY = 6, ATTITUDE = 9, RATES = 13, SPECIFIC_FORCE = 16, JOINTS = 19 };
-
-template <typename Of>
-Of Ros(const Vector3d& v) {
-    Of out;
-    out.x = v.X(), out.y = v.Y(), out.z = v.Z();
-    return out;
-}
-
-Wrench WrenchOf(const Vector3d& force, const Vector3d& torque = Vector3d::Zero) {
-    Wrench out;
-    out.force = Ros<geometry_msgs::Vector3>(force);
-    out.torque = Ros<geometry_msgs::Vector3>(torque);
-    return out;
-}
-
-template <typename Of>
-Vector3d Math(const Of& v) {
-    return {v.x, v.y, v.z};
-}
 
 // What is wrong with a message.
 struct Unsound : std::runtime_error {
     using std::runtime_error::runtime_error;
-};
-
-// Publishes what a step told, for ROS's own tools; what nobody listens to costs nothing.
-class Topics {
-  public:
-    void Open(ros::NodeHandle& node, std::size_t count) {
-        odometry_ = node.advertise<nav_msgs::Odometry>("odometry", ROOM);
-        imu_ = node.advertise<sensor_msgs::Imu>("imu", ROOM);
-        for (std::size_t i = 1; i <= count; ++i)
-            joints_.push_back(node.advertise<WrenchStamped>("joint_" + std::to_string(i) + "/wrench", ROOM));
-        contact_ = node.advertise<WrenchStamped>("contact/force", ROOM);
-        push_ = node.advertise<WrenchStamped>("push/wrench", ROOM);
-        clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", ROOM);
-    }
-
-    void Tell(const MultiDOFJointState& state) {
-        const auto& pose = state.transforms[0];
-        const auto& q = pose.rotation;
-        const Quaterniond attitude(q.w, q.x, q.y, q.z);
-        if (Heard(odometry_)) {
-            nav_msgs::Odometry out;
-            out.header = state.header;
-            out.child_frame_id = "base_link";
-            out.pose.pose.position = Ros<geometry_msgs::Point>(Math(pose.translation));
-            out.pose.pose.orientation = q;
-            out.twist.twist.linear =
-                Ros<geometry_msgs::Vector3>(attitude.RotateVectorReverse(Math(state.twist[0].linear)));
-            out.twist.twist.angular = state.twist[0].angular;
-            odometry_.publish(out);
-        }
-        if (Heard(imu_)) {
-            sensor_msgs::Imu out;
-            out.header.stamp = state.header.stamp;
-            out.header.frame_id = "payload";
-            out.orientation_covariance[0] = -1.0;  // there is none
-            out.angular_velocity = state.twist[0].angular;
-            out.linear_acceleration = state.wrench[1].force;
-            imu_.publish(out);
-        }
-        const std::size_t N = joints_.size();
-        for (std::size_t i = 0; i < N; ++i) Tell(joints_[i], state, 2 + i, state.joint_names[2 + i]);
-        Tell(contact_, state, 2 + N, "base_world");
-        if (Heard(push_)) {
-            auto turned = state;
-            auto& torque = turned.wrench[3 + N].torque;
-            torque = Ros<geometry_msgs::Vector3>(attitude * Math(torque));
-            Tell(push_, turned, 3 + N, "base_world");
-        }
-        if (Heard(clock_)) {
-            rosgraph_msgs::Clock out;
-            out.clock = state.header.stamp;
-            clock_.publish(out);
-        }
-    }
-
-  private:
-    static bool Heard(const ros::Publisher& topic) { return topic.getNumSubscribers() > 0; }
-
-    static void Tell(const ros::Publisher& topic, const MultiDOFJointState& state, std::size_t i, const std::string& in) {
-        if (!Heard(topic)) return;
-        WrenchStamped out;
-        out.header.stamp = state.header.stamp;
-        out.header.frame_id = in;
-        out.wrench = state.wrench[i];
-        topic.publish(out);
-    }
-
-    ros::Publisher odometry_, imu_, contact_, push_, clock_;
-    std::vector<ros::Publisher> joints_;
 };
 
 class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
@@ -201,7 +101,6 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
         node_.reset(new ros::NodeHandle(namespace_));
         node_->setCallbackQueue(&queue_);  // which the physics thread serves, step by step
         const auto hints = ros::TransportHints().tcpNoDelay();
-        state_topic_ = node_->advertise<MultiDOFJointState>("state", ROOM, true);
         pilot_topic_ = node_->advertise<std_msgs::Header>("pilot", ROOM, true);
         topics_.Open(*node_, body_.Count());
         heard_.push_back(node_->subscribe("rotors", ROOM, &TandemliftRosPlugin::OnRotors, this, hints));
@@ -213,31 +112,21 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
         node_->setParam("quadrotors", static_cast<int>(body_.Count()));
     }
 
-    // Name all that is told, and all that may be commanded by the place of its number in a Command.
+    // Name all that may be commanded, by the place of its number in a Command.
     void Lay() {
         const std::size_t N = body_.Count();
-        state_.header.frame_id = "world";
-        state_.joint_names = {"base_link", "imu"};
         loads_ = {{"base_link", {4 * N, 1}}, {"payload", {4 * N + 6, 1}}};
         for (std::size_t i = 0; i < N; ++i) {
             const std::string number = std::to_string(i + 1);
-            state_.joint_names.push_back("joint_" + number);
             loads_["quadrotor_" + number] = {4 * N + 12 + i, N};
             for (std::size_t j = 0; j < 4; ++j) places_["rotor_" + number + "_" + std::to_string(j + 1)] = 4 * i + j;
         }
-        state_.joint_names.insert(state_.joint_names.end(), {"contact", "push"});
-        state_.transforms.resize(state_.joint_names.size());
-        for (auto& transform : state_.transforms) transform.rotation.w = 1.0;
-        state_.twist.resize(state_.joint_names.size());
-        state_.wrench.resize(state_.joint_names.size());
         tick_ = ros::Duration(body_.StepSize());
-        state_.header.stamp = ros::Time(1, 0);
     }
 
     bool Hear(int milliseconds) override {
         if (told_.empty()) {
-            body_.TellStanding(told_);
-            Publish();
+            TellStanding();
             TellPilot("");
         }
         if (!pilot_.empty() && !body_.Led()) TellPilot("");
@@ -247,26 +136,18 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
 
     void Tell() override {
         body_.Tell(told_);
-        state_.header.stamp += tick_;
+        stamp_ += tick_;
         Publish();
-        topics_.Tell(state_);
+        topics_.TellTools();
+    }
+
+    void TellStanding() {
+        body_.TellStanding(told_);
+        Publish();
     }
 
     void Publish() {
-        const std::size_t N = body_.Count();
-        auto& rotation = state_.transforms[0].rotation;
-        state_.transforms[0].translation = Ros<geometry_msgs::Vector3>(Three(told_, POSITION));
-        rotation.w = told_[ATTITUDE], rotation.x = told_[ATTITUDE + 1];
-        rotation.y = told_[ATTITUDE + 2], rotation.z = told_[ATTITUDE + 3];
-        state_.twist[0].linear = Ros<geometry_msgs::Vector3>(Three(told_, VELOCITY));
-        state_.twist[0].angular = Ros<geometry_msgs::Vector3>(Three(told_, RATES));
-        state_.wrench[1] = WrenchOf(Three(told_, SPECIFIC_FORCE));
-        for (std::size_t i = 0; i < N; ++i)
-            state_.wrench[2 + i] = WrenchOf(Three(told_, JOINTS + i, N), Three(told_, JOINTS + 3 * N + i, N));
-        const std::size_t contact = JOINTS + 6 * N;
-        state_.wrench[2 + N] = WrenchOf(Three(told_, contact));
-        state_.wrench[3 + N] = WrenchOf(Three(told_, contact + 3), Three(told_, contact + 6));
-        state_topic_.publish(state_);
+        topics_.Tell(told_, stamp_);
         published_ = Clock::now();
     }
 
@@ -274,7 +155,7 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
         pilot_ = name;
         std_msgs::Header out;
         out.frame_id = name;
-        out.stamp = state_.header.stamp;
+        out.stamp = stamp_;
         pilot_topic_.publish(out);
     }
 
@@ -292,7 +173,7 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
             return true;
         }
         if (refused_.insert(name).second)
-            gzwarn << "tandemlift: " << name << " is not heard: " << pilot_ << " leads; it may say so on the topic lead\n";
+            gzwarn << "tandemlift: " << name << " is not heard, as " << pilot_ << " leads; see the topic lead\n";
         return false;
     }
 
@@ -300,7 +181,7 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
     template <typename Message, typename Command>
     void Heed(const ros::MessageEvent<Message const>& event, Command command) {
         const std::string& name = event.getPublisherName();
-        if (!Leads(name) || event.getMessage()->header.stamp != state_.header.stamp || body_.Due()) return;
+        if (!Leads(name) || event.getMessage()->header.stamp != stamp_ || body_.Due()) return;
         try {
             command(*event.getMessage());
         } catch (const Unsound& error) {
@@ -367,7 +248,8 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
     }
 
     void Place(const MultiDOFJointState& said) {
-        if (said.joint_names != std::vector<std::string>{"base_link"} || said.transforms.size() != 1 || said.twist.size() != 1)
+        const bool one = said.joint_names.size() == 1 && said.transforms.size() == 1 && said.twist.size() == 1;
+        if (!one || said.joint_names[0] != "base_link")
             throw Unsound("it must have wrenches, or one transform and twist of base_link");
         const auto &to = said.transforms[0].translation, &v = said.twist[0].linear, &w = said.twist[0].angular;
         const auto& q = said.transforms[0].rotation;
@@ -375,9 +257,8 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
         if (!Finite(state) || q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z < 1e-9)
             throw Unsound("a number is not finite, or the rotation is none");
         body_.Place(state, 0);
-        body_.TellStanding(told_);
-        state_.header.stamp += tick_;
-        Publish();
+        stamp_ += tick_;
+        TellStanding();
     }
 
     void OnPush(const WrenchStamped& said) {
@@ -400,11 +281,11 @@ class TandemliftRosPlugin : public gazebo::ModelPlugin, Front {
     ros::CallbackQueue queue_;
     std::unique_ptr<ros::NodeHandle> node_;
     Topics topics_;
-    ros::Publisher state_topic_, pilot_topic_;
+    ros::Publisher pilot_topic_;
     std::vector<ros::Subscriber> heard_;
-    std::map<std::string, std::size_t> places_;                          // of rotors in a Command
-    std::map<std::string, std::pair<std::size_t, std::size_t>> loads_;   // where they begin there, and how far apart they are
-    MultiDOFJointState state_;
+    std::map<std::string, std::size_t> places_;                         // of rotors in a Command
+    std::map<std::string, std::pair<std::size_t, std::size_t>> loads_;  // where they begin there, how far apart
+    ros::Time stamp_{1, 0};  // of the last state
     ros::Duration tick_;
     Clock::time_point published_;
     std::string namespace_, pilot_;

@@ -15,7 +15,7 @@ from tandemlift.engines.gazebo_ros import RosWire
 from tandemlift.engines.gazebo_server import Server, command, exported, free_port, in_gazebo, root
 from tandemlift.engines.gazebo_wire import Wire
 
-PATIENCE = 0.4  # s
+PATIENCE, OVER_ROS = 0.4, 1.0  # s
 
 
 class Gazebo:
@@ -26,7 +26,7 @@ class Gazebo:
         self.vehicle = tl.Vehicle.from_settings(self.mission.vehicle)
         self.dt = self.mission.mission.step
         self.port = free_port(socket.SOCK_DGRAM)
-        staying = {"wait": "false", "stay": "true", "patience": str(PATIENCE)}
+        staying = {"wait": "false", "stay": "true", "patience": str(OVER_ROS if over_ros else PATIENCE)}
         if over_ros:
             node()
             self.server = Server(world_of(self.mission, "ros", **staying), environment())
@@ -69,12 +69,12 @@ def fly(wire, steps, amplitude=0.3):
     return np.array(told)
 
 
-def rest_and_fly(body, vehicle):
+def rest_and_fly(body, vehicle, patience):
     """Fly, rest for much longer than a server waits, and fly on from there."""
     step = np.full(vehicle.rotor_count, vehicle.weight / vehicle.rotor_count), np.zeros(0), np.zeros(3), np.zeros(3)
     body.advance(*step)
     stood = body.state.copy()
-    for _ in range(20):
+    for _ in range(round(3.0 * patience / 0.05)):
         time.sleep(0.05)
         body.rest()
     body.advance(*step)

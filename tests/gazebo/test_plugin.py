@@ -64,7 +64,7 @@ def test_a_vehicle_whose_pilot_is_silent_is_held_for_a_moment_then_falls(gazebo)
 def test_a_pilot_that_rests_is_not_given_up(gazebo, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_GAZEBO_PORT", str(gazebo.port))
     body = GazeboBody(gazebo.mission, gazebo.vehicle)
-    rest_and_fly(body, gazebo.vehicle)
+    rest_and_fly(body, gazebo.vehicle, PATIENCE)
     body.close()
 
 

@@ -19,7 +19,7 @@ from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.noetic import message_type
 from tandemlift.vector import Quat
 
-from .conftest import PATIENCE, fly
+from .conftest import OVER_ROS, fly
 
 pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore")]  # rospy is of another age
 DOCS = Path(__file__).parents[2] / "docs/gazebo.md"
@@ -121,7 +121,7 @@ def test_ten_pilots_killed_at_any_moment_leave_a_server_that_flies_to_the_last_b
         os.kill(pilot.pid, signal.SIGKILL)
         over_ros.server.check()
         if chance.random() < 0.5:  # the next one comes while it waits, or after it was given up
-            time.sleep(PATIENCE + 0.3)
+            time.sleep(OVER_ROS + 0.3)
     assert np.array_equal(fly(over_ros.wire(), 300), before)
 
 
@@ -191,7 +191,7 @@ def test_a_second_pilot_is_not_heard_until_it_says_that_it_leads(over_ros, anoth
 def test_a_pilot_that_was_given_up_is_told_so(over_ros):
     wire = over_ros.wire()
     fly(wire, 3)
-    time.sleep(PATIENCE + 0.5)
+    time.sleep(OVER_ROS + 0.5)
     with pytest.raises(ConnectionError, match="or this one was given up"):
         wire.advance()
 

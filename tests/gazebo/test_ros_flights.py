@@ -13,7 +13,7 @@ import tandemlift as tl
 from tandemlift.engines.gazebo_ros import over_ros
 from tandemlift.engines.gazebo_server import root
 
-from .conftest import Gazebo, rest_and_fly
+from .conftest import OVER_ROS, Gazebo, rest_and_fly
 from .test_flights import WINDY, runs
 
 pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore")]  # rospy is of another age
@@ -78,7 +78,7 @@ def test_a_pilot_that_rests_is_not_given_up_by_a_world_that_is_joined(monkeypatc
     monkeypatch.setenv("TANDEMLIFT_GAZEBO_ROS", "world")
     world = Gazebo(over_ros=True)
     body = over_ros(world.mission, world.vehicle)
-    rest_and_fly(body, world.vehicle)
+    rest_and_fly(body, world.vehicle, OVER_ROS)
     body.close()
     world.close()
 
