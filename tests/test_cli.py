@@ -96,7 +96,7 @@ def test_the_version_is_told(run):
             ("rnu", "paper"),
             [
                 "No such command 'rnu'",
-                "run, compare, render, live, replay, ros, validate, export, mi",
+                "run, compare, render, live, replay, gazebo, ros, validate, export, report, mi",
                 "Did you mean 'run'?",
             ],
         ),

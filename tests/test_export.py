@@ -112,6 +112,7 @@ OTHERS = {
     "joint_2/wrench": (WRENCH, "joint_2"),
     "joint_1/measured": (WRENCH, "joint_1"),
     "joint_2/measured": (WRENCH, "joint_2"),
+    "pilot": (ROTORS, ""),
 }
 ONCE = {"/tandemlift/mission": "std_msgs/String", "/tf_static": "tf2_msgs/TFMessage"}
 MOVING = {"/tf": "tf2_msgs/TFMessage", "/diagnostics": "diagnostic_msgs/DiagnosticArray"}
@@ -209,6 +210,17 @@ def test_every_rotor_has_its_name_and_thrust(read, flight, topic, channel):
     np.testing.assert_array_equal(numbers(messages, *(f"effort.{i}" for i in range(8))), flight[channel])
 
 
+def test_what_the_pilot_knows_besides_bears_the_names_of_channels(read, flight):
+    messages = read["/tandemlift/pilot"]
+    names = [messages[0][2][f"name.{i}"] for i in range(sum(key.startswith("name.") for key in messages[0][2]))]
+    assert {"phase", "push_on.x", "push_on.y", "push_on.z", "payload_mass_estimate", "alarm"} <= set(names)
+    told = numbers(messages, *(f"position.{i}" for i in range(len(names))))
+    for name, column in zip(names, told.T, strict=True):
+        channel, _, axis = name.partition(".")
+        own = flight[channel][:, "xyz".index(axis)] if axis else flight[channel]
+        np.testing.assert_array_equal(column, own)
+
+
 @pytest.mark.parametrize(("topic", "prefix"), [("wrench", ""), ("measured", "measured_")])
 def test_every_joint_has_its_wrench(read, flight, topic, prefix):
     for i in range(2):
@@ -293,6 +305,6 @@ def test_the_document_has_every_topic_with_its_type_and_frame():
     text = re.sub(r"joint_N", "joint_1", DOCUMENT.read_text("utf-8"))
     for name, (kind, frame, *_) in {**COPIED, **OTHERS}.items():
         if "joint_2" not in name:
-            assert re.search(rf"\| `{name}` \| `{kind}` \| `{frame}` \|", text), name
+            assert re.search(rf"\| `{name}` \| `{kind}` \| {frame and f'`{frame}` '}\|", text), name
     for name, kind in {**ONCE, **MOVING}.items():
         assert re.search(rf"\| `{name}` \| `{kind}` \|", text), name

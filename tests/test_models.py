@@ -487,7 +487,7 @@ def test_the_command_writes_the_mission_of_a_flight(run, tmp_path):
         (("iris", "--out", "iris.sdf", "--plugin", "0"), "plugin = 0: must be a port"),
         (("iris", "--out", "iris.xml", "--plugin", "7000"), "only a world, .sdf, has a plugin"),
         (("saved", "--out", "iris.csv", "--plugin", "7000"), "only a world, .sdf, has a plugin"),
-        (("iris", "--out", "iris.sdf", "--plugin", "here"), "'here' is not a valid integer"),
+        (("iris", "--out", "iris.sdf", "--plugin", "here"), "plugin = here: must be a port"),
     ],
 )
 def test_the_command_refuses_what_does_not_fit_and_writes_nothing(arguments, piece, run, tmp_path):

@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from tandemlift.changing import Changing, Due, hand_place
-from tandemlift.engines import Body
+from tandemlift.engines import Body, Waiting
 from tandemlift.flown import Flown, take_tallies
 from tandemlift.jit import flat, leaves, unflat
 from tandemlift.kernels import COMMAND, GIVEN, place
@@ -129,6 +129,11 @@ class Stepper:
         body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
         self.v[:STATE] = body.state
         self.v[STATE : STATE + body.felt.size] = body.felt
+
+    def rest(self) -> None:
+        """Take no step for now; to be called ten times a second, or more often, by who lets a flight wait."""
+        if isinstance(self.body, Waiting):
+            self.body.rest()
 
     @property
     def lost(self) -> bool:

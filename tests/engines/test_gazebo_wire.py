@@ -112,6 +112,17 @@ def test_what_is_lost_doubled_late_or_spoiled_on_the_way_changes_no_bit(vehicle,
     assert np.array_equal(bad, sound)
 
 
+def test_a_pilot_that_rests_says_so_and_moves_nothing(vehicle, wire_to):
+    with Plugin(RigidBody(vehicle), DT) as plugin:
+        wire = wire_to(plugin)
+        fly_by(wire, 3)
+        for _ in range(20):
+            wire.keep()
+        fly_by(wire, 1)
+        assert plugin.taken == [1, 2, 3, 4]
+        assert plugin.heard[-21:] == [3] * 21
+
+
 def test_a_pilot_that_comes_back_takes_the_vehicle_over_where_it_is(vehicle, wire_to, wire_at):
     with Plugin(RigidBody(vehicle), DT) as plugin:
         last = fly_by(wire_to(plugin), 20)[-1]  # and it goes without a word

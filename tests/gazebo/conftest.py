@@ -3,35 +3,42 @@
 import shlex
 import socket
 import subprocess
+import time
 
+import numpy as np
 import pytest
 
 import tandemlift as tl
 from tandemlift.engines.gazebo import rotors_of, start_of, world_of
-from tandemlift.engines.gazebo_server import Server, command, free_port, in_gazebo, root
+from tandemlift.engines.gazebo_master import environment, node
+from tandemlift.engines.gazebo_ros import RosWire
+from tandemlift.engines.gazebo_server import Server, command, exported, free_port, in_gazebo, root
 from tandemlift.engines.gazebo_wire import Wire
 
-PATIENCE = 0.2  # s
+PATIENCE, OVER_ROS = 0.4, 1.0  # s
 
 
 class Gazebo:
     """A server with a vehicle that hovers, and stays when its pilot goes."""
 
-    def __init__(self):
+    def __init__(self, over_ros=False):
         self.mission = tl.load_mission("hover")
         self.vehicle = tl.Vehicle.from_settings(self.mission.vehicle)
         self.dt = self.mission.mission.step
         self.port = free_port(socket.SOCK_DGRAM)
-        world = world_of(self.mission, self.port)
-        for name, own, other in (("wait", "true", "false"), ("stay", "false", "true"), ("patience", "0", PATIENCE)):
-            assert f"<{name}>{own}<" in world
-            world = world.replace(f"<{name}>{own}<", f"<{name}>{other}<")
-        self.server = Server(world)
+        staying = {"wait": "false", "stay": "true", "patience": str(OVER_ROS if over_ros else PATIENCE)}
+        if over_ros:
+            node()
+            self.server = Server(world_of(self.mission, "ros", **staying), environment())
+            self.call = lambda: RosWire(self.vehicle.count, 30.0, self.server.check)
+        else:
+            self.server = Server(world_of(self.mission, self.port, **staying))
+            self.call = lambda: Wire(self.port, self.vehicle.count, 30.0, self.server.check)
         self.wires = []
 
     def wire(self, *, place=True, real_time=False):
         """A pilot's end that has said hello."""
-        wire = Wire(self.port, self.vehicle.count, 30.0, self.server.check)
+        wire = self.call()
         self.wires.append(wire)
         wire.hello(self.dt, rotors_of(self.vehicle), start_of(self.mission) if place else None, real_time)
         wire.thrusts[:] = self.vehicle.weight / self.vehicle.rotor_count
@@ -42,14 +49,47 @@ class Gazebo:
         script = in_gazebo(self.server.master, f"gz {shlex.join(arguments)}")
         return subprocess.run(command(root(), script), capture_output=True, text=True, timeout=60, check=True).stdout
 
+    def ros(self, *arguments):
+        """Run ROS's own tool that lies where Gazebo is, for some seconds at most; what it says."""
+        script = exported(environment()) + f"timeout -s INT 20 {shlex.join(arguments)}"
+        return subprocess.run(command(root(), script), capture_output=True, text=True, timeout=60, check=False).stdout
+
     def close(self):
         for wire in self.wires:
             wire.close()
         self.server.close()
 
 
+def fly(wire, steps, amplitude=0.3):
+    """A flight of that many steps, with other thrusts at each; all that was told."""
+    base, told = wire.thrusts.copy(), []
+    for k in range(steps):
+        wire.thrusts[:] = base + amplitude * np.sin(0.01 * k + np.arange(base.size))
+        told.append(wire.advance().numbers[3:].copy())
+    return np.array(told)
+
+
+def rest_and_fly(body, vehicle, patience):
+    """Fly, rest for much longer than a server waits, and fly on from there."""
+    step = np.full(vehicle.rotor_count, vehicle.weight / vehicle.rotor_count), np.zeros(0), np.zeros(3), np.zeros(3)
+    body.advance(*step)
+    stood = body.state.copy()
+    for _ in range(round(3.0 * patience / 0.05)):
+        time.sleep(0.05)
+        body.rest()
+    body.advance(*step)
+    np.testing.assert_allclose(body.state, stood, rtol=0.0, atol=1e-9)
+
+
 @pytest.fixture(scope="module")
 def gazebo():
     server = Gazebo()
+    yield server
+    server.close()
+
+
+@pytest.fixture(scope="module")
+def over_ros():
+    server = Gazebo(over_ros=True)
     yield server
     server.close()

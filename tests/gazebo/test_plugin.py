@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from tandemlift.constants import GRAVITY
-from tandemlift.engines.gazebo import rotors_of
+from tandemlift.engines.gazebo import GazeboBody, rotors_of
 from tandemlift.engines.gazebo_wire import HEADER, Wire
 
-from .conftest import PATIENCE
+from .conftest import PATIENCE, fly, rest_and_fly
 
 pytestmark = pytest.mark.gazebo
 HOLD = 0.1  # s
@@ -33,15 +33,6 @@ print("flying", flush=True)
 while True:
     wire.advance()
 """
-
-
-def fly(wire, steps, amplitude=0.3):
-    """A flight of that many steps, with other thrusts at each; all that was told."""
-    base, told = wire.thrusts.copy(), []
-    for k in range(steps):
-        wire.thrusts[:] = base + amplitude * np.sin(0.01 * k + np.arange(base.size))
-        told.append(wire.advance().numbers[3:].copy())
-    return np.array(told)
 
 
 def pushed(gazebo, wire, text, steps=600):
@@ -68,6 +59,13 @@ def test_a_vehicle_whose_pilot_is_silent_is_held_for_a_moment_then_falls(gazebo)
     assert falling > 0.1  # s
     assert told.state[5] == pytest.approx(-GRAVITY * falling, abs=2.5 * GRAVITY * gazebo.dt)  # rounded to steps
     np.testing.assert_allclose(told.state[[3, 4, 10, 11, 12]], 0.0, atol=1e-9)
+
+
+def test_a_pilot_that_rests_is_not_given_up(gazebo, monkeypatch):
+    monkeypatch.setenv("TANDEMLIFT_GAZEBO_PORT", str(gazebo.port))
+    body = GazeboBody(gazebo.mission, gazebo.vehicle)
+    rest_and_fly(body, gazebo.vehicle, PATIENCE)
+    body.close()
 
 
 def test_a_pilot_that_was_given_up_is_told_so(gazebo):

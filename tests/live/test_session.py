@@ -340,6 +340,19 @@ def test_the_thread_flies_until_it_is_stopped_and_pauses(session):
     until(lambda: session.status()["recorded_s"] > then)
 
 
+def test_a_body_that_waits_is_told_of_a_pause(session):
+    class Waiting:
+        rests = 0
+
+        def rest(self):
+            self.rests += 1
+
+    session.start()
+    say(session, "pause", on=True)
+    session._flight._stepper.body = body = Waiting()
+    until(lambda: body.rests > 3)
+
+
 def until(true, patience=30.0):
     end = time.monotonic() + patience
     while not true():

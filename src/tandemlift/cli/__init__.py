@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import warnings
 from collections.abc import Mapping
@@ -12,9 +13,11 @@ import click
 from tandemlift import __version__
 from tandemlift.cli.compare import compare
 from tandemlift.cli.export import export
+from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.live import live
 from tandemlift.cli.render import render
 from tandemlift.cli.replay import replay
+from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run, say
 from tandemlift.cli.validate import validate
@@ -59,9 +62,11 @@ cli.add_command(compare)
 cli.add_command(render)
 cli.add_command(live)
 cli.add_command(replay)
+cli.add_command(gazebo)
 cli.add_command(ros)
 cli.add_command(validate)
 cli.add_command(export)
+cli.add_command(report)
 
 
 def _print_table(rows: Mapping[str, str]) -> None:
@@ -120,6 +125,7 @@ def main() -> None:
     """Run the command line: bad input ends with one message and exit code 2, never with a traceback."""
     warnings.simplefilter("always", FlightWarning)
     warnings.showwarning = _show_warning
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: what was started is ended too
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a character shows '?'
     try:

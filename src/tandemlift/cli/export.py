@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 @click.argument("flight_or_mission")
 @click.option("--out", metavar="FILE", required=True, help="FILE.mcap, FILE.bag, FILE.csv, FILE.sdf or FILE.xml.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of a mission.")
-@click.option("--plugin", type=int, metavar="PORT", help="Of FILE.sdf: with the plugin that pilots fly it through.")
-def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: int | None) -> None:
+@click.option("--plugin", metavar="PORT|ros", help="Of FILE.sdf: with the plugin that pilots fly it through.")
+def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: str | None) -> None:
     """Write a flight or a mission for other tools; the ending of FILE tells what.
 
     \b
@@ -50,7 +50,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
             f"{flight_or_mission} is no saved flight: give flight.npz, or the folder that a run wrote it to"
         )
     what = _flight(saved) if saved else _mission(flight_or_mission, settings)
-    exporting.export(what, path, plugin=plugin)
+    exporting.export(what, path, plugin=int(plugin) if plugin and plugin.isdecimal() else plugin)
     size = path.stat().st_size
     say(f"{_name(what)}: {path} ({f'{size / 1e3:.0f} kB' if model else f'{size / 1e6:.1f} MB'})")
 

@@ -8,7 +8,7 @@ its start and its ground.
 from __future__ import annotations
 
 import importlib
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,8 +45,16 @@ class Body(Protocol):
         """
 
 
+@runtime_checkable
+class Waiting(Protocol):
+    """A body that waits for its pilot, and gives it up when it is silent."""
+
+    def rest(self) -> None:
+        """Take no step for now, and stay the pilot; to be called ten times a second."""
+
+
 class Engine(NamedTuple):
-    """An entry of the registry; `module` and `body` name the class that a flight's body is made of."""
+    """An entry of the registry; `module` and `body` name what a flight's body is made by."""
 
     name: str
     summary: str
@@ -77,6 +85,12 @@ ENGINES = {
             "Separate bodies on fixed joints in Gazebo 11 (ODE), led over UDP (docs/gazebo.md).",
             "tandemlift.engines.gazebo",
             "GazeboBody",
+        ),
+        Engine(
+            "gazebo-ros",
+            "The same, led over topics of ROS 1 (docs/gazebo.md#over-ros).",
+            "tandemlift.engines.gazebo_ros",
+            "over_ros",
         ),
     ]
 }

@@ -12,9 +12,11 @@ from __future__ import annotations
 import importlib
 import os
 import socket
+import time
 import weakref
+from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import Any, Protocol
 from xml.etree import ElementTree
 
 import numpy as np
@@ -32,10 +34,39 @@ Array = NDArray[np.float64]
 
 NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none
+RESTING = 0.1  # s, between words of a pilot that rests
 STARTING, STEPPING = 60.0, 10.0  # s, after which a server that does not answer is given up
 CLOSE = 1e-9  # relative, of the world's step and mass
 
 PORT, REAL_TIME = "TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_REAL_TIME"
+
+
+class Line(Protocol):
+    """A pilot's end of the way to the plugin; see `gazebo_wire.Wire`."""
+
+    patience: float
+    thrusts: Array
+    wrench: Array
+    loads: Array
+    told: Told
+
+    def hello(self, dt: float, rotors: Array, state: Array | None, real_time: bool) -> Told:
+        """Begin a session."""
+
+    def advance(self) -> Told:
+        """Send the step, and wait until the world has taken it."""
+
+    def keep(self) -> None:
+        """Say that the pilot lives, without a step."""
+
+    def close(self) -> None:
+        """Say goodbye, and hang up."""
+
+
+def _dial(mission: Mission, vehicle: Vehicle) -> tuple[Server | None, Line]:
+    """The plugin over UDP: of a server that is started, unless a port is named."""
+    server, port = _find(mission)
+    return server, Wire(port, vehicle.count, STEPPING, server.check if server else None)
 
 
 class GazeboBody:
@@ -46,6 +77,7 @@ class GazeboBody:
         vehicle: the vehicle that the pilot knows.
         floor: a `laws.contact.Floor` to stand on, or `Nothing`.
         walls: a `laws.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        dial: finds or starts a server, and calls its plugin.
 
     Attributes:
         pushed: (6,) force [N, world axes] and moment about the centre of mass [N·m, body axes] of pushes by Gazebo's
@@ -57,13 +89,20 @@ class GazeboBody:
         OSError: the server ended, or did not answer.
     """
 
-    def __init__(self, mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:
-        self.server, port = _find(mission)
-        self._wire = wire = Wire(port, vehicle.count, STEPPING, self.server.check if self.server else None)
+    def __init__(
+        self,
+        mission: Mission,
+        vehicle: Vehicle,
+        floor: Any = NONE,
+        walls: Any = NONE,
+        dial: Callable[[Mission, Vehicle], tuple[Server | None, Line]] = _dial,
+    ) -> None:
+        self.server, self._wire = dial(mission, vehicle)
+        wire = self._wire
         self._closing = weakref.finalize(self, _close, wire, self.server)
         real_time = os.environ.get(REAL_TIME, "0") not in ("", "0")
         self._hello = partial(wire.hello, mission.mission.step, rotors_of(vehicle), start_of(mission), real_time)
-        self._begun = False
+        self._begun, self._rested = False, 0.0
         self._meet(mission, vehicle)
         told = wire.told
         self.state, self.felt, self.pushed = told.state, told.felt, told.pushed
@@ -113,15 +152,22 @@ class GazeboBody:
         if not self._touching:
             self._contact.fill(0.0)
 
+    def rest(self) -> None:
+        """Take no step for now, and stay the pilot; see `engines.Waiting`."""
+        now = time.monotonic()
+        if self._begun and now - self._rested > RESTING:
+            self._wire.keep()
+            self._rested = now
+
     def close(self) -> None:
         """End the session, and the server if it was started for it; also done when the body is no longer used."""
         self._closing()
 
 
-def _close(wire: Wire, server: Server | None) -> None:
-    wire.close()
+def _close(wire: Line, server: Server | None) -> None:
     if server:
         server.close()
+    wire.close()
 
 
 def _find(mission: Mission) -> tuple[Server | None, int]:
@@ -135,14 +181,14 @@ def _find(mission: Mission) -> tuple[Server | None, int]:
     return None, int(given)
 
 
-def world_of(mission: Mission, port: int) -> str:
+def world_of(mission: Mission, plugin: int | str, **more: str) -> str:
     """The world of a mission for a flight of its own: it waits for its pilot, as long as it takes, and ends with it."""
     exported = importlib.import_module("tandemlift.export.sdf")  # by name, as exports stand above the engines
-    top = ElementTree.fromstring(exported.world(mission, plugin=port).encode())
-    plugin = top.find(".//plugin[@name='tandemlift']")
-    assert plugin is not None
-    for name, text in (("wait", "true"), ("patience", "0"), ("stay", "false")):
-        ElementTree.SubElement(plugin, name).text = text
+    top = ElementTree.fromstring(exported.world(mission, plugin).encode())
+    settings = top.find(".//plugin[@name='tandemlift']")
+    assert settings is not None
+    for name, text in {"wait": "true", "patience": "0", "stay": "false", **more}.items():
+        ElementTree.SubElement(settings, name).text = text
     return ElementTree.tostring(top, "unicode")
 
 

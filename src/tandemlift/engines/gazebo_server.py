@@ -6,20 +6,25 @@ word, the plugin ends the server.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import shlex
 import shutil
+import signal
 import socket
 import subprocess
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from tandemlift.errors import InputError
 
 ROOT = "TANDEMLIFT_GAZEBO_ROOT"
 MASTER = "GAZEBO_MASTER_URI"
 SETUP = "/usr/share/gazebo/setup.sh"
+NOTHING_MORE: Mapping[str, str] = MappingProxyType({})
 SHOWN = 12  # last lines of what the server said
 COLORS = re.compile("\x1b\\[[0-9;]*m")
 FAILING = ("Failed to load plugin libtandemlift", "the plugin rests")
@@ -29,6 +34,12 @@ ENTER = """
 mount --rbind /dev "$1/dev" && mount -t proc proc "$1/proc" && exec chroot "$1" /usr/bin/env -i \
 PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 HOME=/tmp sh -c "$2"
 """  # in a mount namespace of its own, so that no mount is left behind
+
+UNSEEN = """\
+Xvfb -displayfd 1 -terminate -nolisten tcp > display 2> /dev/null &
+while kill -0 $! && ! [ -s display ]; do sleep 0.05; done
+DISPLAY=:$(cat display); export DISPLAY
+"""  # a display of its own, which ends with its only client
 
 
 def root() -> Path | None:
@@ -63,31 +74,39 @@ class Server:
 
     Args:
         world: the text of its world.
+        environment: variables that it has beside Gazebo's own.
+        grace: seconds in which it may end by itself when it is closed.
+        draws: whether there are cameras in it: it then draws, on a display that nobody sees (Xvfb), and its cameras
+            keep step with the world.
 
     Attributes:
+        folder: its own, in which it runs.
         master: address of Gazebo's own transport, for `gz` and `gzclient`; `GAZEBO_MASTER_URI` if that is set.
 
     Raises:
         InputError: there is no Gazebo.
     """
 
-    def __init__(self, world: str) -> None:
-        inside = root()
+    def __init__(
+        self, world: str, environment: Mapping[str, str] = NOTHING_MORE, grace: float = 0.0, *, draws: bool = False
+    ) -> None:
+        inside, self._grace = root(), grace
         self.master = os.environ.get(MASTER) or f"http://127.0.0.1:{free_port(socket.SOCK_STREAM)}"
-        self._folder = Path(tempfile.mkdtemp(prefix="tandemlift-", dir=None if inside is None else inside / "tmp"))
-        (self._folder / "vehicle.world").write_text(world, "utf-8")
-        with (self._folder / "log").open("wb") as log:
+        self.folder = Path(tempfile.mkdtemp(prefix="tandemlift-", dir=None if inside is None else inside / "tmp"))
+        seen = self.folder if inside is None else Path("/tmp") / self.folder.name
+        (self.folder / "vehicle.world").write_text(world, "utf-8")
+        with (self.folder / "log").open("wb") as log:
             self._process = subprocess.Popen(
-                command(inside, self._script(inside)),
+                command(inside, exported(environment) + self._script(seen, draws)),
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,  # Ctrl-C is ours
             )
 
-    def _script(self, inside: Path | None) -> str:
-        folder = self._folder if inside is None else Path("/tmp") / self._folder.name
-        return in_gazebo(self.master, f"exec gzserver --verbose {shlex.quote(str(folder / 'vehicle.world'))}", folder)
+    def _script(self, folder: Path, draws: bool) -> str:
+        server = f"{UNSEEN}exec gzserver --lockstep" if draws else "exec gzserver"
+        return in_gazebo(self.master, f"cd {shlex.quote(str(folder))}\n{server} --verbose vehicle.world", folder)
 
     def check(self) -> None:
         """See that it still runs, and has the plugin.
@@ -104,7 +123,7 @@ class Server:
                 raise InputError(f"engine 'gazebo' needs its plugin (docs/gazebo.md), and gzserver says: {line}")
 
     def _lines(self) -> list[str]:
-        text = COLORS.sub("", (self._folder / "log").read_text("utf-8", "replace"))
+        text = COLORS.sub("", (self.folder / "log").read_text("utf-8", "replace"))
         return [line for line in text.strip().splitlines() if line and not line.startswith(SOUND)]
 
     def said(self) -> str:
@@ -113,20 +132,30 @@ class Server:
         return "; it said:\n  " + "\n  ".join(lines) if lines else ""
 
     def close(self) -> None:
-        """End it at once: there is nothing that it would have to save."""
+        """End it, at once without a grace: there is nothing that it would have to save."""
+        if self._grace > 0.0 and self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(self._grace)
         if self._process.poll() is None:
             self._process.kill()
             self._process.wait()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        shutil.rmtree(self.folder, ignore_errors=True)
 
 
 def in_gazebo(master: str, script: str, logs: Path = Path("/tmp")) -> str:
     """A shell script run with Gazebo's environment, on loopback alone, and with no model database to look for."""
     # the setup first: it sets a database and a master of its own
+    folder = shlex.quote(str(logs))
     return (
         f"[ ! -e {SETUP} ] || . {SETUP}; export {MASTER}={shlex.quote(master)} GAZEBO_MODEL_DATABASE_URI= "
-        f"GAZEBO_IP=127.0.0.1 GAZEBO_LOG_PATH={shlex.quote(str(logs))}; {script}"
+        f"GAZEBO_IP=127.0.0.1 GAZEBO_LOG_PATH={folder} ROS_LOG_DIR={folder}; {script}"
     )
+
+
+def exported(environment: Mapping[str, str]) -> str:
+    """The beginning of a shell script that has these variables."""
+    return "".join(f"export {name}={shlex.quote(value)}; " for name, value in environment.items())
 
 
 def command(inside: Path | None, script: str) -> list[str]:
@@ -135,3 +164,9 @@ def command(inside: Path | None, script: str) -> list[str]:
         return ["sh", "-c", script]
     own = [] if os.geteuid() == 0 else ["--map-root-user"]
     return ["unshare", *own, "--mount", "sh", "-c", ENTER, "sh", str(inside), script]
+
+
+def by_yourself(master: str, what: str) -> str:
+    """The command by which a person runs one of Gazebo's own where Gazebo is."""
+    inside = root()
+    return f"{f'sudo chroot {inside} ' if inside else ''}env {MASTER}={master} GAZEBO_IP=127.0.0.1 {what}"

@@ -153,6 +153,13 @@ class Wire:
         self._ask(self._step, Kind.STATE)
         return self.told
 
+    def keep(self) -> None:
+        """Say that the pilot lives, without a step: the last one again, whose answer is not waited for."""
+        with contextlib.suppress(OSError):
+            self._socket.send(self._step)
+            while self._socket.recv_into(self._heard, 0, socket.MSG_DONTWAIT):
+                pass
+
     def close(self) -> None:
         """Say goodbye, and hang up."""
         with contextlib.suppress(OSError):  # it is gone already

@@ -26,14 +26,15 @@ OF_MISSION = ".sdf (Gazebo world) or .xml (MuJoCo model)"
 ENDINGS = f"must end in {OF_FLIGHT}, or for a mission in {OF_MISSION}"
 
 
-def export(what: Flight | Mission, path: str | os.PathLike[str], *, plugin: int | None = None) -> Path:
+def export(what: Flight | Mission, path: str | os.PathLike[str], *, plugin: int | str | None = None) -> Path:
     """Write a flight or a mission to a file whose ending tells the format; it appears whole or not at all.
 
     Args:
         what: a flight, also one that diverged; or a mission. Of a flight, a world and a model are those of its mission.
         path: of the file: .mcap, .bag or .csv of a flight, .sdf or .xml of either; its folder is made if it does not
             exist.
-        plugin: of a world, the port of Gazebo's plugin; without it the world has no plugin.
+        plugin: of a world, the port of Gazebo's plugin, or "ros" for the one that is led over ROS 1; without it the
+            world has no plugin.
 
     Returns:
         The path.
@@ -75,7 +76,7 @@ def is_model(path: Path) -> bool:
     return ending_of(path) in (WORLD, MODEL)
 
 
-def _writer(what: Flight | Mission, path: Path, plugin: int | None) -> Callable[[Path], None]:
+def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Callable[[Path], None]:
     """What writes it to a path.
 
     Raises:
@@ -94,16 +95,16 @@ def _writer(what: Flight | Mission, path: Path, plugin: int | None) -> Callable[
     return lambda partial: FORMATS[ending](what, partial)
 
 
-def _check_plugin(plugin: int | None, path: Path) -> None:
+def _check_plugin(plugin: int | str | None, path: Path) -> None:
     if plugin is None:
         return
     if ending_of(path) != WORLD:
         raise InputError(f"{path}: only a world, {WORLD}, has a plugin")
-    if not 1 <= plugin <= 65535:
-        raise InputError(f"plugin = {plugin}: must be a port, from 1 to 65535")
+    if plugin != "ros" and not (isinstance(plugin, int) and 1 <= plugin <= 65535):
+        raise InputError(f"plugin = {plugin}: must be a port, from 1 to 65535, or 'ros'")
 
 
-def _model(mission: Mission, ending: str, plugin: int | None) -> str:
+def _model(mission: Mission, ending: str, plugin: int | str | None) -> str:
     """The text of a mission's world or model."""
     if ending == WORLD:
         from tandemlift.export.sdf import world

@@ -7,6 +7,7 @@ that there is none, and a ROS 1 bag's player leaves such messages out.
 from __future__ import annotations
 
 import heapq
+import importlib
 import itertools
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
@@ -86,20 +87,19 @@ def events_of(flight: Flight) -> list[tuple[float, str]]:
     return sorted(events)
 
 
-def _rosbags() -> ModuleType:
-    """The package that knows the formats of bags.
+def rosbags(part: str) -> ModuleType:
+    """A part of the package that knows the formats of bags.
 
     Raises:
         InputError: it is not installed.
     """
     try:
-        import rosbags.typesys
+        return importlib.import_module(f"rosbags.{part}")
     except ModuleNotFoundError as error:
         raise InputError(
             f"a bag needs the package rosbags, and {error.name} is missing: pip install 'tandemlift[export]'; "
             "a .csv does not"
         ) from error
-    return rosbags
 
 
 def _types_of(store: Any, *, numbered: bool) -> Types:
@@ -109,7 +109,7 @@ def _types_of(store: Any, *, numbered: bool) -> Types:
 
 def write_mcap(flight: Flight, path: Path) -> None:
     """Write the flight as a ROS 2 bag in one MCAP file (chunks in Zstandard)."""
-    ros = _rosbags().typesys
+    ros = rosbags("typesys")
     from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
     store = ros.get_typestore(ros.Stores.ROS2_HUMBLE)
@@ -138,7 +138,7 @@ def _qos(latched: bool) -> list[Any]:
 
 def write_bag(flight: Flight, path: Path) -> None:
     """Write the flight as a ROS 1 bag (chunks in LZ4)."""
-    ros = _rosbags().typesys
+    ros = rosbags("typesys")
     from rosbags.rosbag1 import Writer
 
     store = ros.get_typestore(ros.Stores.ROS1_NOETIC)

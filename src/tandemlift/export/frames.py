@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from tandemlift.errors import InputError
 from tandemlift.flight import Flight
-from tandemlift.laws.rotation import quaternion_from_euler, rotation_from_quaternion
+from tandemlift.laws.rotation import euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion
 from tandemlift.settings import VehicleTable
 from tandemlift.vector import Mat3, Quat, Vec3, apply, apply_transposed
 from tandemlift.vehicle import Vehicle
@@ -72,3 +72,8 @@ def to_body(attitude: Array, vectors: Array) -> Array:
 def quaternions(euler: Array) -> Array:
     """Quaternions w, x, y, z (T, 4) of roll, pitch, yaw (T, 3) [rad]."""
     return np.stack(quaternion_from_euler(Vec3(*euler.T)), axis=1)
+
+
+def eulers(attitude: Array) -> Array:
+    """Roll, pitch, yaw (T, 3) [rad] of quaternions w, x, y, z (T, 4)."""
+    return np.stack(euler_from_quaternion(Quat(*attitude.T)).angles, axis=1)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array
-from tandemlift.export.topics import IMU, ODOMETRY, POINT, POSE, ROTORS, VECTOR, WRENCH, Recipe, Topic
+from tandemlift.export.recipes import IMU, ODOMETRY, POINT, POSE, ROTORS, VECTOR, WRENCH, Recipe, Topic
 
 About = Topic | Recipe  # of which a maker reads frame and labels
 Maker = Callable[[int, Sequence[float]], Any]  # a message from its time [ns] and its numbers
@@ -95,6 +95,8 @@ def _wrench(types: Types, topic: About) -> Maker:
 def _rotors(types: Types, topic: About) -> Maker:
     State, header, none = types[ROTORS], types.headers(topic.frame), types.numbers([])
     names = list(topic.labels)
+    if not topic.frame:  # numbers of any kind, which plotters look for in the first of the three
+        return lambda stamp, v: State(header(stamp), names, types.numbers(v), none, none)
     return lambda stamp, v: State(header(stamp), names, none, none, types.numbers(v))
 
 
@@ -116,6 +118,32 @@ MAKERS: dict[str, Callable[[Types, About], Maker]] = {
     WRENCH: _wrench,
     ROTORS: _rotors,
     IMU: _imu,
+}
+
+
+Numbers = Callable[[Any], list[float]]  # those of a message, as its maker takes them
+
+
+def _xyz(v: Any) -> list[float]:
+    return [v.x, v.y, v.z]
+
+
+def _wxyz(q: Any) -> list[float]:
+    return [q.w, q.x, q.y, q.z]
+
+
+def _placed(pose: Any) -> list[float]:
+    return _xyz(pose.position) + _wxyz(pose.orientation)
+
+
+NUMBERS: dict[str, Numbers] = {
+    ODOMETRY: lambda m: _placed(m.pose.pose) + _xyz(m.twist.twist.linear) + _xyz(m.twist.twist.angular),
+    POSE: lambda m: _placed(m.pose),
+    VECTOR: lambda m: _xyz(m.vector),
+    POINT: lambda m: _xyz(m.point),
+    WRENCH: lambda m: _xyz(m.wrench.force) + _xyz(m.wrench.torque),
+    ROTORS: lambda m: [*(m.effort if len(m.effort) else m.position)],
+    IMU: lambda m: _xyz(m.angular_velocity) + _xyz(m.linear_acceleration),
 }
 
 

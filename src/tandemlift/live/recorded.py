@@ -104,6 +104,10 @@ class RecordedFlight:
         self.step += 1
         self._wall += time.perf_counter() - began
 
+    def rest(self) -> None:
+        """Take no step for now; to be called again and again while it lasts."""
+        self._stepper.rest()
+
     def hold(self, hand: Held) -> None:
         """Move the hand, from the next step on."""
         numbers = np.array(flat(hand))
@@ -170,6 +174,14 @@ class Snapshot:
         flight = flight_of(p, self._flown(), self._engine)
         flight.save(folder / FLIGHT)
         return flight
+
+    def alone(self) -> Flight:
+        """The flight for itself, of a mission that lasts as long and tells neither of a hand nor of changes."""
+        duration = self._steps * self._start.mission.step
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", FlightWarning)
+            p = Prepared(changed(self._start, "mission.duration", duration))
+        return flight_of(p, self._flown(), self._engine)
 
     def _flown(self) -> Flown:
         return Flown(self._moving, self._early, self._steps, self._log, self._last, self._wall)

@@ -43,8 +43,6 @@ BREATH = 1e-4  # s, for others between two batches of a flight that is behind
 SWITCHING = 2e-4  # s, for which another thread may keep the interpreter from the flight
 BATCH = 25  # steps without a look at who wants something
 WISH = 0.2  # s, for which a wish to lift or to land is said
-
-
 log = logging.getLogger(__name__)
 
 
@@ -127,6 +125,8 @@ class Session:
                 self._flight.advance()
                 for watch in self.watchers:
                     watch(self._flight)
+            if steps == 0:
+                self._flight.rest()
         except Exception:
             self._failed = True  # until a reset
             log.exception("the flight ended by an error")

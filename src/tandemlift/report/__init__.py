@@ -12,7 +12,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from tandemlift.figures import figures_of
+from tandemlift.figures import VIEWS, figures_of
 from tandemlift.figures.captions import CAPTIONS, Caption
 from tandemlift.files import whole
 from tandemlift.flight import Flight
@@ -96,7 +96,10 @@ def _metrics(metrics: Mapping[str, Any]) -> str:
         head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'
         rows.append(f"<tr>{head}{_cells(name, value, unit)}<td>{unit}</td></tr>")
     columns = "".join(f'<th scope="col">{c}</th>' for c in ("Metric", "x or φ", "y or θ", "z or ψ", "Unit"))
-    note = f"From every step, not from the log. Errors are desired minus actual. A dash ({DASH}): could not be formed."
+    source = (
+        "From every step, not from the log" if "steps" in metrics else "From the samples of a bag, not from every step"
+    )
+    note = f"{source}. Errors are desired minus actual. A dash ({DASH}): could not be formed."
     table = f"<table>\n<thead><tr>{columns}</tr></thead>\n<tbody>\n"
     shown = f'<p class="soft">{note}</p>\n<div class="table">\n{table}{chr(10).join(rows)}\n</tbody>\n</table>\n</div>'
     return shown + _events(metrics.get("events", []))
@@ -136,7 +139,7 @@ def _place(point: Iterable[float]) -> str:
 
 def _pngs(flight: Flight, figures: Any) -> dict[str, Path]:
     """The PNG files of a flight's figures by name, of those that there are."""
-    names = figures_of(flight)
+    names = (VIEWS, *figures_of(flight))
     if isinstance(figures, (str, os.PathLike)):
         found = {name: Path(figures) / f"{name}.png" for name in names}
     else:

@@ -6,7 +6,8 @@ import threading
 import time
 from functools import partial
 
-from tandemlift.export.topics import ROOT, WRENCH
+from tandemlift.export.recipes import WRENCH
+from tandemlift.export.topics import ROOT
 from tandemlift.flight import Flight
 from tandemlift.live.session import Session
 from tandemlift.missions import tables_of

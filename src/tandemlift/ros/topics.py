@@ -10,7 +10,8 @@ import numpy as np
 
 from tandemlift.export.frames import WORLD, fixed, quaternions
 from tandemlift.export.messages import Maker, Transforms, Types, maker_of
-from tandemlift.export.topics import POSE, ROOT, Recipe, Source, recipes_of
+from tandemlift.export.recipes import POSE, Recipe, Source, Topic
+from tandemlift.export.topics import ROOT, recipes_of
 from tandemlift.flight import Flight
 from tandemlift.missions import format_toml
 from tandemlift.ros import scenery
@@ -121,7 +122,7 @@ class Way:
 
     def __init__(self, types: Types, channel: Channel) -> None:
         self._Path, self._header, self._channel = types[PATH], types.headers(WORLD), channel
-        self._make = maker_of(types, Recipe("", POSE, WORLD, (), lambda take: np.zeros((0, 7))))
+        self._make = maker_of(types, Topic("", POSE, WORLD, np.zeros((0, 7))))
         self._poses: deque[Any] = deque(maxlen=round(WAY / APART))
 
     def go_on(self, stamp: int, pose: list[float]) -> None:

@@ -1,0 +1,183 @@
+"""A flight from a bag: one that `export` wrote, or one that was recorded of our topics while it was flown.
+
+Samples are those of `/tandemlift/odometry`, by the stamps of its messages. Of another topic a sample has the message of
+the same stamp, or else, if that was lost, the last one before it.
+"""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tandemlift.errors import InputError
+from tandemlift.export.bags import rosbags
+from tandemlift.export.frames import Array, eulers, vehicle_of
+from tandemlift.export.messages import NUMBERS, SECOND
+from tandemlift.export.recipes import Recipe, Seen
+from tandemlift.export.topics import ALWAYS, PILOT, ROOT, SOMETIMES, all_recipes, topics_of
+from tandemlift.flight import CHANNELS, Flight
+from tandemlift.tally import LATE
+from tandemlift.vehicle import Vehicle
+
+BASE, MISSION, EVENTS = f"{ROOT}/odometry", f"{ROOT}/mission", "/diagnostics"
+PILOT_SAYS = "tandemlift: pilot"  # the name in diagnostics of what happens
+Stamped = dict[int, Any]  # messages by their stamps [ns]
+
+
+def read_bag(path: str | os.PathLike[str]) -> Flight:
+    """The flight that a bag holds.
+
+    Its metrics are formed from its samples, not from every step.
+
+    Args:
+        path: of a ROS 1 bag (.bag), a ROS 2 bag in one file (.mcap), or the folder of a ROS 2 bag.
+
+    Raises:
+        InputError: it cannot be read, a package is missing, or it does not hold our topics.
+    """
+    path = Path(path)
+    try:
+        said = _messages(path)
+    except InputError:
+        raise
+    except Exception as error:  # whatever a file of any content can do to its reader
+        raise InputError(f"{path}: cannot be read as a bag ({error})") from error
+    if not said[BASE]:
+        there = ", ".join(sorted(t for t in said if said[t])) or "none"
+        raise InputError(f"{path}: has no {BASE}, by which samples are told; it has {there}")
+    return _flight(path, said)
+
+
+def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
+    stamps = np.array(sorted(said[BASE]))
+    mission = _mission(path, said[MISSION])
+    time = (stamps - stamps[0]) / SECOND
+    bare = Flight(time, {}, mission, {})
+    vehicle = vehicle_of(bare)
+    channels = _channels(said, stamps, vehicle)
+    missing = [name for recipe in ALWAYS for name in recipe.needs if name not in channels]
+    if missing:
+        raise InputError(f"{path}: lacks the topics of {', '.join(missing)}, which every flight has")
+    flight = Flight(time, {name: channels[name] for name in CHANNELS if name in channels}, mission, {})
+    topics_of(flight, vehicle)  # complains of what is not whole
+    return Flight(time, flight.channels, mission, _metrics(flight, _events(said[EVENTS], int(stamps[0]))))
+
+
+def _mission(path: Path, said: Stamped) -> dict[str, Any]:
+    """The mission as it was in the end."""
+    if not said:
+        raise InputError(f"{path}: has no {MISSION}, which tells what was flown")
+    try:
+        return tomllib.loads(said[max(said)].data)
+    except ValueError as error:
+        raise InputError(f"{path}: {MISSION} is no mission: {error}") from error
+
+
+def _messages(path: Path) -> dict[str, Stamped]:
+    """The messages of all topics that are read, by topic; of those without a stamp, by when they came."""
+    found: dict[str, Stamped] = defaultdict(dict)
+    for topic, at, message in _opened(path):
+        header = getattr(message, "header", None)
+        stamp = header.stamp.sec * SECOND + header.stamp.nanosec if header else at
+        if topic == EVENTS:
+            found[topic].setdefault(stamp, []).append(message)
+        else:
+            found[topic][stamp] = message
+    return found
+
+
+def _is_read(topic: str) -> bool:
+    ours = topic.startswith(f"{ROOT}/") and "/markers/" not in topic and not topic.endswith("path")
+    return ours or topic == EVENTS
+
+
+def _opened(path: Path) -> Iterator[tuple[str, int, Any]]:
+    """Topic, time [ns] and message of everything that is read."""
+    bags, typesys = rosbags("highlevel"), rosbags("typesys")
+    store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
+    if path.suffix.lower() == ".mcap":
+        reader = rosbags("rosbag2.storage_mcap").McapReader(path)
+        reader.open()
+        try:
+            wanted = [c for c in reader.connections if _is_read(c.topic)]
+            for connection, at, data in reader.messages(wanted):
+                yield connection.topic, at, store.deserialize_cdr(data, connection.msgtype)
+        finally:
+            reader.close()
+        return
+    with bags.AnyReader([path], default_typestore=store) as reader:
+        for connection, at, data in reader.messages([c for c in reader.connections if _is_read(c.topic)]):
+            yield connection.topic, at, reader.deserialize(data, connection.msgtype)
+
+
+def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict[str, Array]:
+    """The channels of all topics that there are."""
+    there = {name for r in (*ALWAYS, *SOMETIMES) if said[f"{ROOT}/{r.name}"] for name in r.needs}
+    there |= {"measured_joint_force", "measured_joint_torque"} if said[f"{ROOT}/joint_1/measured"] else set()
+    there |= {name.partition(".")[0] for m in list(said[f"{ROOT}/pilot"].values())[:1] for name in m.name} & {*PILOT}
+    parts: dict[str, list[Array]] = defaultdict(list)
+    seen = Seen(np.zeros((0, 4)), vehicle)
+    for recipe in all_recipes(there, vehicle):
+        if not said[f"{ROOT}/{recipe.name}"]:
+            continue
+        found = recipe.back(_rows(recipe, said[f"{ROOT}/{recipe.name}"], stamps), seen)
+        seen = seen._replace(attitude=found["attitude"]) if "attitude" in found else seen
+        for name, values in found.items():
+            parts[name].append(values)
+    return {"euler": eulers(seen.attitude)} | {
+        name: np.hstack(p) if "joint_" in name else p[0] for name, p in parts.items()
+    }
+
+
+def _rows(recipe: Recipe, said: Stamped, stamps: Array) -> Array:
+    """The numbers of a topic at some stamps; NaN before its first message."""
+    own = np.array(sorted(said))
+    numbers = np.array([NUMBERS[recipe.kind](said[stamp]) for stamp in own.tolist()], dtype=np.float64)
+    last = np.searchsorted(own, stamps, side="right") - 1
+    rows = numbers[np.maximum(last, 0)]
+    rows[last < 0] = np.nan
+    return rows
+
+
+def _events(said: Stamped, first: int) -> list[list[Any]]:
+    """When [s] what happened: phases, refusals and alarms."""
+    return [
+        [round((stamp - first) / SECOND, 6), status.message]
+        for stamp in sorted(said)
+        for message in said[stamp]
+        for status in message.status
+        if status.name == PILOT_SAYS
+    ]
+
+
+def _metrics(flight: Flight, events: list[list[Any]]) -> dict[str, Any]:
+    """What can be said from samples alone; None where there are none."""
+    error, late = flight["position_error"], flight.time >= LATE
+    after = error[late] if flight.time[-1] > LATE else error[:0]
+
+    def over(values: Array, of: Any) -> list[float] | None:
+        return [float(v) for v in of(values)] if len(values) and np.isfinite(values).all() else None
+
+    def rms(values: Array) -> Array:
+        return np.sqrt(np.mean(values**2, axis=0))
+
+    def most(values: Array) -> Array:
+        return np.abs(values).max(axis=0)
+
+    return {
+        "position_rmse_m": over(error, rms),
+        "position_rmse_after_10s_m": over(after, rms),
+        "position_max_error_m": over(error, most),
+        "position_max_error_after_10s_m": over(after, most),
+        "attitude_rmse_rad": over(flight["attitude_error"], rms),
+        "final_position_m": over(flight["position"][-1:], lambda v: v[0]),
+        "final_reference_m": over(flight["reference_position"][-1:], lambda v: v[0]),
+        "samples": len(flight.time),
+        "events": events,
+    }
