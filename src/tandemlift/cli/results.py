@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -69,11 +70,13 @@ def _check_room(folder: Path, files: Sequence[str]) -> None:
 def write_results(flight: Flight, mission: Mission, folder: Path, *, figures: bool) -> None:
     """Write everything that `tandemlift run` leaves behind, replacing what an earlier run left."""
     from tandemlift.figures import FIGURES, figures_of, save_figures
-    from tandemlift.missions import to_toml
+    from tandemlift.missions import format_toml, tables_of
+    from tandemlift.recording import portable
     from tandemlift.report import write_report
 
     with whole(folder / "mission.toml") as partial:
-        partial.write_text(to_toml(mission), "utf-8")
+        partial.write_text(format_toml(portable(tables_of(mission))), "utf-8")
+    _keep_recording(mission, folder)
     flight.save(folder / "flight.npz")
     with whole(folder / "metrics.json") as partial:
         partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
@@ -84,6 +87,15 @@ def write_results(flight: Flight, mission: Mission, folder: Path, *, figures: bo
         with bar("Drawing", len(figures_of(flight)), shown=sys.stderr.isatty()) as progress:
             save_figures(flight, folder / "figures", progress)
     write_report(flight, folder / "figures", folder / "report.html")
+
+
+def _keep_recording(mission: Mission, folder: Path) -> None:
+    """Put the recording of a mission beside its file, so that the folder flies again wherever it is."""
+    if mission.partner.recording is None:
+        return
+    source = Path(mission.partner.recording)
+    with whole(folder / source.name) as partial:
+        shutil.copyfile(source, partial)
 
 
 def flight_file(given: str) -> tuple[Path, Path | None]:

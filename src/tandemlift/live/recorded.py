@@ -21,6 +21,7 @@ from tandemlift.files import whole
 from tandemlift.flight import Flight
 from tandemlift.flown import Flown, flight_of, take_tallies
 from tandemlift.jit import flat, leaves, unflat
+from tandemlift.kernels import place
 from tandemlift.laws.grab import NOBODY_HOLDS, Held
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
 from tandemlift.prepared import Prepared
@@ -84,6 +85,10 @@ class RecordedFlight:
     def lost(self) -> bool:
         """Whether its state is no longer sound."""
         return self._stepper.lost
+
+    def number(self, *path: str) -> float:
+        """A number of what moves in the flight, by its path from `loop.Moving`."""
+        return float(self._stepper.a[place(self._stepper.p.flying, "moving", *path).at])
 
     @property
     def hand(self) -> Held:
@@ -162,9 +167,9 @@ class Snapshot:
         """Write mission, hand and flight into a folder; the flight that the mission flies again."""
         steps = np.array([k for k, _ in self._rows], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self._rows], (len(steps), WIDTH))
-        write_recording(folder / HAND, Recording(steps, hands))
+        write_recording(folder / HAND, Recording(steps, hands, self._engine))
         with whole(folder / MISSION) as partial:
-            again = f"# Flies again: tandemlift run {MISSION} --engine {self._engine}\n\n"
+            again = f"# Flies again, in the engine {self._engine}: tandemlift run {MISSION}\n\n"
             partial.write_text(again + self._toml(folder.name), "utf-8")
         p = Prepared(load_mission(folder / MISSION))
         flight = flight_of(p, self._flown(), self._engine)

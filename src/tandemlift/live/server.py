@@ -25,6 +25,7 @@ from tandemlift.live.messages import (
     MAX_SIZE,
     Kill,
     Message,
+    Move,
     Ping,
     Refusal,
     Reset,
@@ -240,6 +241,8 @@ class Server:
             elif self.viewers.admits(viewer, message):
                 self._answer(viewer, self._applied(message))
                 self.viewers.note(viewer, message)
+                if isinstance(message, Move) and self._flight:
+                    viewer.echo(self._flight.frame)
         except Refusal as refusal:
             viewer.refuse(refusal)
 

@@ -30,6 +30,7 @@ from tandemlift.live.knobs import Knobs
 from tandemlift.live.pace import Pace
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.live.scene import alarm_names, scene_of
+from tandemlift.live.states import dead_rotors, hands_off
 from tandemlift.live.values import values_of
 from tandemlift.missions import tables_of
 from tandemlift.settings import Mission
@@ -158,6 +159,7 @@ class Session:
                 "factor": round(pace.factor, 3),
                 "behind_ms": round(1e3 * most, 2),
                 "recorded_s": round(flight.step * flight.dt, 3),
+                "dead": dead_rotors(flight),
             }
 
     def _phase(self, number: int) -> str:
@@ -179,13 +181,8 @@ class Session:
 
     def _check_tare(self) -> None:
         """Refuse a hand while sensors are tared, which would take it for a bias."""
-        mission = self._flight.now
-        start, at = mission.estimator.tare_start, self._flight.step * self._flight.dt
-        if mission.pilot.push == "truth" or start is None:
-            return
-        end = start + mission.estimator.tare_duration
-        if at < end:
-            raise InputError(f"hands off until {end:g} s: the force sensors are tared in hover")
+        if reason := hands_off(self._flight):
+            raise InputError(reason)
 
     def release(self) -> None:
         """Nobody holds the beam any more."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from pydantic_core import to_json
@@ -18,6 +18,7 @@ SILENT = 2.0  # s, after which a page that holds the beam is taken for hung
 MOST_MESSAGES = 2_000  # a second; a page sends about a hundred
 FAREWELL = 1.0  # s, for pages to say good-bye
 MOST_REFUSALS = 20  # a second that are told
+ECHO = 0.003  # s, in which the flight has heeded a hand
 
 
 def text_of(what: Mapping[str, Any]) -> str:
@@ -37,6 +38,7 @@ class Viewer:
         self.connection = connection
         self.dropped, self.heard = 0, time.monotonic()
         self._second, self._messages, self._refusals = 0, 0, 0
+        self._echoing = False
 
     @property
     def behind(self) -> bool:
@@ -49,6 +51,16 @@ class Viewer:
             self.dropped += 1
         else:
             broadcast([self.connection], frame)
+
+    def echo(self, frame: Callable[[], bytes]) -> None:
+        """Show what came of its hand soon; the next frame for all may be a sixtieth of a second away."""
+        if not self._echoing:
+            self._echoing = True
+            asyncio.get_running_loop().call_later(ECHO, self._show_echo, frame)
+
+    def _show_echo(self, frame: Callable[[], bytes]) -> None:
+        self._echoing = False
+        self.show(frame())
 
     def tell(self, what: Mapping[str, Any] | str) -> None:
         """Send a text, or cut off a viewer that does not read."""

@@ -1,0 +1,26 @@
+"""What else viewers must know of a flight: rotors that were stopped, and whether hands must wait for the tare."""
+
+from __future__ import annotations
+
+from tandemlift.live.recorded import RecordedFlight
+
+
+def dead_rotors(flight: RecordedFlight) -> list[int]:
+    """The rotors that have failed, counted over the whole vehicle from 0."""
+    at = flight.step * flight.dt
+    return sorted(4 * (f.quadrotor - 1) + f.rotor - 1 for f in flight.now.faults if f.time <= at)
+
+
+def hands_off(flight: RecordedFlight) -> str:
+    """Why nobody may touch the vehicle: its sensors are tared, which would take a hand for a bias; "" if one may."""
+    estimator = flight.now.estimator
+    if flight.now.pilot.push == "truth":
+        return ""
+    if estimator.tare == "hover":
+        left = estimator.tare_duration - flight.number("memory", "guidance", "phase", "hovered")
+        return "hands off until the force sensors are tared, in steady hover" if left > 0.0 else ""
+    if estimator.tare_start is None:
+        return ""
+    end = estimator.tare_start + estimator.tare_duration
+    waits = flight.step * flight.dt < end
+    return f"hands off until {end:g} s: the force sensors are tared in hover" if waits else ""
