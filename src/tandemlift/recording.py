@@ -1,8 +1,8 @@
 """A hand as it was moved, step by step: the file that a recorded mission names in `partner.recording`.
 
 A NumPy archive (.npz) of `step` (n,), whole and rising, and `hand` (n, 14): from that step on, held, grip (3), target
-(3), force (3), lift, land, stop, enabled, as `laws.grab.Held` has them; and `engine`, the name of the one that was flown
-in ("compiled" where there is none).
+(3), force (3), lift, land, stop, enabled, as `laws.grab.Held` has them; and `engine`, the name of the one that it was
+recorded in ("compiled" where there is none).
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def read_recording(path: str) -> Recording:
 
 
 def _check(path: str, recording: Recording) -> None:
-    steps, hands = recording
+    steps, hands, _ = recording
     if steps.dtype != np.int64 or steps.ndim != 1 or (steps.size and (steps[0] < 0 or np.any(np.diff(steps) <= 0))):
         raise InputError(f"partner.recording = {path!r}: `step` must be int64 (n,), rising from 0 or more")
     if hands.dtype != np.float64 or hands.shape != (steps.size, WIDTH) or not np.isfinite(hands).all():
@@ -74,4 +74,6 @@ def engine_of(mission: Mission) -> str:
 def portable(tables: dict[str, Any]) -> dict[str, Any]:
     """A mission's tables without the folder that its recording is in: it stands beside the file that they go to."""
     recording = tables.get("partner", {}).get("recording")
-    return tables if recording is None else {**tables, "partner": {**tables["partner"], "recording": Path(recording).name}}
+    return (
+        tables if recording is None else {**tables, "partner": {**tables["partner"], "recording": Path(recording).name}}
+    )

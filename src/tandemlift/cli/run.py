@@ -40,7 +40,12 @@ WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set takes without quote
 @click.option("--controller", metavar="NAME|FILE", help="Fly this controller: a registered one, or your .py file.")
 @click.option("--no-figures", is_flag=True, help="Leave the figures out.")
 def run(
-    mission: str, engine: str | None, out: str | None, settings: tuple[str, ...], controller: str | None, no_figures: bool
+    mission: str,
+    engine: str | None,
+    out: str | None,
+    settings: tuple[str, ...],
+    controller: str | None,
+    no_figures: bool,
 ) -> None:
     """Fly MISSION, print a summary and write the results.
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.changing import Due, due_of, hand_place
+from tandemlift.changing import Due, due_of
 from tandemlift.engines import engine_named
 from tandemlift.errors import FlightWarning, InputError
 from tandemlift.files import whole
@@ -93,7 +93,7 @@ class RecordedFlight:
     @property
     def hand(self) -> Held:
         """The hand as it is moved."""
-        return unflat(self._stepper.a[hand_place(self._stepper.p)], NOBODY_HOLDS)
+        return unflat(self._stepper.a[self._stepper.hand], NOBODY_HOLDS)
 
     def advance(self) -> None:
         """Take a step."""
@@ -161,22 +161,25 @@ class Snapshot:
         self._log = f._log[: self._steps // p.every + 1]  # rows that are written are never written again
         self._last = np.full(leaves(p.sample), np.nan) if f.lost else f.sample.copy()
         self._rows = [(k, hand) for k, hand in f._rows if k <= self._steps]
-        self._changes, self._start, self._engine = list(f._changes), f.start, f.engine
+        self._changes, self._start, self.engine = list(f._changes), f.start, f.engine
 
     def save(self, folder: Path) -> Flight:
         """Write mission, hand and flight into a folder; the flight that the mission flies again."""
+        self.save_mission(folder)
+        return save_flight(folder, self.flown, self.engine)
+
+    def save_mission(self, folder: Path) -> None:
+        """Write mission and hand into a folder."""
         steps = np.array([k for k, _ in self._rows], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self._rows], (len(steps), WIDTH))
-        write_recording(folder / HAND, Recording(steps, hands, self._engine))
+        write_recording(folder / HAND, Recording(steps, hands, self.engine))
         with whole(folder / MISSION) as partial:
-            again = f"# Flies again, in the engine {self._engine}: tandemlift run {MISSION}\n\n"
+            again = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
             partial.write_text(again + self._toml(folder.name), "utf-8")
-        p = Prepared(load_mission(folder / MISSION))
-        flight = flight_of(p, self._flown(), self._engine)
-        flight.save(folder / FLIGHT)
-        return flight
 
-    def _flown(self) -> Flown:
+    @property
+    def flown(self) -> Flown:
+        """What it leaves behind."""
         return Flown(self._moving, self._early, self._steps, self._log, self._last, self._wall)
 
     def _toml(self, name: str) -> str:
@@ -185,3 +188,13 @@ class Snapshot:
         tables["partner"]["recording"] = HAND
         tables["changes"] = [c for c in self._changes if round(c["time"] / step) <= self._steps]
         return format_toml(tables)
+
+
+def save_flight(folder: Path, flown: Flown, engine: str) -> Flight:
+    """Write into the folder of a recorded mission the flight that was flown."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)
+        p = Prepared(load_mission(folder / MISSION))
+    flight = flight_of(p, flown, engine)
+    flight.save(folder / FLIGHT)
+    return flight

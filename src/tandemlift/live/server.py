@@ -104,7 +104,7 @@ class Server:
         self._files, self._flight, self._host, self._port = files, flight, host, port
         self.viewers = Viewers()
         self._somebody = asyncio.Event()
-        self._turn, self._tasks = asyncio.Lock(), set[asyncio.Task[None]]()
+        self._turns, self._tasks = (asyncio.Lock(), asyncio.Lock()), set[asyncio.Task[None]]()
         self._generation = 0
         self._guard: Guard
         self._sockets: Sockets
@@ -277,7 +277,7 @@ class Server:
         task.add_done_callback(self._tasks.discard)
 
     async def _change(self, viewer: Viewer, message: Message) -> None:
-        async with self._turn:
+        async with self._turns[isinstance(message, Save)]:  # nothing waits for what is saved
             try:
                 self._answer(viewer, await asyncio.to_thread(self._applied, message))
             except Refusal as refusal:

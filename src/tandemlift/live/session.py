@@ -6,6 +6,7 @@ is made ready beside it.
 
 from __future__ import annotations
 
+import gc
 import logging
 import sys
 import threading
@@ -18,7 +19,6 @@ from typing import Any
 import numpy as np
 
 from tandemlift.errors import InputError
-from tandemlift.flown import channels_of
 from tandemlift.laws.grab import NOBODY_HOLDS
 from tandemlift.laws.phases import NAMES
 from tandemlift.laws.rotation import rotation_from_quaternion
@@ -28,10 +28,11 @@ from tandemlift.live.controls import CHOICES, controls_of
 from tandemlift.live.frames import fields_of, frames_of
 from tandemlift.live.knobs import Knobs
 from tandemlift.live.pace import Pace
-from tandemlift.live.recorded import RecordedFlight
+from tandemlift.live.recorded import Array, RecordedFlight
+from tandemlift.live.saving import save_aside
 from tandemlift.live.scene import alarm_names, scene_of
 from tandemlift.live.states import dead_rotors, hands_off
-from tandemlift.live.values import values_of
+from tandemlift.live.values import places_of, values_of
 from tandemlift.missions import tables_of
 from tandemlift.settings import Mission
 from tandemlift.vector import ZERO, Quat, Vec3, apply
@@ -42,7 +43,6 @@ BREATH = 1e-4  # s, for others between two batches of a flight that is behind
 SWITCHING = 2e-4  # s, for which another thread may keep the interpreter from the flight
 BATCH = 25  # steps without a look at who wants something
 WISH = 0.2  # s, for which a wish to lift or to land is said
-
 
 log = logging.getLogger(__name__)
 
@@ -80,7 +80,7 @@ class Session:
             self._flight, self._grip, self._failed = flight, Grip(), False
             self._fields = fields_of(Vehicle.from_settings(mission.vehicle).rotor_count)
             self._scene = scene_of(mission, self._engine)
-            self._phases = tables_of(mission)["phases"]
+            self._phases, self._places = tables_of(mission)["phases"], places_of(flight.layout)
             flight.hold(NOBODY_HOLDS)
             flight.advance()
             self.generation += 1
@@ -97,7 +97,9 @@ class Session:
     # the thread
 
     def start(self) -> None:
-        """Begin to fly."""
+        """Begin to fly; garbage is not looked for in what is there by then, which would take a tenth of a second."""
+        gc.collect()
+        gc.freeze()
         self._pace = Pace(self._flight.dt)
         self._thread.start()
 
@@ -106,6 +108,7 @@ class Session:
         self._stopping.set()
         if self._thread.is_alive():
             self._thread.join()
+            gc.unfreeze()
         self._knobs.close()
 
     def _run(self) -> None:
@@ -136,19 +139,23 @@ class Session:
     def frame(self) -> bytes:
         """The latest state, as the scene's `fields` say."""
         with self._lock:
-            values, hand, seq = self._values(), self._flight.hand, self._grip.seq
+            moment, hand, seq = self._moment(), self._flight.hand, self._grip.seq
+        values = self._values(*moment)
         held = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
         return frames_of(self._fields, {**values, **held, "seq": seq % 2**24}).tobytes()
 
-    def _values(self) -> dict[str, Any]:
-        flight = self._flight
-        channels = dict(channels_of(flight.layout, flight.sample[None, :].copy()))
-        return values_of(channels, np.array([(flight.step - 1) * flight.dt]), self._phases)
+    def _moment(self) -> tuple[Array, float]:
+        """The latest sample, and its time [s]."""
+        return self._flight.sample.copy(), (self._flight.step - 1) * self._flight.dt
+
+    def _values(self, sample: Array, at: float) -> dict[str, Any]:
+        channels = {name: sample[places] for name, places in self._places.items()}
+        return values_of(channels, np.array([at]), self._phases)
 
     def status(self) -> dict[str, Any]:
         """Phase, alarm, pace and what was recorded, for people."""
         with self._lock:
-            flight, pace, values = self._flight, self._pace, self._values()
+            flight, pace, values = self._flight, self._pace, self._values(*self._moment())
             most, pace.most_behind = pace.most_behind, 0.0
             return {
                 "phase": self._phase(int(values["phase"][0])),
@@ -206,7 +213,7 @@ class Session:
     def _grab(self, m: messages.Grab) -> None:
         with self._lock:
             self._check_tare()
-            point, attitude = Vec3(*m.point), Quat(*map(float, self._values()["attitude"][0]))
+            point, attitude = Vec3(*m.point), Quat(*map(float, self._values(*self._moment())["attitude"][0]))
             arm = apply(rotation_from_quaternion(attitude), point)
             centre = m.at == "centre"
             self._grip.offset = -arm if centre else ZERO
@@ -270,7 +277,7 @@ class Session:
         with self._lock:
             snapshot = self._flight.snapshot()
         folder = self._out / m.name
-        snapshot.save(folder)
+        save_aside(snapshot, folder)
         return {"type": "done", "what": "save", "detail": str(folder)}
 
     @_heed.register

@@ -69,7 +69,8 @@ export class Plots {
     const more = choice("What is shown", { place: "m", off: "off, cm" }, "place", (value) => {
       this.difference = value === "off";
     });
-    const plot = new Plot({ title: "Position", unit: "", curves: [...wanted, ...actual], least: 0.5, more }, this.graphics);
+    const curves = [...wanted, ...actual];
+    const plot = new Plot({ title: "Position", unit: "", curves, least: 0.5, more }, this.graphics);
     return { plot, columns: () => (this.difference ? this.off() : [...this.of("reference"), ...this.of("position")]) };
   }
 
@@ -94,7 +95,8 @@ export class Plots {
       ...(i === 0 && { label: "front" }),
       ...(i === 1 && { label: "rear" }),
     }));
-    const plot = new Plot({ title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under }, this.graphics);
+    const look = { title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under };
+    const plot = new Plot(look, this.graphics);
     return { plot, columns: () => curves.map((_, i) => this.history.column(`thrusts${i}`)) };
   }
 
