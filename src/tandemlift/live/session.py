@@ -31,7 +31,7 @@ from tandemlift.live.pace import Pace
 from tandemlift.live.recorded import Array, RecordedFlight
 from tandemlift.live.saving import save_aside
 from tandemlift.live.scene import alarm_names, scene_of
-from tandemlift.live.states import dead_rotors, hands_off
+from tandemlift.live.states import dead_rotors, hands_off, off_vehicle
 from tandemlift.live.values import places_of, values_of
 from tandemlift.missions import tables_of
 from tandemlift.settings import Mission
@@ -186,9 +186,9 @@ class Session:
                 self._grip.seq = seq
         return self._heed(message)
 
-    def _check_tare(self) -> None:
-        """Refuse a hand while sensors are tared, which would take it for a bias."""
-        if reason := hands_off(self._flight):
+    def _check_hand(self, point: messages.Point) -> None:
+        """Refuse a hand that may not touch the vehicle now, or not there."""
+        if reason := hands_off(self._flight) or off_vehicle(self._scene, point):
             raise InputError(reason)
 
     def release(self) -> None:
@@ -212,7 +212,7 @@ class Session:
     @_heed.register
     def _grab(self, m: messages.Grab) -> None:
         with self._lock:
-            self._check_tare()
+            self._check_hand(m.point)
             point, attitude = Vec3(*m.point), Quat(*map(float, self._values(*self._moment())["attitude"][0]))
             arm = apply(rotation_from_quaternion(attitude), point)
             centre = m.at == "centre"
@@ -235,7 +235,7 @@ class Session:
         with self._lock:
             force = Vec3(*m.force)
             if any(force):
-                self._check_tare()
+                self._check_hand(m.point)
             grip = {"grip": Vec3(*m.point)} if any(force) and not self._flight.hand.held else {}
             self._move(force=force, **grip)
 

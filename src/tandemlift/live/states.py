@@ -1,6 +1,10 @@
-"""What else viewers must know of a flight: rotors that were stopped, and whether hands must wait for the tare."""
+"""What else viewers must know of a flight: rotors that were stopped, and when and where hands may touch the vehicle."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from tandemlift.live.recorded import RecordedFlight
 
@@ -24,3 +28,20 @@ def hands_off(flight: RecordedFlight) -> str:
     end = estimator.tare_start + estimator.tare_duration
     waits = flight.step * flight.dt < end
     return f"hands off until {end:g} s: the force sensors are tared in hover" if waits else ""
+
+
+def off_vehicle(scene: Mapping[str, Any], point: Sequence[float]) -> str:
+    """Why nobody can touch the vehicle of a scene at a point [m, body axes]; "" if somebody can."""
+    reach = max(_ways(scene["vehicle"]))
+    if math.hypot(*point) <= reach:
+        return ""
+    return f"point = {list(point)}: must be on the vehicle, within {reach:.3g} m of its centre of mass"
+
+
+def _ways(vehicle: Mapping[str, Any]) -> Iterator[float]:
+    """How far the ends of the payload and of the rotors are from the centre of mass [m]."""
+    payload = vehicle["payload"]
+    yield math.hypot(*payload["position"]) + math.hypot(payload["length"], payload["width"], payload["height"]) / 2.0
+    for quadrotor in vehicle["quadrotors"]:
+        for rotor in quadrotor["rotors"]:
+            yield math.hypot(*rotor["position"]) + rotor["radius"]
