@@ -96,7 +96,7 @@ def test_the_version_is_told(run):
             ("rnu", "paper"),
             [
                 "No such command 'rnu'",
-                "run, compare, render, live, replay, validate, export, mi",
+                "run, compare, render, live, replay, gazebo, ros, validate, export, mi",
                 "Did you mean 'run'?",
             ],
         ),

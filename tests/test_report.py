@@ -184,7 +184,7 @@ def test_a_run_removes_the_figures_that_its_flight_does_not_have(paper, tmp_path
     for name in ("push.png", "rotors.pdf", "mine.png"):
         (tmp_path / "figures").mkdir(exist_ok=True)
         (tmp_path / "figures" / name).write_text("old")
-    write_results(paper, tl.load_mission("paper"), tmp_path, figures=False)
+    write_results(paper, tmp_path, figures=False)
     assert [path.name for path in (tmp_path / "figures").iterdir()] == ["mine.png"]
 
 

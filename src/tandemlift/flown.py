@@ -102,12 +102,12 @@ def events_of(moving: Moving) -> list[list[Any]]:
     story, before = [], (0, 0, 0)
     for at, code in happened:
         now = (int(code // PHASE), int(code % PHASE // ALARM), int(code % ALARM))
-        story.append([round(float(at), 6), _told(now, before)])
+        story.append([round(float(at), 6), told(now, before)])
         before = now
     return story
 
 
-def _told(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
+def told(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
     """An event in words, from phase, alarm and the check that refuses; now, and in the event before."""
     phase, alarm, refused = now
     if alarm and (alarm != before[1] or phase not in (IDLE, before[0])):

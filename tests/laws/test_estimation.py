@@ -271,6 +271,26 @@ def test_a_slower_unit_gives_the_same_push_in_steps(period):
     assert np.abs(push.point[1500:2500] - 0.6).max() < 0.01
 
 
+def test_a_tare_that_is_begun_anew_forgets_the_one_before():
+    """Told another window in flight, the estimator comes to what one comes to that has seen that window alone."""
+    rng, p = np.random.default_rng(3), paper_parts()
+    windows = [estimator(p, tare_start=at, tare_duration=0.02, identify_mass=True) for at in (0.01, 0.05)]
+    said = []
+    for _ in range(90):
+        R, w, x = moment(rng, 2)
+        said.append(unit(R, w, solved(p, R, w, x)))
+    twice = once = start_push(windows[0], said[0])
+    for k, now in enumerate(said):
+        first, twice = estimate(windows[k >= 40], twice, now, k * STEP)
+        second, once = estimate(windows[1], once, now, k * STEP)
+        if k == 39:
+            assert first.armed == 1.0
+            assert first.payload_mass != pytest.approx(second.payload_mass)
+    assert twice.sums == once.sums
+    assert twice.sums.count == 20.0
+    assert (first.measured, first.payload_mass, first.armed) == (second.measured, second.payload_mass, 1.0)
+
+
 def test_a_tare_that_cannot_be_is_refused():
     with pytest.raises(InputError, match="identified during the tare"):
         estimator(paper_parts(), identify_mass=True)

@@ -22,6 +22,7 @@ GOOD = [
     {"type": "ask", "seq": 11, "what": "land"},
     {"type": "enable", "seq": 12, "on": False},
     {"type": "kill", "seq": 13, "rotor": 7},
+    {"type": "tare", "seq": 12},
     {"type": "pause", "seq": 14, "on": True},
     {"type": "speed", "seq": 15, "factor": 0.5},
     {"type": "reset", "seq": 16},

@@ -103,7 +103,7 @@ def test_after_a_hundred_thousand_hostile_messages_it_flies_on_and_follows_a_han
 def _check_heard(messages):
     """That what got through is as good as any message, and was not little."""
     kinds = {message.type for message in messages}
-    assert {"grab", "move", "force", "release", "set", "enable", "kill"} <= kinds
+    assert {"grab", "move", "force", "release", "enable"} <= kinds
     assert len(messages) > 1000
     for message in messages[:2000]:
         data = message.model_dump()

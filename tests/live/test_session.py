@@ -12,6 +12,7 @@ from tandemlift.live.controls import BY_KEY, controls_of
 from tandemlift.live.frames import read_frames
 from tandemlift.live.pace import MOST_BEHIND, Pace
 from tandemlift.live.session import Session
+from tandemlift.live.taring import check_in_time
 from tandemlift.missions import changed
 
 GUIDED = {
@@ -185,6 +186,38 @@ def test_hands_are_refused_while_the_sensors_are_tared(session, monkeypatch):
     say(session, "grab", point=(0.0, 0.0, 0.0), target=(1.0, 0.0, 0.0), at="point")
 
 
+@pytest.mark.parametrize(
+    ("estimator", "push", "words"),
+    [
+        ({}, "truth", "reads no sensor that could be tared"),
+        ({"tare": "hover"}, "estimate", "tares by itself, in steady hover"),
+        ({}, "estimate", "the mission has none (estimator.tare_start)"),
+    ],
+)
+def test_a_mission_without_a_tare_that_can_be_begun_says_so(session, estimator, push, words):
+    up(session)
+    now = session._flight.now
+    told = {
+        "estimator": now.estimator.model_copy(update=estimator),
+        "pilot": now.pilot.model_copy(update={"push": push}),
+    }
+    session._flight.now = now.model_copy(update=told)
+    with pytest.raises(tl.InputError) as refused:
+        say(session, "tare")
+    assert words in str(refused.value)
+
+
+def test_a_tare_wants_hover_and_no_hand_and_begins_in_time(session):
+    with pytest.raises(tl.InputError, match="only in the air, hovering; the phase is idle"):
+        say(session, "tare")
+    at = up(session)
+    say(session, "grab", point=(0.0, 0.0, 0.0), target=tuple(map(float, at)), at="point")
+    with pytest.raises(tl.InputError, match="hands off first"):
+        say(session, "tare")
+    with pytest.raises(tl.InputError, match="took too long"):
+        check_in_time(session.flight, session.flight.step * session.flight.dt)
+
+
 def test_a_mission_that_is_guided_by_the_clock_says_that_it_asks_nobody(session):
     session._mission = tl.load_mission("paper")
     for request in ({"kind": "ask", "what": "stop"}, {"kind": "enable", "on": False}):
@@ -319,3 +352,32 @@ def test_the_factor_is_time_flown_over_time_passed(clock):
         pace.due()
         pace.flew(5)
     assert pace.factor == pytest.approx(0.5, rel=0.02)
+
+
+def test_hands_are_refused_until_it_has_tared_by_itself_in_steady_hover(session):
+    up(session)
+    mission = session._flight.now
+    estimator = mission.estimator.model_copy(update={"tare": "hover", "tare_duration": 2.0})
+    pilot = mission.pilot.model_copy(update={"push": "estimate"})
+    session._flight.now = mission.model_copy(update={"estimator": estimator, "pilot": pilot})
+    until_tared = 2.0 - session._flight.number("memory", "guidance", "phase", "hovered")
+    if until_tared > 0.0:
+        with pytest.raises(tl.InputError, match="hands off until the force sensors are tared, in steady hover"):
+            say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+        fly(session, until_tared + 0.01)
+    say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("kind", ["grab", "force"])
+def test_a_hand_touches_the_vehicle_and_not_the_air_beside_it(session, kind):
+    up(session)
+    rest = {"grab": {"target": (0.0, 0.0, 0.0), "at": "point"}, "force": {"force": (1.0, 0.0, 0.0)}}[kind]
+    with pytest.raises(tl.InputError, match=r"point = .*: must be on the vehicle, within"):
+        say(session, kind, point=(0.0, 9.0, 0.0), **rest)
+    say(session, kind, point=(0.0, 0.9, 0.0), **rest)
+
+
+def test_the_status_tells_every_viewer_which_rotors_are_dead(session):
+    assert session.status()["dead"] == []
+    session._flight.now = changed(by_hand(tl.load_mission("iris")), "faults.3.time", 0.0)
+    assert session.status()["dead"] == [3]

@@ -12,9 +12,11 @@ import click
 from tandemlift import __version__
 from tandemlift.cli.compare import compare
 from tandemlift.cli.export import export
+from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.live import live
 from tandemlift.cli.render import render
 from tandemlift.cli.replay import replay
+from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run, say
 from tandemlift.cli.validate import validate
 from tandemlift.errors import FlightWarning, InputError, suggestion
@@ -58,6 +60,8 @@ cli.add_command(compare)
 cli.add_command(render)
 cli.add_command(live)
 cli.add_command(replay)
+cli.add_command(gazebo)
+cli.add_command(ros)
 cli.add_command(validate)
 cli.add_command(export)
 

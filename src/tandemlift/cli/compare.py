@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.cli.results import bar, results_in
-from tandemlift.cli.run import DIVERGED, chosen_controller, parse_setting, say
+from tandemlift.cli.run import DIVERGED, chosen_controller, load, parse_setting, say
 from tandemlift.errors import InputError
 from tandemlift.files import whole
 
@@ -20,16 +20,25 @@ if TYPE_CHECKING:
     from tandemlift.laws.controllers import Controller
 
 FILES = ("compare.html", "compare.json")
+OF_ENGINES = ("engines.html", "engines.json")
 
 
 @click.command()
 @click.argument("mission")
 @click.option("--controllers", metavar="A,B,…", help="Names, or your .py files.  [default: all that are registered]")
 @click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
+@click.option("--engines", metavar="A,B,…", help="Instead of controllers: the same flight in several engines.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of the mission, as in run.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
-def compare(mission: str, controllers: str | None, engine: str, settings: tuple[str, ...], out: str | None) -> None:
-    """Fly MISSION with several controllers, print a table and write a page.
+def compare(
+    mission: str,
+    controllers: str | None,
+    engine: str,
+    engines: str | None,
+    settings: tuple[str, ...],
+    out: str | None,
+) -> None:
+    """Fly MISSION with several controllers, or in several engines, print a table and write a page.
 
     Every controller flies with its own defaults, and the mission's own with the mission's settings. A change of a
     `controller` key by --set is for the mission's own controller alone.
@@ -39,18 +48,26 @@ def compare(mission: str, controllers: str | None, engine: str, settings: tuple[
       tandemlift compare iris
       tandemlift compare iris --controllers nftsmc,pid,lqr --set 'disturbance.force=[3, 3, 0]'
       tandemlift compare hover --controllers nftsmc,my_pd.py --out out/mine
+      tandemlift compare zigzag --engines compiled,mujoco,gazebo
 
     \b
     Written to the folder, replacing only files of these names:
       compare.html   table, errors and thrusts on one page, needs no network
       compare.json   the same in numbers, with all metrics and settings, SI units
+      engines.html   of engines: the flights over each other, and how far they are from the first
+      engines.json   the same in numbers, SI units
 
     \b
     Exit code:
       0   flown
       2   bad input: one message, nothing is written
-      3   a controller diverged: its row says when and why, everything is written
+      3   a flight diverged: its row says when and why, everything is written
     """
+    if engines is not None:
+        if controllers is not None:
+            raise InputError("--engines, --controllers: give one of them")
+        _compare_engines(mission, _names("--engines", engines, "compiled,mujoco"), settings, out)
+        return
     from tandemlift.comparison import entrants
     from tandemlift.engines import engine_named
 
@@ -78,10 +95,19 @@ def _chosen(given: str | None) -> list[Controller] | None:
     """
     if given is None:
         return None
+    return [chosen_controller(name) for name in _names("--controllers", given, "nftsmc,pid")]
+
+
+def _names(option: str, given: str, example: str) -> list[str]:
+    """The names of a list with commas, each once.
+
+    Raises:
+        InputError: the list is empty.
+    """
     names = list(dict.fromkeys(part.strip() for part in given.split(",") if part.strip()))
     if not names:
-        raise InputError("--controllers: must be names with commas between them, such as nftsmc,pid")
-    return [chosen_controller(name) for name in names]
+        raise InputError(f"{option}: must be names with commas between them, such as {example}")
+    return names
 
 
 def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
@@ -140,6 +166,48 @@ def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> No
     from tandemlift.report.comparison import write_comparison
 
     found: dict[str, Any] = {"mission": name, "engine": engine, "controllers": summary_of(entries)}
-    with whole(folder / "compare.json") as partial:
-        partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
+    _write_json(found, folder / "compare.json")
     write_comparison(entries, folder / "compare.html")
+
+
+def _write_json(found: Any, path: Path) -> None:
+    with whole(path) as partial:
+        partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
+
+
+def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], out: str | None) -> None:
+    """Fly a mission in several engines, print how far they are apart, and write the page."""
+    from tandemlift.apart import fly_in, summary_of
+    from tandemlift.prepared import needs_compiling
+    from tandemlift.report.engines import write_engines
+
+    loaded = load(mission, settings)
+    with results_in(out, Path("out") / loaded.mission.name, OF_ENGINES) as folder:
+        if needs_compiling(loaded):
+            click.echo("Compiling the flight loop for this machine (once, up to a minute or two) …", err=True)
+        with bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
+            flights = fly_in(loaded, names, progress)
+        found = summary_of(flights)
+        _print_differences(loaded.mission.name, found)
+        _write_json({"mission": loaded.mission.name, "engines": found}, folder / "engines.json")
+        say(f"  page: {write_engines(flights, folder / 'engines.html')}")
+    lost = [row for row in found if row["diverged"]]
+    for row in lost:
+        click.echo(f"{row['engine']}: {row['diverged']}", err=True)
+    if lost:
+        sys.exit(DIVERGED)
+
+
+def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:
+    """Print a row for each engine: how far it is from the first at most, and how fast it was."""
+    from tandemlift.apart import QUANTITIES
+
+    shown = [q for q in QUANTITIES if q in found[0]["apart"]]
+    heads = [f"{q.replace('_', ' ')} ({QUANTITIES[q]})" for q in shown] + ["steps/s"]
+    width = max(len(row["engine"]) for row in found) + 2
+    say(f"{name}: largest difference from {found[0]['engine']}")
+    say("  " + " " * width + "  ".join(head.rjust(18) for head in heads))
+    for row in found:
+        cells = [f"{row['apart'][q]:.1e}" if row is not found[0] else "" for q in shown]
+        line = "  ".join(cell.rjust(18) for cell in [*cells, f"{row['steps_per_s']:,.0f}"])
+        say(f"  {row['engine'].ljust(width)}{line}")

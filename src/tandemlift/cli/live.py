@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.run import parse_setting
+from tandemlift.cli.run import load
 from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def live(
 
     needs_live()
     engine_named(engine)
-    session = _session(_load(mission, settings), engine, Path(out))
+    session = _session(load(mission, settings), engine, Path(out))
     from tandemlift.live.pages import page_files
     from tandemlift.live.server import Server
 
@@ -69,9 +69,3 @@ def _session(mission: Mission, engine: str, out: Path) -> Session:
     if needs_compiling(by_hand(mission)):
         click.echo("Compiling the flight loop for this machine (once, a minute or two) …", err=True)
     return Session(mission, engine, out)
-
-
-def _load(mission: str, settings: tuple[str, ...]) -> Mission:
-    from tandemlift.missions import load_mission
-
-    return load_mission(mission, dict(map(parse_setting, settings)))

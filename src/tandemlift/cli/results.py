@@ -17,6 +17,8 @@ from tandemlift.errors import InputError
 from tandemlift.files import whole
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from tandemlift.flight import Flight
     from tandemlift.settings import Mission
 
@@ -67,30 +69,32 @@ def _check_room(folder: Path, files: Sequence[str]) -> None:
         raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
 
 
-def write_results(flight: Flight, mission: Mission, folder: Path, *, figures: bool) -> None:
-    """Write everything that `tandemlift run` leaves behind, replacing what an earlier run left."""
-    from tandemlift.figures import FIGURES, figures_of, save_figures
-    from tandemlift.missions import format_toml, tables_of
-    from tandemlift.recording import portable
+def write_results(flight: Flight, folder: Path, *, figures: bool, views: Figure | None = None) -> None:
+    """Write all that `tandemlift run` leaves behind, and photographs if given, replacing what an earlier run left."""
+    from tandemlift.figures import FIGURES, VIEWS, figures_of, save_figures
+    from tandemlift.figures.style import save
+    from tandemlift.missions import format_toml
     from tandemlift.report import write_report
 
     with whole(folder / "mission.toml") as partial:
-        partial.write_text(format_toml(portable(tables_of(mission))), "utf-8")
-    _keep_recording(mission, folder)
+        partial.write_text(format_toml(flight.mission), "utf-8")
     flight.save(folder / "flight.npz")
     with whole(folder / "metrics.json") as partial:
         partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
-    for name in FIGURES:
+    for name in (*FIGURES, VIEWS):
         for kind in ("png", "pdf"):
             (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
     if figures:
         with bar("Drawing", len(figures_of(flight)), shown=sys.stderr.isatty()) as progress:
             save_figures(flight, folder / "figures", progress)
+    if views:
+        (folder / "figures").mkdir(exist_ok=True)
+        save(views, folder / "figures" / f"{VIEWS}.png")
     write_report(flight, folder / "figures", folder / "report.html")
 
 
-def _keep_recording(mission: Mission, folder: Path) -> None:
-    """Put the recording of a mission beside its file, so that the folder flies again wherever it is."""
+def keep_recording(mission: Mission, folder: Path) -> None:
+    """Put the recording of a mission, if it has one, beside its file, so that the folder flies again wherever it is."""
     if mission.partner.recording is None:
         return
     source = Path(mission.partner.recording)

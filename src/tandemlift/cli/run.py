@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.results import bar, results_in, write_results
+from tandemlift.cli.results import bar, keep_recording, results_in, write_results
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
@@ -79,11 +79,12 @@ def run(
     if engine is not None:
         engine_named(engine)
     chosen = None if controller is None else chosen_controller(controller)
-    loaded = _load(mission, settings, chosen)
+    loaded = load(mission, settings, chosen)
     with results_in(out, Path("out") / loaded.mission.name) as folder:
         flight = _fly(loaded, engine, chosen)
-        _print_summary(flight, time.perf_counter() - began)
-        write_results(flight, loaded, folder, figures=not no_figures)
+        summarise(flight, time.perf_counter() - began)
+        keep_recording(loaded, folder)
+        write_results(flight, folder, figures=not no_figures)
         say(f"  report: {folder / 'report.html'}")
     if flight.divergence:
         click.echo(f"{flight.name}: {flight.divergence}", err=True)
@@ -101,7 +102,12 @@ def chosen_controller(given: str) -> Controller:
     return load_controller(given) if given.endswith(".py") or "/" in given else controller(given)
 
 
-def _load(mission: str, settings: tuple[str, ...], controller: Controller | None) -> Mission:
+def load(mission: str, settings: tuple[str, ...], controller: Controller | None = None) -> Mission:
+    """The mission of a name or path, with the changes of `--set`.
+
+    Raises:
+        InputError: there is none, or it is not sound.
+    """
     from tandemlift.missions import load_mission
 
     return load_mission(mission, dict(map(parse_setting, settings)), controller=controller)
@@ -147,7 +153,8 @@ def _fly(mission: Mission, engine: str | None, controller: Controller | None) ->
         raise InputError(f"controller {controller.name!r} fails: {told(error, file_of(controller))}") from error
 
 
-def _print_summary(flight: Flight, seconds: float) -> None:
+def summarise(flight: Flight, seconds: float) -> None:
+    """Print what came of a flight, and how long [s] all of it took."""
     m = flight.metrics()
     late = "_after_10s" if m["position_rmse_after_10s_m"] else ""
     when = "after 10 s" if late else "whole flight"

@@ -30,6 +30,12 @@ mount --rbind /dev "$1/dev" && mount -t proc proc "$1/proc" && exec chroot "$1" 
 PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 HOME=/tmp sh -c "$2"
 """  # in a mount namespace of its own, so that no mount is left behind
 
+UNSEEN = """\
+Xvfb -displayfd 1 -terminate -nolisten tcp > display 2> /dev/null &
+while kill -0 $! && ! [ -s display ]; do sleep 0.05; done
+DISPLAY=:$(cat display); export DISPLAY
+"""  # a display of its own, which ends with its only client
+
 
 def root() -> Path | None:
     """The root that Gazebo is installed in, None for this system's.
@@ -63,31 +69,35 @@ class Server:
 
     Args:
         world: the text of its world.
+        draws: whether there are cameras in it: it then draws, on a display that nobody sees (Xvfb), and its cameras
+            keep step with the world.
 
     Attributes:
+        folder: its own, in which it runs.
         master: address of Gazebo's own transport, for `gz` and `gzclient`; `GAZEBO_MASTER_URI` if that is set.
 
     Raises:
         InputError: there is no Gazebo.
     """
 
-    def __init__(self, world: str) -> None:
+    def __init__(self, world: str, *, draws: bool = False) -> None:
         inside = root()
         self.master = os.environ.get(MASTER) or f"http://127.0.0.1:{free_port(socket.SOCK_STREAM)}"
-        self._folder = Path(tempfile.mkdtemp(prefix="tandemlift-", dir=None if inside is None else inside / "tmp"))
-        (self._folder / "vehicle.world").write_text(world, "utf-8")
-        with (self._folder / "log").open("wb") as log:
+        self.folder = Path(tempfile.mkdtemp(prefix="tandemlift-", dir=None if inside is None else inside / "tmp"))
+        seen = self.folder if inside is None else Path("/tmp") / self.folder.name
+        (self.folder / "vehicle.world").write_text(world, "utf-8")
+        with (self.folder / "log").open("wb") as log:
             self._process = subprocess.Popen(
-                command(inside, self._script(inside)),
+                command(inside, self._script(seen, draws)),
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,  # Ctrl-C is ours
             )
 
-    def _script(self, inside: Path | None) -> str:
-        folder = self._folder if inside is None else Path("/tmp") / self._folder.name
-        return in_gazebo(self.master, f"exec gzserver --verbose {shlex.quote(str(folder / 'vehicle.world'))}", folder)
+    def _script(self, folder: Path, draws: bool) -> str:
+        server = f"{UNSEEN}exec gzserver --lockstep" if draws else "exec gzserver"
+        return in_gazebo(self.master, f"cd {shlex.quote(str(folder))}\n{server} --verbose vehicle.world", folder)
 
     def check(self) -> None:
         """See that it still runs, and has the plugin.
@@ -104,7 +114,7 @@ class Server:
                 raise InputError(f"engine 'gazebo' needs its plugin (docs/gazebo.md), and gzserver says: {line}")
 
     def _lines(self) -> list[str]:
-        text = COLORS.sub("", (self._folder / "log").read_text("utf-8", "replace"))
+        text = COLORS.sub("", (self.folder / "log").read_text("utf-8", "replace"))
         return [line for line in text.strip().splitlines() if line and not line.startswith(SOUND)]
 
     def said(self) -> str:
@@ -117,7 +127,7 @@ class Server:
         if self._process.poll() is None:
             self._process.kill()
             self._process.wait()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        shutil.rmtree(self.folder, ignore_errors=True)
 
 
 def in_gazebo(master: str, script: str, logs: Path = Path("/tmp")) -> str:
@@ -135,3 +145,9 @@ def command(inside: Path | None, script: str) -> list[str]:
         return ["sh", "-c", script]
     own = [] if os.geteuid() == 0 else ["--map-root-user"]
     return ["unshare", *own, "--mount", "sh", "-c", ENTER, "sh", str(inside), script]
+
+
+def by_yourself(master: str, what: str) -> str:
+    """The command by which a person runs one of Gazebo's own where Gazebo is."""
+    inside = root()
+    return f"{f'sudo chroot {inside} ' if inside else ''}env {MASTER}={master} GAZEBO_IP=127.0.0.1 {what}"

@@ -102,13 +102,18 @@ def _rosbags() -> ModuleType:
     return rosbags
 
 
+def _types_of(store: Any, *, numbered: bool) -> Types:
+    """The classes that `rosbags` has of the messages of one ROS."""
+    return Types(lambda name: store.types[modern(name)], numbered=numbered)
+
+
 def write_mcap(flight: Flight, path: Path) -> None:
     """Write the flight as a ROS 2 bag in one MCAP file (chunks in Zstandard)."""
     ros = _rosbags().typesys
     from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
     store = ros.get_typestore(ros.Stores.ROS2_HUMBLE)
-    streams = streams_of(flight, Types(store))
+    streams = streams_of(flight, _types_of(store, numbered=False))
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=f"{path.name}.") as folder:
         bag = Writer(Path(folder) / NAME, version=8, storage_plugin=StoragePlugin.MCAP)
         bag.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
@@ -138,7 +143,7 @@ def write_bag(flight: Flight, path: Path) -> None:
 
     store = ros.get_typestore(ros.Stores.ROS1_NOETIC)
     store.register(ros.get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage"))
-    streams = streams_of(flight, Types(store))
+    streams = streams_of(flight, _types_of(store, numbered=True))
     bag = Writer(path)
     bag.set_compression(Writer.CompressionFormat.LZ4)
     bag.compressor = _frame_that_ros_reads

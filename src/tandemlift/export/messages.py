@@ -6,34 +6,35 @@ Quaternions come as w, x, y, z. Covariances are zero: not told. An `Imu` has no 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array
-from tandemlift.export.topics import IMU, ODOMETRY, POINT, POSE, ROTORS, VECTOR, WRENCH, Topic
+from tandemlift.export.topics import IMU, ODOMETRY, POINT, POSE, ROTORS, VECTOR, WRENCH, Recipe, Topic
 
+About = Topic | Recipe  # of which a maker reads frame and labels
 Maker = Callable[[int, Sequence[float]], Any]  # a message from its time [ns] and its numbers
 SECOND = 1_000_000_000  # ns
 OK, WARN, ERROR = 0, 1, 2  # levels of diagnostic_msgs/DiagnosticStatus
 
 
 class Types:
-    """The classes of message types by their ROS 1 names.
+    """The classes of message types by their ROS 1 names; each takes the values of its fields in their order.
 
     Args:
-        store: of `rosbags`, with the types of one ROS.
+        class_of: the class of a type by that name, such as `geometry_msgs/Wrench`.
+        numbered: whether a header begins with a number, as in ROS 1.
     """
 
-    def __init__(self, store: Any) -> None:
-        self._types = store.types
-        self.numbered = "seq" in self["std_msgs/Header"].__dataclass_fields__  # ROS 1 counts messages
+    def __init__(self, class_of: Callable[[str], Any], *, numbered: bool) -> None:
+        self._class_of, self.numbered = class_of, numbered
         self.Vector, self.Point = self["geometry_msgs/Vector3"], self["geometry_msgs/Point"]
         self._Quaternion = self["geometry_msgs/Quaternion"]
 
     def __getitem__(self, name: str) -> Any:
-        return self._types[modern(name)]
+        return self._class_of(name)
 
     def quaternion(self, wxyz: Sequence[float]) -> Any:
         """A quaternion, of which ROS puts w at the end."""
@@ -57,7 +58,7 @@ def modern(name: str) -> str:
     return f"{package}/msg/{kind}"
 
 
-def _odometry(types: Types, topic: Topic) -> Maker:
+def _odometry(types: Types, topic: About) -> Maker:
     Odometry, Pose, Twist = types[ODOMETRY], types["geometry_msgs/Pose"], types["geometry_msgs/Twist"]
     Placed, Moving = types["geometry_msgs/PoseWithCovariance"], types["geometry_msgs/TwistWithCovariance"]
     header, untold = types.headers(topic.frame), np.zeros(36)
@@ -70,33 +71,33 @@ def _odometry(types: Types, topic: Topic) -> Maker:
     return make
 
 
-def _pose(types: Types, topic: Topic) -> Maker:
+def _pose(types: Types, topic: About) -> Maker:
     Stamped, Pose, header = types[POSE], types["geometry_msgs/Pose"], types.headers(topic.frame)
     return lambda stamp, v: Stamped(header(stamp), Pose(types.Point(*v[:3]), types.quaternion(v[3:])))
 
 
-def _vector(types: Types, topic: Topic) -> Maker:
+def _vector(types: Types, topic: About) -> Maker:
     Stamped, header = types[VECTOR], types.headers(topic.frame)
     return lambda stamp, v: Stamped(header(stamp), types.Vector(*v))
 
 
-def _point(types: Types, topic: Topic) -> Maker:
+def _point(types: Types, topic: About) -> Maker:
     Stamped, header = types[POINT], types.headers(topic.frame)
     return lambda stamp, v: Stamped(header(stamp), types.Point(*v))
 
 
-def _wrench(types: Types, topic: Topic) -> Maker:
+def _wrench(types: Types, topic: About) -> Maker:
     Stamped, Wrench, header = types[WRENCH], types["geometry_msgs/Wrench"], types.headers(topic.frame)
     return lambda stamp, v: Stamped(header(stamp), Wrench(types.Vector(*v[:3]), types.Vector(*v[3:])))
 
 
-def _rotors(types: Types, topic: Topic) -> Maker:
+def _rotors(types: Types, topic: About) -> Maker:
     State, header, none = types[ROTORS], types.headers(topic.frame), np.zeros(0)
     names = list(topic.labels)
     return lambda stamp, v: State(header(stamp), names, none, none, np.array(v))
 
 
-def _imu(types: Types, topic: Topic) -> Maker:
+def _imu(types: Types, topic: About) -> Maker:
     Imu, header, zero = types[IMU], types.headers(topic.frame), np.zeros(9)
     unknown, unturned = np.array([-1.0, *zero[1:]]), types.quaternion((1.0, 0.0, 0.0, 0.0))
 
@@ -106,7 +107,7 @@ def _imu(types: Types, topic: Topic) -> Maker:
     return make
 
 
-MAKERS: dict[str, Callable[[Types, Topic], Maker]] = {
+MAKERS: dict[str, Callable[[Types, About], Maker]] = {
     ODOMETRY: _odometry,
     POSE: _pose,
     VECTOR: _vector,
@@ -117,7 +118,7 @@ MAKERS: dict[str, Callable[[Types, Topic], Maker]] = {
 }
 
 
-def maker_of(types: Types, topic: Topic) -> Maker:
+def maker_of(types: Types, topic: About) -> Maker:
     """What makes the messages of a topic."""
     return MAKERS[topic.kind](types, topic)
 
@@ -155,5 +156,17 @@ def diagnostics_of(types: Types) -> Callable[[int, str], Any]:
     def make(stamp: int, what: str) -> Any:
         level = ERROR if " -> " in what or what.startswith("diverged") else WARN if ": " in what else OK
         return Many(header(stamp), [Status(level, "tandemlift: pilot", what, "", [])])
+
+    return make
+
+
+def status_of(types: Types) -> Callable[[int, bool, str, Mapping[str, str]], Any]:
+    """What makes one from how a flight goes: time [ns], whether it is well, a summary, and more by name."""
+    Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
+    header, Value = types.headers(""), types["diagnostic_msgs/KeyValue"]
+
+    def make(stamp: int, well: bool, summary: str, more: Mapping[str, str]) -> Any:
+        values = [Value(key, value) for key, value in more.items()]
+        return Many(header(stamp), [Status(OK if well else WARN, "tandemlift: flight", summary, "", values)])
 
     return make

@@ -11,7 +11,7 @@ two in series. Friction is Gazebo's own, of the same coefficient.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 from xml.etree import ElementTree
 
@@ -35,6 +35,7 @@ from tandemlift.vehicle import Vehicle
 Array = NDArray[np.float64]
 Element = ElementTree.Element
 
+MODEL = "tandemlift"
 PLUGIN = "libtandemlift_gazebo.so"
 FLOOR_BIT, WALL_BIT = 1, 2  # of collide_bitmask: what has none in common does not touch
 HARD = 1e15  # N/m, of floor and walls: the vehicle's own stiffness is next to nothing beside it
@@ -42,9 +43,10 @@ CREEP = 1e-7  # (m/s)/N, of what holds by friction: without it ODE's exact solve
 CORRECTED = 0.8  # share of a joint's gap that is closed in a step: what holds quadrotors on a curve lags the less
 FASTEST = 100.0  # m/s, at which contacts may push apart; Gazebo's own 0.01 m/s would cut their springs
 THIN, SHOWN = 1e-4, 0.02  # m, thickness of a wall that touches, and of one to look at
+MESH, BROAD, RAISED = 1.0, 0.015, 5e-4  # m, between the lines on the floor, their width, and their height over it
 BURIED = 0.1  # m, how far walls go into the floor
 MARGIN = 15.0  # m, of the floor that is shown around all there is
-GROUND, SKY, AMBIENT = "#b9bdc3", "#dbe6f2", "#8c8c8c"
+GROUND, LINE, SKY, AMBIENT = "#b9bdc3", "#9ba0a8", "#dbe6f2", "#595959"
 DIGITS = 6  # after the point, in m and rad, of what is only looked at
 FAR = 3.5  # reaches of the vehicle, from where the eye looks at it first
 
@@ -122,7 +124,7 @@ def _surroundings(top: Element, mission: Mission, vehicle: Vehicle) -> None:
         "contact_surface_layer": 0.0,
     }
     _fill(physics, {"ode": {"solver": {"type": "world"}, "constraints": contact}})  # exact, and fast for so few bodies
-    _fill(top, {"scene": {"ambient": _rgba(AMBIENT), "background": _rgba(SKY), "shadows": "true"}})
+    _fill(top, {"scene": {"ambient": _rgba(AMBIENT), "background": _rgba(SKY), "shadows": "true", "grid": "false"}})
     light = _add(top, "light", name="sun", type="directional")
     _pose(light, 20.0 * SUN, digits=DIGITS)
     shining = {"diffuse": _rgba("#d1c7b5"), "specular": _rgba("#333333"), "direction": numbers(-SUN, DIGITS)}
@@ -134,6 +136,8 @@ def _surroundings(top: Element, mission: Mission, vehicle: Vehicle) -> None:
     eye = mission.initial.position + FAR * reach * back
     _add(camera, "pose", numbers([*eye, 0.0, height, azimuth + np.pi], DIGITS))
     _add(camera, "view_controller", "orbit")
+    near, far = 0.8 * FAR * reach, 1.2 * FAR * reach
+    _fill(_add(camera, "track_visual"), {"name": MODEL, "min_dist": near, "max_dist": far, "static": "false"})
 
 
 def _geometry(parent: Element, kind: str, size: Sequence[float], digits: int | None = None) -> None:
@@ -184,6 +188,7 @@ def _add_floor(top: Element, floor: Floor, mission: Mission) -> None:
     ends = [end for w in mission.all_walls for end in (w.start, w.end)]
     places = np.array([mission.initial.position[:2], *ends])
     low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
+    low, high = np.floor(low / MESH) * MESH, np.ceil(high / MESH) * MESH
     link = _still(top, "floor", [*(low + high) / 2.0, floor.height])
     for kind in ("collision", "visual"):
         part = _add(link, kind, name="floor")
@@ -192,6 +197,17 @@ def _add_floor(top: Element, floor: Floor, mission: Mission) -> None:
             _fill(part, {"surface": _surface(FLOOR_BIT, floor.friction)})
         else:
             _paint(part, GROUND)
+    for line in _lines(high - low):
+        _look(link, line)
+
+
+def _lines(size: Array) -> Iterator[Shape]:
+    """Lines on a floor of a size (2) [m] that show how far things are."""
+    for i, (along, letter) in enumerate(zip(size[::-1], "xy", strict=True)):
+        for k, place in enumerate(np.arange(0.0, size[i] + MESH / 2.0, MESH) - size[i] / 2.0):
+            middle, sides = np.array([0.0, 0.0, RAISED]), [BROAD, BROAD, RAISED]
+            middle[i], sides[1 - i] = place, along
+            yield Shape(f"line_{letter}_{k}", "box", (sides[0], sides[1], sides[2]), middle, LEVEL, LINE)
 
 
 def _add_walls(top: Element, mission: Mission, floor: Floor) -> None:
@@ -216,7 +232,7 @@ def _wall(name: str, wall: WallTable, floor: float) -> Shape:
 
 def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int | None) -> None:
     """The model as the mission starts; it never goes to sleep."""
-    model = _add(top, "model", name="tandemlift")
+    model = _add(top, "model", name=MODEL)
     R = np.array(rotation_from_quaternion(quaternion_from_euler(vec3(mission.initial.euler))))
     _pose(model, mission.initial.position, R)
     _fill(model, {"allow_auto_disable": "false", "self_collide": "false"})

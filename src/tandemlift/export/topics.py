@@ -75,13 +75,14 @@ class Source:
 
 
 class Recipe(NamedTuple):
-    """How a topic is made: its name below the root, type and frame, the channels that it needs, and its numbers."""
+    """How a topic is made: its name below the root, type and frame, the channels that it needs, its numbers, labels."""
 
     name: str
     kind: str
     frame: str
     needs: tuple[str, ...]
     rows: Callable[[Source], Array]
+    labels: tuple[str, ...] = ()
 
 
 def _as_told(name: str, kind: str, frame: str, *channels: str) -> Recipe:
@@ -192,6 +193,15 @@ def _recipes(flight: Flight, count: int) -> Iterator[Recipe]:
             yield recipe
 
 
+def recipes_of(flight: Flight, vehicle: Vehicle) -> list[Recipe]:
+    """How all topics of a flight are made that have a message for each sample; their names are whole."""
+    rotors = tuple(f"rotor_{1 + i // 4}_{1 + i % 4}" for i in range(vehicle.rotor_count))
+    return [
+        r._replace(name=f"{ROOT}/{r.name}", labels=rotors if r.kind == ROTORS else ())
+        for r in _recipes(flight, vehicle.count)
+    ]
+
+
 def topics_of(flight: Flight, vehicle: Vehicle) -> list[Topic]:
     """All topics of a flight that have a message for each sample.
 
@@ -199,8 +209,4 @@ def topics_of(flight: Flight, vehicle: Vehicle) -> list[Topic]:
         InputError: the flight lacks a channel that every flight has, or one is of a wrong size.
     """
     take = Source(flight, vehicle)
-    rotors = tuple(f"rotor_{1 + i // 4}_{1 + i % 4}" for i in range(vehicle.rotor_count))
-    return [
-        Topic(f"{ROOT}/{r.name}", r.kind, r.frame, r.rows(take), rotors if r.kind == ROTORS else ())
-        for r in _recipes(flight, vehicle.count)
-    ]
+    return [Topic(r.name, r.kind, r.frame, r.rows(take), r.labels) for r in recipes_of(flight, vehicle)]

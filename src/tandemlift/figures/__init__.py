@@ -34,6 +34,9 @@ NAMES = (
 FIGURES: dict[str, Draw] = {name: _drawing(name) for name in NAMES}
 """All figures that there are; a flight has those of `figures_of`."""
 
+VIEWS = "views"
+"""Photographs of a flight, by `views.draw_views`: no flight can be drawn that way, so they are not among these."""
+
 SHOWS: dict[str, tuple[str, ...]] = {
     "push": ("push_estimate",),
     "disturbance": ("disturbance_force",),

@@ -99,4 +99,9 @@ CAPTIONS: dict[str, Caption] = {
         "guards and beam were from the nearest wall, over the way flown, with the least of it; below zero they press.",
         "Two panels: view from above of walls, path, vehicle and pushes; clearance of guards and beam over the way.",
     ),
+    "views": Caption(
+        "Photographs",
+        "The flight as cameras saw it that stand in its world.",
+        "Photographs of the vehicle in its surroundings, each with its letter, what it shows, and the time.",
+    ),
 }

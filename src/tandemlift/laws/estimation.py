@@ -151,11 +151,12 @@ def estimate(k: PushEstimator, memory: PushMemory, unit: Unit, t: Any) -> Any:
     angular = where(unit.fresh > 0.0, (unit.rates - memory.rates) * k.per_interval, memory.angular)
     moment, outside = moment_on_payload(k, unit, angular), from_outside(k, unit, angular)
     unequal = less_mean(k, outside)
-    taken = where(t < k.tare_start, 0.0, where(t < k.tare_end, unit.fresh, 0.0))
-    sums = summed(memory.sums, taken, f, a, moment, unequal)
+    begun = where(t < k.tare_start, 0.0, 1.0)
+    taken = begun * where(t < k.tare_end, unit.fresh, 0.0)
+    sums = summed(memory.sums, begun, taken, f, a, moment, unequal)
     armed = where(t < k.tare_end, 0.0, 1.0)
     tare = tare_of(k.mass, k.identify, sums, armed)
-    wind, gone = blown(k.windage, memory.blown, outside.x, outside.y, taken, armed)
+    wind, gone = blown(k.windage, memory.blown, outside.x, outside.y, begun, taken, armed)
     force = a * tare.mass - f - tare.force - wind
     after = PushMemory(
         unit.rates,

@@ -43,16 +43,16 @@ class Tare(NamedTuple):
 
 
 @law
-def summed(sums: Sums, taken: Any, f: Vec3, a: Vec3, moment: Vec3, unequal: Sides) -> Sums:
-    """The sums with this sample if it is `taken` (1), or as they were (0)."""
+def summed(sums: Sums, begun: Any, taken: Any, f: Vec3, a: Vec3, moment: Vec3, unequal: Sides) -> Sums:
+    """The sums with this sample if it is `taken` (1), or as they were (0); none before the tare has `begun` (0)."""
     return Sums(
-        sums.count + taken,
-        sums.force + f * taken,
-        sums.specific_force + a * taken,
-        sums.moment + moment * taken,
-        sums.weight + dot(f, a) * taken,
-        sums.square + dot(a, a) * taken,
-        Sides(sums.sides.x + unequal.x * taken, sums.sides.y + unequal.y * taken),
+        sums.count * begun + taken,
+        sums.force * begun + f * taken,
+        sums.specific_force * begun + a * taken,
+        sums.moment * begun + moment * taken,
+        sums.weight * begun + dot(f, a) * taken,
+        sums.square * begun + dot(a, a) * taken,
+        Sides(sums.sides.x * begun + unequal.x * taken, sums.sides.y * begun + unequal.y * taken),
     )
 
 

@@ -37,7 +37,7 @@ class Blown(NamedTuple):
 
 
 @choice
-def blown(k: Any, memory: Any, x: Any, y: Any, taken: Any, armed: Any) -> Any:
+def blown(k: Any, memory: Any, x: Any, y: Any, begun: Any, taken: Any, armed: Any) -> Any:
     """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
 
     Args:
@@ -45,13 +45,14 @@ def blown(k: Any, memory: Any, x: Any, y: Any, taken: Any, armed: Any) -> Any:
         memory: its memory.
         x: force from outside along body x on every quadrotor [N], a set.
         y: likewise along y.
+        begun: 1 once the tare has begun, else 0.
         taken: 1 if this sample is one of the tare, else 0.
         armed: 1 once the tare is over, else 0.
     """
 
 
 @blown.register(Nothing)
-def _unknown(k, memory, x, y, taken, armed):
+def _unknown(k, memory, x, y, begun, taken, armed):
     return ZERO, memory
 
 
@@ -62,9 +63,9 @@ def bias_of(memory: Blown) -> Vec3:
 
 
 @blown.register(Windage)
-def _scaled(k, memory, x, y, taken, armed):
+def _scaled(k, memory, x, y, begun, taken, armed):
     force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
-    summed = Blown(memory.sum + force * taken, memory.count + taken, memory.force)
+    summed = Blown(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
     after = smooth(k.low_pass, memory.force, (force - bias_of(summed)) * armed)
     return after.value, Blown(summed.sum, summed.count, after)
 

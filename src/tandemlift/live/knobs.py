@@ -13,6 +13,7 @@ from tandemlift.live.by_hand import NEVER
 from tandemlift.live.compiling import Compiling
 from tandemlift.live.controls import BY_KEY, CHOICES, CONTROLLER, bounds_of, keys_of, value_of
 from tandemlift.live.recorded import RecordedFlight
+from tandemlift.live.taring import TARE, check_in_time, start_of_tare
 from tandemlift.missions import changed, tables_of
 from tandemlift.missions.explain import MISSING, shown
 from tandemlift.settings import Mission
@@ -72,6 +73,20 @@ class Knobs:
         if faults[at[0]].time < NEVER:
             raise InputError(f"rotor = {rotor}: fails at {faults[at[0]].time:g} s already")
         self._change(flight, f"faults.{at[0]}.time", flight.step * flight.dt, 0.0)
+
+    def tare(self, flight: RecordedFlight) -> str:
+        """Begin a tare of the force sensors, in a moment; from when to when.
+
+        Raises:
+            InputError: the mission has none that can be begun, or it did not become ready in time.
+        """
+        with self.turn:
+            start = start_of_tare(flight)
+            due = flight.prepare(TARE, start)
+            with self._lock:
+                check_in_time(flight, start)
+                flight.change(due, TARE, start)
+        return f"from {start:g} s to {start + flight.now.estimator.tare_duration:g} s"
 
     def _check(self, key: str, value: Any) -> None:
         """Refuse what is no control, or beyond its bounds."""

@@ -116,6 +116,12 @@ class Enable(_Message):
     on: bool
 
 
+class Tare(_Message):
+    """Take what the force sensors read in hover for their bias, anew."""
+
+    type: Literal["tare"]
+
+
 class Kill(_Message):
     """Stop a rotor for good; counted over the whole vehicle, from 0."""
 
@@ -157,10 +163,12 @@ class Ping(_Message):
     t: Number  # ms, by the page's clock
 
 
-Message = Grab | Move | Release | Force | Set | Restore | Ask | Enable | Kill | Pause | Speed | Reset | Save | Ping
+Message = (
+    Grab | Move | Release | Force | Set | Restore | Ask | Enable | Tare | Kill | Pause | Speed | Reset | Save | Ping
+)
 KINDS: dict[str, type[_Message]] = {
     kind.__name__.lower(): kind
-    for kind in (Grab, Move, Release, Force, Set, Restore, Ask, Enable, Kill, Pause, Speed, Reset, Save, Ping)
+    for kind in (Grab, Move, Release, Force, Set, Restore, Ask, Enable, Tare, Kill, Pause, Speed, Reset, Save, Ping)
 }
 _ANY: TypeAdapter[Any] = TypeAdapter(Annotated[Message, Field(discriminator="type")])
 

@@ -77,6 +77,11 @@ class RecordedFlight:
         return self._stepper.row
 
     @property
+    def moment(self) -> tuple[Array, float]:
+        """A copy of the last sample, and its time [s]."""
+        return self._stepper.row.copy(), (self.step - 1) * self._p.dt
+
+    @property
     def over(self) -> bool:
         """Whether it has lasted as long as its mission, or its state is no longer sound."""
         return self.step >= self._p.steps or self._stepper.lost
@@ -176,6 +181,14 @@ class Snapshot:
         with whole(folder / MISSION) as partial:
             again = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
             partial.write_text(again + self._toml(folder.name), "utf-8")
+
+    def alone(self) -> Flight:
+        """The flight for itself, of a mission that lasts as long and tells neither of a hand nor of changes."""
+        duration = self._steps * self._start.mission.step
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", FlightWarning)
+            p = Prepared(changed(self._start, "mission.duration", duration))
+        return flight_of(p, self.flown, self.engine)
 
     @property
     def flown(self) -> Flown:

@@ -32,6 +32,7 @@ from tandemlift.live.messages import (
     Restore,
     Save,
     Set,
+    Tare,
     about,
     read_message,
 )
@@ -42,7 +43,7 @@ STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
 MAX_WAITING = 16  # changes that are yet to be made
 SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be old news
-SLOW = (Set, Restore, Kill, Reset, Save)  # may compile or write
+SLOW = (Set, Restore, Tare, Kill, Reset, Save)  # may compile or write
 
 Answer = dict[str, Any] | list[dict[str, Any]] | None  # one text, several, or none
 
@@ -219,8 +220,7 @@ class Server:
         try:
             async for text in connection:
                 self._hear(viewer, text)
-                flooding = viewer.is_flooding()
-                if flooding:
+                if flooding := viewer.is_flooding():
                     break
         except ConnectionClosed:
             pass

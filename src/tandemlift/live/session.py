@@ -11,7 +11,7 @@ import logging
 import sys
 import threading
 import time
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from functools import singledispatchmethod
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.errors import InputError
+from tandemlift.flown import channels_of
 from tandemlift.laws.grab import NOBODY_HOLDS
 from tandemlift.laws.phases import NAMES
 from tandemlift.laws.rotation import rotation_from_quaternion
@@ -26,34 +27,23 @@ from tandemlift.live import messages
 from tandemlift.live.by_hand import by_hand, renewed
 from tandemlift.live.controls import CHOICES, controls_of
 from tandemlift.live.frames import fields_of, frames_of
+from tandemlift.live.grip import Grip
 from tandemlift.live.knobs import Knobs
-from tandemlift.live.pace import Pace
+from tandemlift.live.pace import BATCH, BREATH, NAP, SWITCHING, Pace
 from tandemlift.live.recorded import Array, RecordedFlight
 from tandemlift.live.saving import save_aside
 from tandemlift.live.scene import alarm_names, scene_of
-from tandemlift.live.states import dead_rotors, hands_off, off_vehicle
+from tandemlift.live.states import check_touch, dead_rotors
+from tandemlift.live.taring import check_may_tare
 from tandemlift.live.values import places_of, values_of
 from tandemlift.missions import tables_of
 from tandemlift.settings import Mission
 from tandemlift.vector import ZERO, Quat, Vec3, apply
 from tandemlift.vehicle import Vehicle
 
-NAP = 0.002  # s, between looks at the clock
-BREATH = 1e-4  # s, for others between two batches of a flight that is behind
-SWITCHING = 2e-4  # s, for which another thread may keep the interpreter from the flight
-BATCH = 25  # steps without a look at who wants something
 WISH = 0.2  # s, for which a wish to lift or to land is said
 
 log = logging.getLogger(__name__)
-
-
-@dataclass
-class Grip:
-    """How the page holds the beam: what is to be added to its targets [m], and the last word it said."""
-
-    offset: Vec3 = ZERO
-    seq: int = 0
-    wishes: dict[str, int] = field(default_factory=dict)  # until which step each is said
 
 
 class Session:
@@ -63,6 +53,9 @@ class Session:
         mission: flown by hand: its pushes and its person are left out.
         engine: name of the body's engine.
         out: folder that flights are saved in, each in one of its name.
+
+    Attributes:
+        watchers: told of every step, in the flight's thread.
     """
 
     def __init__(self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live")) -> None:
@@ -71,7 +64,7 @@ class Session:
         self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
         self._knobs, self._names, self._failed = Knobs(self._mission, self._lock), alarm_names(), False
         self._pace = Pace(mission.mission.step)
-        self.generation = 0
+        self.generation, self.watchers = 0, list[Callable[[RecordedFlight], None]]()
         self._begin(self._mission)
 
     def _begin(self, mission: Mission) -> None:
@@ -84,6 +77,11 @@ class Session:
             flight.hold(NOBODY_HOLDS)
             flight.advance()
             self.generation += 1
+
+    @property
+    def flight(self) -> RecordedFlight:
+        """What is flown, until a reset."""
+        return self._flight
 
     @property
     def scene(self) -> dict[str, Any]:
@@ -127,6 +125,8 @@ class Session:
             while self._flight.step < before + steps and not self._flight.over and not self._failed:
                 self._forget_wishes()
                 self._flight.advance()
+                for watch in self.watchers:
+                    watch(self._flight)
         except Exception:
             self._failed = True  # until a reset
             log.exception("the flight ended by an error")
@@ -139,14 +139,14 @@ class Session:
     def frame(self) -> bytes:
         """The latest state, as the scene's `fields` say."""
         with self._lock:
-            moment, hand, seq = self._moment(), self._flight.hand, self._grip.seq
+            moment, hand, seq = self._flight.moment, self._flight.hand, self._grip.seq
         values = self._values(*moment)
         held = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
         return frames_of(self._fields, {**values, **held, "seq": seq % 2**24}).tobytes()
 
-    def _moment(self) -> tuple[Array, float]:
-        """The latest sample, and its time [s]."""
-        return self._flight.sample.copy(), (self._flight.step - 1) * self._flight.dt
+    def channels(self) -> dict[str, Any]:
+        """The channels of the latest sample (1, …)."""
+        return dict(channels_of(self._flight.layout, self._flight.sample[None, :].copy()))
 
     def _values(self, sample: Array, at: float) -> dict[str, Any]:
         channels = {name: sample[places] for name, places in self._places.items()}
@@ -155,7 +155,7 @@ class Session:
     def status(self) -> dict[str, Any]:
         """Phase, alarm, pace and what was recorded, for people."""
         with self._lock:
-            flight, pace, values = self._flight, self._pace, self._values(*self._moment())
+            flight, pace, values = self._flight, self._pace, self._values(*self._flight.moment)
             most, pace.most_behind = pace.most_behind, 0.0
             return {
                 "phase": self._phase(int(values["phase"][0])),
@@ -186,11 +186,6 @@ class Session:
                 self._grip.seq = seq
         return self._heed(message)
 
-    def _check_hand(self, point: messages.Point) -> None:
-        """Refuse a hand that may not touch the vehicle now, or not there."""
-        if reason := hands_off(self._flight) or off_vehicle(self._scene, point):
-            raise InputError(reason)
-
     def release(self) -> None:
         """Nobody holds the beam any more."""
         with self._lock:
@@ -200,10 +195,8 @@ class Session:
         self._flight.hold(self._flight.hand._replace(**changes))
 
     def _forget_wishes(self) -> None:
-        for wish, until in list(self._grip.wishes.items()):
-            if self._flight.step >= until:
-                del self._grip.wishes[wish]
-                self._move(**{wish: 0.0})
+        if ended := self._grip.ended(self._flight.step):
+            self._move(**dict.fromkeys(ended, 0.0))
 
     @singledispatchmethod
     def _heed(self, message: Any) -> Any:
@@ -212,8 +205,8 @@ class Session:
     @_heed.register
     def _grab(self, m: messages.Grab) -> None:
         with self._lock:
-            self._check_hand(m.point)
-            point, attitude = Vec3(*m.point), Quat(*map(float, self._values(*self._moment())["attitude"][0]))
+            check_touch(self._flight, self._scene, m.point)
+            point, attitude = Vec3(*m.point), Quat(*map(float, self._values(*self._flight.moment)["attitude"][0]))
             arm = apply(rotation_from_quaternion(attitude), point)
             centre = m.at == "centre"
             self._grip.offset = -arm if centre else ZERO
@@ -235,7 +228,7 @@ class Session:
         with self._lock:
             force = Vec3(*m.force)
             if any(force):
-                self._check_hand(m.point)
+                check_touch(self._flight, self._scene, m.point)
             grip = {"grip": Vec3(*m.point)} if any(force) and not self._flight.hand.held else {}
             self._move(force=force, **grip)
 
@@ -279,6 +272,12 @@ class Session:
         folder = self._out / m.name
         save_aside(snapshot, folder)
         return {"type": "done", "what": "save", "detail": str(folder)}
+
+    @_heed.register
+    def _tare(self, m: messages.Tare) -> dict[str, Any]:
+        with self._lock:
+            check_may_tare(self._flight, self._phase(int(self._values(*self._flight.moment)["phase"][0])))
+        return {"type": "done", "what": "tare", "detail": self._knobs.tare(self._flight)}
 
     @_heed.register
     def _kill(self, m: messages.Kill) -> None:

@@ -6,7 +6,9 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from tandemlift.errors import InputError
 from tandemlift.live.recorded import RecordedFlight
+from tandemlift.live.taring import check_hands_off
 
 
 def dead_rotors(flight: RecordedFlight) -> list[int]:
@@ -15,27 +17,16 @@ def dead_rotors(flight: RecordedFlight) -> list[int]:
     return sorted(4 * (f.quadrotor - 1) + f.rotor - 1 for f in flight.now.faults if f.time <= at)
 
 
-def hands_off(flight: RecordedFlight) -> str:
-    """Why nobody may touch the vehicle: its sensors are tared, which would take a hand for a bias; "" if one may."""
-    estimator = flight.now.estimator
-    if flight.now.pilot.push == "truth":
-        return ""
-    if estimator.tare == "hover":
-        left = estimator.tare_duration - flight.number("memory", "guidance", "phase", "hovered")
-        return "hands off until the force sensors are tared, in steady hover" if left > 0.0 else ""
-    if estimator.tare_start is None:
-        return ""
-    end = estimator.tare_start + estimator.tare_duration
-    waits = flight.step * flight.dt < end
-    return f"hands off until {end:g} s: the force sensors are tared in hover" if waits else ""
+def check_touch(flight: RecordedFlight, scene: Mapping[str, Any], point: Sequence[float]) -> None:
+    """Refuse a hand that may not touch the vehicle of a scene now, or not at this point [m, body axes].
 
-
-def off_vehicle(scene: Mapping[str, Any], point: Sequence[float]) -> str:
-    """Why nobody can touch the vehicle of a scene at a point [m, body axes]; "" if somebody can."""
+    Raises:
+        InputError: it may not.
+    """
+    check_hands_off(flight)
     reach = max(_ways(scene["vehicle"]))
-    if math.hypot(*point) <= reach:
-        return ""
-    return f"point = {list(point)}: must be on the vehicle, within {reach:.3g} m of its centre of mass"
+    if math.hypot(*point) > reach:
+        raise InputError(f"point = {list(point)}: must be on the vehicle, within {reach:.3g} m of its centre of mass")
 
 
 def _ways(vehicle: Mapping[str, Any]) -> Iterator[float]:

@@ -42,12 +42,12 @@ def values_of(channels: Mapping[str, Array], time: Array, phases: Mapping[str, A
     values = {field: channel for field, channel in found.items() if channel is not None}
     values["time"] = time
     values["reference_yaw"] = channels["reference_euler"][:, 2]
-    values["push_point"] = _points(values["push"], channels["push_moment"], channels["attitude"])
+    values["push_point"] = points_of(values["push"], channels["push_moment"], channels["attitude"])
     values["phase"] = channels["phase"] if "phase" in channels else _phases(time, phases)
     return {field: np.nan_to_num(v) for field, v in values.items()}
 
 
-def _points(forces: Array, moments: Array, attitudes: Array) -> Array:
+def points_of(forces: Array, moments: Array, attitudes: Array) -> Array:
     """Where forces (T, 3) [N, world] with moments (T, 3) [N m, body] act [m, body]: nearest to the centre of mass."""
     w, axis = attitudes[:, :1], -attitudes[:, 1:]
     turned = 2.0 * np.cross(axis, forces)

@@ -12,7 +12,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from tandemlift.figures import figures_of
+from tandemlift.figures import VIEWS, figures_of
 from tandemlift.figures.captions import CAPTIONS, Caption
 from tandemlift.files import whole
 from tandemlift.flight import Flight
@@ -136,7 +136,7 @@ def _place(point: Iterable[float]) -> str:
 
 def _pngs(flight: Flight, figures: Any) -> dict[str, Path]:
     """The PNG files of a flight's figures by name, of those that there are."""
-    names = figures_of(flight)
+    names = (VIEWS, *figures_of(flight))
     if isinstance(figures, (str, os.PathLike)):
         found = {name: Path(figures) / f"{name}.png" for name in names}
     else:

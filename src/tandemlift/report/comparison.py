@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tandemlift.comparison import Entry, scores
 from tandemlift.figures.captions import Caption
@@ -18,6 +18,9 @@ from tandemlift.missions import format_toml
 from tandemlift.report import DASH, figure_of, number, table_of
 from tandemlift.report.page import COMPARISON, STYLE
 from tandemlift.report.setup import setup_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Column = tuple[str, str, Callable[[dict[str, Any]], Any]]
 
@@ -37,6 +40,9 @@ COLUMNS: tuple[Column, ...] = (  # heading, unit, value; the least of each is th
     ("Saturated", "%", _scaled("rotor_saturated_share", 1e2)),
     ("Time a step", "ns", _scaled("step_ns", 1.0)),
 )
+NOTE = """Errors are desired minus actual position, {when}; the effort is the mean norm of the commanded moments
+over the same time; saturated is the share of all steps in which a rotor is at a limit. Bold: the least of those that
+did not diverge."""
 CAPTIONS = {
     "errors": Caption(
         "Errors",
@@ -82,27 +88,31 @@ def _table(entries: Sequence[Entry]) -> str:
     return table_of(head, (_row(entry, best) for entry in entries), "compared")
 
 
-def _figures(flights: Mapping[str, Flight]) -> str:
-    """The figures as HTML."""
-    from tandemlift.figures.comparison import draw_errors, draw_thrusts
+def figures_as_html(drawn: Mapping[str, Figure], captions: Mapping[str, Caption]) -> str:
+    """The section of a page with figures, by name, each with the caption of that name."""
     from tandemlift.figures.style import save
 
     shown = []
     with tempfile.TemporaryDirectory() as folder:
-        for place, (name, draw) in enumerate((("errors", draw_errors), ("thrusts", draw_thrusts)), 1):
-            png = save(draw(flights), Path(folder) / f"{name}.png")
-            shown.append(figure_of(place, name, png, CAPTIONS[name]))
+        for place, (name, figure) in enumerate(drawn.items(), 1):
+            png = save(figure, Path(folder) / f"{name}.png")
+            shown.append(figure_of(place, name, png, captions[name]))
     return f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>"
 
 
-def _setup(flight: Flight) -> str:
-    """What was flown, but for the controller."""
+def setup_as_html(flight: Flight, without: Sequence[str] = ()) -> str:
+    """What was flown, but for some parts of it."""
     rows = [
         f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>'
         for what, said in setup_of(flight)
-        if what != "Pilot"
+        if what not in without
     ]
     return table_of("", rows, "setup")
+
+
+def versions_as_html(flight: Flight) -> str:
+    """What a flight was flown with, but for its engine."""
+    return escape(", ".join(f"{name} {version}" for name, version in flight.version.items() if name != "engine"))
 
 
 def _settings(flights: Mapping[str, Flight]) -> str:
@@ -114,7 +124,7 @@ def _settings(flights: Mapping[str, Flight]) -> str:
             f"<details>\n<summary>{escape(name)}: {escape(about)}</summary>\n<pre><code>{escape(text)}</code></pre>\n"
             "</details>"
         )
-    return "\n".join(shown)
+    return f"<section>\n<h2>Settings</h2>\n{chr(10).join(shown)}\n</section>"
 
 
 def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> Path:
@@ -127,19 +137,23 @@ def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> 
     Returns:
         The path.
     """
+    from tandemlift.figures.comparison import draw_errors, draw_thrusts
+
     path, flights = Path(path), {e.name: e.flight for e in entries if e.flight}
     first = next(iter(flights.values()))
     late = any(scores(flight)["after_s"] for flight in flights.values())
     text = COMPARISON.format(
         name=escape(first.name),
         style=STYLE,
-        engine=escape(first.version.get("engine", "")),
-        when="after 10 s" if late else "of the whole flight",
+        what="controllers",
+        kind="Controllers",
+        where=f"engine <b>{escape(first.version.get('engine', ''))}</b>",
+        note=NOTE.format(when="after 10 s" if late else "of the whole flight"),
         table=_table(entries),
-        figures=_figures(flights),
-        setup=_setup(first),
+        figures=figures_as_html({"errors": draw_errors(flights), "thrusts": draw_thrusts(flights)}, CAPTIONS),
+        setup=setup_as_html(first, without=["Pilot"]),
         settings=_settings(flights),
-        versions=escape(", ".join(f"{name} {version}" for name, version in first.version.items())),
+        versions=versions_as_html(first),
     )
     with whole(path) as partial:
         partial.write_text(text, "utf-8")

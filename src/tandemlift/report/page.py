@@ -98,21 +98,19 @@ COMPARISON = """<!DOCTYPE html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{name}: controllers compared</title>
+<title>{name}: {what} compared</title>
 <style>{style}</style>
 </head>
 <body>
 <main>
 <header>
-<p class="kind">Controllers compared</p>
+<p class="kind">{kind} compared</p>
 <h1>{name}</h1>
-<p class="kind">Flown in engine <b>{engine}</b></p>
+<p class="kind">Flown in {where}</p>
 </header>
 <section>
 <h2>Comparison</h2>
-<p class="soft">Errors are desired minus actual position, {when}; the effort is the mean norm of the commanded moments
-over the same time; saturated is the share of all steps in which a rotor is at a limit. Bold: the least of those that
-did not diverge.</p>
+<p class="soft">{note}</p>
 {table}
 </section>
 {figures}
@@ -120,10 +118,7 @@ did not diverge.</p>
 <h2>Set-up</h2>
 {setup}
 </section>
-<section>
-<h2>Settings</h2>
 {settings}
-</section>
 <footer class="soft">Flown with {versions}.</footer>
 </main>
 </body>

@@ -1,0 +1,62 @@
+"""What the front asks of a middleware: to publish, to listen, to answer, and to keep parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
+
+from tandemlift.export.messages import Types
+
+Answer = tuple[bool, str]  # whether it is done, and what there is to say
+
+
+class Channel(Protocol):
+    """A topic to publish on."""
+
+    @property
+    def wanted(self) -> bool:
+        """Whether somebody listens, now or, if it is latched, perhaps later."""
+
+    def publish(self, message: Any) -> None:
+        """Send a message, without waiting for who listens."""
+
+
+class Middleware(Protocol):
+    """One ROS.
+
+    Attributes:
+        types: the classes of its messages.
+        answered: how services are asked for there, for people.
+    """
+
+    types: Types
+    answered: str
+
+    @property
+    def over(self) -> bool:
+        """Whether it has been shut down from outside."""
+
+    def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> Channel:
+        """A topic to publish on, by its whole name and its type as ROS 1 calls it.
+
+        Args:
+            topic: its name.
+            kind: of its messages.
+            latched: whether who comes late is sent the last one.
+            depth: how many may wait for somebody who is slow.
+        """
+
+    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], None]) -> None:
+        """Let a function heed every message of a topic, in a thread of the middleware's."""
+
+    def serve(self, name: str, answer: Callable[[], Answer]) -> None:
+        """Answer a request without arguments, `std_srvs/Trigger`, in a thread of the middleware's."""
+
+    def parameters(self) -> dict[str, Any]:
+        """The parameters that somebody has set and `keep` has not, by their keys with dots."""
+
+    def keep(self, values: Mapping[str, Any]) -> None:
+        """Let these be the values of the parameters."""
+
+    def shutdown(self) -> None:
+        """Say good-bye; nothing more is heard or sent."""

@@ -1,0 +1,110 @@
+"""Pushes that come as messages: a wrench in a frame becomes a force at a point of the vehicle, until the next one.
+
+A dead-man's switch lets go 0.5 s of the flight after the last message. It is in the flight's own thread: it works
+whatever becomes of the middleware.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from tandemlift.errors import InputError
+from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array, fixed, to_body, to_world
+from tandemlift.live.messages import Force
+from tandemlift.live.recorded import RecordedFlight
+from tandemlift.live.session import Session
+from tandemlift.ros.telling import Tell
+from tandemlift.vehicle import Vehicle
+
+HELD = 0.5  # s of the flight, for which a push acts without another message
+LEAST = 1e-6  # N, below which there is no push
+SLIP = 1e-6  # share of a torque that may be about the force's own direction
+ABSURD = 1e6  # N, N m
+
+
+class Pushes:
+    """The push of who publishes.
+
+    Args:
+        session: whose flight is pushed.
+        tell: told of what is refused, and of what is cut.
+    """
+
+    def __init__(self, session: Session, tell: Tell) -> None:
+        self._session, self._tell, self._until = session, tell, math.inf
+        vehicle = Vehicle.from_settings(session.flight.now.vehicle)
+        self._origins = {WORLD: np.zeros(3), ALIGNED: np.zeros(3), BASE: np.zeros(3), **dict(fixed(vehicle))}
+        guards = np.array([q.guard_radius for q in vehicle.quadrotors])
+        self._reach = float(np.max(np.linalg.norm(vehicle.lever_arms, axis=1) + guards))
+
+    def heed(self, message: Any) -> None:
+        """Push as a `geometry_msgs/WrenchStamped` says, or tell why not; whatever was pushed before is over then."""
+        try:
+            force, point = self._read(message)
+            self._push(force, point)
+            self._until = self._session.flight.step + HELD / self._session.flight.dt if any(force) else math.inf
+        except InputError as error:
+            self.let_go()
+            self._tell(f"push refused: {error}")
+
+    def watch(self, flight: RecordedFlight) -> None:
+        """After every step: let go when nothing has been heard for too long."""
+        if flight.step >= self._until:
+            self.let_go()
+            self._tell(f"push over: no message for {HELD:g} s")
+
+    def let_go(self) -> None:
+        """Nobody pushes any more."""
+        self._until = math.inf
+        self._push(np.zeros(3), np.zeros(3))
+
+    def _push(self, force: Array, point: Array) -> None:
+        (x, y, z), (along, left, up) = force.tolist(), point.tolist()
+        self._session.apply(Force(type="force", seq=0, force=(x, y, z), point=(along, left, up)), 0)
+
+    def _read(self, message: Any) -> tuple[Array, Array]:
+        """Force [N, world axes] and where it acts [m, body axes] of a message.
+
+        Raises:
+            InputError: it is in no frame of the vehicle, not finite, or nothing that a hand at a point can do.
+        """
+        frame = message.header.frame_id.lstrip("/")
+        if frame not in self._origins:
+            raise InputError(f"frame_id = {frame[:80]!r}: must be one of {', '.join(self._origins)}")
+        force, torque = (np.array([[v.x, v.y, v.z]], float) for v in (message.wrench.force, message.wrench.torque))
+        if not (np.abs(np.hstack([force, torque])) <= ABSURD).all():
+            raise InputError(f"the wrench must be finite, and each of its numbers at most {ABSURD:g}")
+        attitude = self._session.channels()["attitude"]
+        world, body = force, (force, torque)
+        if frame in (WORLD, ALIGNED):
+            body = to_body(attitude, force), to_body(attitude, torque)
+        else:
+            world = to_world(attitude, force)
+        return self._bounded(world[0]), self._point(frame, body[0][0], body[1][0])
+
+    def _bounded(self, force: Array) -> Array:
+        """A force of the same direction that the flight's hand has at most."""
+        most, size = self._session.flight.now.partner.max_force, float(np.linalg.norm(force))
+        if size <= most:
+            return force if size >= LEAST else np.zeros(3)
+        self._tell(f"push cut: {size:.3g} N is more than partner.max_force = {most:g} N")
+        return force * (most / size)
+
+    def _point(self, frame: str, force: Array, torque: Array) -> Array:
+        """Where a force must act to have a torque about a frame's origin [m, body axes].
+
+        Raises:
+            InputError: there is no such point on the vehicle.
+        """
+        size, turning = float(np.linalg.norm(force)), float(np.linalg.norm(torque))
+        if not turning:
+            return self._origins[frame]
+        if size < LEAST or abs(force @ torque) > SLIP * size * turning:
+            raise InputError("a torque that no force at a point has: its part along the force must be zero")
+        point = self._origins[frame] + np.cross(force, torque) / size**2
+        if np.linalg.norm(point) > self._reach:
+            raise InputError(f"a torque that acts {np.linalg.norm(point):.3g} m off: at most {self._reach:.3g} m")
+        return point

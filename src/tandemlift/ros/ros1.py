@@ -1,0 +1,99 @@
+"""ROS 1, by rospy as the machine has it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from tandemlift.errors import InputError
+from tandemlift.export.messages import Types
+from tandemlift.noetic import import_rospy, message_type
+from tandemlift.ros.middleware import Answer, Channel
+
+NAME = "tandemlift"
+OLD = {"builtin_interfaces/Time": "Time"}  # what has no message in ROS 1: of the package genpy
+
+
+class Ros1:
+    """A node of ROS 1; see `middleware.Middleware`. There can be one in a process.
+
+    Args:
+        arguments: remappings NAME:=VALUE, as roslaunch gives them.
+
+    Raises:
+        InputError: there is no rospy, or no master.
+    """
+
+    answered = "rosservice call"
+
+    def __init__(self, arguments: Sequence[str] = ()) -> None:
+        self._rospy = rospy = import_rospy()
+        import rosgraph
+
+        if not rosgraph.is_master_online():
+            raise InputError(f"no ROS master at {rosgraph.get_master_uri()}: start roscore, or set ROS_MASTER_URI")
+        rospy.init_node(NAME, argv=["tandemlift", *arguments], disable_signals=True)
+        self.types = Types(self._class_of, numbered=True)
+        self._kept: dict[str, Any] = {}
+
+    def _class_of(self, name: str) -> type:
+        return getattr(self._rospy, OLD[name]) if name in OLD else message_type(name)
+
+    @property
+    def over(self) -> bool:
+        """Whether the node has been told to end."""
+        return self._rospy.is_shutdown()
+
+    def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> Channel:
+        """A topic to publish on, without Nagle's delay."""
+        make, of = self._rospy.Publisher, message_type(kind)
+        return _Publisher(make(topic, of, queue_size=depth, latch=latched, tcp_nodelay=True), latched)
+
+    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], None]) -> None:
+        """Let a function heed the messages of a topic; of several that wait, the last."""
+        self._rospy.Subscriber(topic, message_type(kind), heed, queue_size=1, tcp_nodelay=True)
+
+    def serve(self, name: str, answer: Callable[[], Answer]) -> None:
+        """Answer `std_srvs/Trigger`."""
+        Trigger, Response = message_type("std_srvs/Trigger"), message_type("std_srvs/TriggerResponse")
+        self._rospy.Service(name, Trigger, lambda request: Response(*answer()))
+
+    def parameters(self) -> dict[str, Any]:
+        """Of the node's private namespace, what is not as it was kept."""
+        tree = self._rospy.get_param("~", {})
+        found = dict(_leaves(tree)) if isinstance(tree, dict) else {}
+        return {key: value for key, value in found.items() if key not in self._kept or self._kept[key] != value}
+
+    def keep(self, values: Mapping[str, Any]) -> None:
+        """Write what has changed, or was set to something else, to the parameter server."""
+        found = dict(_leaves(self._rospy.get_param("~", {})))
+        for key, value in values.items():
+            if found.get(key) != value:
+                self._rospy.set_param("~" + key.replace(".", "/"), value)
+        self._kept = {**found, **values}
+
+    def shutdown(self) -> None:
+        """Unregister from the master."""
+        self._rospy.signal_shutdown("the flight has ended")
+
+
+class _Publisher:
+    """A topic of rospy."""
+
+    def __init__(self, publisher: Any, latched: bool) -> None:
+        self._publisher, self._latched = publisher, latched
+        self.publish = publisher.publish
+
+    @property
+    def wanted(self) -> bool:
+        """Whether somebody listens, or may come late."""
+        return self._latched or self._publisher.get_num_connections() > 0
+
+
+def _leaves(tree: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """The values of nested dictionaries by their keys with dots."""
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            yield from _leaves(value, f"{above}{key}.")
+        else:
+            yield f"{above}{key}", value

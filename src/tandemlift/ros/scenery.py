@@ -1,0 +1,127 @@
+"""What RViz shows: vehicle, floor and walls once, push and reference as they move."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array, to_world
+from tandemlift.export.looks import Shape, payload_shapes, quadrotor_shapes
+from tandemlift.export.messages import Types
+from tandemlift.laws.rotation import rotation_from_euler
+from tandemlift.live.values import points_of
+from tandemlift.rendering.stage import GLASS, PUSH, WALL
+from tandemlift.ros.drawing import MARKERS, Pencil
+from tandemlift.vector import Vec3
+from tandemlift.vehicle import Vehicle
+
+GROUND, LINE = "#ffffff", "#c3c9d1"
+THICK = 0.02  # m, of the floor as drawn
+MARGIN = 4.0  # m, of the floor around all there is
+REFERENCE, OPACITY = "#2f6fb0", 0.45
+APART = 0.02  # m: a reference that is nearer to the vehicle is not shown
+PER_NEWTON, WIDTH, TEXT = 0.22, 0.035, 0.14  # m/N and m: of the arrow of a push, and of its words
+ABOVE = np.array([0.0, 0.0, TEXT])  # m
+FAINTEST = 0.05  # N
+
+
+def still(types: Types, scene: Mapping[str, Any], vehicle: Vehicle) -> Any:
+    """The markers of vehicle, floor and walls; the vehicle's move with its frame."""
+    body, world = Pencil(types, BASE, "vehicle", locked=True), Pencil(types, WORLD, "surroundings", locked=True)
+    made = [body.shape(i, shape) for i, shape in enumerate(_vehicle(vehicle))]
+    low, high = _around(scene)
+    floor = np.array([*(low + high) / 2.0, scene["floor"] - THICK / 2.0])
+    shapes = [Shape("floor", "box", (*(high - low).tolist(), THICK), floor, color=GROUND), *map(_wall, scene["walls"])]
+    made += [world.shape(i, shape) for i, shape in enumerate(shapes)]
+    made.append(world.lines(len(shapes), _grid(low, high, scene["floor"] + THICK / 10.0), LINE, 0.01))
+    return types[MARKERS](markers=made)
+
+
+def _vehicle(vehicle: Vehicle) -> list[Shape]:
+    """Its shapes, from the centre of mass of the system."""
+    payload, depth = 0.0 - vehicle.center_of_mass, vehicle.payload.radius or 0.0
+    shapes = [_moved(s, payload) for s in payload_shapes(vehicle.payload, tuple(vehicle.quadrotors))]
+    for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
+        shapes += [_moved(s, center) for s in quadrotor_shapes(q, depth)]
+    return shapes
+
+
+def _moved(shape: Shape, by: Array) -> Shape:
+    return shape._replace(position=shape.position + by)
+
+
+def _around(scene: Mapping[str, Any]) -> tuple[Array, Array]:
+    """The corners (2) of a rectangle around all there is, in whole metres."""
+    ends = np.array([[0.0, 0.0], *(end for w in scene["walls"] for end in _ends(w))])
+    return np.floor(ends.min(axis=0)) - MARGIN, np.ceil(ends.max(axis=0)) + MARGIN
+
+
+def _grid(low: Array, high: Array, level: float) -> Array:
+    """Lines (n, 2, 3) every metre."""
+    xs, ys = (np.arange(a, b + 0.5) for a, b in zip(low, high, strict=True))
+    along = [[[x, low[1], level], [x, high[1], level]] for x in xs]
+    return np.array(along + [[[low[0], y, level], [high[0], y, level]] for y in ys])
+
+
+def _ends(wall: Mapping[str, Any]) -> Array:
+    middle, half = np.array(wall["center"][:2]), wall["size"][0] / 2.0
+    along = half * np.array([np.cos(wall["heading"]), np.sin(wall["heading"])])
+    return np.array([middle - along, middle + along])
+
+
+def _wall(wall: Mapping[str, Any]) -> Shape:
+    c, s = np.cos(wall["heading"]), np.sin(wall["heading"])
+    axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return Shape("wall", "box", tuple(wall["size"]), np.array(wall["center"]), axes, WALL, GLASS)
+
+
+class Moving:
+    """The markers of push and reference.
+
+    Args:
+        types: of the messages.
+        vehicle: what is flown.
+    """
+
+    def __init__(self, types: Types, vehicle: Vehicle) -> None:
+        self._types = types
+        self._ghost, self._push = Pencil(types, WORLD, "reference"), Pencil(types, ALIGNED, "push")
+        self._shapes = list(_ghost(vehicle))
+
+    def of(self, channels: Mapping[str, Array], stamp: int) -> Any:
+        """The markers of a sample, channels (1, …), at a time [ns]."""
+        return self._types[MARKERS](markers=[*self._arrow(channels, stamp), *self._reference(channels, stamp)])
+
+    def _arrow(self, channels: Mapping[str, Array], stamp: int) -> list[Any]:
+        """An arrow from where the push acts, and how strong it is."""
+        force = channels["push_force"][0]
+        size = float(np.linalg.norm(force))
+        if not size > FAINTEST:
+            return [self._push.nothing(0), self._push.nothing(1)]
+        attitude = channels["attitude"]
+        start = to_world(attitude, points_of(channels["push_force"], channels["push_moment"], attitude))[0]
+        end = start + PER_NEWTON * force
+        return [
+            self._push.arrow(0, stamp, start, end, PUSH, WIDTH),
+            self._push.text(1, stamp, end + ABOVE, f"{size:.1f} N", PUSH, TEXT),
+        ]
+
+    def _reference(self, channels: Mapping[str, Array], stamp: int) -> list[Any]:
+        """The vehicle's outline where it is to be."""
+        place, here = channels["reference_position"], channels["position"]
+        if not np.linalg.norm(place - here) > APART:
+            return [self._ghost.nothing(i) for i in range(len(self._shapes))]
+        R = np.array(rotation_from_euler(Vec3(*channels["reference_euler"][0].tolist())))
+        there = [s._replace(position=place[0] + R @ s.position, axes=R @ s.axes) for s in self._shapes]
+        return [self._ghost.shape(i, shape, stamp) for i, shape in enumerate(there)]
+
+
+def _ghost(vehicle: Vehicle) -> Iterator[Shape]:
+    """Its payload, and a disc for each quadrotor."""
+    payload, at = vehicle.payload, 0.0 - vehicle.center_of_mass
+    for shape in payload_shapes(payload, tuple(vehicle.quadrotors))[:1]:
+        yield shape._replace(position=at + shape.position, color=REFERENCE, opacity=OPACITY)
+    for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
+        yield Shape("disc", "cylinder", (q.guard_radius, 0.02), center, color=REFERENCE, opacity=OPACITY)

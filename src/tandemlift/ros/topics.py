@@ -1,0 +1,126 @@
+"""What is published: samples by the recipes of exported bags, frames, ways, markers; and what is published once."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.export.frames import WORLD, fixed, quaternions
+from tandemlift.export.messages import Maker, Transforms, Types, maker_of
+from tandemlift.export.topics import POSE, ROOT, Recipe, Source, recipes_of
+from tandemlift.flight import Flight
+from tandemlift.missions import format_toml
+from tandemlift.ros import scenery
+from tandemlift.ros.drawing import MARKERS
+from tandemlift.ros.middleware import Channel, Middleware
+from tandemlift.vehicle import Vehicle
+
+TF, TF_STATIC, TRANSFORMS = "/tf", "/tf_static", "tf2_msgs/TFMessage"
+MISSION, TEXT = f"{ROOT}/mission", "std_msgs/String"
+STILL, MOVING = f"{ROOT}/markers/still", f"{ROOT}/markers/moving"
+FLOWN, ASKED, PATH = f"{ROOT}/path", f"{ROOT}/reference/path", "nav_msgs/Path"
+WAY, APART = 60.0, 0.2  # s of the way that is shown, and between its points
+
+
+class Sent(NamedTuple):
+    """A topic of samples: how its numbers are made, how its messages are, and where they go."""
+
+    recipe: Recipe
+    make: Maker
+    channel: Channel
+
+
+class Samples:
+    """The topics that have a message for each sample.
+
+    Args:
+        middleware: where to.
+        flight: samples as they will be.
+        vehicle: what is flown.
+    """
+
+    def __init__(self, middleware: Middleware, flight: Flight, vehicle: Vehicle) -> None:
+        types, self._vehicle = middleware.types, vehicle
+        self._sent = [
+            Sent(r, maker_of(types, r), middleware.advertise(r.name, r.kind)) for r in recipes_of(flight, vehicle)
+        ]
+        self._transform, self._tf = Transforms(types).moving, middleware.advertise(TF, TRANSFORMS, depth=100)
+
+    def publish(self, flight: Flight, stamps: list[int]) -> None:
+        """Publish samples, as far as somebody listens."""
+        take = Source(flight, self._vehicle)
+        wanted = [(s.channel, s.make, s.recipe.rows(take).tolist()) for s in self._sent if s.channel.wanted]
+        if self._tf.wanted:
+            places = np.hstack([flight["position"], flight["attitude"]])
+            wanted.append((self._tf, self._transform, places.tolist()))
+        for k, stamp in enumerate(stamps):  # one sample after another, so that none of a topic overtakes the one before
+            for channel, make, rows in wanted:
+                channel.publish(make(stamp, rows[k]))
+
+
+class Once:
+    """What is published once, and again to who comes late.
+
+    Args:
+        middleware: where to.
+    """
+
+    def __init__(self, middleware: Middleware) -> None:
+        self._types = middleware.types
+        self._mission = middleware.advertise(MISSION, TEXT, latched=True)
+        self._static = middleware.advertise(TF_STATIC, TRANSFORMS, latched=True)
+        self._still = middleware.advertise(STILL, MARKERS, latched=True)
+
+    def tell_mission(self, tables: Mapping[str, Any]) -> None:
+        """Publish the mission as it is now."""
+        self._mission.publish(self._types[TEXT](format_toml(tables)))
+
+    def tell_vehicle(self, scene: Mapping[str, Any], vehicle: Vehicle, stamp: int) -> None:
+        """Publish where the vehicle's parts are, and what it and its surroundings look like."""
+        self._static.publish(Transforms(self._types).fixed(stamp, list(fixed(vehicle))))
+        self._still.publish(scenery.still(self._types, scene, vehicle))
+
+
+class Shown:
+    """What is only looked at: markers that move, the way flown and the way asked for.
+
+    Args:
+        middleware: where to.
+        vehicle: what is flown.
+    """
+
+    def __init__(self, middleware: Middleware, vehicle: Vehicle) -> None:
+        types = middleware.types
+        self._markers, self._moving = middleware.advertise(MOVING, MARKERS), scenery.Moving(types, vehicle)
+        self._ways = [Way(types, middleware.advertise(topic, PATH)) for topic in (FLOWN, ASKED)]
+
+    def move(self, flight: Flight, stamp: int) -> None:
+        """Show the last sample."""
+        if self._markers.wanted:
+            last = {name: flight[name][-1:] for name in flight}
+            self._markers.publish(self._moving.of(last, stamp))
+
+    def go_on(self, flight: Flight, stamp: int) -> None:
+        """Let the ways go on to the last sample, and show them."""
+        poses = (flight["position"], flight["attitude"]), (flight["reference_position"], None)
+        for way, (place, attitude) in zip(self._ways, poses, strict=True):
+            turned = quaternions(flight["reference_euler"][-1:]) if attitude is None else attitude[-1:]
+            way.go_on(stamp, [*place[-1].tolist(), *turned[0].tolist()])
+
+
+class Way:
+    """Poses of the last minute as a `nav_msgs/Path`."""
+
+    def __init__(self, types: Types, channel: Channel) -> None:
+        self._Path, self._header, self._channel = types[PATH], types.headers(WORLD), channel
+        self._make = maker_of(types, Recipe("", POSE, WORLD, (), lambda take: np.zeros((0, 7))))
+        self._poses: deque[Any] = deque(maxlen=round(WAY / APART))
+
+    def go_on(self, stamp: int, pose: list[float]) -> None:
+        """One more pose; publish them all if somebody listens."""
+        self._poses.append(self._make(stamp, pose))
+        if self._channel.wanted:
+            self._channel.publish(self._Path(self._header(stamp), list(self._poses)))

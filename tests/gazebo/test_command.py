@@ -1,0 +1,101 @@
+"""`tandemlift gazebo`: server, window, cameras and pilot by one command."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import matplotlib.image
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.engines.gazebo_server import command, in_gazebo, root
+
+pytestmark = pytest.mark.gazebo
+TANDEMLIFT = [sys.executable, "-m", "tandemlift", "gazebo"]
+LONGEST = 240.0  # s, for a loop that may have to be compiled
+
+
+def begun(*arguments, folder, **environment):
+    """A `tandemlift gazebo` that has begun to fly, and the address of Gazebo's transport."""
+    process = subprocess.Popen(
+        [*TANDEMLIFT, *arguments, "--no-figures", "--out", str(folder)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        env=os.environ | environment,
+    )
+    for line in process.stdout:
+        if found := re.search(r"GAZEBO_MASTER_URI=(\S+)", line):
+            return process, found[1]
+    raise AssertionError("it ended before it flew")
+
+
+def gz(master, *arguments):
+    return subprocess.run(
+        command(root(), in_gazebo(master, f"timeout 10 gz {' '.join(arguments)}")),
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    ).stdout
+
+
+def test_a_corridor_is_flown_from_ground_to_ground_and_photographed(tmp_path):
+    process, _ = begun("zigzag", "--fast", "--pictures", "--no-window", folder=tmp_path)
+    process.communicate(timeout=2.0 * LONGEST)
+    assert process.returncode == 0
+    flight, alike = tl.Flight.load(tmp_path / "flight.npz"), tl.fly(tl.load_mission("zigzag"))
+    assert flight.version["engine"] == "gazebo"
+    assert flight["contact_force"][[0, -1], 2] == pytest.approx(34.3, abs=0.5)  # N: it stood, and stands
+    assert np.abs(flight["position"] - alike["position"]).max() < 0.02  # m
+    assert json.loads((tmp_path / "metrics.json").read_text("utf-8"))["final_position_m"][0] > 24.5
+    drawn = matplotlib.image.imread(tmp_path / "figures/views.png")[:, :, :3]
+    high, wide = (side // 2 for side in drawn.shape[:2])
+    views = [drawn[y : y + high, x : x + wide] for y in (0, high) for x in (0, wide)]
+    for k, view in enumerate(views):
+        assert view.std() > 0.05  # not of one colour
+        assert all(np.abs(view - other).mean() > 0.01 for other in views[:k])  # of another place
+    assert "Photographs" in (tmp_path / "report.html").read_text("utf-8")
+
+
+def test_a_flight_by_hand_yields_to_the_topic_and_is_kept(tmp_path):
+    process, master = begun("iris", "--by-hand", "--no-window", folder=tmp_path)
+    time.sleep(16.0)  # s: it lifts, and tares until 12 s
+    gz(master, "topic", "-p", "/gazebo/default/tandemlift/push", "-m", """'data: "force 2 0 0 duration 2"'""")
+    time.sleep(6.0)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60.0)
+    assert process.returncode == 0
+    flight = tl.Flight.load(tmp_path / "flight.npz")
+    assert flight.mission["mission"]["duration"] == pytest.approx(flight.time[-1], abs=0.02)
+    assert np.abs(flight["push_estimate"][:, 0]).max() == pytest.approx(2.0, abs=0.3)  # N
+    assert 0.5 < flight["position"][-1, 0] < 6.0  # m
+    assert abs(flight["position"][-1, 1]) < 0.1
+
+
+def test_the_window_opens_and_closes_with_the_flight(tmp_path, monkeypatch):
+    framebuffer = tmp_path / "screen"
+    framebuffer.mkdir()
+    display = subprocess.Popen(
+        ["Xvfb", "-displayfd", "1", "-screen", "0", "1000x640x24", "-fbdir", str(framebuffer), "-nolisten", "tcp"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    try:
+        name = f":{display.stdout.readline().strip()}"
+        dark = (framebuffer / "Xvfb_screen0").read_bytes()
+        process, _ = begun("zigzag", "--set", "mission.duration=20.0", folder=tmp_path / "out", DISPLAY=name)
+        time.sleep(12.0)
+        shown = (framebuffer / "Xvfb_screen0").read_bytes()
+        process.communicate(timeout=LONGEST)
+        assert process.returncode == 0
+        assert np.mean(np.frombuffer(dark, np.uint8) != np.frombuffer(shown, np.uint8)) > 0.2
+    finally:
+        display.kill()
+        display.communicate()
