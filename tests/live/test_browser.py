@@ -120,11 +120,10 @@ def browser():
         one.close()
 
 
-def opened(browser, address, init=None, **options):
-    """A page, and the list of what went wrong on it; `init` is run before it."""
+def opened(browser, address, prepare=lambda page: None, **options):
+    """A page, and the list of what went wrong on it; `prepare` is done to it before it opens the address."""
     page = browser.new_context(viewport=SIZE, **options).new_page()
-    if init:
-        page.add_init_script(init)
+    prepare(page)
     page.wrong = []
     page.on("pageerror", lambda error: page.wrong.append(str(error)))
     page.on("console", lambda said: page.wrong.append(said.text) if said.type == "error" else None)
@@ -266,7 +265,7 @@ navigator.getGamepads = () => [null, window.pad];
 def test_a_gamepad_pushes_beyond_its_dead_zone_and_lets_go_when_it_is_unplugged(browser, live):
     live.wait_status(lambda s: s["phase"] in ("guided", "hold"), "hover")
     live.wait(rests, "rest")
-    page = opened(browser, live.address, init=GAMEPAD)
+    page = opened(browser, live.address, lambda one: one.add_init_script(GAMEPAD))
     until(lambda: page.text_content("#mode") in ("guided", "holding", "hold"), "a status on the page")
     page.get_by_role("button", name="Settings").click()
     page.get_by_text("world axes", exact=True).click()
@@ -296,6 +295,19 @@ def test_a_gamepad_pushes_beyond_its_dead_zone_and_lets_go_when_it_is_unplugged(
     assert page.wrong == []
     page.context.close()
     live.wait(rests, "rest")
+
+
+def test_a_dead_rotor_is_marked_on_every_page(browser, live):
+    def told(socket):
+        server = socket.connect_to_server()
+        server.on_message(
+            lambda told: socket.send(told if isinstance(told, bytes) else told.replace('"dead":[]', '"dead":[2]'))
+        )
+
+    page = opened(browser, live.address, lambda one: one.route_web_socket("**/ws", told))
+    until(lambda: page.locator("#panel g.dead").count() == 1, "a rotor that is marked")
+    assert page.locator("#panel g.dead").get_attribute("aria-label") == "Stop rotor 3"
+    page.context.close()
 
 
 def test_the_keys_push_no_harder_than_the_hand_of_the_mission(page, live):

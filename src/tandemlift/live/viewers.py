@@ -19,6 +19,7 @@ MOST_MESSAGES = 2_000  # a second; a page sends about a hundred
 FAREWELL = 1.0  # s, for pages to say good-bye
 MOST_REFUSALS = 20  # a second that are told
 ECHO = 0.003  # s, in which the flight has heeded a hand
+FRESH = 0.012  # s, in which who was shown a frame of its own needs no other
 
 
 def text_of(what: Mapping[str, Any]) -> str:
@@ -32,13 +33,14 @@ class Viewer:
     Attributes:
         dropped: frames that it was too slow for.
         heard: when it said something last, by the monotonic clock [s].
+        echoed: when it was shown a frame of its own last, likewise.
     """
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection = connection
         self.dropped, self.heard = 0, time.monotonic()
         self._second, self._messages, self._refusals = 0, 0, 0
-        self._echoing = False
+        self._echoing, self.echoed = False, 0.0
 
     @property
     def behind(self) -> bool:
@@ -59,7 +61,7 @@ class Viewer:
             asyncio.get_running_loop().call_later(ECHO, self._show_echo, frame)
 
     def _show_echo(self, frame: Callable[[], bytes]) -> None:
-        self._echoing = False
+        self._echoing, self.echoed = False, time.monotonic()
         self.show(frame())
 
     def tell(self, what: Mapping[str, Any] | str) -> None:
@@ -129,8 +131,10 @@ class Viewers:
 
     def show(self, frame: bytes) -> None:
         """Send a frame to all who can take it."""
+        now = time.monotonic()
         for viewer in self:
-            viewer.show(frame)
+            if now - viewer.echoed > FRESH:
+                viewer.show(frame)
 
     def tell(self, what: Mapping[str, Any]) -> None:
         """Send a text to all."""
