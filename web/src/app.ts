@@ -171,7 +171,7 @@ export class App implements Listener {
       }
     }
     this.front.tick(now);
-    const slow = this.pace.tick(now);
+    const slow = this.pace.tick(now, this.drawnAt === now);
     if (slow && this.graphics === "auto" && !this.front.filming) this.rebuild("light");
   };
 

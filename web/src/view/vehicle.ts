@@ -38,7 +38,7 @@ export class Vehicle {
 
   constructor(scene: Scene, graphics: Graphics) {
     const solid = solidOf(scene, graphics === "full" ? 20 : 7);
-    this.outline = graphics === "full" ? solid : solidOf(scene, 3);
+    this.outline = graphics === "full" ? solid : solidOf(scene, 5);
     const body = new Mesh(solid, surface(graphics));
     body.castShadow = body.receiveShadow = graphics === "full";
     body.frustumCulled = false;
