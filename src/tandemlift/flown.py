@@ -24,6 +24,7 @@ from tandemlift.laws.supervision import Supervising
 from tandemlift.loop import FAR, SIN_ROLL_LIMIT, Flying, Moving
 from tandemlift.missions import tables_of
 from tandemlift.prepared import Prepared
+from tandemlift.recording import portable
 from tandemlift.tally import EMPTY, Tally, summary
 from tandemlift.vector import ZERO, Nothing, Vec3, dot
 
@@ -157,7 +158,7 @@ def flight_of(p: Prepared, flown: Flown, engine: str = "compiled") -> Flight:
     return Flight(
         time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
         channels=channels,
-        mission=tables_of(p.mission),
+        mission=portable(tables_of(p.mission)),
         results=metrics_of(p, flown),
         divergence=_divergence(p, flown),
         version={**versions(engine), "engine": engine},

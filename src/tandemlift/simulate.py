@@ -22,6 +22,7 @@ from tandemlift.flown import Flown, flight_of, metrics_of, take_tallies
 from tandemlift.jit import flat, leaves, unflat
 from tandemlift.kernels import GAUSSIAN, GUST, LANES, LEG, WALL, Tables
 from tandemlift.prepared import Prepared
+from tandemlift.recording import engine_of
 from tandemlift.settings import Mission
 from tandemlift.stepwise import fly_stepwise
 from tandemlift.tally import EMPTY
@@ -99,12 +100,12 @@ def _interleaved(tables: Sequence[Array], idle: Any) -> Array:
     return rows.reshape(len(rows), rows.shape[1] * LANES)
 
 
-def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None = None) -> Flight:
+def fly(mission: Mission, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
     """Fly a mission.
 
     Args:
         mission: from `load_mission`.
-        engine: name of the body's engine.
+        engine: name of the body's engine; if None, that of the mission's recording, or "compiled".
         progress: called now and then with (steps flown, steps in all).
 
     Returns:
@@ -113,6 +114,7 @@ def fly(mission: Mission, engine: str = "compiled", *, progress: Progress | None
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
+    engine = engine_of(mission) if engine is None else engine
     chosen, p = engine_named(engine), Prepared(mission)
     rows = p.steps // p.every + 1
     if chosen.module:

@@ -47,6 +47,7 @@ class Stepper:
         self.v[:] = flat(likes.moved)
         self.x, self.y, self.scratch = np.zeros(leaves(GIVEN)), np.zeros(leaves(COMMAND)), self.work[p.kernels.limits :]
         self.interpreted, self.at_lost = p.interpreted, place(p.flying, "moving", "lost").at
+        self.hand = hand_place(p)
         thrusts, air = place(likes.acting, "thrusts"), place(likes.acting, "weather", "loads")
         self.thrusts = self.c[thrusts.at : thrusts.at + thrusts.size]
         self.loads, self.push = self.c[air.at : air.at + air.size], np.zeros(6)
@@ -75,7 +76,7 @@ class Stepper:
 
     def _hand_over(self, p: Prepared) -> None:
         """Go on by other laws; a controller begins with a fresh memory if it remembers other things; ramps jump."""
-        size, hand, row = leaves(self.p.flying.moving), self.a[hand_place(self.p)], self.row
+        size, hand, row = leaves(self.p.flying.moving), self.a[self.hand], self.row
         moving = unflat(self.a[:size], self.p.flying.moving)
         memory, fresh = moving.memory, p.flying.moving.memory.controller
         if layout(memory.controller) != layout(fresh):
@@ -88,7 +89,7 @@ class Stepper:
 
     def hold(self, hand: np.ndarray) -> None:
         """Move the hand that is moved from outside: the numbers of a `laws.grab.Held`."""
-        self.a[hand_place(self.p)] = hand
+        self.a[self.hand] = hand
 
     def _change(self, k: int) -> None:
         for due in self.changing.take_due(k):

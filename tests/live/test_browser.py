@@ -120,9 +120,10 @@ def browser():
         one.close()
 
 
-def opened(browser, address, **options):
-    """A page, and the list of what went wrong on it."""
+def opened(browser, address, prepare=lambda page: None, **options):
+    """A page, and the list of what went wrong on it; `prepare` is done to it before it opens the address."""
     page = browser.new_context(viewport=SIZE, **options).new_page()
+    prepare(page)
     page.wrong = []
     page.on("pageerror", lambda error: page.wrong.append(str(error)))
     page.on("console", lambda said: page.wrong.append(said.text) if said.type == "error" else None)
@@ -253,6 +254,69 @@ def test_a_key_pushes_with_the_force_that_is_stated(page, live):
     page.keyboard.up("ArrowUp")
     live.wait(lambda seen: np.linalg.norm(seen["push"]) < 0.01, "no push")
     live.wait(rests, "rest")
+
+
+GAMEPAD = """
+window.pad = { connected: true, axes: [0, 0, 0, 0], buttons: [] };
+navigator.getGamepads = () => [null, window.pad];
+"""
+
+
+def test_a_gamepad_pushes_beyond_its_dead_zone_and_lets_go_when_it_is_unplugged(browser, live):
+    live.wait_status(lambda s: s["phase"] in ("guided", "hold"), "hover")
+    live.wait(rests, "rest")
+    page = opened(browser, live.address, lambda one: one.add_init_script(GAMEPAD))
+    until(lambda: page.text_content("#mode") in ("guided", "holding", "hold"), "a status on the page")
+    page.get_by_role("button", name="Settings").click()
+    page.get_by_text("world axes", exact=True).click()
+    page.locator("#surface canvas").hover()
+
+    def stick(*axes):
+        page.evaluate("axes => (window.pad.axes = axes)", axes)
+
+    def pushed(*force):
+        return live.wait(lambda seen: np.abs(seen["push"] - force).max() < 0.05, f"a push of {force} N")
+
+    stick(0.14, -0.14, 0.0, 0.14)  # within the dead zone
+    time.sleep(0.3)
+    assert np.abs(live.look()["push"]).max() < 0.01
+    stick(0.0, -1.0, 0.0, 0.0)
+    pushed(3.0, 0.0, 0.0)
+    stick(0.575, 0.0, 0.0, 0.0)  # half of what is beyond the dead zone
+    pushed(0.0, -1.5, 0.0)
+    stick(0.0, 0.0, 0.0, -1.0)
+    pushed(0.0, 0.0, 3.0)
+    page.evaluate("window.pad.connected = false")
+    pushed(0.0, 0.0, 0.0)
+    page.evaluate("window.pad.connected = true")
+    pushed(0.0, 0.0, 3.0)
+    page.evaluate("window.pad = null")
+    pushed(0.0, 0.0, 0.0)
+    assert page.wrong == []
+    page.context.close()
+    live.wait(rests, "rest")
+
+
+def test_a_dead_rotor_is_marked_on_every_page(browser, live):
+    def told(socket):
+        server = socket.connect_to_server()
+        server.on_message(
+            lambda told: socket.send(told if isinstance(told, bytes) else told.replace('"dead":[]', '"dead":[2]'))
+        )
+
+    page = opened(browser, live.address, lambda one: one.route_web_socket("**/ws", told))
+    until(lambda: page.locator("#panel g.dead").count() == 1, "a rotor that is marked")
+    assert page.locator("#panel g.dead").get_attribute("aria-label") == "Stop rotor 3"
+    page.context.close()
+
+
+def test_the_keys_push_no_harder_than_the_hand_of_the_mission(page, live):
+    most = live.scene["spring"]["max_force"]
+    panel(page, "admittance.mass")  # opens the panel
+    entry = page.locator("#key-force")
+    entry.fill("50")
+    entry.press("Enter")
+    until(lambda: float(entry.input_value()) == most, "the most that the hand can")
 
 
 def test_time_stands_still_while_it_is_paused(page, live):

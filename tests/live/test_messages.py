@@ -8,16 +8,10 @@ import hypothesis.strategies as st
 import pytest
 from hostile import GOOD, hostile
 from hypothesis import given
-from live_page import Running, put_page
-from standin import StandIn
 
-from tandemlift.live import viewers
-from tandemlift.live.frames import read_frames
 from tandemlift.live.messages import KINDS, MAX_LENGTH, Refusal, about, read_message
-from tandemlift.live.pages import page_files
-from tandemlift.live.server import Server
 
-THROUGH_A_SOCKET, THROUGH_THE_READER = 50_000, 50_000
+MANY = 50_000
 
 
 def refused(text) -> Refusal:
@@ -103,28 +97,8 @@ def test_any_json_is_read_or_refused_in_few_words(value):
         _read(text)
 
 
-def test_of_a_hundred_thousand_hostile_messages_none_gets_through_and_the_flight_goes_on(tmp_path, monkeypatch):
-    monkeypatch.setattr(viewers, "MOST_MESSAGES", math.inf)  # else the first two thousand in a second are the last
-    flight = StandIn()
-    server = Running(Server(page_files(put_page(tmp_path / "page")), flight, port=0))
-    try:
-        with server.viewer() as good:
-            with server.viewer() as bad:
-                for i, text in enumerate(hostile(THROUGH_A_SOCKET, seed=1)):
-                    bad.connection.send(text.encode(errors="replace"), text=i % 50 > 0)
-                    if i % 500 == 0:
-                        assert read_frames(flight.fields, good.frame())["attitude"].tolist() == [[1.0, 0.0, 0.0, 0.0]]
-                while not any(getattr(m, "key", "") == "the.last" for m in tuple(flight.heard)):
-                    bad.say(type="set", key="the.last", value=0)
-                    assert good.frame()
-                steps = flight.steps
-                while flight.steps == steps:
-                    assert good.frame()
-            good.text("status", viewers=1, holder="none")
-            _check_good(flight.heard)
-    finally:
-        server.stop()
-    _check_good([m for m in map(_read, hostile(THROUGH_THE_READER, seed=2)) if m is not None])
+def test_of_many_hostile_messages_those_that_get_through_are_as_good_as_any():
+    _check_good([m for m in map(_read, hostile(MANY, seed=2)) if m is not None])
 
 
 def _read(text):

@@ -2,11 +2,14 @@
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import tandemlift as tl
+from tandemlift.cli import cli
 from tandemlift.laws.grab import NOBODY_HOLDS
 from tandemlift.live.by_hand import by_hand
 from tandemlift.live.recorded import FLIGHT, HAND, MISSION, RecordedFlight
+from tandemlift.live.saving import save_aside
 from tandemlift.vector import Vec3
 
 GUIDED = {
@@ -48,9 +51,9 @@ def pulled_about(flight, seconds, seed=0):
             change(flight, "controller.gains.xi", chance.uniform(0.5, 2), 0.3)
 
 
-def assert_flies_again(folder, engine="compiled"):
+def assert_flies_again(folder):
     saved = tl.Flight.load(folder / FLIGHT)
-    again = tl.fly(tl.load_mission(folder / MISSION), engine)
+    again = tl.fly(tl.load_mission(folder / MISSION))
     assert list(saved.channels) == list(again.channels)
     for channel in saved.channels:
         np.testing.assert_array_equal(saved[channel], again[channel], channel)
@@ -73,12 +76,12 @@ def test_what_was_flown_by_hand_flies_again_to_the_last_bit(tmp_path, seconds, s
     assert again.metrics()["steps"] == flight.step - 1
 
 
-def test_in_the_other_engine_too(tmp_path):
+def test_in_the_other_engine_too_which_the_recording_names(tmp_path):
     pytest.importorskip("mujoco")
     flight = started("mujoco")
     pulled_about(flight, 6.0)
     flight.snapshot().save(tmp_path)
-    assert_flies_again(tmp_path, "mujoco")
+    assert_flies_again(tmp_path)
 
 
 def test_it_is_saved_while_it_goes_on_and_goes_on_as_if_it_had_not_been(tmp_path):
@@ -130,3 +133,35 @@ def test_the_files_stand_beside_each_other_and_may_be_moved(tmp_path):
     (tmp_path / "here").rename(tmp_path / "there")
     assert sorted(p.name for p in (tmp_path / "there").iterdir()) == sorted([MISSION, HAND, FLIGHT])
     assert tl.load_mission(tmp_path / "there" / MISSION).partner.recording == str(tmp_path / "there" / HAND)
+
+
+def test_what_is_saved_and_what_is_flown_again_name_no_folder_of_the_machine(tmp_path):
+    flight = started()
+    pulled_about(flight, 1.0)
+    flight.snapshot().save(tmp_path / "here")
+    (tmp_path / "here").rename(tmp_path / "there")
+    (tmp_path / "here").mkdir()
+    mission = str(tmp_path / "there" / MISSION)
+    assert CliRunner().invoke(cli, ["run", mission, "--no-figures", "--out", str(tmp_path / "here")]).exit_code == 0
+    for folder in ("here", "there"):
+        for file in (tmp_path / folder).iterdir():
+            assert str(tmp_path).encode() not in file.read_bytes(), file
+        assert tl.Flight.load(tmp_path / folder / FLIGHT).mission["partner"]["recording"] == HAND
+    again = tl.load_mission(tmp_path / "here" / "mission.toml")
+    assert again.partner.recording == str(tmp_path / "here" / HAND)
+
+
+def test_saved_aside_it_is_the_same_flight(tmp_path):
+    flight = started()
+    pulled_about(flight, 1.0)
+    save_aside(flight.snapshot(), tmp_path / "aside")
+    assert sorted(p.name for p in (tmp_path / "aside").iterdir()) == sorted([MISSION, HAND, FLIGHT])
+    assert_flies_again(tmp_path / "aside")
+
+
+def test_a_flight_that_cannot_be_saved_aside_is_told_of(tmp_path):
+    flight = started()
+    pulled_about(flight, 1.0)
+    (tmp_path / FLIGHT).mkdir()
+    with pytest.raises(RuntimeError, match="could not be saved"):
+        save_aside(flight.snapshot(), tmp_path)

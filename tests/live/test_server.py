@@ -202,6 +202,15 @@ def test_time_goes_on_from_frame_to_frame(live):
     assert times[-1] > times[0]
 
 
+def test_who_moves_the_beam_is_shown_what_came_of_it_before_the_next_frame_for_all(live, monkeypatch):
+    monkeypatch.setattr("tandemlift.live.server.RATE", 0.5 / PATIENCE)
+    with live.viewer() as viewer:
+        assert viewer.frame()
+        viewer.grab(1.0, 0.0, 0.0)
+        viewer.say(type="move", target=[2.0, 0.0, 0.0])
+        assert read_frames(live.flight.fields, viewer.frame())["hand_target"].tolist() == [[2.0, 0.0, 0.0]]
+
+
 def test_a_ping_is_echoed(live):
     with live.viewer() as viewer:
         viewer.say(type="ping", t=12.5)

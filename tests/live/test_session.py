@@ -391,3 +391,32 @@ def test_the_factor_is_time_flown_over_time_passed(clock):
         pace.due()
         pace.flew(5)
     assert pace.factor == pytest.approx(0.5, rel=0.02)
+
+
+def test_hands_are_refused_until_it_has_tared_by_itself_in_steady_hover(session):
+    up(session)
+    mission = session._flight.now
+    estimator = mission.estimator.model_copy(update={"tare": "hover", "tare_duration": 2.0})
+    pilot = mission.pilot.model_copy(update={"push": "estimate"})
+    session._flight.now = mission.model_copy(update={"estimator": estimator, "pilot": pilot})
+    until_tared = 2.0 - session._flight.number("memory", "guidance", "phase", "hovered")
+    if until_tared > 0.0:
+        with pytest.raises(tl.InputError, match="hands off until the force sensors are tared, in steady hover"):
+            say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+        fly(session, until_tared + 0.01)
+    say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("kind", ["grab", "force"])
+def test_a_hand_touches_the_vehicle_and_not_the_air_beside_it(session, kind):
+    up(session)
+    rest = {"grab": {"target": (0.0, 0.0, 0.0), "at": "point"}, "force": {"force": (1.0, 0.0, 0.0)}}[kind]
+    with pytest.raises(tl.InputError, match=r"point = .*: must be on the vehicle, within"):
+        say(session, kind, point=(0.0, 9.0, 0.0), **rest)
+    say(session, kind, point=(0.0, 0.9, 0.0), **rest)
+
+
+def test_the_status_tells_every_viewer_which_rotors_are_dead(session):
+    assert session.status()["dead"] == []
+    session._flight.now = changed(by_hand(tl.load_mission("iris")), "faults.3.time", 0.0)
+    assert session.status()["dead"] == [3]

@@ -1,5 +1,7 @@
 // Brings the parts together: what comes from the flight goes to the picture, what a person does goes to the flight.
 
+import { Matrix4 } from "three";
+
 import { Grab } from "./hand/grab.ts";
 import { Pushes } from "./hand/pushes.ts";
 import { byId } from "./ui/dom.ts";
@@ -17,6 +19,7 @@ import type { Recorded } from "./wire/recorded.ts";
 import type { Listener, Source } from "./wire/source.ts";
 
 const STIFFNESS = "partner.stiffness"; // of the hand's spring
+const STALE = 100; // ms, after which the same moment is drawn again: overlays may have been switched
 const LET_GO = 3; // statuses of a grab that the server knows nothing of
 
 export class App implements Listener {
@@ -35,6 +38,9 @@ export class App implements Listener {
   private picture: Picture | null = null;
   private graphics: Choice = "auto";
   private last = 0;
+  private drawn: Frame | null = null;
+  private drawnAt = 0;
+  private readonly eye = new Matrix4();
   private unheld = 0;
 
   constructor(
@@ -156,13 +162,24 @@ export class App implements Listener {
       this.follow.update(picture.center, this.grab.pulling, passed);
       this.grab.flush();
       this.pushes.flush(this.grab.pulling);
-      picture.draw();
-      this.latency.drawn(current.scalar("seq"), performance.now());
+      // the same picture again would keep the processor from hearing of what is new
+      if (current !== this.drawn || this.moved() || now - this.drawnAt > STALE) {
+        picture.draw();
+        [this.drawn, this.drawnAt] = [current, now];
+        this.eye.copy(this.stage.camera.matrixWorld);
+        this.latency.drawn(current.scalar("seq"), performance.now());
+      }
     }
     this.front.tick(now);
-    const slow = this.pace.tick(now);
+    const slow = this.pace.tick(now, this.drawnAt === now);
     if (slow && this.graphics === "auto" && !this.front.filming) this.rebuild("light");
   };
+
+  /** Whether the camera stands elsewhere than in the last picture. */
+  private moved(): boolean {
+    this.stage.camera.updateMatrixWorld();
+    return !this.eye.equals(this.stage.camera.matrixWorld);
+  }
 
   /** Draws on at another level of graphics. */
   private rebuild(graphics: Graphics): void {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from tandemlift.flight import Flight
+    from tandemlift.settings import Mission
 
 FILES = ("mission.toml", "flight.npz", "metrics.json", "report.html")
 
@@ -89,6 +91,15 @@ def write_results(flight: Flight, folder: Path, *, figures: bool, views: Figure 
         (folder / "figures").mkdir(exist_ok=True)
         save(views, folder / "figures" / f"{VIEWS}.png")
     write_report(flight, folder / "figures", folder / "report.html")
+
+
+def keep_recording(mission: Mission, folder: Path) -> None:
+    """Put the recording of a mission, if it has one, beside its file, so that the folder flies again wherever it is."""
+    if mission.partner.recording is None:
+        return
+    source = Path(mission.partner.recording)
+    with whole(folder / source.name) as partial:
+        shutil.copyfile(source, partial)
 
 
 def flight_file(given: str) -> tuple[Path, Path | None]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.results import bar, results_in, write_results
+from tandemlift.cli.results import bar, keep_recording, results_in, write_results
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
@@ -26,7 +26,9 @@ WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set takes without quote
 
 @click.command()
 @click.argument("mission")
-@click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
+@click.option(
+    "--engine", help="Where the body lives; see `tandemlift engines`.  [default: a recording's own, else compiled]"
+)
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
 @click.option(
     "--set",
@@ -38,7 +40,12 @@ WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set takes without quote
 @click.option("--controller", metavar="NAME|FILE", help="Fly this controller: a registered one, or your .py file.")
 @click.option("--no-figures", is_flag=True, help="Leave the figures out.")
 def run(
-    mission: str, engine: str, out: str | None, settings: tuple[str, ...], controller: str | None, no_figures: bool
+    mission: str,
+    engine: str | None,
+    out: str | None,
+    settings: tuple[str, ...],
+    controller: str | None,
+    no_figures: bool,
 ) -> None:
     """Fly MISSION, print a summary and write the results.
 
@@ -69,12 +76,14 @@ def run(
     from tandemlift.engines import engine_named
 
     began = time.perf_counter()
-    engine_named(engine)
+    if engine is not None:
+        engine_named(engine)
     chosen = None if controller is None else chosen_controller(controller)
     loaded = load(mission, settings, chosen)
     with results_in(out, Path("out") / loaded.mission.name) as folder:
         flight = _fly(loaded, engine, chosen)
         summarise(flight, time.perf_counter() - began)
+        keep_recording(loaded, folder)
         write_results(flight, folder, figures=not no_figures)
         say(f"  report: {folder / 'report.html'}")
     if flight.divergence:
@@ -126,7 +135,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
     return key, parsed["value"]
 
 
-def _fly(mission: Mission, engine: str, controller: Controller | None) -> Flight:
+def _fly(mission: Mission, engine: str | None, controller: Controller | None) -> Flight:
     from tandemlift.laws.controllers import file_of, told
     from tandemlift.prepared import needs_compiling, takes_long
     from tandemlift.simulate import fly

@@ -61,10 +61,15 @@ class Compiling:
         self._folder.cleanup()
 
 
-def main(path: str) -> None:
-    """Compile the loop of a mission file."""
+def step_back() -> None:
+    """Leave the processor to processes that fly."""
     if hasattr(os, "nice"):
         os.nice(COURTESY)
+
+
+def main(path: str) -> None:
+    """Compile the loop of a mission file."""
+    step_back()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         Stepper(Prepared(load_mission(path))).compile()

@@ -14,3 +14,10 @@ class Grip:
     offset: Vec3 = ZERO
     seq: int = 0
     wishes: dict[str, int] = field(default_factory=dict)  # until which step each is said
+
+    def ended(self, step: int) -> list[str]:
+        """The wishes that have been said for long enough at a step, which are forgotten."""
+        over = [wish for wish, until in self.wishes.items() if step >= until]
+        for wish in over:
+            del self.wishes[wish]
+        return over

@@ -7,6 +7,10 @@ from collections import deque
 
 MOST_BEHIND = 0.1  # s of flight; what is owed beyond is forgotten, and the flight is late for good
 WINDOW = 1.0  # s, over which the pace is measured
+NAP = 0.002  # s, between looks at the clock
+BREATH = 1e-4  # s, for others between two batches of a flight that is behind
+SWITCHING = 2e-4  # s, for which another thread may keep the interpreter from the flight
+BATCH = 25  # steps without a look at who wants something
 
 
 class Pace:

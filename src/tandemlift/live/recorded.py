@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.changing import Due, due_of, hand_place
+from tandemlift.changing import Due, due_of
 from tandemlift.engines import engine_named
 from tandemlift.errors import FlightWarning, InputError
 from tandemlift.files import whole
 from tandemlift.flight import Flight
 from tandemlift.flown import Flown, flight_of, take_tallies
 from tandemlift.jit import flat, leaves, unflat
+from tandemlift.kernels import place
 from tandemlift.laws.grab import NOBODY_HOLDS, Held
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
 from tandemlift.prepared import Prepared
@@ -76,6 +77,11 @@ class RecordedFlight:
         return self._stepper.row
 
     @property
+    def moment(self) -> tuple[Array, float]:
+        """A copy of the last sample, and its time [s]."""
+        return self._stepper.row.copy(), (self.step - 1) * self._p.dt
+
+    @property
     def over(self) -> bool:
         """Whether it has lasted as long as its mission, or its state is no longer sound."""
         return self.step >= self._p.steps or self._stepper.lost
@@ -85,10 +91,14 @@ class RecordedFlight:
         """Whether its state is no longer sound."""
         return self._stepper.lost
 
+    def number(self, *path: str) -> float:
+        """A number of what moves in the flight, by its path from `loop.Moving`."""
+        return float(self._stepper.a[place(self._stepper.p.flying, "moving", *path).at])
+
     @property
     def hand(self) -> Held:
         """The hand as it is moved."""
-        return unflat(self._stepper.a[hand_place(self._stepper.p)], NOBODY_HOLDS)
+        return unflat(self._stepper.a[self._stepper.hand], NOBODY_HOLDS)
 
     def advance(self) -> None:
         """Take a step."""
@@ -160,20 +170,21 @@ class Snapshot:
         self._log = f._log[: self._steps // p.every + 1]  # rows that are written are never written again
         self._last = np.full(leaves(p.sample), np.nan) if f.lost else f.sample.copy()
         self._rows = [(k, hand) for k, hand in f._rows if k <= self._steps]
-        self._changes, self._start, self._engine = list(f._changes), f.start, f.engine
+        self._changes, self._start, self.engine = list(f._changes), f.start, f.engine
 
     def save(self, folder: Path) -> Flight:
         """Write mission, hand and flight into a folder; the flight that the mission flies again."""
+        self.save_mission(folder)
+        return save_flight(folder, self.flown, self.engine)
+
+    def save_mission(self, folder: Path) -> None:
+        """Write mission and hand into a folder."""
         steps = np.array([k for k, _ in self._rows], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self._rows], (len(steps), WIDTH))
-        write_recording(folder / HAND, Recording(steps, hands))
+        write_recording(folder / HAND, Recording(steps, hands, self.engine))
         with whole(folder / MISSION) as partial:
-            again = f"# Flies again: tandemlift run {MISSION} --engine {self._engine}\n\n"
+            again = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
             partial.write_text(again + self._toml(folder.name), "utf-8")
-        p = Prepared(load_mission(folder / MISSION))
-        flight = flight_of(p, self._flown(), self._engine)
-        flight.save(folder / FLIGHT)
-        return flight
 
     def alone(self) -> Flight:
         """The flight for itself, of a mission that lasts as long and tells neither of a hand nor of changes."""
@@ -181,9 +192,11 @@ class Snapshot:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", FlightWarning)
             p = Prepared(changed(self._start, "mission.duration", duration))
-        return flight_of(p, self._flown(), self._engine)
+        return flight_of(p, self.flown, self.engine)
 
-    def _flown(self) -> Flown:
+    @property
+    def flown(self) -> Flown:
+        """What it leaves behind."""
         return Flown(self._moving, self._early, self._steps, self._log, self._last, self._wall)
 
     def _toml(self, name: str) -> str:
@@ -192,3 +205,13 @@ class Snapshot:
         tables["partner"]["recording"] = HAND
         tables["changes"] = [c for c in self._changes if round(c["time"] / step) <= self._steps]
         return format_toml(tables)
+
+
+def save_flight(folder: Path, flown: Flown, engine: str) -> Flight:
+    """Write into the folder of a recorded mission the flight that was flown."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)
+        p = Prepared(load_mission(folder / MISSION))
+    flight = flight_of(p, flown, engine)
+    flight.save(folder / FLIGHT)
+    return flight

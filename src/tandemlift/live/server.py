@@ -25,6 +25,7 @@ from tandemlift.live.messages import (
     MAX_SIZE,
     Kill,
     Message,
+    Move,
     Ping,
     Refusal,
     Reset,
@@ -104,7 +105,7 @@ class Server:
         self._files, self._flight, self._host, self._port = files, flight, host, port
         self.viewers = Viewers()
         self._somebody = asyncio.Event()
-        self._turn, self._tasks = asyncio.Lock(), set[asyncio.Task[None]]()
+        self._turns, self._tasks = (asyncio.Lock(), asyncio.Lock()), set[asyncio.Task[None]]()
         self._generation = 0
         self._guard: Guard
         self._sockets: Sockets
@@ -219,8 +220,7 @@ class Server:
         try:
             async for text in connection:
                 self._hear(viewer, text)
-                flooding = viewer.is_flooding()
-                if flooding:
+                if flooding := viewer.is_flooding():
                     break
         except ConnectionClosed:
             pass
@@ -241,6 +241,8 @@ class Server:
             elif self.viewers.admits(viewer, message):
                 self._answer(viewer, self._applied(message))
                 self.viewers.note(viewer, message)
+                if isinstance(message, Move) and self._flight:
+                    viewer.echo(self._flight.frame)
         except Refusal as refusal:
             viewer.refuse(refusal)
 
@@ -275,7 +277,7 @@ class Server:
         task.add_done_callback(self._tasks.discard)
 
     async def _change(self, viewer: Viewer, message: Message) -> None:
-        async with self._turn:
+        async with self._turns[isinstance(message, Save)]:  # nothing waits for what is saved
             try:
                 self._answer(viewer, await asyncio.to_thread(self._applied, message))
             except Refusal as refusal:

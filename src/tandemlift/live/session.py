@@ -6,6 +6,7 @@ is made ready beside it.
 
 from __future__ import annotations
 
+import gc
 import logging
 import sys
 import threading
@@ -28,21 +29,20 @@ from tandemlift.live.controls import CHOICES, controls_of
 from tandemlift.live.frames import fields_of, frames_of
 from tandemlift.live.grip import Grip
 from tandemlift.live.knobs import Knobs
-from tandemlift.live.pace import Pace
-from tandemlift.live.recorded import RecordedFlight
+from tandemlift.live.pace import BATCH, BREATH, NAP, SWITCHING, Pace
+from tandemlift.live.recorded import Array, RecordedFlight
+from tandemlift.live.saving import save_aside
 from tandemlift.live.scene import alarm_names, scene_of
-from tandemlift.live.taring import check_hands_off, check_may_tare
-from tandemlift.live.values import values_of
+from tandemlift.live.states import check_touch, dead_rotors
+from tandemlift.live.taring import check_may_tare
+from tandemlift.live.values import places_of, values_of
 from tandemlift.missions import tables_of
 from tandemlift.settings import Mission
 from tandemlift.vector import ZERO, Quat, Vec3, apply
 from tandemlift.vehicle import Vehicle
 
-NAP = 0.002  # s, between looks at the clock
-BREATH = 1e-4  # s, for others between two batches of a flight that is behind
-SWITCHING = 2e-4  # s, for which another thread may keep the interpreter from the flight
-BATCH = 25  # steps without a look at who wants something
 WISH = 0.2  # s, for which a wish to lift or to land is said
+
 log = logging.getLogger(__name__)
 
 
@@ -74,7 +74,7 @@ class Session:
             self._flight, self._grip, self._failed = flight, Grip(), False
             self._fields = fields_of(Vehicle.from_settings(mission.vehicle).rotor_count)
             self._scene = scene_of(mission, self._engine)
-            self._phases = tables_of(mission)["phases"]
+            self._phases, self._places = tables_of(mission)["phases"], places_of(flight.layout)
             flight.hold(NOBODY_HOLDS)
             flight.advance()
             self.generation += 1
@@ -96,7 +96,9 @@ class Session:
     # the thread
 
     def start(self) -> None:
-        """Begin to fly."""
+        """Begin to fly; garbage is not looked for in what is there by then, which would take a tenth of a second."""
+        gc.collect()
+        gc.freeze()
         self.pace = Pace(self._flight.dt)
         self._thread.start()
 
@@ -105,6 +107,7 @@ class Session:
         self._stopping.set()
         if self._thread.is_alive():
             self._thread.join()
+            gc.unfreeze()
         self._knobs.close()
 
     def _run(self) -> None:
@@ -139,7 +142,8 @@ class Session:
     def frame(self) -> bytes:
         """The latest state, as the scene's `fields` say."""
         with self._lock:
-            values, hand, seq = self._values(), self._flight.hand, self._grip.seq
+            moment, hand, seq = self._flight.moment, self._flight.hand, self._grip.seq
+        values = self._values(*moment)
         held = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
         return frames_of(self._fields, {**values, **held, "seq": seq % 2**24}).tobytes()
 
@@ -147,14 +151,14 @@ class Session:
         """The channels of the latest sample (1, …)."""
         return dict(channels_of(self._flight.layout, self._flight.sample[None, :].copy()))
 
-    def _values(self) -> dict[str, Any]:
-        flight = self._flight
-        return values_of(self.channels(), np.array([(flight.step - 1) * flight.dt]), self._phases)
+    def _values(self, sample: Array, at: float) -> dict[str, Any]:
+        channels = {name: sample[places] for name, places in self._places.items()}
+        return values_of(channels, np.array([at]), self._phases)
 
     def status(self) -> dict[str, Any]:
         """Phase, alarm, pace and what was recorded, for people."""
         with self._lock:
-            flight, pace, values = self._flight, self.pace, self._values()
+            flight, pace, values = self._flight, self.pace, self._values(*self._flight.moment)
             most, pace.most_behind = pace.most_behind, 0.0
             return {
                 "phase": self._phase(int(values["phase"][0])),
@@ -165,6 +169,7 @@ class Session:
                 "factor": round(pace.factor, 3),
                 "behind_ms": round(1e3 * most, 2),
                 "recorded_s": round(flight.step * flight.dt, 3),
+                "dead": dead_rotors(flight),
             }
 
     def _phase(self, number: int) -> str:
@@ -193,10 +198,8 @@ class Session:
         self._flight.hold(self._flight.hand._replace(**changes))
 
     def _forget_wishes(self) -> None:
-        for wish, until in list(self._grip.wishes.items()):
-            if self._flight.step >= until:
-                del self._grip.wishes[wish]
-                self._move(**{wish: 0.0})
+        if ended := self._grip.ended(self._flight.step):
+            self._move(**dict.fromkeys(ended, 0.0))
 
     @singledispatchmethod
     def _heed(self, message: Any) -> Any:
@@ -205,8 +208,8 @@ class Session:
     @_heed.register
     def _grab(self, m: messages.Grab) -> None:
         with self._lock:
-            check_hands_off(self._flight)
-            point, attitude = Vec3(*m.point), Quat(*map(float, self._values()["attitude"][0]))
+            check_touch(self._flight, self._scene, m.point)
+            point, attitude = Vec3(*m.point), Quat(*map(float, self._values(*self._flight.moment)["attitude"][0]))
             arm = apply(rotation_from_quaternion(attitude), point)
             centre = m.at == "centre"
             self._grip.offset = -arm if centre else ZERO
@@ -228,7 +231,7 @@ class Session:
         with self._lock:
             force = Vec3(*m.force)
             if any(force):
-                check_hands_off(self._flight)
+                check_touch(self._flight, self._scene, m.point)
             grip = {"grip": Vec3(*m.point)} if any(force) and not self._flight.hand.held else {}
             self._move(force=force, **grip)
 
@@ -270,13 +273,13 @@ class Session:
         with self._lock:
             snapshot = self._flight.snapshot()
         folder = self._out / m.name
-        snapshot.save(folder)
+        save_aside(snapshot, folder)
         return {"type": "done", "what": "save", "detail": str(folder)}
 
     @_heed.register
     def _tare(self, m: messages.Tare) -> dict[str, Any]:
         with self._lock:
-            check_may_tare(self._flight, self._phase(int(self._values()["phase"][0])))
+            check_may_tare(self._flight, self._phase(int(self._values(*self._flight.moment)["phase"][0])))
         return {"type": "done", "what": "tare", "detail": self._knobs.tare(self._flight)}
 
     @_heed.register

@@ -18,7 +18,13 @@ def check_hands_off(flight: RecordedFlight) -> None:
     """
     mission = flight.now
     start, at = mission.estimator.tare_start, flight.step * flight.dt
-    if mission.pilot.push == "truth" or start is None:
+    if mission.pilot.push == "truth":
+        return
+    if mission.estimator.tare == "hover":
+        if flight.number("memory", "guidance", "phase", "hovered") < mission.estimator.tare_duration:
+            raise InputError("hands off until the force sensors are tared, in steady hover")
+        return
+    if start is None:
         return
     end = start + mission.estimator.tare_duration
     if at < end:
@@ -31,7 +37,8 @@ def check_may_tare(flight: RecordedFlight, phase: str) -> None:
     Raises:
         InputError: it is no hover, somebody holds the beam, or a tare is being made.
     """
-    check_hands_off(flight)
+    if flight.now.estimator.tare == "clock":
+        check_hands_off(flight)
     if phase not in (NAMES[int(GUIDED)], NAMES[int(HOLD)]):
         raise InputError(f"tare: only in the air, hovering; the phase is {phase}")
     if flight.hand.held or any(flight.hand.force):

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.flown import channels_of
+from tandemlift.jit import leaves
 from tandemlift.laws.phases import GUIDED, LAND, LIFT
 
 Array = NDArray[np.float64]
@@ -25,6 +27,13 @@ CHANNELS = {  # of a frame's fields: the channels that tell of it, the best firs
     "alarm": ("alarm",),
     "thrusts": ("rotor_thrusts",),
 }
+USED = {"reference_euler", "push_moment", "phase"}.union(*CHANNELS.values())
+
+
+def places_of(layout: Any) -> dict[str, NDArray[np.intp]]:
+    """Where the channels that `values_of` looks at stand in a sample laid out like this: the places of one row each."""
+    row = np.arange(leaves(layout), dtype=np.float64)[None, :]
+    return {name: at.astype(np.intp) for name, at in channels_of(layout, row) if name in USED}
 
 
 def values_of(channels: Mapping[str, Array], time: Array, phases: Mapping[str, Any]) -> dict[str, Array]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from pydantic_core import to_json
@@ -18,6 +18,8 @@ SILENT = 2.0  # s, after which a page that holds the beam is taken for hung
 MOST_MESSAGES = 2_000  # a second; a page sends about a hundred
 FAREWELL = 1.0  # s, for pages to say good-bye
 MOST_REFUSALS = 20  # a second that are told
+ECHO = 0.003  # s, in which the flight has heeded a hand
+FRESH = 0.012  # s, in which who was shown a frame of its own needs no other
 
 
 def text_of(what: Mapping[str, Any]) -> str:
@@ -31,12 +33,14 @@ class Viewer:
     Attributes:
         dropped: frames that it was too slow for.
         heard: when it said something last, by the monotonic clock [s].
+        echoed: when it was shown a frame of its own last, likewise.
     """
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection = connection
         self.dropped, self.heard = 0, time.monotonic()
         self._second, self._messages, self._refusals = 0, 0, 0
+        self._echoing, self.echoed = False, 0.0
 
     @property
     def behind(self) -> bool:
@@ -49,6 +53,16 @@ class Viewer:
             self.dropped += 1
         else:
             broadcast([self.connection], frame)
+
+    def echo(self, frame: Callable[[], bytes]) -> None:
+        """Show what came of its hand soon; the next frame for all may be a sixtieth of a second away."""
+        if not self._echoing:
+            self._echoing = True
+            asyncio.get_running_loop().call_later(ECHO, self._show_echo, frame)
+
+    def _show_echo(self, frame: Callable[[], bytes]) -> None:
+        self._echoing, self.echoed = False, time.monotonic()
+        self.show(frame())
 
     def tell(self, what: Mapping[str, Any] | str) -> None:
         """Send a text, or cut off a viewer that does not read."""
@@ -117,8 +131,10 @@ class Viewers:
 
     def show(self, frame: bytes) -> None:
         """Send a frame to all who can take it."""
+        now = time.monotonic()
         for viewer in self:
-            viewer.show(frame)
+            if now - viewer.echoed > FRESH:
+                viewer.show(frame)
 
     def tell(self, what: Mapping[str, Any]) -> None:
         """Send a text to all."""

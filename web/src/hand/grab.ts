@@ -26,6 +26,7 @@ const CURSOR = 12; // pixels around it for a mouse
 const LINE = 33; // pixels of a line, for wheels that count lines
 const FAR = 40; // m from the eye: a level plane ends there
 const STILL = 1e-4; // m: a smaller move is not sent
+const APART = 7; // ms between two moves at least: mice tell of up to a thousand a second
 
 interface Grip {
   pointer: number;
@@ -51,6 +52,7 @@ export class Grab {
   private grip: Grip | null = null;
   private cursor = new Vector2();
   private stamp = 0;
+  private sent = 0;
   private over: Vector | null = null; // body: where the cursor could take hold
   private second: { pointer: number; y: number } | null = null;
 
@@ -59,6 +61,7 @@ export class Grab {
     const early = { capture: true, passive: false };
     surface.addEventListener("pointerdown", this.down, early);
     surface.addEventListener("pointermove", this.move, early);
+    surface.addEventListener("pointerrawupdate", this.hurry as EventListener, early);
     surface.addEventListener("wheel", this.wheel, early);
     for (const kind of ["pointerup", "pointercancel", "lostpointercapture"] as const) {
       surface.addEventListener(kind, this.up, early);
@@ -78,13 +81,14 @@ export class Grab {
     return this.over ? { kind: "offer", point: this.over } : { kind: "none" };
   }
 
-  /** Once per picture: at most one move goes out, to where the cursor is as the camera stands now. */
+  /** Sends at most one move, to where the cursor is as the camera stands now. */
   flush(): void {
     if (!this.grip) return;
     const target = this.targetOf(this.grip);
     if (!target || size(less(target, this.grip.target)) < STILL) return;
     this.grip.target = target;
-    this.page.send({ type: "move", target }, this.stamp || performance.now());
+    this.sent = performance.now();
+    this.page.send({ type: "move", target }, this.stamp || this.sent);
     this.stamp = 0;
   }
 
@@ -147,6 +151,13 @@ export class Grab {
     if (this.grip || event.pointerType !== "mouse") return;
     this.over = event.buttons ? null : this.pick(CURSOR);
     this.page.surface.classList.toggle("over", this.over !== null);
+  };
+
+  /** A move goes out as soon as the mouse tells of it, where the browser says so before the next picture. */
+  private readonly hurry = (event: PointerEvent): void => {
+    if (event.pointerId !== this.grip?.pointer || performance.now() - this.sent < APART) return;
+    this.note(event);
+    this.flush();
   };
 
   private readonly up = (event: PointerEvent): void => {

@@ -33,7 +33,6 @@ export class Frontend {
   private dock: Dock | null = null;
   private timeline: Timeline | null = null;
   private mission = "flight";
-  private killing = -1;
   private pulled = false;
   private texts = 0;
   private drawn = 0;
@@ -63,7 +62,7 @@ export class Frontend {
     this.mission = scene.mission;
     this.readout.scene(scene);
     this.panel.scene(scene);
-    this.plots = new Plots(scene, byId("plots"));
+    this.plots = new Plots(scene, byId("plots"), this.app.level);
     this.dock?.renew();
     if (!this.app.replay) return;
     this.timeline = new Timeline(byId("dock"), scene, this.app.replay, () => {
@@ -80,6 +79,7 @@ export class Frontend {
   status(status: Status): void {
     this.readout.status(status);
     this.dock?.status(status);
+    this.panel.dead(status.dead ?? []);
     this.hint(status);
   }
 
@@ -90,7 +90,6 @@ export class Frontend {
 
   refused(what: string, reason: string): void {
     const shown = this.panel.refused(what, reason);
-    if (what.startsWith("kill")) this.panel.dead(this.killing, false);
     if (!shown || byId("panel").hidden) this.notices.say(`${what}: ${reason}`, "refused");
   }
 
@@ -126,19 +125,21 @@ export class Frontend {
     const own = {
       grabAt: (at: "point" | "centre") => (app.grabAt = at),
       plane: (plane: "facing" | "level") => (app.plane = plane),
-      force: (newtons: number) => (app.pushes.force = newtons),
       ways: (ways: Ways) => (app.pushes.ways = ways),
       graphics: (level: Choice) => app.setGraphics(level),
       shown: app.shown,
-      strength: app.pushes.force,
+      get strength() {
+        return app.pushes.force;
+      },
+      set strength(newtons: number) {
+        app.pushes.force = newtons;
+      },
     };
     const asks = {
       set: (key: string, value: Setting) => app.send({ type: "set", key, value }),
       restore: (key: string) => app.send({ type: "restore", key }),
       restoreAll: () => app.send({ type: "restore" }),
       kill: (rotor: number) => {
-        this.killing = rotor;
-        this.panel.dead(rotor, true);
         app.send({ type: "kill", rotor });
       },
     };

@@ -7,6 +7,9 @@ import { type Ask, ControlBox } from "./control.ts";
 import { choice, el, icon, toggle } from "./dom.ts";
 import { RotorMap } from "./rotormap.ts";
 
+const MOST = "partner.max_force"; // the control that bounds the force of the keys
+const LEAST = 0.1; // N
+
 const OVERLAYS: Record<Overlay, string> = {
   push: "push",
   zone: "threshold zone",
@@ -20,7 +23,6 @@ const OVERLAYS: Record<Overlay, string> = {
 export interface Own {
   grabAt(at: "point" | "centre"): void;
   plane(plane: "facing" | "level"): void;
-  force(newtons: number): void;
   ways(ways: "view" | "world"): void;
   graphics(choice: Choice): void;
   shown: Shown;
@@ -36,6 +38,7 @@ export class Panel {
   private boxes = new Map<string, ControlBox>();
   private map: RotorMap | null = null;
   private open: Record<string, boolean> = {};
+  private limit: ((newtons: number) => void) | null = null;
   private initial: { mission: string; values: Map<string, Setting> } = { mission: "", values: new Map() };
 
   constructor(
@@ -57,7 +60,7 @@ export class Panel {
       );
     });
     this.place.replaceChildren(
-      ...(live ? [this.group("hand", this.hand(), true)] : []),
+      ...(live ? [this.group("hand", this.hand(scene.spring?.max_force ?? this.own.strength), true)] : []),
       ...groups,
       ...(groups.length ? [this.restore()] : []),
       ...(this.map ? [this.group("rotors", [this.map.element])] : []),
@@ -69,12 +72,13 @@ export class Panel {
     this.map?.thrusts(values);
   }
 
-  dead(rotor: number, dead: boolean): void {
-    this.map?.dead(rotor, dead);
+  dead(rotors: readonly number[]): void {
+    this.map?.dead(rotors);
   }
 
   changed(key: string, value: Setting, duration: number): void {
     this.boxes.get(key)?.changed(value, duration);
+    if (key === MOST) this.limit?.(Number(value));
   }
 
   /** Shows the reason at the control that it is about; false if there is none. */
@@ -99,14 +103,9 @@ export class Panel {
     return el("details", { open: this.open[name] ?? open, "data-name": name }, summary, ...children);
   }
 
-  private hand(): HTMLElement[] {
+  private hand(most: number): HTMLElement[] {
     const { own } = this;
-    const force = el("input", { type: "number", min: 0.1, max: 50, step: 0.1, value: own.strength, id: "key-force" });
-    force.addEventListener("change", () => {
-      const value = Math.min(Math.max(force.valueAsNumber || own.strength, 0.1), 50);
-      force.value = String(value);
-      own.force(value);
-    });
+    const force = this.strength(most);
     const grabs = choice("Where the hand pulls", { point: "where I grab", centre: "centre of mass" }, "point", (at) => {
       own.grabAt(at);
     });
@@ -122,6 +121,23 @@ export class Panel {
       row("Keys push with", el("label", { class: "newtons", for: "key-force" }, force, "N")),
       row("Keys point", ways),
     ];
+  }
+
+  /** How hard the keys push: no harder than the hand of the mission can. */
+  private strength(most: number): HTMLInputElement {
+    const { own } = this;
+    const force = el("input", { type: "number", min: LEAST, step: 0.1, value: own.strength, id: "key-force" });
+    const take = (): void => {
+      own.strength = Math.min(Math.max(force.valueAsNumber || own.strength, LEAST), Number(force.max));
+      force.value = String(own.strength);
+    };
+    this.limit = (newtons) => {
+      force.max = String(newtons);
+      take();
+    };
+    this.limit(most);
+    force.addEventListener("change", take);
+    return force;
   }
 
   private picture(): HTMLElement[] {

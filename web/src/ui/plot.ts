@@ -3,6 +3,7 @@
 import uPlot from "uplot";
 
 import { el } from "./dom.ts";
+import type { Graphics } from "../view/graphics.ts";
 import { SPAN } from "./history.ts";
 
 export interface Curve {
@@ -32,12 +33,13 @@ export class Plot {
   private readonly plot: uPlot;
   private dirty = true;
 
-  constructor(look: Look) {
+  constructor(look: Look, graphics: Graphics) {
     const keys = look.curves.flatMap((curve) => (curve.label ? [key(curve, curve.label)] : []));
     const head = el("header", {}, el("b", {}, look.title), look.more ?? el("small", {}, look.unit));
     head.append(el("span", { class: "keys" }, ...keys));
     this.card = el("article", { class: "plot" }, head, this.body);
-    this.plot = new uPlot(options(look), [[], ...look.curves.map(() => [])], this.body);
+    const make = () => new uPlot(options(look), [[], ...look.curves.map(() => [])], this.body);
+    this.plot = graphics === "light" ? onProcessor(make) : make();
     new ResizeObserver(() => {
       this.fit();
     }).observe(this.body);
@@ -55,6 +57,20 @@ export class Plot {
     const { clientWidth: width, clientHeight: height } = this.body;
     this.dirty = width < 20;
     if (!this.dirty) this.plot.setSize({ width, height });
+  }
+}
+
+/** Makes canvases that the processor draws on, not a graphics card: one that is only played is slow at thin lines. */
+function onProcessor<T>(make: () => T): T {
+  const canvas = HTMLCanvasElement.prototype as { getContext: (kind: string, options?: object) => unknown };
+  const { getContext } = canvas;
+  canvas.getContext = function (kind) {
+    return getContext.call(this, kind, { willReadFrequently: true });
+  };
+  try {
+    return make();
+  } finally {
+    canvas.getContext = getContext;
   }
 }
 

@@ -3,6 +3,7 @@
 import type uPlot from "uplot";
 
 import { ahead } from "../view/quadrotor.ts";
+import type { Graphics } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { Scene, Vector } from "../wire/protocol.ts";
 import { choice } from "./dom.ts";
@@ -25,6 +26,7 @@ export class Plots {
   constructor(
     private readonly scene: Scene,
     private readonly place: HTMLElement,
+    private readonly graphics: Graphics,
   ) {
     this.history = new History(scene);
     this.threshold = scene.threshold ?? null;
@@ -57,7 +59,7 @@ export class Plots {
         level(plot, -limit, "#8d949e");
       }
     };
-    const plot = new Plot({ title: "Push", unit: "N", curves: [...heard, ...felt], least: 1.2, under });
+    const plot = new Plot({ title: "Push", unit: "N", curves: [...heard, ...felt], least: 1.2, under }, this.graphics);
     return { plot, columns: () => [...this.of("heard"), ...this.of("push")] };
   }
 
@@ -67,7 +69,8 @@ export class Plots {
     const more = choice("What is shown", { place: "m", off: "off, cm" }, "place", (value) => {
       this.difference = value === "off";
     });
-    const plot = new Plot({ title: "Position", unit: "", curves: [...wanted, ...actual], least: 0.5, more });
+    const curves = [...wanted, ...actual];
+    const plot = new Plot({ title: "Position", unit: "", curves, least: 0.5, more }, this.graphics);
     return { plot, columns: () => (this.difference ? this.off() : [...this.of("reference"), ...this.of("position")]) };
   }
 
@@ -92,7 +95,8 @@ export class Plots {
       ...(i === 0 && { label: "front" }),
       ...(i === 1 && { label: "rear" }),
     }));
-    const plot = new Plot({ title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under });
+    const look = { title: "Thrusts", unit: "N", curves: labelled, least: 4, fromZero: true, under };
+    const plot = new Plot(look, this.graphics);
     return { plot, columns: () => curves.map((_, i) => this.history.column(`thrusts${i}`)) };
   }
 
@@ -104,7 +108,7 @@ export class Plots {
         band(plot, from, to, phaseTint(name), name);
       }
     };
-    const plot = new Plot({ title: "Disturbance, phase", unit: "N", curves, least: 1, under });
+    const plot = new Plot({ title: "Disturbance, phase", unit: "N", curves, least: 1, under }, this.graphics);
     return { plot, columns: () => this.of("disturbance") };
   }
 

@@ -44,9 +44,11 @@ export class RotorMap {
     });
   }
 
-  /** A rotor is stopped, or was not after all. */
-  dead(rotor: number, dead: boolean): void {
-    this.spots[rotor].classList.toggle("dead", dead);
+  /** Which rotors are stopped for good. */
+  dead(rotors: readonly number[]): void {
+    this.spots.forEach((spot, i) => {
+      spot.classList.toggle("dead", rotors.includes(i));
+    });
   }
 
   private rotor(quadrotor: Scene["vehicle"]["quadrotors"][number], i: number): SVGElement {

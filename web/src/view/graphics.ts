@@ -16,25 +16,27 @@ export function suited(): Graphics {
   return /swiftshader|llvmpipe|software|softpipe|basic render/i.test(String(name)) ? "light" : "full";
 }
 
-/** Counts pictures, and tells when they have been too few for a while. */
+/** Counts pictures, and tells when there was time for too few for a while. */
 export class Pace {
-  rate = 0; // frames/s over the last second
+  rate = 0; // pictures/s over the last second
+  private drawn = 0;
   private count = 0;
   private since = 0;
   private slow = 0; // s
 
-  /** A picture was drawn at `now` [ms]; true if the machine has been too slow for `PATIENCE`. */
-  tick(now: number): boolean {
+  /** There was time for a picture at `now` [ms]; true if the machine has been too slow for `PATIENCE`. */
+  tick(now: number, drawn: boolean): boolean {
     this.count += 1;
+    if (drawn) this.drawn += 1;
     const passed = (now - this.since) / 1000;
     if (passed < 1) return false;
     if (passed < 2) {
       // a longer pause is a hidden page, not a slow one
-      this.rate = this.count / passed;
-      this.slow = this.rate < SLOW ? this.slow + passed : 0;
+      this.rate = this.drawn / passed;
+      this.slow = this.count / passed < SLOW ? this.slow + passed : 0;
     }
     this.since = now;
-    this.count = 0;
+    this.count = this.drawn = 0;
     return this.slow >= PATIENCE;
   }
 }

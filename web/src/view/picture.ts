@@ -46,8 +46,8 @@ export class Picture {
   ) {
     this.vehicle = new Vehicle(scene, stage.graphics);
     this.world = new World(scene, stage.graphics);
-    this.ghost = new Ghost(this.vehicle.solid);
-    this.shadow = new FlatShadow(this.vehicle.solid, scene.floor ?? 0);
+    this.ghost = new Ghost(this.vehicle.outline);
+    this.shadow = new FlatShadow(this.vehicle.outline, scene.floor ?? 0);
     this.plumb = new Plumb(scene.floor ?? 0);
     this.threshold = scene.threshold ?? null;
     this.stiffness = scene.spring?.stiffness ?? 0;

@@ -4,7 +4,7 @@ import type { BufferGeometry } from "three";
 
 import type { Quadrotor } from "../wire/protocol.ts";
 import { CARBON, FRONT, GUARD, JOINT, METAL, REAR, SHELL } from "./palette.ts";
-import { at, ball, box, lathe, type Place, ring, rod } from "./shapes.ts";
+import { at, ball, box, lathe, type Place, ring, rod, strut } from "./shapes.ts";
 
 const POSTS = 12; // of a guard
 
@@ -40,8 +40,9 @@ export function quadrotorParts(quadrotor: Quadrotor, sides: number): BufferGeome
 
 /** A rounded body with a dark band, a battery below, and a nose that points ahead. */
 function shell(size: number, sides: number): BufferGeometry[] {
-  const profile = Array.from({ length: 15 }, (_, i): [number, number] => {
-    const turn = -Math.PI / 2 + (Math.PI * i) / 14;
+  const steps = sides > 10 ? 14 : sides;
+  const profile = Array.from({ length: steps + 1 }, (_, i): [number, number] => {
+    const turn = -Math.PI / 2 + (Math.PI * i) / steps;
     return [0.42 * Math.sqrt(Math.max(Math.cos(turn), 0)) * size, (0.2 * Math.sin(turn) + 0.03) * size];
   });
   const band: [number, number][] = [
@@ -72,7 +73,7 @@ function arms(quadrotor: Quadrotor, size: number, sides: number): BufferGeometry
     const color = ahead(quadrotor, i) ? FRONT : REAR;
     const hub = hubHeight(quadrotor, i);
     return [
-      rod(center, center.clone().addScaledVector(outward, reach), 0.05 * size, CARBON, sides),
+      strut(center, center.clone().addScaledVector(outward, reach), 0.05 * size, CARBON, sides),
       rod(lifted(foot, -0.05 * size), at(foot.x, foot.y, hub - 0.08 * size), 0.1 * size, METAL, sides),
       rod(at(foot.x, foot.y, hub - 0.08 * size), at(foot.x, foot.y, hub), 0.085 * size, CARBON, sides),
       rod(at(foot.x, foot.y, hub), at(foot.x, foot.y, hub + 0.05 * size), 0.05 * size, color, sides, 0.025 * size),
@@ -88,7 +89,7 @@ function guard(quadrotor: Quadrotor, size: number, sides: number): BufferGeometr
   const posts = Array.from({ length: POSTS }, (_, i) => {
     const turn = (2 * Math.PI * i) / POSTS;
     const way = at(radius * Math.cos(turn), radius * Math.sin(turn), 0);
-    return rod(low.clone().add(way), high.clone().add(way), 0.013 * size, GUARD, 5);
+    return strut(low.clone().add(way), high.clone().add(way), 0.013 * size, GUARD, Math.min(sides, 5));
   });
   return [ring(low, radius, 0.035 * size, GUARD, sides), ring(high, radius, 0.018 * size, GUARD, sides), ...posts];
 }
@@ -106,7 +107,7 @@ function legs(quadrotor: Quadrotor, size: number, sides: number): BufferGeometry
   return corners.flatMap(([x, y]) => {
     const foot = at(across * x, across * y, 0.05 * size - depth).add(center);
     const knee = at(0.5 * across * x, 0.5 * across * y, -0.05 * size).add(center);
-    return [rod(knee, foot, 0.03 * size, CARBON, sides), ball(foot, 0.05 * size, CARBON, sides)];
+    return [strut(knee, foot, 0.03 * size, CARBON, sides), ball(foot, 0.05 * size, CARBON, sides)];
   });
 }
 

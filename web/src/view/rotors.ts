@@ -8,6 +8,7 @@ import {
   CylinderGeometry,
   DoubleSide,
   Float32BufferAttribute,
+  FrontSide,
   Group,
   InstancedMesh,
   Matrix4,
@@ -60,7 +61,7 @@ export class Rotors {
     );
     const sides = graphics === "full" ? 12 : 6;
     this.blades = this.instances(bladePair(), new MeshLambertMaterial({ color: CARBON, side: DoubleSide }));
-    this.discs = this.instances(new CircleGeometry(1, 28), seenThrough(0.26));
+    this.discs = this.instances(new CircleGeometry(1, 28), seenThrough(0.26, true));
     this.shafts = this.instances(onFoot(new CylinderGeometry(1, 1, 1, sides)), seenThrough(0.85));
     this.heads = this.instances(onFoot(new ConeGeometry(1, 1, sides)), seenThrough(0.85));
     this.blades.castShadow = graphics === "full";
@@ -105,8 +106,9 @@ export class Rotors {
   }
 }
 
-function seenThrough(opacity: number): MeshBasicMaterial {
-  return new MeshBasicMaterial({ transparent: true, opacity, depthWrite: false, side: DoubleSide });
+function seenThrough(opacity: number, flat = false): MeshBasicMaterial {
+  const side = flat ? DoubleSide : FrontSide;
+  return new MeshBasicMaterial({ transparent: true, opacity, depthWrite: false, side, forceSinglePass: true });
 }
 
 /** A shape along y from its middle, stood on its foot along z. */

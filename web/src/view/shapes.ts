@@ -41,8 +41,16 @@ export function rod(
   sides: number,
   end = radius,
 ): BufferGeometry {
+  return between(from, to, new CylinderGeometry(end, radius, to.distanceTo(from), sides), color);
+}
+
+/** A rod whose ends nobody sees. */
+export function strut(from: Place, to: Place, radius: number, color: string, sides: number): BufferGeometry {
+  return between(from, to, new CylinderGeometry(radius, radius, to.distanceTo(from), sides, 1, true), color);
+}
+
+function between(from: Place, to: Place, shape: BufferGeometry, color: string): BufferGeometry {
   const way = to.clone().sub(from);
-  const shape = new CylinderGeometry(end, radius, way.length(), sides);
   shape.applyQuaternion(new Quaternion().setFromUnitVectors(UP, way.clone().normalize()));
   const middle = from.clone().addScaledVector(way, 0.5);
   return painted(shape.translate(middle.x, middle.y, middle.z), color);

@@ -16,7 +16,7 @@ import type { Graphics } from "./graphics.ts";
 import { CARBON, JOINT, METAL, PATH, WOOD } from "./palette.ts";
 import { quadrotorParts, spread } from "./quadrotor.ts";
 import { Rotors } from "./rotors.ts";
-import { at, box, rod, together } from "./shapes.ts";
+import { at, box, rod, strut, together } from "./shapes.ts";
 
 export interface Axis {
   from: Vector;
@@ -33,12 +33,13 @@ export function beamAxis(payload: Payload): Axis {
 
 export class Vehicle {
   readonly group = new Group();
-  readonly solid: BufferGeometry;
+  readonly outline: BufferGeometry; // the solid, as rough as a shadow or a ghost of it may be
   readonly rotors: Rotors;
 
   constructor(scene: Scene, graphics: Graphics) {
-    this.solid = solidOf(scene, graphics === "full" ? 20 : 8);
-    const body = new Mesh(this.solid, surface(graphics));
+    const solid = solidOf(scene, graphics === "full" ? 20 : 7);
+    this.outline = graphics === "full" ? solid : solidOf(scene, 5);
+    const body = new Mesh(solid, surface(graphics));
     body.castShadow = body.receiveShadow = graphics === "full";
     body.frustumCulled = false;
     this.rotors = new Rotors(scene, graphics);
@@ -107,5 +108,5 @@ function mount(payload: Payload, quadrotor: Scene["vehicle"]["quadrotors"][numbe
   const width = 0.09 * spread(quadrotor);
   const start = joint.clone().addScaledVector(way, Math.min(axis.radius / way.length(), 0.6));
   const end = joint.clone().addScaledVector(way, Math.min((axis.radius + 2 * width) / way.length(), 0.9));
-  return [rod(joint, center, width, METAL, sides), rod(start, end, 1.8 * width, JOINT, sides)];
+  return [strut(joint, center, width, METAL, sides), rod(start, end, 1.8 * width, JOINT, sides)];
 }

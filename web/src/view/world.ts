@@ -20,27 +20,33 @@ import {
 
 import type { Scene, Wall } from "../wire/protocol.ts";
 import type { Graphics } from "./graphics.ts";
+import { together } from "./shapes.ts";
 import { FLOOR, FRAME, GRID, HAZE, LANE, WALL, ZENITH } from "./palette.ts";
 
 const EXTENT = 30; // m, half of the grid that moves with the vehicle
+const NEAR = 15; // m, half of the fine lines of light graphics
 const COARSE = 5; // m, between bold lines
 const PIECE = 5; // m
+const BOLD = 0.9; // opacity of lines, each fifth and the others
+const FINE = 0.5;
 const SEEN_THROUGH = 0.1; // opacity of a wall between the eye and the vehicle
 const CLOUDY = 0.34;
+const CORNERS = 24; // of a box as three.js builds it
 
 export class World {
   readonly group = new Group();
   private readonly ground = new Group();
-  private readonly walls: { mesh: Mesh<BoxGeometry, MeshBasicMaterial | MeshLambertMaterial>; across: Vector3 }[] = [];
+  private readonly walls: Walls | null;
 
   constructor(scene: Scene, graphics: Graphics) {
     this.ground.position.z = scene.floor ?? 0;
     // in light graphics the background is the floor: it costs nothing
     if (scene.ground && graphics === "full") this.ground.add(floor());
-    this.ground.add(grid(1, 0.5), grid(COARSE, 0.9));
+    this.ground.add(grid(graphics === "full" ? EXTENT : NEAR));
     this.group.add(this.ground);
     if (graphics === "full") this.group.add(sky());
-    for (const wall of scene.walls) this.addWall(wall, graphics);
+    this.walls = scene.walls.length ? new Walls(scene.walls, graphics) : null;
+    if (this.walls) this.group.add(...this.walls.parts);
     if (scene.corridor?.centreline.length) this.group.add(lane(scene, graphics));
   }
 
@@ -48,26 +54,45 @@ export class World {
   update(vehicle: Vector3, eye: Vector3): void {
     this.ground.position.x = COARSE * Math.round(vehicle.x / COARSE);
     this.ground.position.y = COARSE * Math.round(vehicle.y / COARSE);
-    for (const { mesh, across } of this.walls) {
-      const side = (place: Vector3) => across.dot(place.clone().sub(mesh.position));
-      mesh.material.opacity = side(vehicle) * side(eye) < 0 ? SEEN_THROUGH : CLOUDY;
-    }
+    this.walls?.update(vehicle, eye);
+  }
+}
+
+/** All walls as one mesh, and all their edges as another: each of them costs as much as one wall would. */
+class Walls {
+  readonly parts: [Mesh, LineSegments];
+  private readonly paint: BufferAttribute;
+  private readonly places: { center: Vector3; across: Vector3; seenThrough: boolean }[];
+
+  constructor(walls: Wall[], graphics: Graphics) {
+    const boxes = walls.map((wall) => new BoxGeometry(...wall.size).rotateZ(wall.heading).translate(...wall.center));
+    const edges = together(boxes.map((box) => new EdgesGeometry(box)));
+    const shape = together(boxes);
+    const { r, g, b } = new Color(WALL);
+    const colors = Array.from({ length: CORNERS * walls.length }, () => [r, g, b, CLOUDY]).flat();
+    this.paint = new BufferAttribute(new Float32Array(colors), 4);
+    shape.setAttribute("color", this.paint);
+    const look = { vertexColors: true, transparent: true, depthWrite: false };
+    const glass = graphics === "light" ? new MeshBasicMaterial(look) : new MeshLambertMaterial(look);
+    this.parts = [new Mesh(shape, glass), new LineSegments(edges, new LineBasicMaterial({ color: FRAME }))];
+    this.parts[0].renderOrder = 2;
+    this.places = walls.map(({ center, size, heading }) => {
+      const [x, y] = size[0] < size[1] ? [1, 0] : [0, 1];
+      const across = new Vector3(x, y, 0).applyAxisAngle(new Vector3(0, 0, 1), heading);
+      return { center: new Vector3(...center), across, seenThrough: false };
+    });
   }
 
-  private addWall(wall: Wall, graphics: Graphics): void {
-    const shape = new BoxGeometry(...wall.size);
-    const look = { color: WALL, transparent: true, opacity: CLOUDY, depthWrite: false };
-    const glass = graphics === "light" ? new MeshBasicMaterial(look) : new MeshLambertMaterial(look);
-    const mesh = new Mesh(shape, glass);
-    const edges = new LineSegments(new EdgesGeometry(shape), new LineBasicMaterial({ color: FRAME }));
-    mesh.position.set(...wall.center);
-    mesh.rotation.z = wall.heading;
-    mesh.add(edges);
-    mesh.renderOrder = 2;
-    const [x, y] = wall.size[0] < wall.size[1] ? [1, 0] : [0, 1];
-    const across = new Vector3(x, y, 0).applyAxisAngle(new Vector3(0, 0, 1), wall.heading);
-    this.walls.push({ mesh, across });
-    this.group.add(mesh);
+  /** Makes the walls thin that are between the eye and the vehicle. */
+  update(vehicle: Vector3, eye: Vector3): void {
+    this.places.forEach((wall, i) => {
+      const side = (place: Vector3) => wall.across.dot(place) - wall.across.dot(wall.center);
+      const seenThrough = side(vehicle) * side(eye) < 0;
+      if (seenThrough === wall.seenThrough) return;
+      wall.seenThrough = seenThrough;
+      for (let k = CORNERS * i; k < CORNERS * (i + 1); k++) this.paint.setW(k, seenThrough ? SEEN_THROUGH : CLOUDY);
+      this.paint.needsUpdate = true;
+    });
   }
 }
 
@@ -80,16 +105,29 @@ function floor(): Mesh {
   return mesh;
 }
 
-/** Lines in short pieces: some software renderers drop a line that passes behind the eye. */
-function grid(step: number, opacity: number): LineSegments {
+/**
+ * Lines in short pieces: some software renderers drop a line that passes behind the eye. The fine ones fade until they
+ * are `near` away, as many short lines are what such a renderer draws slowest.
+ */
+function grid(near: number): LineSegments {
   const ends: number[] = [];
-  for (let i = -EXTENT; i <= EXTENT; i += step) {
-    if (step === 1 && i % COARSE === 0) continue;
-    for (let j = -EXTENT; j < EXTENT; j += PIECE) ends.push(j, i, 0, j + PIECE, i, 0, i, j, 0, i, j + PIECE, 0);
+  const colors: number[] = [];
+  const { r, g, b } = new Color(GRID);
+  for (let i = -EXTENT; i <= EXTENT; i++) {
+    const bold = i % COARSE === 0;
+    for (let j = -EXTENT; j < EXTENT; j += PIECE) {
+      const [from, to] = [j, j + PIECE].map((along) => {
+        const left = near === EXTENT ? 1 : 1 - Math.hypot(i, along) / near;
+        return bold ? BOLD : FINE * Math.max(left, 0);
+      });
+      if (from + to === 0) continue;
+      ends.push(j, i, 0, j + PIECE, i, 0, i, j, 0, i, j + PIECE, 0);
+      for (const opacity of [from, to, from, to]) colors.push(r, g, b, opacity);
+    }
   }
   const shape = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(ends), 3));
-  const paint = new LineBasicMaterial({ color: GRID, transparent: true, opacity, depthWrite: false });
-  return new LineSegments(shape, paint);
+  shape.setAttribute("color", new BufferAttribute(new Float32Array(colors), 4));
+  return new LineSegments(shape, new LineBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false }));
 }
 
 /** The floor of the corridor, brighter than the rest. */

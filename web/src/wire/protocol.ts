@@ -99,6 +99,7 @@ export interface Status {
   viewers: number;
   holder: "you" | "other" | "none";
   enabled?: boolean; // whether the pilot listens to the hand
+  dead?: number[]; // rotors that are stopped for good, counted over the whole vehicle from 0
 }
 
 export type Incoming =

@@ -1,0 +1,125 @@
+"""A hundred thousand hostile messages, over real sockets, to a real flight: it flies on."""
+
+import json
+import math
+import threading
+
+import numpy as np
+import pytest
+from hostile import hostile, rude
+from live_page import PATIENCE, Running, put_page
+
+import tandemlift as tl
+from tandemlift.live import viewers
+from tandemlift.live.frames import read_frames
+from tandemlift.live.messages import read_message
+from tandemlift.live.pages import page_files
+from tandemlift.live.server import Server
+from tandemlift.live.session import Session
+
+SOCKETS, HOSTILE, RUDE = 5, 15_000, 6_000  # sockets, and messages through each of them
+AT_ONCE = 250
+GUIDED = {
+    "pilot.guidance": "hand",
+    "phases.rotors": "flight",
+    "ground.model": "floor",
+    "compliance.yaw.model": "yielding",
+    "admittance.threshold": 0.3,
+}
+
+
+class Noting(Session):
+    """A flight that notes every message which reaches it."""
+
+    def apply(self, message, seq):
+        self.heard.append(message)
+        return super().apply(message, seq)
+
+
+class Counting(Server):
+    """A server that counts the messages that come out of its sockets."""
+
+    count = 0
+
+    def _hear(self, viewer, text):
+        self.count += 1
+        super()._hear(viewer, text)
+
+
+@pytest.fixture
+def flown(tmp_path, monkeypatch):
+    """A flight in hover, and its server."""
+    monkeypatch.setattr(viewers, "MOST_MESSAGES", math.inf)  # else the first two thousand in a second are the last
+    monkeypatch.setattr(viewers, "SILENT", PATIENCE)
+    flight = Noting(tl.load_mission("hover", GUIDED), out=tmp_path / "out")
+    flight.heard = []
+    while flight._flight.step * flight._flight.dt < 8.0:
+        flight._flight.advance()
+    server = Running(Counting(page_files(put_page(tmp_path / "page")), flight, port=0))
+    yield flight, server
+    server.stop()
+
+
+def assault(server, seed):
+    """Send all messages of one socket, and wait until they were heard."""
+    raw = server.raw()
+    texts = [*hostile(HOSTILE, seed), *rude(RUDE, seed)]
+    for first in range(0, len(texts), AT_ONCE):
+        part = [text.encode(errors="replace") for text in texts[first : first + AT_ONCE]]
+        raw.send(part[0], opcode=2)
+        raw.send(*part[1:])
+    raw.send(b'{"type":"ping","seq":1,"t":271828.5}')
+    got = b""
+    while b'"t":271828.5}' not in got:
+        got = got[-40:] + raw.socket.recv(65_536)
+    raw.kill()
+
+
+def test_after_a_hundred_thousand_hostile_messages_it_flies_on_and_follows_a_hand(flown):
+    flight, server = flown
+    attackers = [threading.Thread(target=assault, args=(server, seed)) for seed in range(SOCKETS)]
+    with server.viewer() as good:
+        fields = tuple(map(tuple, good.scene["fields"]))
+
+        def seen():
+            return {name: value[0] for name, value in read_frames(fields, good.frame()).items()}
+
+        for attacker in attackers:
+            attacker.start()
+        while any(attacker.is_alive() for attacker in attackers):
+            assert all(np.isfinite(value).all() for value in seen().values())
+        assert server.server.count >= 100_000
+        good.text("status", viewers=1, holder="none")
+        _check_heard(flight.heard)
+        for message in (
+            {"type": "pause", "on": False},
+            {"type": "speed", "factor": 1.0},
+            {"type": "enable", "on": True},
+        ):
+            good.say(**message)
+        _follows(good, seen)
+
+
+def _check_heard(messages):
+    """That what got through is as good as any message, and was not little."""
+    kinds = {message.type for message in messages}
+    assert {"grab", "move", "force", "release", "enable"} <= kinds
+    assert len(messages) > 1000
+    for message in messages[:2000]:
+        data = message.model_dump()
+        assert read_message(json.dumps(data if data.get("key", "") is not None else {**data, "key": "x"}))
+
+
+def _follows(good, seen):
+    """That the vehicle flies, in one flight or after a reset, and comes when it is pulled."""
+    status = good.text("status")
+    assert status["phase"] in ("guided", "hold", "lift", "land", "idle", "stopped", "over"), status
+    then = seen()["time"]
+    while seen()["time"] < then + 0.5:
+        pass
+    at = seen()["position"]
+    good.grab(float(at[0]) + 1.0, float(at[1]), float(at[2]))
+    assert good.text("status", holder="you")["behind_ms"] is not None
+    while np.linalg.norm(seen()["push"]) < 0.5:
+        pass
+    good.say(type="release")
