@@ -38,9 +38,10 @@ imports: .venv/dev  ## imports go downward only
 tests: .venv/dev ## all tests
 	$(BIN)/pytest -n auto
 
-test-gazebo: .venv/dev  ## flights in a real Gazebo 11; makes a Debian 11 root for it, as root
+test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and RViz; installs them, as root
 	tools/gazebo-root $(GAZEBO_ROOT)
-	TANDEMLIFT_GAZEBO_ROOT=$(GAZEBO_ROOT) $(BIN)/pytest -m gazebo tests/gazebo
+	tools/test-packages --ros
+	TANDEMLIFT_GAZEBO_ROOT=$(GAZEBO_ROOT) TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -m 'gazebo or not gazebo' tests/gazebo tests/ros
 
 bench: .venv/dev ## speed of everything, printed
 	$(BIN)/python benchmarks/bench.py

@@ -11,6 +11,7 @@ import time
 import matplotlib.image
 import numpy as np
 import pytest
+from screen import Screen
 
 import tandemlift as tl
 from tandemlift.engines.gazebo_server import command, in_gazebo, root
@@ -78,24 +79,15 @@ def test_a_flight_by_hand_yields_to_the_topic_and_is_kept(tmp_path):
     assert abs(flight["position"][-1, 1]) < 0.1
 
 
-def test_the_window_opens_and_closes_with_the_flight(tmp_path, monkeypatch):
-    framebuffer = tmp_path / "screen"
-    framebuffer.mkdir()
-    display = subprocess.Popen(
-        ["Xvfb", "-displayfd", "1", "-screen", "0", "1000x640x24", "-fbdir", str(framebuffer), "-nolisten", "tcp"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    )
+def test_the_window_opens_and_closes_with_the_flight(tmp_path, program):
+    screen = Screen(program("Xvfb"), tmp_path / "screen")
     try:
-        name = f":{display.stdout.readline().strip()}"
-        dark = (framebuffer / "Xvfb_screen0").read_bytes()
-        process, _ = begun("zigzag", "--set", "mission.duration=20.0", folder=tmp_path / "out", DISPLAY=name)
+        dark = screen.picture()
+        process, _ = begun("zigzag", "--set", "mission.duration=20.0", folder=tmp_path / "out", DISPLAY=screen.name)
         time.sleep(12.0)
-        shown = (framebuffer / "Xvfb_screen0").read_bytes()
+        shown = screen.picture()
         process.communicate(timeout=LONGEST)
         assert process.returncode == 0
-        assert np.mean(np.frombuffer(dark, np.uint8) != np.frombuffer(shown, np.uint8)) > 0.2
+        assert np.mean((dark != shown).any(axis=2)) > 0.2
     finally:
-        display.kill()
-        display.communicate()
+        screen.close()

@@ -14,6 +14,8 @@ import pytest
 from processes import ended, node, started
 
 import tandemlift as tl
+from tandemlift.cli import main
+from tandemlift.export.reading import read_bag
 from tandemlift.flight import Flight
 
 HERE = Path(__file__).parent
@@ -38,9 +40,10 @@ def surroundings(tmp_path_factory, program):
 
 
 class Tried(NamedTuple):
-    """What the client saw, what `rosbag` knows of the bag, its odometry, the folder saved, the parameters left."""
+    """What the client saw, the bag, what `rosbag` knows of it, its odometry, the folder saved, the parameters left."""
 
     told: dict
+    bag: Path
     info: str
     odometry: list
     saved: Path
@@ -71,7 +74,7 @@ def tried(surroundings, program):
     info = output(program("rosbag"), "info", "-y", str(bag))
     with ServerProxy(environment["ROS_MASTER_URI"]) as master:
         _, _, left = master.getParamNames("/test")
-    return Tried(json.loads(told.splitlines()[-1]), info, odometry, saved, left)
+    return Tried(json.loads(told.splitlines()[-1]), bag, info, odometry, saved, left)
 
 
 def test_a_push_by_a_message_moves_the_beam_and_bad_ones_are_refused(tried):
@@ -121,3 +124,21 @@ def test_the_flight_that_was_saved_flies_again_to_the_last_bit(tried):
     assert np.abs(again["push_force"]).max() > 1.0
     (change,) = again.mission["changes"]
     assert (change["key"], change["value"]) == ("admittance.mass", 4.0)
+
+
+def test_the_bag_that_rosbag_recorded_becomes_a_flight_with_its_report(tried, tmp_path, monkeypatch):
+    saved, found = Flight.load(tried.saved / "flight.npz"), read_bag(tried.bag)
+    rows = [int(np.flatnonzero((saved["position"] == place).all(axis=1))[0]) for place in found["position"]]
+    assert np.array_equal(found["attitude"], saved["attitude"][rows])
+    assert np.allclose(np.diff(found.time), np.diff(saved.time[rows]), atol=1e-6)
+    whole = np.isfinite(found["rotor_thrusts"]).all(axis=1)  # the recorder hears of one topic before the other
+    same = (found["rotor_thrusts"] == saved["rotor_thrusts"][rows]).all(axis=1)
+    assert whole[50:].all()
+    assert same.mean() > 0.8  # where a message was lost the one before stands
+    assert any(what == "land" for _, what in found.metrics()["events"])
+    monkeypatch.setattr("sys.argv", ["tandemlift", "report", str(tried.bag), "--out", str(tmp_path / "out")])
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert not end.value.code
+    assert (tmp_path / "out/figures/tracking.png").stat().st_size > 10_000
+    assert "From the samples of a bag" in (tmp_path / "out/report.html").read_text("utf-8")

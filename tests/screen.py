@@ -1,0 +1,38 @@
+"""A screen that nobody sees, and what is on it."""
+
+import subprocess
+
+import numpy as np
+
+HEAD, COLOURS = (0, 19), 12  # of an XWD dump: words for its length and for its colours, of so many bytes each
+
+
+class Screen:
+    """An X server without a screen, which writes what it shows to a file.
+
+    `folder` is for that file; `name` is what DISPLAY is to be.
+    """
+
+    def __init__(self, program, folder):
+        self._dump = folder / "Xvfb_screen0"
+        folder.mkdir(exist_ok=True)
+        self._server = subprocess.Popen(
+            [program, "-displayfd", "1", "-screen", "0", "1000x640x24", "-fbdir", str(folder), "-nolisten", "tcp"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        self.name = f":{self._server.stdout.readline().strip()}"
+
+    def picture(self):
+        """What is shown: red, green and blue (height, width, 3), 0 to 255."""
+        data = self._dump.read_bytes()
+        words = np.frombuffer(data, ">u4", 25)
+        head, colours = (int(words[i]) for i in HEAD)
+        width, height, line = int(words[4]), int(words[5]), int(words[12])
+        pixels = np.frombuffer(data, np.uint8, height * line, head + COLOURS * colours)
+        return pixels.reshape(height, -1, 4)[:, :width, 2::-1]
+
+    def close(self):
+        self._server.kill()
+        self._server.communicate()
