@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.results import bar, results_in, write_results
+from tandemlift.cli.results import bar, keep_recording, results_in, write_results
 from tandemlift.cli.run import DIVERGED, load, say, summarise
 from tandemlift.errors import InputError
 
@@ -74,6 +74,8 @@ def gazebo(
         window = not no_window and _has_display()
         flight, views = _by_hand(loaded, window) if by_hand else _as_it_is(loaded, window, not fast, pictures)
         summarise(flight, time.perf_counter() - began)
+        if not by_hand:
+            keep_recording(loaded, folder)
         write_results(flight, folder, figures=not no_figures, views=views)
         say(f"  report: {folder / 'report.html'}")
     if flight.divergence:
