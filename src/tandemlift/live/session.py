@@ -33,7 +33,7 @@ from tandemlift.live.pace import BATCH, BREATH, NAP, SWITCHING, Pace
 from tandemlift.live.recorded import Array, RecordedFlight
 from tandemlift.live.saving import save_aside
 from tandemlift.live.scene import alarm_names, scene_of
-from tandemlift.live.states import check_touch, dead_rotors
+from tandemlift.live.states import check_listens, check_touch, dead_rotors
 from tandemlift.live.taring import check_may_tare
 from tandemlift.live.values import places_of, values_of
 from tandemlift.missions import tables_of
@@ -235,13 +235,9 @@ class Session:
             grip = {"grip": Vec3(*m.point)} if any(force) and not self._flight.hand.held else {}
             self._move(force=force, **grip)
 
-    def _check_listens(self, what: str) -> None:
-        if self._mission.pilot.guidance == "clock":
-            raise InputError(f"{what}: mission {self._mission.mission.name} is guided by the clock and asks nobody")
-
     @_heed.register
     def _ask(self, m: messages.Ask) -> None:
-        self._check_listens(m.what)
+        check_listens(self._mission, m.what)
         with self._lock:
             self._move(**{m.what: 1.0})
             if m.what != "stop":
@@ -249,7 +245,7 @@ class Session:
 
     @_heed.register
     def _enable(self, m: messages.Enable) -> None:
-        self._check_listens("enable")
+        check_listens(self._mission, "enable")
         with self._lock:
             self._move(enabled=float(m.on))
 

@@ -9,6 +9,7 @@ from typing import Any
 from tandemlift.errors import InputError
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.live.taring import check_hands_off
+from tandemlift.settings import Mission
 
 
 def dead_rotors(flight: RecordedFlight) -> list[int]:
@@ -27,6 +28,16 @@ def check_touch(flight: RecordedFlight, scene: Mapping[str, Any], point: Sequenc
     reach = max(_ways(scene["vehicle"]))
     if math.hypot(*point) > reach:
         raise InputError(f"point = {list(point)}: must be on the vehicle, within {reach:.3g} m of its centre of mass")
+
+
+def check_listens(mission: Mission, what: str) -> None:
+    """Refuse to ask a pilot for something that is not guided by hand.
+
+    Raises:
+        InputError: it is not.
+    """
+    if mission.pilot.guidance == "clock":
+        raise InputError(f"{what}: mission {mission.mission.name} is guided by the clock and asks nobody")
 
 
 def _ways(vehicle: Mapping[str, Any]) -> Iterator[float]:
