@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.live import DEFAULT
 from tandemlift.cli.results import bar, keep_recording, results_in, write_results
 from tandemlift.cli.run import DIVERGED, load, say, summarise
 from tandemlift.errors import InputError
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
     from tandemlift.flight import Flight
     from tandemlift.gazebo.flying import Gazebo, Photo
     from tandemlift.settings import Mission
-
-DEFAULT = "zigzag"
 
 
 @click.command()

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from tandemlift.live.session import Session
     from tandemlift.settings import Mission
 
-DEFAULT = "zigzag"
+DEFAULT, OUT = "zigzag", Path("out/live")
 
 
 @click.command()
@@ -24,9 +24,7 @@ DEFAULT = "zigzag"
 @click.option(
     "--host", default=HOST, show_default=True, help="To bind to; beyond this machine the address has a token."
 )
-@click.option(
-    "--out", metavar="DIR", default="out/live", show_default=True, help="Where the page saves what was flown."
-)
+@click.option("--out", metavar="DIR", default=str(OUT), show_default=True, help="Where the page saves what was flown.")
 @click.option("--no-browser", is_flag=True, help="Print the address only.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of the mission, as in run.")
 def live(
@@ -53,15 +51,15 @@ def live(
 
     needs_live()
     engine_named(engine)
-    session = _session(load(mission, settings), engine, Path(out))
+    session = session_of(load(mission, settings), engine, Path(out))
     from tandemlift.live.pages import page_files
     from tandemlift.live.server import Server
 
     serve_here(Server(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
 
 
-def _session(mission: Mission, engine: str, out: Path) -> Session:
-    """The flight, compiled; who waits for that is told."""
+def session_of(mission: Mission, engine: str, out: Path = OUT) -> Session:
+    """A flight in real time, compiled; who waits for that is told."""
     from tandemlift.live.by_hand import by_hand
     from tandemlift.live.session import Session
     from tandemlift.prepared import needs_compiling

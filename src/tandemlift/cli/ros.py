@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.run import DIVERGED, parse_setting, say
+from tandemlift.cli.live import DEFAULT, session_of
+from tandemlift.cli.run import DIVERGED, load, say
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.live.session import Session
     from tandemlift.ros.middleware import Middleware
-    from tandemlift.settings import Mission
 
-DEFAULT = "zigzag"
 BAD_ENDS = ("lost", "failed")
 
 
@@ -71,11 +70,11 @@ def ros(
         raise InputError("--rviz: its file is for ROS 1")
     mission, arguments = _words(words)
     engine_named(engine)
-    loaded = _load(mission, settings)
+    loaded = load(mission, settings)
     every_of(rate, loaded.mission.step)
     middleware = _middleware(version, arguments)
     try:
-        session = _session(loaded, engine)
+        session = session_of(loaded, engine)
         end = _fly(session, middleware, rate, f"{mission} in ROS {version}", rviz=rviz)
     finally:
         middleware.shutdown()
@@ -94,12 +93,6 @@ def _words(words: tuple[str, ...]) -> tuple[str, list[str]]:
     return missions[0], arguments
 
 
-def _load(mission: str, settings: tuple[str, ...]) -> Mission:
-    from tandemlift.missions import load_mission
-
-    return load_mission(mission, dict(map(parse_setting, settings)))
-
-
 def _middleware(version: str, arguments: list[str]) -> Middleware:
     if version == "1":
         from tandemlift.ros.ros1 import Ros1
@@ -108,17 +101,6 @@ def _middleware(version: str, arguments: list[str]) -> Middleware:
     from tandemlift.ros.ros2 import Ros2
 
     return Ros2()
-
-
-def _session(mission: Mission, engine: str) -> Session:
-    """The flight, compiled; who waits for that is told."""
-    from tandemlift.live.by_hand import by_hand
-    from tandemlift.live.session import Session
-    from tandemlift.prepared import needs_compiling
-
-    if needs_compiling(by_hand(mission)):
-        click.echo("Compiling the flight loop for this machine (once, a minute or two) …", err=True)
-    return Session(mission, engine)
 
 
 def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
