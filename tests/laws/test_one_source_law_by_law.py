@@ -108,7 +108,7 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "thrusts of rotors": (rotors.drive, (ROTORS, rotors.Spinning(EIGHT, EIGHT), EIGHT, STATE, 0.0)),
     "commands to weak rotors": (allocation.commanded, (CONSTRAINED, EIGHT, 0.0)),
     "watching for a lost rotor": (detection.watch, (DETECTION, WATCHING, HEARD, EIGHT, 0.0, 0.0, 0.0)),
-    "wind on the payload": (windage.blown, (windage.Windage(0.0, 0.0, LOW), BLOWN, TWO, TWO, 0.0, 0.0)),
+    "wind on the payload": (windage.blown, (windage.Windage(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0)),
     "share of a wrench": (limits.given_share, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
     "what joints feel": (loads.feel, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
     "what joints pass on": (loads.under, (LOADS.quadrotors, FRAME, Q, FELT)),

@@ -118,7 +118,7 @@ def test_a_flight_that_is_lost_is_lost_in_both_at_the_same_time():
 
 def test_an_engine_that_is_not_known_is_refused_with_those_that_are():
     with pytest.raises(
-        tl.InputError, match=r"^unknown engine 'mujoko'; there are compiled, mujoco, gazebo\. Did you mean"
+        tl.InputError, match=r"^unknown engine 'mujoko'; there are compiled, mujoco, gazebo, gazebo-ros\. Did you mean"
     ) as e:
         tl.fly(tl.load_mission("hover"), engine="mujoko")
     assert all(name in str(e.value) and engine.summary for name, engine in ENGINES.items())
