@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.flight import Flight
 
+pytestmark = pytest.mark.ros
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed")
 
 from tandemlift.export.frames import vehicle_of

@@ -9,7 +9,7 @@ import pytest
 from processes import ended, node, started
 from screen import Screen
 
-pytestmark = pytest.mark.gazebo
+pytestmark = pytest.mark.ros
 PATIENCE = 90.0  # s, for RViz to begin to draw on a busy machine
 ENOUGH = 300  # pixels
 
