@@ -14,7 +14,6 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.flight import Flight
 
-pytestmark = pytest.mark.ros
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed")
 
 from tandemlift.export.frames import vehicle_of
@@ -23,6 +22,7 @@ from tandemlift.export.topics import topics_of
 from tandemlift.ros.dds_types import Classes
 from tandemlift.ros.ros2 import _domain, _value
 
+pytestmark = pytest.mark.ros
 COUNT = 300
 KINDS = [
     *("nav_msgs/Odometry", "nav_msgs/Path", "geometry_msgs/WrenchStamped", "sensor_msgs/JointState", "sensor_msgs/Imu"),
