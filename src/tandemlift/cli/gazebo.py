@@ -67,7 +67,10 @@ def gazebo(
         raise InputError(
             f"--by-hand: is in real time and has no pictures; leave {'--fast' if fast else '--pictures'} out"
         )
+    from tandemlift.engines.gazebo_server import root
+
     loaded = load(mission, settings)
+    root()  # complains if there is no Gazebo, before anything is compiled
     with results_in(out, Path("out/gazebo") / loaded.mission.name) as folder:
         began = time.perf_counter()
         window = not no_window and _has_display()

@@ -57,7 +57,7 @@ def root() -> Path | None:
     if shutil.which("gzserver") is None:
         raise InputError(
             "engine 'gazebo' needs Gazebo 11: install it, or make a Debian 11 root that has it by "
-            f"tools/gazebo-root ROOT (as root, 2.3 GB) and set {ROOT}=ROOT; docs/gazebo.md"
+            f"tools/gazebo-root ROOT (as root, 2.4 GB) and set {ROOT}=ROOT; docs/gazebo.md"
         )
     return None
 
