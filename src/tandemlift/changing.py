@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.errors import InputError
-from tandemlift.jit import flat, leaves
 from tandemlift.kernels import place
 from tandemlift.missions import in_turn
 from tandemlift.prepared import Prepared
 from tandemlift.recording import read_recording
 from tandemlift.settings import Mission
+from tandemlift.trace import flat, leaves
 from tandemlift.vector import Nothing, layout
 
 Array = NDArray[np.float64]
@@ -137,9 +137,11 @@ class Changing:
             ramp.leave(places)
         self.ramps.append(Ramp(numbers, places, target, due))
 
-    def apply(self, numbers: Array, k: int) -> None:
-        """Write what is different at step k."""
-        self.ramps = [ramp for ramp in self.ramps if ramp.apply(numbers, k)]
+    def apply(self, numbers: Array, k: int) -> bool:
+        """Write what is different at step k; whether anything is."""
+        ramps = self.ramps
+        self.ramps = [ramp for ramp in ramps if ramp.apply(numbers, k)]
+        return bool(ramps)
 
     def take_due(self, k: int) -> list[Due]:
         """The changes that begin with step k, which are taken out of those to come."""

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.flight import Divergence, Flight
-from tandemlift.jit import flat, leaves, unflat
 from tandemlift.kernels import place
 from tandemlift.laws.alarms import CHECKS, alarm_name
 from tandemlift.laws.body import State
@@ -26,6 +25,7 @@ from tandemlift.missions import tables_of
 from tandemlift.prepared import Prepared
 from tandemlift.recording import portable
 from tandemlift.tally import EMPTY, Tally, summary
+from tandemlift.trace import flat, leaves, unflat
 from tandemlift.vector import ZERO, Nothing, Vec3, dot
 
 Array = NDArray[np.float64]
@@ -131,7 +131,7 @@ def _of_detection(p: Prepared, flown: Flown) -> dict[str, Any]:
 @cache
 def versions(engine: str) -> Mapping[str, str]:
     """Versions of what a flight is flown with in an engine."""
-    packages = ("tandemlift", "numba", "numpy", *(["mujoco"] if engine == "mujoco" else []))
+    packages = ("tandemlift", "llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
     return {name: metadata.version(name) for name in packages}
 
 

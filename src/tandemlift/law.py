@@ -1,10 +1,10 @@
-"""Marks that say what a function is, so that one source serves plain Python, NumPy, JAX, CasADi and Numba.
+"""Marks that say what a function is, so that one source serves plain Python, NumPy, JAX, CasADi and machine code.
 
-Nothing here compiles anything. Each mark records the function; `tandemlift.jit` reads the records when something
-first flies, so a law can be imported, called and differentiated without Numba.
+Nothing here compiles anything. Each mark records the function; `tandemlift.trace` reads the records when something
+first flies, so a law can be imported, called and differentiated without a compiler.
 
-A law is a pure function of numbers and value types: no branch on data (`where`, `minimum`, `clip` instead), no loop,
-no state, no clock, no input or output, and no `math.*`.
+A law is a pure function of numbers and value types: no branch on data (`where`, `minimum`, `clip` instead), no state,
+no clock, no input or output, and no `math.*`. A loop over the parts of a value is unrolled when the law is traced.
 """
 
 from __future__ import annotations
@@ -16,8 +16,6 @@ from typing import Any, TypeVar
 F = TypeVar("F", bound=Callable[..., Any])
 
 LAWS: list[Callable[..., Any]] = []
-ELEMENTWISE: list[Elementwise] = []
-CHOICES: list[Choice] = []
 
 
 def law(function: F) -> F:
@@ -32,7 +30,10 @@ class Elementwise:
     def __init__(self, scalar: Callable[..., Any]) -> None:
         self.scalar = scalar
         functools.update_wrapper(self, scalar)
-        ELEMENTWISE.append(self)
+
+    def calling(self, scalar: Callable[..., Any]) -> Elementwise:
+        """The same map over another form of the scalar law."""
+        return Elementwise(scalar)
 
     def __call__(self, *args: Any) -> Any:
         """The scalar law, of every component if an argument is a vector."""
@@ -50,7 +51,7 @@ def elementwise(scalar: Callable[..., Any]) -> Elementwise:
 
 
 class Choice:
-    """A law picked by the type of its first argument: `functools.singledispatch` that also compiles.
+    """A law picked by the type of its first argument: `functools.singledispatch` that is also traced.
 
     A setting that picks a variant is thus the type of its parameters, and costs nothing in the compiled loop.
     """
@@ -60,18 +61,20 @@ class Choice:
         self.table: dict[type, Callable[..., Any]] = {}
         self.interpreted: set[type] = set()
         functools.update_wrapper(self, signature)
-        CHOICES.append(self)
 
     def __call__(self, *args: Any) -> Any:
         """The law registered for the type of the first argument."""
+        return self.chosen(args[0])(*args)
+
+    def chosen(self, first: Any) -> Callable[..., Any]:
+        """The law registered for the type of a first argument."""
         try:
-            chosen = self.table[type(args[0])]
+            return self.table[type(first)]
         except KeyError:
             known = ", ".join(sorted(c.__name__ for c in self.table))
             raise TypeError(
-                f"{self.signature.__name__}() has no law for {type(args[0]).__name__}; it knows {known}"
+                f"{self.signature.__name__}() has no law for {type(first).__name__}; it knows {known}"
             ) from None
-        return chosen(*args)
 
     def register(self, kind: type, *, compiled: bool = True) -> Callable[[F], F]:
         """Register a law for first arguments of type `kind`; `compiled=False` for any Python function instead."""

@@ -4,37 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.errors import InputError
-from tandemlift.jit import Layout, cached_in, flat, folder, install, leaves, load, store, zeroed
-from tandemlift.kernels import COMPILE
-from tandemlift.kernels.limiting import limit, scratch_size
-from tandemlift.laws.allocation import Constrained
+from tandemlift.kernels.context import aligned
+from tandemlift.kernels.sampling import Onboard, Sampling
 from tandemlift.laws.body import State
 from tandemlift.laws.controllers import control
 from tandemlift.laws.requests import NOBODY, UNAWARE
-from tandemlift.pilot import Heard, PilotMemory, PilotParameters, decide
+from tandemlift.pilot import Heard
 from tandemlift.pilot.start import start_pilot
 from tandemlift.settings import Mission
+from tandemlift.trace import flat, leaves
+from tandemlift.trace.code import Code
+from tandemlift.trace.key import key_of
 from tandemlift.vector import ZERO, Nothing, Quat
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
 HEARD = Heard(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
 SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
-
-
-class Onboard(NamedTuple):
-    """The pilot's numbers in one array: the samples taken so far, what it remembers, and its parameters."""
-
-    samples: Any
-    memory: PilotMemory
-    parameters: PilotParameters
 
 
 class Pilot:
@@ -51,7 +42,6 @@ class Pilot:
     """
 
     def __init__(self, mission: Mission) -> None:
-        install()
         vehicle = Vehicle.from_settings(mission.vehicle)
         parameters, memory = start_pilot(mission, vehicle)
         if type(parameters.controller) in control.interpreted:
@@ -60,24 +50,19 @@ class Pilot:
         self._dt = mission.mission.step
         self._numbers = np.array(flat(self._start))
         self.thrusts: Array = np.zeros(vehicle.rotor_count)
-        self._scratch, self._heard = np.zeros(scratch_size(vehicle.rotor_count)), np.zeros(leaves(HEARD))
+        self._heard = np.zeros(leaves(HEARD))
 
     @cached_property
-    def _sample(self) -> Callable[..., None]:
-        like, dt = Layout(self._start), self._dt
-        constrained = isinstance(self._start.parameters.allocation, Constrained)
-
-        def sample(a, x, thrusts, scratch):
-            pilot = load(a, like)
-            t = pilot.samples * dt
-            decision, memory = decide(pilot.parameters, pilot.memory, load(x, HEARD), t, dt)
-            if constrained:
-                decision, memory = limit(scratch, pilot.parameters, pilot.memory, decision, memory, t)
-            store(thrusts, decision.thrusts)
-            store(a, Remembered(pilot.samples + 1.0, memory))
-
-        with cached_in(folder(zeroed(self._start))):
-            return numba.njit(cache=True, **COMPILE)(sample)
+    def _sample(self) -> Callable[[], int]:
+        start = self._start
+        code = Code(key_of(start, "sample"), ["sample"], lambda: Sampling(start, HEARD).written())
+        self._work = aligned(code.about["size"])
+        arrays = (self._numbers, self._heard, self.thrusts, self._work)
+        self._context = np.array([a.ctypes.data for a in arrays] + [0], dtype=np.int64)
+        self._context.view(np.float64)[-1] = self._dt
+        self._code = code
+        code.optimise()
+        return code.called("sample", self._context.ctypes.data)
 
     def step(
         self,
@@ -118,16 +103,9 @@ class Pilot:
             0.0 if moment is None else moment,
             (land, lift, stop, enabled),
         )
-        self._sample(self._numbers, heard, self.thrusts, self._scratch)
+        self._sample()
         return self.thrusts
 
     def reset(self) -> None:
         """Start anew at t = 0."""
         self._numbers[:] = flat(self._start)
-
-
-class Remembered(NamedTuple):
-    """The part of an `Onboard` that changes."""
-
-    samples: Any
-    memory: PilotMemory

@@ -1,7 +1,7 @@
-"""Elementary operations on floats, NumPy arrays, JAX tracers, CasADi symbols, and on vectors of them.
+"""Elementary operations on floats, NumPy arrays, JAX tracers, CasADi symbols, our own, and on vectors of them.
 
-Each dispatches on the type of its arguments to `math`, NumPy, `jax.numpy` or CasADi; `tandemlift.jit.elementary`
-holds their compiled counterparts, which are branch-free so that many flights go through one instruction.
+Each dispatches on the type of its arguments to `math`, NumPy, `jax.numpy`, CasADi or `tandemlift.trace.elementary`,
+whose functions are branch-free so that many flights go through one instruction.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from tandemlift.law import elementwise
+from tandemlift.law import elementwise, law
 
 _NAMES = {  # ours: (NumPy and jax.numpy, CasADi)
     "sqrt": ("sqrt", "sqrt"),
@@ -28,6 +28,8 @@ _NAMES = {  # ours: (NumPy and jax.numpy, CasADi)
     "where": ("where", "if_else"),
 }
 
+OURS = 2
+
 
 def _library(args: tuple[Any, ...]) -> tuple[Any, int] | None:
     """The array library that the arguments ask for, and its column in the table of names; None for plain numbers."""
@@ -40,6 +42,8 @@ def _library(args: tuple[Any, ...]) -> tuple[Any, int] | None:
             return sys.modules["jax.numpy"], 0
         if root == "casadi":
             return sys.modules["casadi"], 1
+        if root == "tandemlift":
+            return sys.modules["tandemlift.trace.elementary"], OURS
         if root == "numpy":
             found = sys.modules["numpy"], 0
     return found
@@ -53,7 +57,7 @@ def primitive(name: str, scalar: Callable[..., Any]) -> Callable[..., Any]:
         if library is None:
             return scalar(*args)
         module, column = library
-        return getattr(module, _NAMES[name][column])(*args)
+        return getattr(module, name if column == OURS else _NAMES[name][column])(*args)
 
     operation.__name__ = operation.__qualname__ = f"_{name}"
     return operation
@@ -144,6 +148,7 @@ def maximum(a, b):
     return _maximum(a, b)
 
 
+@law
 def greatest(values):
     """The largest of the values of a set."""
     return functools.reduce(maximum, values)

@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 
 from tandemlift.assembly import assemble
-from tandemlift.jit import flat
-from tandemlift.kernels import Aside, Kernels
+from tandemlift.kernels import Aside, Grid, Kernels, Start
 from tandemlift.laws.controllers import NoMemory, control
 from tandemlift.settings import Mission
 from tandemlift.tally import LATE
+from tandemlift.trace import flat
 from tandemlift.vector import layout
 
-STRETCH = 2_000_000  # steps between looks at the keyboard and at the progress bar
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take more than a second
 
 KERNELS: dict[Any, Kernels] = {}
@@ -59,31 +58,27 @@ class Prepared:
         return math.ceil(LATE / self.dt - 1e-9)
 
     @property
-    def stops(self) -> list[int]:
-        """Where the stretches that the flight is flown in end; the last one with the closing sample."""
-        inner = {*range(STRETCH, self.steps, STRETCH), self.late_step}
-        return sorted({s for s in inner if s < self.steps} | {self.steps + 1})
-
-    @property
     def kernels(self) -> Kernels:
         """The compiled loops of this variant."""
         if self.variant not in KERNELS:
             KERNELS[self.variant] = Kernels(self.flying, self.given)
         return KERNELS[self.variant]
 
-    def ring(self) -> np.ndarray:
+    def start(self) -> Start:
+        """The flight at its first step, as a compiled loop takes it."""
+        return Start(np.array(flat(self.flying)), self.tables, self._ring(), self.seeds)
+
+    def grid(self, rows: int, every: int) -> Grid:
+        """The steps of the flight, with so many rows of a log of every so many steps."""
+        return Grid(self.steps, every, rows, self.dt, self.delays)
+
+    def _ring(self) -> np.ndarray:
         """A delay line for this flight, filled with what it holds at t = 0."""
-        lines, numbers = self.kernels.lines, np.array(flat(self.flying))
+        numbers = np.array(flat(self.flying))
         if not self.delays.any():
             return np.zeros((1, 0))
-        row = np.concatenate([numbers[span.at : span.at + span.size] for span in lines])
+        row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.kernels.lines])
         return np.tile(row, (1 << int(self.delays.max()).bit_length(), 1))
-
-
-def needs_compiling(mission: Mission) -> bool:
-    """Whether flying this mission alone will first compile its loop, which takes seconds."""
-    p = Prepared(mission)
-    return p.variant not in KERNELS and not p.kernels.folder.exists()
 
 
 def takes_long(mission: Mission) -> bool:

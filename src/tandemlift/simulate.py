@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import threading
 import time
@@ -11,93 +10,97 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
 from tandemlift.changing import changes_in_flight
 from tandemlift.engines import engine_named
 from tandemlift.errors import InputError
 from tandemlift.flight import Flight
 from tandemlift.flown import Flown, flight_of, metrics_of, take_tallies
-from tandemlift.jit import flat, leaves, unflat
-from tandemlift.kernels import GAUSSIAN, GUST, LANES, LEG, WALL, Tables
+from tandemlift.kernels import LANES, Memory
 from tandemlift.prepared import Prepared
 from tandemlift.recording import engine_of
 from tandemlift.settings import Mission
-from tandemlift.stepwise import fly_stepwise
+from tandemlift.stepwise import Stopped, always, fly_stepwise
 from tandemlift.tally import EMPTY
+from tandemlift.trace import leaves, unflat
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
-
 Progress = Callable[[int, int], None]
-IDLE = Tables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL, LEG)  # rows without effect
+STRETCH = 0.1  # s between looks at the keyboard and at the progress bar
+FIRST_STRETCH = 5_000  # steps
 
 
-def _fly_single(p: Prepared, rows: int, every: int, progress: Progress | None = None) -> Flown:
-    a, size = np.array(flat(p.flying)), leaves(p.flying.moving)
-    work, ring = np.zeros(p.kernels.work_size), p.ring()
-    log, last = np.zeros((rows, leaves(p.sample))), np.full(leaves(p.sample), math.nan)
-    single, data = p.kernels.single, (p.tables, work, ring, p.delays, p.seeds)
-    single(a, *data, log, last, 0, 0, p.steps, every, p.dt)  # compiles, flies nothing
-    began, k, early = time.perf_counter(), 0, EMPTY
-    for stop in p.stops:
-        k = single(a, *data, log, last, k, stop, p.steps, every, p.dt)
-        if k < min(stop, p.steps):
-            break
-        if stop == p.late_step:
-            (early,) = take_tallies(a, p.flying, 1)
+def _stretches(p: Prepared, memory: Memory, going: Callable[[], bool]) -> Iterator[int]:
+    """Fly on, some tenth of a second at a time; each step that is reached."""
+    pace, ends = FIRST_STRETCH, sorted({s for s in (p.late_step,) if s < p.steps} | {p.steps + 1})
+    for end in ends:
+        while memory.k < min(end, p.steps):
+            if not going():
+                raise Stopped
+            stop = end if memory.k + pace >= end - 1 else memory.k + pace  # the last step and the last sample together
+            began = time.perf_counter()
+            before, after = memory.k, memory.fly(stop)
+            spent = time.perf_counter() - began
+            memory.code.spent(spent)
+            yield after
+            if after < min(stop, p.steps):
+                return
+            pace = max(FIRST_STRETCH, int((after - before) * min(STRETCH / max(spent, 1e-9), 4.0)))
+
+
+def _fly_compiled(
+    flights: Sequence[Prepared],
+    rows: int,
+    every: int,
+    progress: Progress | None = None,
+    going: Callable[[], bool] = always,
+) -> list[Flown]:
+    """Fly one flight, or up to LANES of one variant and one grid; of these, lost ones again, to stop where they do."""
+    p, count = flights[0], len(flights)
+    lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
+    memory = Memory(p.kernels.loop(len(lanes)), [f.start() for f in lanes], p.grid(rows, every), leaves(p.sample))
+    began, early = time.perf_counter(), [EMPTY] * len(lanes)
+    for k in _stretches(p, memory, going):
+        if k == p.late_step < p.steps:
+            early = take_tallies(memory.numbers, p.flying, len(lanes))
         if progress:
             progress(k, p.steps)
-    return Flown(unflat(a[:size], p.flying.moving), early, k, log, last, time.perf_counter() - began)
-
-
-def _alone(p: Prepared) -> Callable[..., Flown]:
-    """How a mission is flown alone: step by step where Python has a say in it."""
-    return fly_stepwise if p.interpreted or changes_in_flight(p.mission) else _fly_single
-
-
-def _fly_block(flights: Sequence[Prepared], rows: int, every: int) -> list[Flown]:
-    """Fly up to LANES flights of one variant and one grid together; lost ones again, alone, to stop where they must."""
-    p, count = flights[0], len(flights)
-    lanes = [*flights, *[flights[-1]] * (LANES - count)]
-    moving_size, columns, r = leaves(p.flying.moving), leaves(p.sample), p.kernels.regions
-    a = _aligned(r.size)
-    numbers = np.array([flat(f.flying) for f in lanes]).T
-    a[: numbers.size] = numbers.ravel()
-    a[r.keys : r.keys + 2 * LANES] = np.array([f.seeds for f in lanes]).T.ravel()
-    tables = Tables(*map(_interleaved, zip(*[f.tables for f in lanes], strict=True), IDLE))
-    ring, log = np.stack([f.ring() for f in lanes], axis=2).reshape(len(p.ring()), -1), np.zeros((LANES, rows, columns))
-    block = p.kernels.block
-    block(a, tables, ring, p.delays, log, 0, 0, p.steps, every, p.dt)  # compiles, flies nothing
-    began, k, early = time.perf_counter(), 0, [EMPTY] * LANES
-    for stop in p.stops:
-        block(a, tables, ring, p.delays, log, k, stop, p.steps, every, p.dt)
-        k = min(stop, p.steps)
-        if stop == p.late_step:
-            early = take_tallies(a, p.flying, LANES)
     wall = (time.perf_counter() - began) / count
-    moving, last = a[: moving_size * LANES].reshape(-1, LANES), a[r.sample : r.scratch].reshape(-1, LANES)
+    moving = memory.numbers.reshape(-1, len(lanes))[: leaves(p.flying.moving)]
+    last = memory.work[memory.room("sample")].reshape(-1, len(lanes)) if count > 1 else memory.last[:, None]
     flown = [
-        Flown(unflat(moving[:, i], p.flying.moving), early[i], k, log[i].copy(), last[:, i].copy(), wall)
+        Flown(
+            unflat(moving[:, i], p.flying.moving),
+            early[i],
+            min(memory.k, p.steps),
+            memory.log[i].copy(),
+            last[:, i].copy(),
+            wall,
+        )
         for i in range(count)
     ]
-    return [_fly_single(f, rows, every) if x.lost else x for f, x in zip(flights, flown, strict=True)]
+    if count == 1:
+        return flown
+    return [
+        _fly_compiled([f], rows, every, going=going)[0] if x.lost else x for f, x in zip(flights, flown, strict=True)
+    ]
 
 
-def _aligned(size: int) -> Array:
-    """Zeros that begin at a multiple of 64 bytes: a vector of eight never crosses a line of the processor's cache."""
-    room = np.zeros(size + LANES)
-    first = -room.ctypes.data % 64 // room.itemsize
-    return room[first : first + size]
+def _flies_stepwise(p: Prepared) -> bool:
+    """Whether a mission is flown step by step: where Python has a say in it."""
+    return p.interpreted is not None or changes_in_flight(p.mission)
 
 
-def _interleaved(tables: Sequence[Array], idle: Any) -> Array:
-    """A table of a block: row i holds row i of every lane's, an idle one where a lane has fewer."""
-    rows = np.tile(np.array(flat(idle))[:, None], (max(map(len, tables)), 1, LANES))
-    for lane, own in enumerate(tables):
-        rows[: len(own), :, lane] = own
-    return rows.reshape(len(rows), rows.shape[1] * LANES)
+def _fly_together(
+    flights: Sequence[Prepared],
+    rows: int,
+    every: int,
+    progress: Progress | None = None,
+    going: Callable[[], bool] = always,
+) -> list[Flown]:
+    """Fly what goes together, as a block unless it is one flight alone."""
+    if _flies_stepwise(flights[0]):
+        return [fly_stepwise(flights[0], rows, every, progress, going=going)]
+    return _fly_compiled(flights, rows, every, progress, going)
 
 
 def fly(mission: Mission, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
@@ -120,7 +123,8 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
     if chosen.module:
         body = chosen.start(mission, Vehicle.from_settings(mission.vehicle), p.flying.plant.floor, p.flying.plant.walls)
         return flight_of(p, fly_stepwise(p, rows, p.every, progress, body), engine)
-    return flight_of(p, _alone(p)(p, rows, p.every, progress))
+    (flown,) = _fly_together([p], rows, p.every, progress)
+    return flight_of(p, flown)
 
 
 def fly_many(
@@ -153,17 +157,27 @@ def fly_many(
     results: list[Any] = [None] * len(missions)
     finished = _Counter(len(missions), progress)
 
+    going = threading.Event()
+    going.set()
+
     def run(places: list[int], flights: list[Prepared]) -> None:
         p = flights[0]
         rows, every = (p.steps // p.every + 1, p.every) if keep == "flights" else (1, p.steps + 1)
-        for i, f, x in zip(places, flights, _fly_together(flights, rows, every), strict=True):
+        flown = _fly_together(flights, rows, every, going=going.is_set)
+        for i, f, x in zip(places, flights, flown, strict=True):
             results[i] = flight_of(f, x) if keep == "flights" else metrics_of(f, x)
         finished.add(len(places))
 
     jobs = list(_jobs(missions))  # all of them first: Python at work here would hold up the threads that fly
-    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+    pool = ThreadPoolExecutor(threads or os.cpu_count() or 1)
+    try:
         for future in [pool.submit(run, places, flights) for places, flights in jobs]:
             future.result()
+    except BaseException:  # also Ctrl-C: nobody waits for what still flies
+        going.clear()
+        pool.shutdown(wait=False, cancel_futures=True)
+        raise
+    pool.shutdown()
     return results
 
 
@@ -181,19 +195,12 @@ class _Counter:
                 self.progress(self.flown, self.total)
 
 
-def _fly_together(flights: Sequence[Prepared], rows: int, every: int) -> list[Flown]:
-    """Fly what goes together, as a block unless it is one flight alone."""
-    if len(flights) > 1:
-        return _fly_block(flights, rows, every)
-    return [_alone(flights[0])(flights[0], rows, every)]
-
-
 def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[Prepared]]]:
     """What goes together, with its places: same variant and grid, at most LANES; what is flown step by step alone."""
     groups: defaultdict[Any, list[tuple[int, Prepared]]] = defaultdict(list)
     for i, mission in enumerate(missions):
         p = Prepared(mission)
-        if _alone(p) is fly_stepwise:
+        if _flies_stepwise(p):
             yield [i], [p]
             continue
         key = (p.variant, p.steps, p.every, p.dt, tuple(p.delays))

@@ -27,6 +27,9 @@ def linear(cls: C) -> C:
     cls.__array_ufunc__ = None  # type: ignore[attr-defined]  # a NumPy scalar on the left defers to our operators
     for name in ("__lt__", "__le__", "__gt__", "__ge__"):
         setattr(cls, name, _no_order)
+    for name, operation in OPERATORS.items():
+        if name not in vars(cls):
+            setattr(cls, name, operation)
     return cls
 
 
@@ -72,6 +75,16 @@ def over(a: V, k: Any) -> V:
 def negative(a: V) -> V:
     """−a, field by field."""
     return type(a)(*[-x for x in a])
+
+
+OPERATORS = {
+    "__add__": plus,
+    "__sub__": minus,
+    "__mul__": times,
+    "__rmul__": times,
+    "__truediv__": over,
+    "__neg__": negative,
+}
 
 
 @componentwise
@@ -179,8 +192,6 @@ def each(count: int) -> Any:
     """
     name = f"Each{count}"
     cls = NamedTuple(name, [(f"r{i}", Any) for i in range(count)])  # type: ignore[misc]
-    cls.__add__, cls.__sub__, cls.__mul__, cls.__rmul__ = plus, minus, times, times  # type: ignore
-    cls.__truediv__, cls.__neg__ = over, negative  # type: ignore
     cls.__module__, cls.__qualname__ = __name__, name
     return componentwise(cls)
 
@@ -225,6 +236,7 @@ def cross(a: Vec3, b: Vec3) -> Vec3:
     return Vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 
 
+@law
 def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
     """Sum of the products of corresponding fields (vectors, quaternions, sets)."""
     total = a[0] * b[0]

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.constants import GRAVITY
-from tandemlift.jit import flat, leaves
 from tandemlift.kernels.outside import GAUSSIAN, GUST, Tables
 from tandemlift.laws.contact import Floor, floor, soles_below, standing_height
 from tandemlift.laws.partner import LEG, Leg
@@ -18,6 +17,7 @@ from tandemlift.laws.rectangle import WALL, wall
 from tandemlift.laws.walls import Walls, nowhere, walls
 from tandemlift.laws.wind import Calm, Gust, Whiffs, Wind, air_drag_of, dryden, first_eddies
 from tandemlift.settings import Mission
+from tandemlift.trace import flat, leaves
 from tandemlift.vector import ZERO, Nothing, mat3, vec3
 from tandemlift.vehicle import Vehicle
 from tandemlift.weather import Weather

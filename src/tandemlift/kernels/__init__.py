@@ -6,22 +6,18 @@ instruction serves all of them. The laws are the same, and so is every bit of th
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import threading
 from functools import cached_property
-from pathlib import Path
-from typing import Any
 
-import numba
-
-from tandemlift.jit import cached_in, folder, install, leaves
-from tandemlift.kernels.block import Regions, block_loop
-from tandemlift.kernels.likes import Aside, likes_of
-from tandemlift.kernels.limiting import scratch_size
-from tandemlift.kernels.outside import COMPILE, GAUSSIAN, GUST, HALVES, LANES, LEG, SPAN, WALL, Tables, draws
+from tandemlift.kernels.likes import COMMAND, GIVEN, Aside, Likes, likes_of
+from tandemlift.kernels.loops import Step
+from tandemlift.kernels.memory import Grid, Memory, Start
+from tandemlift.kernels.outside import GAUSSIAN, GUST, HALVES, LANES, SPAN, Tables
 from tandemlift.kernels.places import place, stretches_of
-from tandemlift.kernels.single import single_loop
-from tandemlift.kernels.stepped import COMMAND, GIVEN, Parts, parts_of
+from tandemlift.kernels.traced import Traced
 from tandemlift.loop import Flying, Inputs
+from tandemlift.trace.code import Code, Written
+from tandemlift.trace.key import key_of
 
 __all__ = [
     "COMMAND",
@@ -30,11 +26,13 @@ __all__ = [
     "GUST",
     "HALVES",
     "LANES",
-    "LEG",
     "SPAN",
-    "WALL",
     "Aside",
+    "Grid",
     "Kernels",
+    "Likes",
+    "Memory",
+    "Start",
     "Tables",
     "place",
 ]
@@ -44,46 +42,38 @@ class Kernels:
     """The compiled loops for flights like `flying` with inputs like `given`; each compiles when first asked for."""
 
     def __init__(self, flying: Flying, given: Inputs) -> None:
-        install()
         self.likes = likes_of(flying, given)
         self.lines = stretches_of(self.likes.flying)
-
-    @property
-    def folder(self) -> Path:
-        """Where these loops are kept once compiled."""
-        return folder((self.likes.flying, self.likes.given))
-
-    @property
-    def work_size(self) -> int:
-        """Numbers of scratch of a flight alone: the table of pushes, that of standard normals, and the allocation's."""
-        return self.limits + scratch_size(leaves(self.likes.thought.decision.thrusts))
-
-    @property
-    def limits(self) -> int:
-        """Where the allocation's part of that scratch begins."""
-        given = self.likes.given
-        return HALVES * leaves(given.hand.start) + SPAN * 4 * draws(given.noise)
-
-    def _compile(self, function: Callable[..., Any]) -> Callable[..., Any]:
-        with cached_in(self.folder):
-            return numba.njit(cache=True, nogil=True, **COMPILE)(function)
+        self._lock, self._codes = threading.RLock(), dict[tuple[str, int], Code]()
 
     @cached_property
-    def single(self) -> Callable[..., Any]:
-        """See `single_loop`."""
-        return self._compile(single_loop(self.likes, self.lines))
+    def asks(self) -> bool:
+        """Whether a controller in Python is asked in the middle of a step."""
+        return isinstance(self.likes.flying.pilot.controller, Aside)
 
     @cached_property
-    def regions(self) -> Regions:
-        """The parts of a block's array."""
-        return Regions.of(self.likes)
+    def _traced(self) -> Traced:
+        return Traced(self.likes, self.asks)
 
-    @cached_property
-    def block(self) -> Callable[..., Any]:
-        """See `block_loop`."""
-        return self._compile(block_loop(self.likes, self.lines, self.regions))
+    def loop(self, lanes: int) -> Code:
+        """`fly`, the loop over steps, for one flight or for a block of LANES."""
+        return self._code("loop", lanes, ["fly"])
 
-    @cached_property
-    def parts(self) -> Parts:
-        """See `parts_of`."""
-        return Parts(*map(self._compile, parts_of(self.likes, self.lines)))
+    def parts(self, *, leaves_body: bool) -> Code:
+        """A step in parts: `ask` up to a controller in Python, `decide` up to another body, `complete` to its end."""
+        names = ["ask"] * self.asks + ["decide"] * leaves_body + ["complete"]
+        return self._code("parts", int(leaves_body), names)
+
+    def _code(self, kind: str, number: int, names: list[str]) -> Code:
+        with self._lock:
+            if (kind, number) not in self._codes:
+                x = self.likes
+                key = key_of((x.flying, x.given), kind, number, x.nowhere)
+                self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number))
+            return self._codes[kind, number]
+
+    def _written(self, kind: str, number: int) -> Written:
+        with self._lock:
+            step = Step(self._traced, number if kind == "loop" else 1)
+            text = step.write_loop() if kind == "loop" else step.write_parts(bool(number))
+            return Written(text, {"size": step.rooms.size, "rooms": step.rooms.at})

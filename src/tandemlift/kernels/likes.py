@@ -4,14 +4,27 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.delays import Ends, departing
-from tandemlift.jit import zeroed
+from tandemlift.laws.admittance import Trajectory
 from tandemlift.laws.allocation import Constrained
-from tandemlift.laws.body import Wrench
-from tandemlift.laws.controllers import Command, control
+from tandemlift.laws.body import State, Wrench
+from tandemlift.laws.controllers import Command, Measured, Reference, control
 from tandemlift.laws.partner import Partner
 from tandemlift.loop import Flying, Inputs, act, advance, joined, observe, think
-from tandemlift.vector import ZERO, Nothing
+from tandemlift.trace import zeroed
+from tandemlift.vector import ZERO, Nothing, Quat
+
+COMMAND = Command(Wrench(0.0, ZERO), ZERO)
+LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
+
+
+class Given(NamedTuple):
+    """What a controller is given at a sample."""
+
+    measured: Measured
+    reference: Reference
+
+
+GIVEN = Given(Measured(State(ZERO, ZERO, LEVEL, ZERO), ZERO), Reference(Trajectory(ZERO, ZERO, ZERO), 0.0))
 
 
 class Aside(NamedTuple):
@@ -51,16 +64,6 @@ class Likes(NamedTuple):
     def accompanied(self) -> bool:
         """Whether a person leads the vehicle along a path."""
         return isinstance(self.flying.partner, Partner)
-
-    @property
-    def line(self) -> Any:
-        """What goes through the delay lines."""
-        moving = self.flying.moving
-        return (
-            departing(self.flying.delays, Ends(moving.rotors, moving.readings, moving.partner))
-            if self.late
-            else Nothing()
-        )
 
     @property
     def grounded(self) -> bool:

@@ -15,30 +15,77 @@ f ← f + (g − Cᵀμ)/γ, μ = (γI + C Cᵀ)⁻¹ C g, r ← r − μ,
 so that only a 4 × 4 matrix is ever solved, however many rotors there are. The form in r, not one in the thrusts alone,
 keeps the last digits when part of the wrench is out of reach: r/γ is large then, and cancels.
 
-These functions loop, so they are no laws; they keep to floats, indices and arrays that are passed in, and compile as
-they are, `PARTS` inlined into `limited`. Inside the loops they choose between values and do not branch: which rotor is
-at a limit cannot be foreseen, and a processor that guesses it wrong loses more than the work saved.
+A step chooses between values and does not branch, so it is traced as a law is; what repeats it is a loop, here and in
+compiled flights. It is not fused: where thrusts meet their limits is decided by the same sums as in plain Python.
 """
 
 from __future__ import annotations
 
-from typing import Any
+import functools
+import operator
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.law import law
-from tandemlift.laws.allocation import Mixer, wrench
+from tandemlift.law import elementwise, law
+from tandemlift.laws.allocation import Mixer, Working, wrench
 from tandemlift.laws.body import Wrench
-from tandemlift.ops import clip, sqrt, where
-from tandemlift.vector import Vec3, dot
+from tandemlift.ops import absolute, clip, sqrt, where
+from tandemlift.vector import Vec3, dot, each
 
 Array = NDArray[np.float64]
-Four = tuple[float, float, float, float]
-Ten = tuple[float, float, float, float, float, float, float, float, float, float]
 
 ACCURACY = 1e-9  # N, of every thrust, where the rounding of the given numbers allows it
 ROUNDING = 2.220446049250313e-16  # of a double
+GAMMA = 1e-3  # of thrusts away from the pseudo-inverse's, against the weighted wrench
+
+
+class Bounded(NamedTuple):
+    """What is minimised.
+
+    `rows`: W B, `weighted_rows`, sets of n. `weights`: the diagonal of W, `weights_of`. `wanted`: τ [N, N·m body axes].
+    `unlimited`: f₀ [N], a set. `limits`: f_max [N], a set, 0 for a rotor that is lost.
+    """
+
+    rows: Mixer
+    weights: Wrench
+    wanted: Wrench
+    unlimited: Any
+    limits: Any
+
+
+class Search(NamedTuple):
+    """A step's outcome; 1 or 0 each: whole steps are taken, this one is to be repeated, the search has ended."""
+
+    found: Working
+    opening: Any
+    repeated: Any
+    ended: Any
+
+
+class Four(NamedTuple):
+    """Four numbers, one for each component of a wrench."""
+
+    thrust: Any
+    roll: Any
+    pitch: Any
+    yaw: Any
+
+
+class Factor(NamedTuple):
+    """L D Lᵀ of a 4 × 4 matrix: L by columns, then 1/D."""
+
+    rt: Any
+    pt: Any
+    yt: Any
+    pr: Any
+    yr: Any
+    yp: Any
+    t: Any
+    r: Any
+    p: Any
+    y: Any
 
 
 def weights_of(effect: Array, priorities: Any) -> Array:
@@ -52,7 +99,7 @@ def weights_of(effect: Array, priorities: Any) -> Array:
 
 
 def weighted_rows(effect: Array, weights: Array) -> Array:
-    """W B (4 × n), C-contiguous, as `limited` takes it."""
+    """W B (4 × n), C-contiguous, the rows of a `Bounded` problem."""
     return np.ascontiguousarray(weights[:, None] * effect)
 
 
@@ -80,211 +127,235 @@ def given_share(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: Any) -> A
     return where(size > 0.0, clip(1.0 - sqrt(lost), 0.0, 1.0), 1.0)
 
 
-def _placed(limits: Array, active: Array, f: Array) -> None:
-    """Make the working set and the thrusts that a solution starts from feasible. A rotor without a limit > 0 stands."""
-    for i in range(f.size):
-        top = limits[i] if limits[i] > 0.0 else 0.0
-        side = (1.0 if active[i] > 0.0 else 0.0) - (1.0 if active[i] < 0.0 else 0.0)
-        side = side if top > 0.0 else -1.0
-        x = f[i] if f[i] > 0.0 else 0.0
-        x = x if x < top else top
-        active[i] = side
-        f[i] = x if side == 0.0 else (top if side > 0.0 else 0.0)
+def _summed(start: Any, parts: Any) -> Any:
+    """start + the values of a set, one after the other."""
+    return functools.reduce(operator.add, parts, start)
 
 
-def _gram(rows: Array, gamma: float, active: Array) -> Ten:
-    """γI + C Cᵀ over the free rotors, lower triangle by columns."""
-    tt = rr = pp = yy = gamma
-    rt = pt = yt = pr = yr = yp = 0.0
-    for i in range(active.size):
-        free = 1.0 - abs(active[i])
-        t, r, p, y = rows[0, i], rows[1, i], rows[2, i], rows[3, i]
-        ft, fr, fp, fy = t * free, r * free, p * free, y * free
-        tt += ft * t
-        rt += fr * t
-        pt += fp * t
-        yt += fy * t
-        rr += fr * r
-        pr += fp * r
-        yr += fy * r
-        pp += fp * p
-        yp += fy * p
-        yy += fy * y
-    return tt, rt, pt, yt, rr, pr, yr, pp, yp, yy
+def _numbered(like: Any) -> Any:
+    """0, 1, 2, … as a set."""
+    return each(len(like))(*map(float, range(len(like))))
 
 
-def _factored(rows: Array, gamma: float, active: Array) -> Ten:
-    """L D Lᵀ = γI + C Cᵀ: the six numbers of L by columns, then 1/D. No pivot is below γ but for rounding."""
-    tt, rt, pt, yt, rr, pr, yr, pp, yp, yy = _gram(rows, gamma, active)
+def _at_least(x: Any, least: Any) -> Any:
+    return where(least > x, least, x)
+
+
+@elementwise
+def _top(limit):
+    return where(limit > 0.0, limit, 0.0)
+
+
+@elementwise
+def _side(active, top):
+    return where(top > 0.0, where(active > 0.0, 1.0, 0.0) - where(active < 0.0, 1.0, 0.0), -1.0)
+
+
+@elementwise
+def _standing(thrust, side, top):
+    x = where(thrust > 0.0, thrust, 0.0)
+    return where(side == 0.0, where(x < top, x, top), where(side > 0.0, top, 0.0))
+
+
+def placed(limits: Any, held: Working) -> Working:
+    """A working set and thrusts that are feasible to start from. A rotor without a limit > 0 stands."""
+    top = _top(limits)
+    side = _side(held.active, top)
+    return Working(side, _standing(held.thrusts, side, top))
+
+
+@elementwise
+def _free(active):
+    return 1.0 - absolute(active)
+
+
+def _factored(rows: Mixer, active: Any) -> Factor:
+    """L D Lᵀ = γI + C Cᵀ over the free rotors. No pivot is below γ but for rounding."""
+    free = _free(active)
+    thrust, roll, pitch, yaw = rows
+    fr, fp, fy = roll * free, pitch * free, yaw * free
+    tt, rr = _summed(GAMMA, thrust * free * thrust), _summed(GAMMA, fr * roll)
+    pp, yy = _summed(GAMMA, fp * pitch), _summed(GAMMA, fy * yaw)
+    rt, pt, yt = _summed(0.0, fr * thrust), _summed(0.0, fp * thrust), _summed(0.0, fy * thrust)
+    pr, yr, yp = _summed(0.0, fp * roll), _summed(0.0, fy * roll), _summed(0.0, fy * pitch)
     t = 1.0 / tt
     lrt, lpt, lyt = rt * t, pt * t, yt * t
-    r = 1.0 / max(rr - lrt * rt, gamma)
+    r = 1.0 / _at_least(rr - lrt * rt, GAMMA)
     pr, yr = pr - lpt * rt, yr - lyt * rt
     lpr, lyr = pr * r, yr * r
-    p = 1.0 / max(pp - lpt * pt - lpr * pr, gamma)
+    p = 1.0 / _at_least(pp - lpt * pt - lpr * pr, GAMMA)
     yp = yp - lyt * pt - lyr * pr
     lyp = yp * p
-    y = 1.0 / max(yy - lyt * yt - lyr * yr - lyp * yp, gamma)
-    return lrt, lpt, lyt, lpr, lyr, lyp, t, r, p, y
+    y = 1.0 / _at_least(yy - lyt * yt - lyr * yr - lyp * yp, GAMMA)
+    return Factor(lrt, lpt, lyt, lpr, lyr, lyp, t, r, p, y)
 
 
-def _solved(factor: Ten, b: Four) -> Four:
+def _solved(k: Factor, b: Four) -> Four:
     """(L D Lᵀ)⁻¹ b."""
-    lrt, lpt, lyt, lpr, lyr, lyp, t, r, p, y = factor
-    u0 = b[0]
-    u1 = b[1] - lrt * u0
-    u2 = b[2] - lpt * u0 - lpr * u1
-    u3 = b[3] - lyt * u0 - lyr * u1 - lyp * u2
-    x3 = u3 * y
-    x2 = u2 * p - lyp * x3
-    x1 = u1 * r - lpr * x2 - lyr * x3
-    x0 = u0 * t - lrt * x1 - lpt * x2 - lyt * x3
-    return x0, x1, x2, x3
+    u0 = b.thrust
+    u1 = b.roll - k.rt * u0
+    u2 = b.pitch - k.pt * u0 - k.pr * u1
+    u3 = b.yaw - k.yt * u0 - k.yr * u1 - k.yp * u2
+    x3 = u3 * k.y
+    x2 = u2 * k.p - k.yp * x3
+    x1 = u1 * k.r - k.pr * x2 - k.yr * x3
+    x0 = u0 * k.t - k.rt * x1 - k.pt * x2 - k.yt * x3
+    return Four(x0, x1, x2, x3)
 
 
-def _missing(rows: Array, weights: Array, wanted: Any, f: Array) -> Four:
+def _missing(p: Bounded, thrusts: Any) -> Four:
     """r = W(τ − B f)."""
-    r0, r1, r2, r3 = weights[0] * wanted[0], weights[1] * wanted[1], weights[2] * wanted[2], weights[3] * wanted[3]
-    for i in range(f.size):
-        r0 -= rows[0, i] * f[i]
-        r1 -= rows[1, i] * f[i]
-        r2 -= rows[2, i] * f[i]
-        r3 -= rows[3, i] * f[i]
-    return r0, r1, r2, r3
+    weights, wanted = (Four(u.thrust, *u.moment) for u in (p.weights, p.wanted))
+    made = [row * thrusts for row in p.rows]
+    return Four(*[functools.reduce(operator.sub, m, w * x) for w, x, m in zip(weights, wanted, made, strict=True)])
 
 
-def _pulled(rows: Array, unlimited: Array, gamma: float, active: Array, f: Array, r: Four, pull: Array) -> Any:
-    """Store g of all rotors, half the cost's slope downhill, in `pull`; (C g, largest |g|) of the free ones."""
-    h0 = h1 = h2 = h3 = largest = 0.0
-    for i in range(f.size):
-        c0, c1, c2, c3 = rows[0, i], rows[1, i], rows[2, i], rows[3, i]
-        g = c0 * r[0] + c1 * r[1] + c2 * r[2] + c3 * r[3] + gamma * (unlimited[i] - f[i])
-        pull[i] = g
-        free = g * (1.0 - abs(active[i]))
-        h0 += c0 * free
-        h1 += c1 * free
-        h2 += c2 * free
-        h3 += c3 * free
-        size = abs(free)
-        largest = size if size > largest else largest
-    return (h0, h1, h2, h3), largest
+def _mapped(rows: Mixer, four: Four) -> Any:
+    """Cᵀ x of four numbers x, for every rotor."""
+    return rows.thrust * four.thrust + rows.roll * four.roll + rows.pitch * four.pitch + rows.yaw * four.yaw
 
 
-def _eased(rows: Array, mu: Four, pull: Array) -> None:
-    """g − Cᵀμ in `pull`: γ times a free rotor's step to the optimum, the multiplier there of one that is held."""
-    for i in range(pull.size):
-        pull[i] -= rows[0, i] * mu[0] + rows[1, i] * mu[1] + rows[2, i] * mu[2] + rows[3, i] * mu[3]
+def _largest(values: Any) -> Any:
+    """The largest of the sizes of values, at least 0."""
+    return functools.reduce(lambda most, size: where(size > most, size, most), absolute(values), 0.0)
 
 
-def _clipped(limits: Array, gamma: float, active: Array, f: Array, pull: Array) -> bool:
-    """The whole step, every free rotor that would leave its limits held there; whether there is such a rotor."""
-    inverse, found = 1.0 / gamma, 0.0
-    for i in range(f.size):
-        before, top, side = f[i], limits[i], active[i]
-        x = before + pull[i] * inverse
-        met = -1.0 if x < 0.0 else (1.0 if x > top else 0.0)
-        kept = 0.0 if x < 0.0 else (top if x > top else (x if x >= 0.0 else before))
-        found += abs(met) * (1.0 - abs(side))
-        active[i] = met if side == 0.0 else side
-        f[i] = kept if side == 0.0 else before
-    return found > 0.0
+@elementwise
+def _met(active, x, top):
+    """−1 where a whole step of a free rotor ends below 0, 1 where it ends above the limit, 0 else; held ones as are."""
+    return where(active == 0.0, where(x < 0.0, -1.0, where(x > top, 1.0, 0.0)), active)
 
 
-def _advanced(limits: Array, gamma: float, active: Array, f: Array, pull: Array) -> bool:
-    """The step as far as the first limit that a free rotor meets, and that rotor held; whether there is one."""
-    inverse, share, first = 1.0 / gamma, 1.0, -1
-    for i in range(f.size):
-        before, top = f[i], limits[i]
-        step = pull[i] * inverse
-        x = before + step
-        bound = 0.0 if x < 0.0 else (top if x > top else x)
-        cut = bound != x and active[i] == 0.0
-        part = (bound - before) / (step if cut else 1.0)
-        part = part if cut else 1.0
-        first = i if part < share else first
-        share = part if part < share else share
-    for i in range(f.size):
-        before, top, side = f[i], limits[i], active[i]
-        x = before + share * (pull[i] * inverse)
-        kept = 0.0 if x < 0.0 else (top if x > top else (x if x >= 0.0 else before))
-        met = -1.0 if pull[i] < 0.0 else 1.0
-        kept = kept if i != first else (0.0 if met < 0.0 else top)
-        active[i] = met if i == first else side
-        f[i] = kept if side == 0.0 else before
-    return first >= 0
+@elementwise
+def _if_free(active, moved, before):
+    return where(active == 0.0, moved, before)
 
 
-def _held_in_vain(rows: Array, limits: Array, gamma: float, active: Array, r: Four, pull: Array) -> int:
-    """The held rotor that pulls hardest back into its limits; −1 if none does, beyond rounding."""
-    hardest, found = gamma * ACCURACY, -1
-    for i in range(pull.size):
-        size = abs(rows[0, i] * r[0]) + abs(rows[1, i] * r[1]) + abs(rows[2, i] * r[2]) + abs(rows[3, i] * r[3])
-        inward = -active[i] * pull[i]
-        inward = inward if inward > 4.0 * ROUNDING * size else 0.0
-        inward = inward if limits[i] > 0.0 else 0.0
-        found = i if inward > hardest else found
-        hardest = inward if inward > hardest else hardest
+@elementwise
+def _within(x, top, before):
+    """A thrust held within its limits; as it was before where it is no number."""
+    return where(x < 0.0, 0.0, where(x > top, top, where(x >= 0.0, x, before)))
+
+
+@elementwise
+def _newly(active, met):
+    return absolute(met) * (1.0 - absolute(active))
+
+
+def _clipped(p: Bounded, now: Working, pull: Any) -> Any:
+    """(The whole step, every free rotor that would leave its limits held there; whether there is such a rotor)."""
+    x = now.thrusts + pull * (1.0 / GAMMA)
+    met = _met(now.active, x, p.limits)
+    kept = _if_free(now.active, _within(x, p.limits, now.thrusts), now.thrusts)
+    return Working(met, kept), _summed(0.0, _newly(now.active, met)) > 0.0
+
+
+@elementwise
+def _part(active, before, step, top):
+    """The share of a step that a free rotor can take; 1 where it meets no limit."""
+    x = before + step
+    bound = where(x < 0.0, 0.0, where(x > top, top, x))
+    cut = (bound != x) & (active == 0.0)
+    return where(cut, (bound - before) / where(cut, step, 1.0), 1.0)
+
+
+@elementwise
+def _side_met(number, first, active, pull):
+    return where(number == first, where(pull < 0.0, -1.0, 1.0), active)
+
+
+@elementwise
+def _at_side(number, first, kept, side, top):
+    return where(number == first, where(side < 0.0, 0.0, top), kept)
+
+
+def _advanced(p: Bounded, now: Working, pull: Any) -> Any:
+    """(The step as far as the first limit that a free rotor meets, and that rotor held; whether there is one)."""
+    step, numbers = pull * (1.0 / GAMMA), _numbered(pull)
+    share, first = 1.0, -1.0
+    for i, part in enumerate(_part(now.active, now.thrusts, step, p.limits)):
+        first, share = where(part < share, float(i), first), where(part < share, part, share)
+    x = now.thrusts + step * share
+    side = _side_met(numbers, first, now.active, pull)
+    kept = _at_side(numbers, first, _within(x, p.limits, now.thrusts), side, p.limits)
+    return Working(side, _if_free(now.active, kept, now.thrusts)), first >= 0.0
+
+
+@elementwise
+def _inward(active, pull, size, limit):
+    """How hard a held rotor pulls back into its limits, 0 within rounding."""
+    inward = -active * pull
+    return where(limit > 0.0, where(inward > 4.0 * ROUNDING * size, inward, 0.0), 0.0)
+
+
+def _held_in_vain(p: Bounded, active: Any, r: Four, pull: Any) -> Any:
+    """The number of the held rotor that pulls hardest back into its limits; −1 if none does, beyond rounding."""
+    sizes = [absolute(row * x) for row, x in zip(p.rows, r, strict=True)]
+    inward = _inward(active, pull, sizes[0] + sizes[1] + sizes[2] + sizes[3], p.limits)
+    hardest, found = GAMMA * ACCURACY, -1.0
+    for i, size in enumerate(inward):
+        found, hardest = where(size > hardest, float(i), found), where(size > hardest, size, hardest)
     return found
 
 
-def limited(
-    rows: Array,
-    weights: Array,
-    wanted: Any,
-    unlimited: Array,
-    limits: Array,
-    gamma: float,
-    active: Array,
-    f: Array,
-    scratch: Array,
-    most: int,
-) -> int:
+@elementwise
+def _released(number, free, active):
+    return where(number == free, 0.0, active)
+
+
+def _either(condition: Any, a: Working, b: Working) -> Working:
+    return Working(where(condition, a.active, b.active), where(condition, a.thrusts, b.thrusts))
+
+
+def searched(p: Bounded, s: Search) -> Search:
+    """One step of the active-set method."""
+    now, opening = s.found, s.opening > 0.0
+    factor = _factored(p.rows, now.active)
+    r = _missing(p, now.thrusts)
+    pull = _mapped(p.rows, r) + (p.unlimited - now.thrusts) * GAMMA
+    freely = pull * _free(now.active)
+    mu = _solved(factor, Four(*[_summed(0.0, row * freely) for row in p.rows]))
+    eased = pull - _mapped(p.rows, mu)
+    clipped, was_clipped = _clipped(p, now, eased)
+    advanced, was_cut = _advanced(p, now, eased)
+    after = _either(opening, clipped, advanced)
+    changed = (opening & was_clipped) | ((s.opening <= 0.0) & was_cut)
+    still = where(changed, 0.0, 1.0)
+    coarse = where(_largest(freely) * ROUNDING > GAMMA * ACCURACY, 1.0, 0.0)  # g loses its last digits in a long step
+    again = still * coarse * (1.0 - s.repeated)  # once more, from close by
+    quiet = still - again
+    free = _held_in_vain(p, after.active, r, eased)
+    active = _released(_numbered(eased), where(quiet > 0.0, free, -1.0), after.active)
+    ended = where(free < 0.0, quiet, 0.0)
+    return Search(Working(active, after.thrusts), s.opening * (1.0 - still), again, ended)
+
+
+def begun(limits: Any, held: Working) -> Search:
+    """The search from a working set and thrusts, of any size, made feasible."""
+    return Search(placed(limits, held), 1.0, 0.0, 0.0)
+
+
+def limited(p: Bounded, held: Working, most: int) -> tuple[Working, int]:
     """The thrusts within the limits that come closest to a wanted wrench.
 
     Whatever happens, it ends after `most` steps with 0 ≤ f ≤ limits exactly. Until the first step that no limit cuts
     short, every rotor that would leave its limits is held; from then on the cost falls from step to step. 8 n steps are
     ample: 1 or 2 from the last working set, 5.4 n at worst from any other among millions of random problems. A NaN in
-    the wrench or in `unlimited` leaves `f` as it is but for the limits; a limit that is NaN or not above 0 is 0.
+    the wrench or in `unlimited` leaves the thrusts as they are but for the limits; a limit that is NaN or not above 0
+    is 0.
 
     Args:
-        rows: W B (4 × n), `weighted_rows`.
-        weights: the diagonal of W (4), `weights_of`.
-        wanted: τ, four numbers: thrust [N] and moments about x, y, z [N·m, body axes].
-        unlimited: f₀ (n) [N].
-        limits: f_max (n) [N], 0 for a rotor that is lost.
-        gamma: γ > 0.
-        active: (n), the working set to start from (zeros if none is known), and at the end that of the solution:
-            −1 at 0, 1 at the limit, 0 free.
-        f: (n) [N], thrusts to start from, of any size, and at the end the solution.
-        scratch: (n), overwritten.
+        p: what is minimised.
+        held: the working set to start from (zeros if none is known), −1 at 0, 1 at the limit, 0 free, and thrusts [N]
+            of any size.
         most: bound on the number of steps.
 
     Returns:
-        The number of steps taken; `most` if the bound cut the solution short.
+        The working set and thrusts of the solution, and the number of steps taken; `most` if the bound cut it short.
     """
-    _placed(limits, active, f)
-    factor = _factored(rows, gamma, active)
-    opening, repeated = True, False
+    search = begun(p.limits, held)
     for step in range(1, most + 1):
-        r = _missing(rows, weights, wanted, f)
-        Cg, largest = _pulled(rows, unlimited, gamma, active, f, r, scratch)
-        _eased(rows, _solved(factor, Cg), scratch)
-        if opening:
-            changed = _clipped(limits, gamma, active, f, scratch)
-        else:
-            changed = _advanced(limits, gamma, active, f, scratch)
-        if not changed:
-            opening = False
-            if largest * ROUNDING > gamma * ACCURACY and not repeated:
-                repeated = True  # g loses its last digits in a long step: once more, from close by
-                continue
-            free = _held_in_vain(rows, limits, gamma, active, r, scratch)
-            if free < 0:
-                return step
-            active[free] = 0.0
-        factor, repeated = _factored(rows, gamma, active), False
-    return most
-
-
-PARTS = (_placed, _gram, _factored, _solved, _missing, _pulled, _eased, _clipped, _advanced, _held_in_vain)
-COMPILED = (*PARTS, limited)
+        search = searched(p, search)
+        if search.ended > 0.0:
+            return search.found, step
+    return search.found, most

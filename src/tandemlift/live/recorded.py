@@ -20,7 +20,6 @@ from tandemlift.errors import FlightWarning, InputError
 from tandemlift.files import whole
 from tandemlift.flight import Flight
 from tandemlift.flown import Flown, flight_of, take_tallies
-from tandemlift.jit import flat, leaves, unflat
 from tandemlift.kernels import place
 from tandemlift.laws.grab import NOBODY_HOLDS, Held
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
@@ -29,6 +28,7 @@ from tandemlift.recording import WIDTH, Recording, write_recording
 from tandemlift.settings import Mission
 from tandemlift.stepwise import Stepper
 from tandemlift.tally import EMPTY, Tally
+from tandemlift.trace import flat, leaves, unflat
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]
@@ -60,7 +60,6 @@ class RecordedFlight:
         self._p, self._early, self._wall = p, EMPTY, 0.0
         self.layout = p.sample
         self._stepper = Stepper(p, body)
-        self._stepper.compile()
         self._log = np.zeros((p.steps // p.every + 1, leaves(p.sample)))
         self._before, self._like = self._stepper.a.copy(), p.flying.moving
         self._rows: list[tuple[int, Array]] = []
@@ -136,7 +135,7 @@ class RecordedFlight:
             warnings.simplefilter("ignore", FlightWarning)
             due = due_of(self._stepper.p, changed(self.now, key, value), key, 0, duration)
         if due.prepared.variant != self._stepper.p.variant:
-            Stepper(due.prepared).compile()
+            Stepper(due.prepared)  # its parts are compiled
         return due
 
     def change(self, due: Due, key: str, value: Any, duration: float = 0.0) -> None:

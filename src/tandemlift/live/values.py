@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.flown import channels_of
-from tandemlift.jit import leaves
 from tandemlift.laws.phases import GUIDED, LAND, LIFT
+from tandemlift.trace import leaves
 
 Array = NDArray[np.float64]
 

@@ -1,23 +1,23 @@
-"""Compiled elementary functions: branch-free, so that a block of flights evaluates them in vector registers.
+"""Elementary functions of symbols: branch-free, so that a block of flights evaluates them in vector registers.
 
 Cody-Waite argument reduction and minimax polynomials. `tests/laws/test_elementary.py` holds them against exact values:
 log within 1 ulp, exp 1.25, atan2 2.75, tanh 2.75, sin and cos 2 for |x| ≤ 1e3 and 2.75 for |x| ≤ 1e5, and powers
 within a relative (2 + p |ln x|) 2⁻⁵². A zero of either sign is taken as +0. Method: Muller, Elementary Functions, 3rd
 ed., chapters 3 and 11.
+
+Of plain numbers each gives the number that machine code gives.
 """
 
 from __future__ import annotations
 
+import functools
 import math
+import struct
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-from numba import types
-from numba.extending import intrinsic, overload
-
-from tandemlift import ops
-from tandemlift.jit.fuse import INLINE, fused
+from tandemlift.trace.fused import fused
+from tandemlift.trace.graph import Symbol, converted, select, unary
 
 SHIFT = 6755399441055744.0  # 1.5 · 2⁵²: adding it rounds to an integer, which is left in the low bits
 PI = 3.141592653589793
@@ -26,35 +26,84 @@ QUARTER_PI = 0.7853981633974483
 TAN_EIGHTH = 0.41421356237309503  # tan(π/8)
 
 
-@intrinsic
-def _as_float(typing_context, i):
-    def generate(context, builder, signature, arguments):
-        return builder.bitcast(arguments[0], context.get_value_type(types.float64))
+def polynomial(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of this file, fused when it is first called."""
 
-    return types.float64(types.int64), generate
+    @functools.wraps(function)
+    def call(*args: Any) -> Any:
+        return fused(function)(*args)
 
-
-@intrinsic
-def _as_bits(typing_context, x):
-    def generate(context, builder, signature, arguments):
-        return builder.bitcast(arguments[0], context.get_value_type(types.int64))
-
-    return types.int64(types.float64), generate
+    return call
 
 
-def _pick(condition, a, b):
-    return a if condition else b
+def as_float(i: Any) -> Any:
+    """The double whose bits are those of a 64-bit integer."""
+    if isinstance(i, Symbol):
+        return converted("bitcast_f", i, "f")
+    return struct.unpack("<d", struct.pack("<Q", i & 0xFFFFFFFFFFFFFFFF))[0]
 
 
+def as_bits(x: Any) -> Any:
+    """The 64-bit integer whose bits are those of a double."""
+    if isinstance(x, Symbol):
+        return converted("bitcast_i", x, "i")
+    return struct.unpack("<q", struct.pack("<d", x))[0]
+
+
+def whole(x: Any) -> Any:
+    """A number cut to an integer, as `int` does."""
+    if not isinstance(x, Symbol):
+        return int(x)
+    return x if x.type == "i" else converted("fptosi", x, "i")
+
+
+def double(i: Any) -> Any:
+    """An integer as a double."""
+    return converted("sitofp", i, "f") if isinstance(i, Symbol) else float(i)
+
+
+def floor(x: Any) -> Any:
+    """The largest integer that is not above x, as a double."""
+    return unary("floor", x) if isinstance(x, Symbol) else float(math.floor(x))
+
+
+def sqrt(x: Any) -> Any:
+    """√x; NaN below 0."""
+    if isinstance(x, Symbol):
+        return unary("sqrt", x)
+    return math.sqrt(x) if x >= 0.0 else math.nan
+
+
+def absolute(x: Any) -> Any:
+    """|x|."""
+    return abs(x)
+
+
+def minimum(a: Any, b: Any) -> Any:
+    """a if it is below b, else b."""
+    return select(a < b, a, b)
+
+
+def maximum(a: Any, b: Any) -> Any:
+    """a if it is above b, else b."""
+    return select(a > b, a, b)
+
+
+where = select
+
+
+@polynomial
 def _round(x):
     return (x + SHIFT) - SHIFT
 
 
+@polynomial
 def _two_to(k):
     """2ᵏ for an integer-valued k in [−1022, 1023]."""
-    return _as_float((_as_bits(k + SHIFT) - 0x4338000000000000 + 1023) << 52)
+    return as_float((as_bits(k + SHIFT) - 0x4338000000000000 + 1023) << 52)
 
 
+@polynomial
 def _exp_parts(x):
     """(p, q) with eˣ = p (1 + q), |x| ≤ 709."""
     k = _round(x * 1.4426950408889634)
@@ -73,24 +122,28 @@ def _exp_parts(x):
     return _two_to(k), r + r * r * c
 
 
-def _exp(x):
-    p, q = _exp_parts(_pick(x < -708.0, -708.0, _pick(x > 709.0, 709.0, x)))
+@polynomial
+def exp(x):
+    """eˣ, with x held within [−708, 709]."""
+    p, q = _exp_parts(select(x < -708.0, -708.0, select(x > 709.0, 709.0, x)))
     return p + p * q
 
 
-def _tanh(x):
+@polynomial
+def tanh(x):
     """E / (E + 2) with E = e²ᵃ − 1 of a = |x|, and the sign of x: odd to the last bit, of slope 1 at 0."""
     a = abs(x)
-    p, q = _exp_parts(2.0 * _pick(a > 20.0, 20.0, a))
+    p, q = _exp_parts(2.0 * select(a > 20.0, 20.0, a))
     e = (p - 1.0) + p * q
     t = e / (e + 2.0)
-    return _pick(x < 0.0, -t, t)
+    return select(x < 0.0, -t, t)
 
 
-def _log(x):
+@polynomial
+def log(x):
     """x = 2ᵏ m, √½ ≤ m < √2, then 2 artanh((m − 1)/(m + 1))."""
-    k = np.float64((_as_bits(x) - 0x3FE6A09E667F3BCD) >> 52)
-    m = _as_float(_as_bits(x) - (np.int64(k) << 52))
+    exponent = (as_bits(x) - 0x3FE6A09E667F3BCD) >> 52
+    k, m = double(exponent), as_float(as_bits(x) - (exponent << 52))
     s = (m - 1.0) / (m + 1.0)
     z = s * s
     p = 0.15313837699209373 + z * 0.14798198605116586
@@ -102,6 +155,7 @@ def _log(x):
     return k * 6.93147180369123816490e-01 + (f - (half - r))
 
 
+@polynomial
 def _sin_cos(x):
     k = _round(x * 0.6366197723675814)
     r = x - k * 1.57079632673412561417e00
@@ -117,23 +171,28 @@ def _sin_cos(x):
     c = (1.0 - 0.5 * z) + z * z * c
     half = k * 0.5
     odd = half != _round(half)
-    quadrant = k - 4.0 * math.floor(k * 0.25)
-    sine, cosine = _pick(odd, c, s), _pick(odd, s, c)
-    sine = _pick(quadrant > 1.5, -sine, sine)
-    cosine = _pick((quadrant - 1.5) * (quadrant - 1.5) < 1.0, -cosine, cosine)
+    quadrant = k - 4.0 * floor(k * 0.25)
+    sine, cosine = select(odd, c, s), select(odd, s, c)
+    sine = select(quadrant > 1.5, -sine, sine)
+    cosine = select((quadrant - 1.5) * (quadrant - 1.5) < 1.0, -cosine, cosine)
     return sine, cosine
 
 
-def _sin(x):
+@polynomial
+def sin(x):
+    """sin x, |x| < 1e5 rad."""
     sine, _ = _sin_cos(x)
     return sine
 
 
-def _cos(x):
+@polynomial
+def cos(x):
+    """cos x, |x| < 1e5 rad."""
     _, cosine = _sin_cos(x)
     return cosine
 
 
+@polynomial
 def _atan_small(t):
     """|t| ≤ tan(π/8)."""
     z = t * t
@@ -146,37 +205,13 @@ def _atan_small(t):
     return t + t * z * p
 
 
-def _atan2(y, x):
+@polynomial
+def atan2(y, x):
+    """The angle of the point (x, y) in [−π, π]."""
     steep = abs(y) > abs(x)
-    n, d = _pick(steep, -x, y), _pick(steep, y, x)
-    side = _pick((n < 0.0) != (d < 0.0), -1.0, 1.0)
+    n, d = select(steep, -x, y), select(steep, y, x)
+    side = select((n < 0.0) != (d < 0.0), -1.0, 1.0)
     far = abs(n) > TAN_EIGHTH * abs(d)
-    small = _atan_small(_pick(far, n - side * d, n) / _pick(far, d + side * n, _pick(d == 0.0, 1.0, d)))
-    turn = _pick(steep, HALF_PI, _pick(x < 0.0, PI, 0.0))
-    return small + _pick(far, side * QUARTER_PI, 0.0) + _pick(y < 0.0, -turn, turn)
-
-
-def install_elementary() -> None:
-    """Register the functions of this file as the compiled forms of the elementary operations."""
-    for helper in (_pick, _round, _two_to, _exp_parts, _sin_cos, _atan_small):
-        _register(helper, helper)
-    compiled: dict[str, Callable[..., Any]] = {
-        "_sqrt": lambda x: math.sqrt(x),
-        "_sin": _sin,
-        "_cos": _cos,
-        "_atan2": _atan2,
-        "_tanh": _tanh,
-        "_exp": _exp,
-        "_log": _log,
-        "_absolute": lambda x: abs(x),
-        "_minimum": lambda a, b: a if a < b else b,
-        "_maximum": lambda a, b: a if a > b else b,
-        "_where": lambda condition, a, b: a if condition else b,
-    }
-    for operation in ops.PRIMITIVES:
-        _register(operation, compiled[operation.__name__])
-
-
-def _register(function: Callable[..., Any], implementation: Callable[..., Any]) -> None:
-    body = implementation if implementation.__name__ == "<lambda>" else fused(implementation)
-    overload(function, jit_options=INLINE, strict=False)(lambda *types: body)
+    small = _atan_small(select(far, n - side * d, n) / select(far, d + side * n, select(d == 0.0, 1.0, d)))
+    turn = select(steep, HALF_PI, select(x < 0.0, PI, 0.0))
+    return small + select(far, side * QUARTER_PI, 0.0) + select(y < 0.0, -turn, turn)

@@ -1,0 +1,448 @@
+"""The loop over the steps of a flight, written once: for one flight, for a block of them, and cut into parts.
+
+A step is cut where another has its say: a controller in Python, or a body in another engine. What a part leaves to the
+next waits in memory. What does not change within a flight is computed before its first step and waits there too.
+"""
+
+from __future__ import annotations
+
+from tandemlift.kernels.context import AT, POINTERS, Rooms
+from tandemlift.kernels.outside import GAUSSIAN, GUST, HALVES, SPAN
+from tandemlift.kernels.places import place, stretches_of
+from tandemlift.kernels.solving import write_limits, write_solver
+from tandemlift.kernels.traced import Symbols, Traced
+from tandemlift.laws.partner import LEG
+from tandemlift.laws.rectangle import WALL
+from tandemlift.trace import LEAVES, Function, Module, Symbol, double, flat, leaves
+
+NORMAL_LANES = 8  # of the loop that draws normal numbers for a flight alone
+MEMORY = "ptr noalias %c, ptr noalias %flying, ptr noalias %work"
+HANDED = "ptr %c, ptr %flying, ptr %work"
+UNIFORM = ("t", "dt", "when", "opens", "closes", "number")
+
+
+class Step:
+    """The functions of a flight's loop, for so many lanes."""
+
+    def __init__(self, traced: Traced, lanes: int) -> None:
+        self.traced, self.likes, self.graph, self.lanes = traced, traced.likes, traced.graph, lanes
+        self.module, self.rooms = Module(), Rooms()
+        self.width, self.draws = leaves(self.likes.given.hand.start), 0
+        self.moving = leaves(self.likes.flying.moving)
+        self.lines = stretches_of(self.likes.flying)
+        g, roots = self.graph, [s.node for s in self.everything]
+        self.blows = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
+        self._take_rooms()
+
+    @property
+    def everything(self) -> Symbols:
+        """All that a step gives."""
+        x = self.traced
+        return [*x.moving, *x.sample, *x.low, *x.high, *self._limits(), *x.asked, *x.body.acting, *x.body.push]
+
+    def _take_rooms(self) -> None:
+        x, take = self.likes, self.rooms.take
+        self.hands = take("hands", HALVES * self.width)
+        self.draws = len(self.traced.normals)
+        self.noise = take("noise", 4 * self.draws * (SPAN if self.lanes == 1 else 1))
+        self.gust = take("gust", 3)
+        self.asked, self.answer = take("asked", len(self.traced.asked)), take("answer", 4 + 3)
+        self.acting = take("acting", len(self.traced.body.acting))
+        self.push, self.moved = take("push", 6), take("moved", leaves(x.moved))
+        needs = self.traced.limits
+        self.solving = take("solving", len(needs.problem) + len(needs.held) + 3 if needs else 0)
+        self.sample = take("sample", leaves(x.sample) if self.lanes > 1 else 0)
+        self.low = take("low", 1)
+
+    # the functions
+
+    def function(self, name: str, more: str = "", result: str = "void", lanes: int = 0) -> Function:
+        """An inner function: handed the context %c, the flight, the scratch memory, and more."""
+        head = f"internal {result} @{name}({MEMORY}{more}) #1"
+        f = Function(self.module, self.graph, lanes or self.lanes, head, UNIFORM)
+        f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
+        f.read = {"fly": lambda i: f.load("%flying", i), "dt": lambda i: "%dt"}
+        return f
+
+    def export(self, name: str) -> None:
+        """A function for Python, handed the context alone, that calls the inner one of that name."""
+        f = Function(self.module, self.graph, self.lanes, f"i64 @{name}(ptr %c) #0")
+        given = [f"ptr {self.word(f, word)}" for word in ("flying", "work")]
+        f.end("i64 " + f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})"))
+
+    def call(self, f: Function, name: str, *more: str) -> None:
+        """Call another inner function."""
+        f.do(f"call void @{name}({', '.join([HANDED, *more])})")
+
+    def word(self, f: Function, name: str) -> str:
+        """A word of the context."""
+        return f.load("%c", AT[name], "ptr" if name in POINTERS else "i64")
+
+    def write_feel(self) -> None:
+        """The sum of all pushes at the half steps of the span that holds step k."""
+        f, width = self.function("feel", ", i64 %k"), self.width
+        first = f.whole("and", "%k", -SPAN)
+        with f.repeat(HALVES * width) as i:
+            f.store(f.zero, "%work", f.whole("add", i, self.hands))
+        opens, closes = self.time(f, first), self.time(f, f.whole("add", first, SPAN))
+        half, twice = f.op(f"fmul double %dt, {double(0.5)}"), f.whole("mul", first, 2)
+        pushes, count = self.word(f, "pushes"), self.word(f, "push_count")
+        with f.repeat(count) as i:
+            row = f.at(pushes, f.whole("mul", i, leaves(GAUSSIAN)))
+            f.read |= {"push": lambda m: f.load(row, m), "opens": lambda m: opens, "closes": lambda m: closes}
+            with f.when(f.any(f.value(self.traced.pressed))), f.repeat(HALVES) as j:
+                number = f.op(f"sitofp i64 {f.whole('add', twice, j)} to double")
+                when = f.op(f"fmul double {number}, {half}")
+                f.read["when"] = lambda m: when
+                self.add(f, f.whole("add", f.whole("mul", j, width), self.hands), self.traced.push)
+        f.end()
+
+    def write_gust(self) -> None:
+        """The velocity of all gusts at the time of a step."""
+        f = self.function("blow", ", double %t")
+        f.read["t"] = lambda m: "%t"
+        for m in range(3):
+            f.store(f.zero, "%work", self.gust + m)
+        gusts, count = self.word(f, "gusts"), self.word(f, "gust_count")
+        with f.repeat(count) as i:
+            row = f.at(gusts, f.whole("mul", i, leaves(GUST)))
+            f.read["gusts"] = lambda m: f.load(row, m)
+            self.add(f, self.gust, self.traced.gust)
+        f.end()
+
+    def add(self, f: Function, at: str | int, more: Symbols) -> None:
+        """Add values to those in scratch memory."""
+        place = f.at("%work", at)
+        for m, value in enumerate(f.values(more)):
+            f.store(f.op(f"fadd {f.vector} {f.load(place, m)}, {value}"), place, m)
+
+    def write_draw(self) -> None:
+        """Standard normals of a step of every lane; of a flight alone, of the span that holds step k."""
+        lanes = self.lanes if self.lanes > 1 else NORMAL_LANES
+        uniform = ("number",) if self.lanes > 1 else ("key",)
+        f = Function(self.module, self.graph, lanes, f"internal void @draw({MEMORY}, i64 %k) #1", uniform)
+        keys = self.word(f, "keys")
+        if self.lanes > 1:
+            f.read = {"number": lambda m: "%k", "key": lambda m: f.load(keys, m)}
+            for m, value in enumerate(v for four in self.traced.normals for v in f.values(four)):
+                f.store(value, "%work", self.noise + m)
+            f.end()
+            return
+        first = f.whole("and", "%k", -SPAN)
+        ramp = "<" + ", ".join(f"i64 {j}" for j in range(lanes)) + ">"
+        f.read = {"key": lambda m: f.load(keys, m, "double")}
+        with f.repeat(SPAN // lanes) as j:
+            base = f.spread(f.whole("add", first, f.whole("mul", j, lanes)), "i64")
+            numbers = f.op(f"add <{lanes} x i64> {base}, {ramp}")
+            f.read["number"] = lambda m: numbers
+            for m, value in enumerate(v for four in self.traced.normals for v in f.values(four)):
+                at = f.whole("add", f.whole("mul", j, lanes), self.noise + m * SPAN)
+                f.store(value, f.at("%work", at, "double"))
+        f.end()
+
+    def write_surroundings(self) -> None:
+        """What is looked at once in a span: the floor, the nearest walls, the leg that a person is on."""
+        x, f = self.likes, self.function("look")
+        if x.grounded:
+            low = f.any(f.value(self.traced.touch))
+            f.store(f.op(f"uitofp i1 {low} to double"), "%work", self.low * self.lanes, "double")
+        if x.walled:
+            at = place(x.flying, "moving", "near").at
+            for i, number in enumerate(flat(x.nowhere)):
+                f.store(f.spread(double(number)), "%flying", at + i)
+            walls, count = self.word(f, "walls"), self.word(f, "wall_count")
+            with f.repeat(count) as i:
+                row = f.at(walls, f.whole("mul", i, leaves(WALL)))
+                f.read["wall"] = lambda m: f.load(row, m)
+                f.read["fly"] = lambda m: f.load("%flying", m)
+                with f.afresh():
+                    for m, value in enumerate(f.values(self.traced.near)):
+                        f.store(value, "%flying", at + m)
+        if x.accompanied:
+            self._find_legs(f)
+        f.end()
+
+    def _find_legs(self, f: Function) -> None:
+        flying, lanes = self.likes.flying, self.lanes
+        index, leg = place(flying, "moving", "partner", "index").at, place(flying, "moving", "partner", "leg").at
+        legs, last = self.word(f, "legs"), f.whole("sub", self.word(f, "leg_count"), 1)
+        for lane in range(lanes):
+            number = f.load("%flying", index * lanes + lane, "double")
+            i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
+            i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
+            i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
+            row = f.at(legs, f.whole("mul", i, leaves(LEG)))
+            for m in range(leaves(LEG)):
+                f.store(f.load(row, m * lanes + lane, "double"), "%flying", (leg + m) * lanes + lane, "double")
+
+    def time(self, f: Function, k: str) -> str:
+        """The time of step k."""
+        number = f.op(f"sitofp i64 {k} to double")
+        return f.op(f"fmul double {number}, %dt")
+
+    # a step
+
+    def begin(self, f: Function, k: str) -> None:
+        """What a step is given from outside, and how its inputs are read from then on."""
+        x, lanes = self.likes, self.lanes
+        in_span = f.whole("and", k, SPAN - 1)
+        with f.when(f.op(f"icmp eq i64 {in_span}, 0")):
+            self.call(f, "feel", f"i64 {k}")
+            if self.draws and lanes == 1:
+                self.call(f, "draw", f"i64 {k}")
+            if x.grounded or x.walled or x.accompanied:
+                self.call(f, "look")
+        self.reading(f, k)
+        if self.draws and lanes > 1:
+            self.call(f, "draw", f"i64 {k}")
+        if self.blows:
+            self.call(f, "blow", f"double {f.read['t'](0)}")
+
+    def reading(self, f: Function, k: str) -> None:
+        """How the inputs of step k are read."""
+        in_span = f.whole("and", k, SPAN - 1)
+        t = self.time(f, k)
+        hand = f.at("%work", f.whole("add", f.whole("mul", in_span, 2 * self.width), self.hands))
+        noise = f.at("%work", f.whole("add", in_span, self.noise)) if self.lanes == 1 else f.at("%work", self.noise)
+        pace = SPAN if self.lanes == 1 else 1
+        f.read |= {
+            "t": lambda i: t,
+            "hand": lambda i: f.load(hand, i),
+            "noise": lambda i: f.load(noise, i * pace),
+            "gust": lambda i: f.load("%work", self.gust + i),
+            "answer": lambda i: f.load("%work", self.answer + i),
+            "moved": lambda i: f.load("%work", self.moved + i),
+            "solved": lambda i: f.load("%work", self.solved + i),
+        }
+
+    @property
+    def solved(self) -> int:
+        """Where the answer of the solver of limits stands."""
+        needs = self.traced.limits
+        return self.solving + (len(needs.problem) if needs else 0)
+
+    def limit(self, f: Function) -> None:
+        """Let the solver find thrusts within limits for the lanes that left theirs."""
+        needs = self.traced.limits
+        if needs is None:
+            return
+        write_limits(f, needs, self.solving)
+
+    def swing(self, f: Function) -> None:
+        """Move the body over the step."""
+        if not self.likes.grounded:
+            self.keep(f, self.moved, self.traced.low)
+            return
+        low = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
+        near, far, done = f.fresh("near"), f.fresh("far"), f.fresh("done")
+        f.do(f"br i1 {low}, label %{near}, label %{far}")
+        for name, values in ((near, self.traced.low), (far, self.traced.high)):
+            f.lines.append(f"{name}:")
+            with f.scope():
+                self.keep(f, self.moved, values)
+            f.do(f"br label %{done}")
+        f.lines.append(f"{done}:")
+
+    def keep(self, f: Function, at: int, values: Symbols) -> None:
+        """Write values to scratch memory."""
+        for m, value in enumerate(f.values(values)):
+            f.store(value, "%work", at + m)
+
+    def show(self, f: Function, k: str) -> None:
+        """Write the step's sample where it is logged, and where the last one goes."""
+        every, steps = self.word(f, "every"), self.word(f, "steps")
+        past = f.whole("sub", k, self.word(f, "since"))
+        row = f.whole("sdiv", past, every)
+        logged = f.op(f"icmp eq i64 {f.whole('mul', row, every)}, {past}")
+        final = f.op(f"icmp eq i64 {k}, {steps}")
+        with f.when(f.op(f"or i1 {logged}, {final}")):
+            if self.lanes == 1:
+                self._show_one(f, row, logged, final)
+            else:
+                self._show_lanes(f, row, logged)
+
+    def _show_one(self, f: Function, row: str, logged: str, final: str) -> None:
+        values = f.values(self.traced.sample)
+        for condition, name, index in ((logged, "log", row), (final, "last", "0")):
+            with f.when(condition):
+                base = f.at(self.word(f, name), f.whole("mul", index, len(values)))
+                for m, value in enumerate(values):
+                    f.store(value, base, m)
+
+    def _show_lanes(self, f: Function, row: str, logged: str) -> None:
+        columns = len(self.traced.sample)
+        self.keep(f, self.sample, self.traced.sample)
+        with f.when(logged):
+            log, stride = self.word(f, "log"), self.word(f, "stride")
+            with f.repeat(self.lanes) as lane:
+                to = f.whole("add", f.whole("mul", lane, stride), f.whole("mul", row, columns))
+                with f.repeat(columns) as m:
+                    at = f.whole("add", f.whole("mul", f.whole("add", m, self.sample), self.lanes), lane)
+                    f.store(f.load("%work", at, "double"), log, f.whole("add", to, m), "double")
+
+    def go_on(self, f: Function, k: str) -> None:
+        """Let the flight be what it is after the step."""
+        g = self.graph
+        for i, (symbol, value) in enumerate(zip(self.traced.moving, f.values(self.traced.moving), strict=True)):
+            if not (g.ops[symbol.node] == "in" and g.args[symbol.node] == ("fly", i)):
+                f.store(value, "%flying", i)
+        if self.likes.late:
+            self._delay(f, k)
+
+    def _delay(self, f: Function, k: str) -> None:
+        """Put what is delayed into a row of the line, and what arrives for the next step in its place."""
+        ring, delays = self.word(f, "ring"), self.word(f, "delays")
+        mask = f.whole("sub", self.word(f, "rings"), 1)
+        into = f.at(ring, f.whole("mul", f.whole("and", k, mask), self.lines.size))
+        column = 0
+        for j, (at, size) in enumerate(self.lines):
+            if not size:
+                continue
+            arrives = f.whole("add", k, 1) if j == 2 else k  # a command without delay acts at once
+            out = f.whole("and", f.whole("sub", arrives, f.load(delays, j, "i64")), mask)
+            for m in range(size):
+                f.store(f.load("%flying", at + m), into, column + m)
+            since = f.at(ring, f.whole("mul", out, self.lines.size))
+            for m in range(size):
+                f.store(f.load(since, column + m), "%flying", at + m)
+            column += size
+
+    # loops
+
+    def write_outside(self) -> None:
+        """The functions of what a step is given from outside."""
+        self.write_feel()
+        if self.draws:
+            self.write_draw()
+        if self.blows:
+            self.write_gust()
+        if self.likes.grounded or self.likes.walled or self.likes.accompanied:
+            self.write_surroundings()
+        if self.traced.limits:
+            write_solver(self.module, self.traced.limits.solver, self.lanes)
+
+    def write_loop(self) -> str:
+        """`fly`: steps k to stop − 1, fewer where a flight alone is no longer sound; it gives the step reached."""
+        self.write_outside()
+        f = self.function("fly_", result="i64")
+        begin, stop, steps = self.word(f, "k"), self.word(f, "stop"), self.word(f, "steps")
+        self.settle(f, begin, [*self.traced.moving, *self.traced.sample, *self._swings(), *self._limits()])
+        f.label("first")
+        f.label("loop")
+        f.lines.append(f"  %k = phi i64 [ {begin}, %first ], [ %next, %ahead ]")
+        f.do(f"br i1 {f.op(f'icmp slt i64 %k, {stop}')}, label %sound, label %over")
+        f.lines.append("sound:")
+        if self.lanes == 1:
+            lost = f.load("%flying", place(self.likes.flying, "moving", "lost").at)
+            f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
+            f.lines.append("step:")
+        self.begin(f, "%k")
+        self.limit(f)
+        self.swing(f)
+        self.show(f, "%k")
+        ends = "over" if self.lanes == 1 else "ahead"
+        f.do(f"br i1 {f.op(f'icmp eq i64 %k, {steps}')}, label %{ends}, label %on")
+        f.lines.append("on:")
+        self.go_on(f, "%k")
+        f.label("ahead")
+        f.lines.append("  %next = add i64 %k, 1")
+        f.do("br label %loop")
+        f.lines.append("over:")
+        f.end("i64 %k")
+        self.export("fly")
+        return self.module.text
+
+    def write_parts(self, leaves_body: bool) -> str:
+        """Step k in parts: `ask` until a controller answers, `decide` until a body has moved, `complete` to its end."""
+        self.write_outside()
+        x = self.traced
+        parts = ["ask"] * x.asks + ["decide"] * leaves_body + ["complete"]
+        ends = [*x.moving, *x.sample, *([] if leaves_body else self._swings())]
+        acts = [*self._limits(), *([*x.body.acting, *x.body.push] if leaves_body else [])]
+        if not leaves_body:
+            ends, acts = [*ends, *acts], []
+        later = {"ask": [*acts, *ends], "decide": ends, "complete": []}
+        waiting: dict[int, int] = {}
+        for part in parts:
+            f = self.function(f"{part}_", result="i64")
+            k = self.word(f, "k")
+            if part == parts[0]:
+                waiting = self.settle(f, k, [*x.asked, *acts, *ends])
+                self.begin(f, k)
+            else:
+                self.find(f, waiting)
+                self.reading(f, k)
+            if part == "ask":
+                self.keep(f, self.asked, x.asked)
+            elif part == "decide":
+                self.limit(f)
+                self.keep(f, self.acting, x.body.acting)
+                self.keep(f, self.push, x.body.push)
+            else:
+                self._complete(f, k, leaves_body)
+            waiting |= self._hand_on(f, later[part], waiting)
+            f.end("i64 0")
+            self.export(part)
+        return self.module.text
+
+    def _complete(self, f: Function, k: str, leaves_body: bool) -> None:
+        if not leaves_body:
+            self.limit(f)
+            self.swing(f)
+        self.show(f, k)
+        with f.when(f.op(f"icmp ne i64 {k}, {self.word(f, 'steps')}")):
+            self.go_on(f, k)
+
+    def _hand_on(self, f: Function, later: Symbols, waiting: dict[int, int]) -> dict[int, int]:
+        """Leave in memory what the later parts of a step need of what is known now: where each node waits."""
+        g, roots = self.graph, [s.node for s in later]
+        known = {n for n in f.known() if g.types[n] == "f" and g.ops[n] not in LEAVES} | waiting.keys()
+        wanted = {a for n in g.needed(roots, known) if g.ops[n] not in LEAVES for a in g.args[n]}
+        nodes = sorted((wanted.union(roots) & known) - waiting.keys())
+        return self.leave(f, nodes, f"handed_on_{len(waiting)}")
+
+    def _swings(self) -> Symbols:
+        return [*self.traced.low, *self.traced.high]
+
+    def _limits(self) -> Symbols:
+        needs = self.traced.limits
+        return [needs.excess, *needs.problem, *needs.held, *needs.wished] if needs else []
+
+    def settle(self, f: Function, k: str, roots: Symbols) -> dict[int, int]:
+        """Where a flight begins or has changed: the tables for step k, and what will not change. Where that waits."""
+        nodes = self.steady(roots)
+        f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))
+        fresh = f.op(f"icmp ne i64 {self.word(f, 'fresh')}, 0")
+        with f.when(fresh):
+            self.call(f, "feel", f"i64 {k}")
+            if self.draws and self.lanes == 1:
+                self.call(f, "draw", f"i64 {k}")
+            f.store(double(1.0), "%work", self.low * self.lanes, "double")
+            waiting = self.leave(f, [n for n in nodes if not f.is_uniform(n)], "steady")
+        self.find(f, waiting)
+        return waiting
+
+    def leave(self, f: Function, nodes: list[int], name: str) -> dict[int, int]:
+        """Let nodes wait in scratch memory: where each does."""
+        at = self.rooms.take(name, len(nodes))
+        self.keep(f, at, [Symbol(self.graph, n, "f") for n in nodes])
+        return {node: at + m for m, node in enumerate(nodes)}
+
+    def find(self, f: Function, waiting: dict[int, int]) -> None:
+        """Let a function find nodes where they wait."""
+        for node, at in waiting.items():
+            f.kept[node] = lambda at=at: f.load("%work", at)
+
+    def steady(self, roots: Symbols) -> list[int]:
+        """The nodes that steps need and that depend on what does not change within a flight."""
+        g, moving = self.graph, self.moving
+        steady, wanted = [False] * len(g.ops), set[int]()
+        for node in g.needed([s.node for s in roots]):
+            op, args = g.ops[node], g.args[node]
+            if op == "in":
+                steady[node] = args[0] == "dt" or (args[0] == "fly" and args[1] >= moving)
+            else:
+                steady[node] = op == "const" or all(steady[a] for a in args)
+            if not steady[node] and op not in LEAVES:
+                wanted.update(args)
+        return sorted(n for n in wanted if steady[n] and g.ops[n] not in LEAVES and g.types[n] == "f")

@@ -1,0 +1,199 @@
+"""A step of a flight, traced: every number that it gives, as a symbol of what it is given.
+
+Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
+`solved` by the allocation within limits; `moved`, the body after the step. Of what is formed ahead: `push` and `gusts`
+(a row of a table), `wall`, `when`, `number`, `key`.
+"""
+
+from __future__ import annotations
+
+import itertools
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from tandemlift.engines.compiled import aloft
+from tandemlift.kernels.likes import COMMAND, Likes
+from tandemlift.kernels.outside import GAUSSIAN, GUST, SPAN, active, draws
+from tandemlift.laws.allocation import Working, beyond, commanded, limits_at
+from tandemlift.laws.contact import may_touch
+from tandemlift.laws.detection import left_of, with_trials
+from tandemlift.laws.limits import Bounded, Search, begun, searched
+from tandemlift.laws.push import moment_of, push_of
+from tandemlift.laws.random import normals
+from tandemlift.laws.rectangle import WALL
+from tandemlift.laws.walls import consider
+from tandemlift.laws.wind import gust_velocity
+from tandemlift.loop import Inputs, Thought, act, joined, observe, perceive, swing, think
+from tandemlift.pilot import brief, conclude, with_allocation, with_thrusts
+from tandemlift.trace import Graph, Symbol, TraceError, leaves, rebuilt, symbols, traced
+from tandemlift.vector import ZERO, layout, total
+
+Symbols = list[Symbol]
+
+
+class Solver:
+    """A step of the solver of limits, traced: inputs `problem`, and `search` as it goes on."""
+
+    def __init__(self, bounded: Bounded) -> None:
+        self.graph, wished = Graph(), bounded.unlimited
+        self.rotors, self.problem_size = len(wished), leaves(bounded)
+        problem = rebuilt((self.graph.input("problem", i) for i in itertools.count()), bounded)
+        state = (self.graph.input("search", i) for i in itertools.count())
+        working = rebuilt(state, Working(wished, wished))
+        self.begun = symbols(self.graph, begun(problem.limits, working))
+        self.after = symbols(self.graph, searched(problem, Search(working, *itertools.islice(state, 3))))
+
+
+class Limits(NamedTuple):
+    """Thrusts within limits: what is solved for, where to start, and by how much thrusts leave their limits."""
+
+    excess: Symbol
+    problem: Symbols
+    held: Symbols
+    wished: Symbols
+    solver: Solver
+
+
+class Body(NamedTuple):
+    """What another engine's body is given: thrusts and the air's loads stand among the values of `acting`."""
+
+    acting: Symbols
+    push: Symbols
+
+
+def changed_layout(before: Any, after: Any, path: str = "") -> str:
+    """Which part of a flight is laid out otherwise after a step than before it."""
+    if type(before) is type(after) and hasattr(before, "_fields"):
+        for name, a, b in zip(before._fields, before, after, strict=True):
+            if layout(a) != layout(b):
+                return changed_layout(a, b, f"{path}.{name}" if path else name)
+    kinds = [type(x).__name__ if hasattr(x, "_fields") else "a number" for x in (before, after)]
+    return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law returns what it was given"
+
+
+class Traced:
+    """The graph of a step of flights like `likes`.
+
+    Args:
+        likes: the layouts of what passes through a step.
+        asks: whether a controller in Python is asked in the middle of the step.
+    """
+
+    def __init__(self, likes: Likes, asks: bool = False) -> None:
+        self.likes, self.asks, self.graph = likes, asks, Graph()
+        self.flying = self.given_by("fly", likes.flying)
+        self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
+        outer = Inputs(
+            self.given_by("hand", likes.given.hand),
+            self.given_by("gust", ZERO),
+            self.given_by("noise", likes.given.noise),
+            self.flying.moving.partner,
+        )
+        self.given = traced(joined)(self.flying, outer, self.t, self.dt)
+        self.asked: Symbols = []
+        thought = self._asking() if asks else traced(think)(self.flying, self.given.hand.start, self.t, self.dt)
+        self.limits: Limits | None = None
+        if likes.constrained:
+            thought = self._limited(thought)
+        self.thought = thought
+        acting = traced(act)(self.flying, thought.decision.thrusts, self.given, self.t)
+        self.body = Body(self.all(acting), self._mean_push())
+        low = self._swung(self.flying.plant, acting)
+        self.low, self.high = self.all(low), list[Symbol]()
+        if likes.grounded:
+            self.high = self.all(self._swung(traced(aloft)(self.flying.plant), acting))
+        moved = self.given_by("moved", likes.moved)
+        moving, sample = traced(observe)(self.flying, thought, acting, moved, self.given)
+        if layout(moving) != layout(likes.flying.moving):
+            raise TraceError(changed_layout(likes.flying.moving, moving))
+        self.moving, self.sample = self.all(moving), self.all(sample)
+
+    def given_by(self, kind: str, like: Any) -> Any:
+        """A nested value whose numbers are inputs of a kind."""
+        return rebuilt((self.graph.input(kind, i) for i in itertools.count()), like)
+
+    def all(self, value: Any) -> Symbols:
+        """The numbers of a nested value."""
+        return symbols(self.graph, value)
+
+    def _asking(self) -> Thought:
+        f, push, t, dt = self.flying, self.given.hand.start, self.t, self.dt
+        known, heard, estimator = traced(perceive)(f, push, t, dt)
+        memory = f.moving.memory
+        briefed = traced(brief)(f.pilot, memory, heard, t, dt)
+        self.asked = [*self.all(briefed.measured), *self.all(briefed.guidance.reference)]
+        command = self.given_by("answer", COMMAND)
+        decision, memory = traced(conclude)(f.pilot, memory, briefed, command, memory.controller)
+        return Thought(known, heard.state.attitude, decision, memory, estimator)
+
+    def _limited(self, thought: Thought) -> Thought:
+        self.limits, decision, memory = limited(self, self.flying.pilot, self.flying.moving.memory, thought, self.t)
+        return Thought(thought.known, thought.believed, decision, memory, thought.estimator)
+
+    def _swung(self, plant: Any, acting: Any) -> Any:
+        return traced(swing)(plant, self.flying.moving, acting, self.given.hand, self.dt)
+
+    def _mean_push(self) -> Symbols:
+        hand, attitude = self.given.hand, self.flying.moving.state.attitude
+        mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
+        return [*self.all(mean.force), *self.all(traced(moment_of)(mean, attitude))]
+
+    # what is formed ahead of the step, or beside it
+
+    @property
+    def when(self) -> Symbol:
+        """The time at which a push is evaluated."""
+        return self.graph.input("when")
+
+    @cached_property
+    def push(self) -> Symbols:
+        """A row of the table of pushes at the time `when`."""
+        return self.all(traced(push_of)(self.likes.given.hand.start, self.given_by("push", GAUSSIAN), self.when))
+
+    @cached_property
+    def pressed(self) -> Symbol:
+        """Whether that push is other than zero between the times `opens` and `closes`."""
+        return active(self.given_by("push", GAUSSIAN), self.graph.input("opens"), self.graph.input("closes"))
+
+    @cached_property
+    def gust(self) -> Symbols:
+        """The velocity of a row of the table of gusts."""
+        return self.all(traced(gust_velocity)(self.given_by("gusts", GUST), self.t))
+
+    @cached_property
+    def normals(self) -> list[Symbols]:
+        """The standard normals of step `number`, four for each draw."""
+        number, keys = self.graph.input("number", type="i"), [self.graph.input("key", i) for i in (0, 1)]
+        return [self.all(traced(normals)(number, i, *keys)) for i in range(draws(self.likes.given.noise))]
+
+    @cached_property
+    def near(self) -> Symbols:
+        """The nearest walls once a row of the table of walls was looked at."""
+        f, wall = self.flying, self.given_by("wall", WALL)
+        return self.all(traced(consider)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))
+
+    @cached_property
+    def touch(self) -> Symbol:
+        """Whether a foot may touch the floor within the steps of a span."""
+        return traced(may_touch)(self.flying.plant.floor, self.flying.moving.state, self.dt * float(SPAN))
+
+
+def limited(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
+    """(`Limits`, a decision within them, the memory after it); `held`: the pilot's memory before.
+
+    Args:
+        owner: of the graph; gives symbols of a kind by `given_by`, and those of a value by `all`.
+        pilot: its parameters.
+        held: its memory before.
+        thought: with its decision and its memory after it, without limits.
+        t: time [s].
+    """
+    how, decision = pilot.allocation, thought.decision
+    wished = decision.thrusts
+    limits = traced(limits_at)(how, traced(left_of)(pilot.detection, held.detection), t)
+    excess = traced(total)(traced(beyond)(wished, limits))
+    problem = Bounded(how.rows, how.weights, decision.command.wrench, wished, limits)
+    needs = Limits(excess, owner.all(problem), owner.all(held.allocation), owner.all(wished), Solver(problem))
+    solved = owner.given_by("solved", Working(wished, wished))
+    commands = traced(with_trials)(pilot.detection, held.detection, traced(commanded)(how, solved.thrusts, t), t)
+    return needs, traced(with_thrusts)(decision, commands), traced(with_allocation)(thought.memory, solved)

@@ -1,0 +1,29 @@
+"""What compiles the laws: a graph of what they compute, traced from their source, and machine code made of it.
+
+`graph` holds symbols and the graph that they build, `fused` what is traced in place of a law, `elementary` the
+functions that machine code has no instruction for, `layout` nested values in flat arrays, `llvm` the graph as text,
+`machine` the text as code, `code` machine code in two tiers, `store` what is kept on disk.
+"""
+
+from tandemlift.trace.fused import traced
+from tandemlift.trace.graph import LEAVES, Graph, Symbol, TraceError, symbols
+from tandemlift.trace.layout import flat, is_value, leaves, rebuilt, unflat, zeroed
+from tandemlift.trace.llvm import Function, Module, double
+
+__all__ = [
+    "LEAVES",
+    "Function",
+    "Graph",
+    "Module",
+    "Symbol",
+    "TraceError",
+    "double",
+    "flat",
+    "is_value",
+    "leaves",
+    "rebuilt",
+    "symbols",
+    "traced",
+    "unflat",
+    "zeroed",
+]

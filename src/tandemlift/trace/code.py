@@ -1,0 +1,106 @@
+"""Machine code in two tiers: unoptimised code is there in a moment, optimised code takes its place with the same bits.
+
+What was compiled before comes from disk. Optimised code is made beside, in a process of its own, once flights have
+spent so long in the other that it pays.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+import time
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+from tandemlift.trace import machine, store
+from tandemlift.trace.optimising import optimised_beside
+
+PAYS = 2.0  # times what unoptimised code took to make: a third or so of what optimised code takes
+HELD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # keeps Python's lock: for calls of microseconds
+FREE = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # gives it up: for calls that take long
+
+
+class Written(NamedTuple):
+    """A module as text, and what must be known to call its functions."""
+
+    text: str
+    about: dict[str, Any]
+
+
+class Code:
+    """The functions of a module, called with the address of a context; each gives an integer.
+
+    Args:
+        key: of everything that decides it (`trace.key`).
+        names: of its functions.
+        write: gives the module as text; asked only if no code is on disk.
+
+    Attributes:
+        about: what must be known to call the functions.
+        is_best: whether the optimised code is in place.
+    """
+
+    def __init__(self, key: str, names: Iterable[str], write: Callable[[], Written]) -> None:
+        self._key, self._names, self._write = key, tuple(names), write
+        self._lock, self._making, self._spent = threading.Lock(), False, 0.0
+        self._written: Written | None = None
+        self.held, self.free = dict[str, Any](), dict[str, Any]()
+        found = store.read(f"{key}-best")
+        self.is_best = found is not None
+        entry = found or store.read(f"{key}-quick") or self._quick()
+        self.about = entry.about
+        self._take(entry.code)
+
+    def _text(self) -> Written:
+        if self._written is None:
+            self._written = self._write()
+        return self._written
+
+    def _quick(self) -> store.Entry:
+        began = time.perf_counter()
+        written = self._text()
+        code = machine.compiled(written.text, machine.QUICK)
+        entry = store.Entry({**written.about, "seconds": time.perf_counter() - began}, code)
+        store.write(f"{self._key}-quick", entry)
+        return entry
+
+    def _take(self, code: bytes) -> None:
+        self._loaded = machine.Loaded(code, self._names)
+        for name, address in self._loaded.addresses.items():
+            self.held[name], self.free[name] = HELD(address), FREE(address)
+
+    def called(self, name: str, context: int) -> Callable[[], int]:
+        """A function that calls one of the functions with a context, always the best code that there is."""
+        held, address = self.held, ctypes.c_void_p(context)
+        return lambda: held[name](address)
+
+    def spent(self, seconds: float) -> None:
+        """Tell of time spent in this code: optimised code is made once it pays."""
+        if self.is_best:
+            return
+        with self._lock:
+            self._spent += seconds
+        if self._spent > PAYS * self.about["seconds"]:
+            self.optimise()
+
+    def optimise(self) -> threading.Thread | None:
+        """Make optimised code beside, in a process of its own; the thread that waits for it, if there is one."""
+        with self._lock:
+            if self.is_best or self._making:
+                return None
+            self._making = True
+        thread = threading.Thread(target=self._improve, name="optimising", daemon=True)
+        thread.start()
+        return thread
+
+    def _improve(self) -> None:
+        found = store.read(f"{self._key}-best")
+        code = found.code if found else optimised_beside(self._text().text)
+        if code is None:
+            return  # what there is flies on
+        before = self._loaded  # a call may still be in it
+        self._take(code)
+        self._kept, self.is_best = before, True
+        self._written = None
+        if found is None:
+            store.write(f"{self._key}-best", store.Entry(self.about, code))

@@ -1,0 +1,61 @@
+"""Any function of values as machine code over rows of numbers: for tests, benchmarks and studies of laws alone."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.trace import machine
+from tandemlift.trace.fused import traced
+from tandemlift.trace.graph import Graph, symbols
+from tandemlift.trace.layout import leaves, rebuilt
+from tandemlift.trace.llvm import Function, Module
+
+Array = NDArray[np.float64]
+
+
+def compiled(
+    function: Callable[..., Any], *likes: Any, lanes: int = 1, level: machine.Level = machine.BEST
+) -> Callable[[Array], Array]:
+    """Machine code of a function of values.
+
+    Args:
+        function: a law, or any function of values that can be traced; a law is fused as in a flight.
+        likes: a value laid out like each of its arguments (a number for a number).
+        lanes: rows that one instruction serves, 1 or a power of two.
+        level: how much is done for the speed of the code.
+
+    Returns:
+        A function from (rows, numbers of all arguments) to (rows, numbers of what it returns), depth first; a number of
+        rows that is no multiple of the lanes is filled up with the last one.
+
+    Raises:
+        TraceError: the function cannot be traced.
+    """
+    graph, inputs = Graph(), itertools.count()
+    arguments = [rebuilt((graph.input("x", i) for i in inputs), like) for like in likes]
+    found = symbols(graph, traced(function)(*arguments))
+    width, height = sum(map(leaves, likes)), len(found)
+    module = Module()
+    f = Function(module, graph, lanes, "i64 @rows(ptr %x, ptr %y, i64 %count) #0")
+    with f.repeat("%count") as row:
+        x, y = f.at("%x", f.whole("mul", row, width)), f.at("%y", f.whole("mul", row, height))
+        f.read["x"] = lambda i: f.load(x, i)
+        for m, value in enumerate(f.values(found)):
+            f.store(value, y, m)
+    f.end("i64 0")
+    code = machine.Loaded(machine.compiled(module.text, level), ["rows"])
+
+    def call(rows: Array) -> Array:
+        blocks = -(-len(rows) // lanes)
+        filled = np.concatenate([rows, np.repeat(rows[-1:], blocks * lanes - len(rows), axis=0)])
+        x = np.ascontiguousarray(filled.reshape(blocks, lanes, width).swapaxes(1, 2))
+        y = np.empty((blocks, height, lanes))
+        machine.ROWS(code.addresses["rows"])(x.ctypes.data, y.ctypes.data, blocks)
+        return y.swapaxes(1, 2).reshape(blocks * lanes, height)[: len(rows)]
+
+    return call

@@ -1,0 +1,131 @@
+"""The copy of a law that is traced: a·b + c in its source becomes one fused operation, wherever it is run.
+
+A compiler may contract a product and a sum as it likes, differently for one flight and for a block of flights. Here the
+choice is made once, in the source of the law, so that all machine code rounds alike. Plain Python keeps the unfused
+source. A law whose source cannot be read, or that stands inside another function, is traced as it is, unfused.
+"""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import functools
+import threading
+import types
+from collections.abc import Callable, Iterator
+from typing import Any, TypeGuard
+
+from tandemlift.law import LAWS, Choice, Elementwise
+from tandemlift.ops import PRIMITIVES
+from tandemlift.trace.graph import fma
+
+FMA = "_fma_"
+ONE_AT_A_TIME = threading.RLock()
+
+
+class _Fuse(ast.NodeTransformer):
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        self.generic_visit(node)
+        if not isinstance(node.op, (ast.Add, ast.Sub)):
+            return node
+        plus = isinstance(node.op, ast.Add)
+        left, right = node.left, node.right
+        if _is_product(left):
+            arguments = [left.left, left.right, right if plus else _negated(right)]
+        elif _is_product(right):
+            arguments = [right.left if plus else _negated(right.left), right.right, left]
+        else:
+            return node
+        return ast.copy_location(ast.Call(ast.Name(FMA, ast.Load()), arguments, []), node)
+
+
+def _is_product(node: ast.AST) -> TypeGuard[ast.BinOp]:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult)
+
+
+def _negated(node: ast.expr) -> ast.expr:
+    return ast.UnaryOp(ast.USub(), node)
+
+
+@functools.cache
+def _definitions(path: str) -> dict[tuple[str, int], ast.FunctionDef]:
+    """The functions of a source file by name and first line, decorators included."""
+    with open(path, encoding="utf-8") as file:
+        tree = ast.parse(file.read())
+    found = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef):
+            found[node.name, min([node.lineno, *[d.lineno for d in node.decorator_list]])] = node
+    return found
+
+
+def _source(function: Callable[..., Any]) -> ast.FunctionDef | None:
+    """The definition of a function, if it can be read and stands by itself."""
+    if not isinstance(function, types.FunctionType) or function.__closure__:
+        return None
+    code = function.__code__
+    try:
+        return _definitions(code.co_filename).get((code.co_name, code.co_firstlineno))
+    except (OSError, SyntaxError, ValueError):
+        return None
+
+
+def _codes(code: types.CodeType) -> Iterator[types.CodeType]:
+    """A function's code, and that of the functions inside it."""
+    yield code
+    for inner in code.co_consts:
+        if isinstance(inner, types.CodeType):
+            yield from _codes(inner)
+
+
+@functools.cache
+def fused(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The copy of a law that is traced: fused, and calling what stands for other laws while they are traced."""
+    with ONE_AT_A_TIME:
+        node = _source(function)
+        if node is None:
+            return function
+        names = [ast.arg(a.arg) for a in node.args.args]
+        arguments = ast.arguments([], names, node.args.vararg, [], [], None, [])
+        body = [_Fuse().visit(line) for line in node.body]
+        definition = ast.FunctionDef(node.name, arguments, body, [], None)
+        tree = ast.fix_missing_locations(ast.Module([ast.copy_location(definition, node)], []))
+        module = compile(tree, function.__code__.co_filename, "exec", dont_inherit=True)
+    code = next(c for c in module.co_consts if isinstance(c, types.CodeType))
+    known = function.__globals__
+    used = {name for part in _codes(code) for name in part.co_names}
+    scope: dict[str, Any] = {name: traced(known[name]) for name in used if name in known}
+    scope |= {"__builtins__": builtins, FMA: fma}
+    if "int" in used:
+        scope["int"] = _elementary("whole")
+    return types.FunctionType(code, scope, function.__name__, function.__defaults__)
+
+
+def _elementary(name: str) -> Callable[..., Any]:
+    from tandemlift.trace import elementary  # which is made of fused functions
+
+    return getattr(elementary, name)
+
+
+MARKED: set[Callable[..., Any]] = set()
+PRIMITIVE = {operation: operation.__name__[1:] for operation in PRIMITIVES}
+
+
+def _is_law(function: Callable[..., Any]) -> bool:
+    if len(MARKED) != len(LAWS):
+        MARKED.update(LAWS)
+    return function in MARKED
+
+
+def traced(thing: Any) -> Any:
+    """What stands for a global name of a law while it is traced."""
+    if isinstance(thing, Elementwise):
+        return thing.calling(traced(thing.scalar))
+    if isinstance(thing, Choice):
+        return lambda *args: fused(thing.chosen(args[0]))(*args)
+    if isinstance(thing, types.FunctionType):
+        if thing in PRIMITIVE:
+            return lambda *args: _elementary(PRIMITIVE[thing])(*args)
+        if _is_law(thing):
+            return lambda *args: fused(thing)(*args)
+    return thing

@@ -1,0 +1,64 @@
+"""What decides machine code: the sources of the laws, the layouts of their values, the processor, the versions."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import inspect
+import sys
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from tandemlift.trace.layout import is_value
+
+PACKAGE = Path(__file__).resolve().parent.parent
+FOLDERS = ("laws", "trace", "engines", "kernels", "pilot")
+FILES = ("vector", "ops", "law", "constants", "tally", "loop", "sample", "perception", "readout", "watching")
+MORE = ("weather", "delays", "onboard")
+
+
+def classes(value: Any) -> set[type]:
+    """The classes of nested values."""
+    if not isinstance(value, tuple):
+        return set()
+    own = {type(value)} if is_value(value) else set()
+    return own.union(*map(classes, value))
+
+
+def sources(value: Any) -> list[Path]:
+    """Every file that the code for values like this one is made of."""
+    own = {p for folder in FOLDERS for p in (PACKAGE / folder).rglob("*.py")}
+    own |= {PACKAGE / f"{name}.py" for name in (*FILES, *MORE)}
+    theirs = {Path(inspect.getfile(c)) for c in classes(value) if not c.__module__.startswith("tandemlift.")}
+    return sorted(own | theirs)
+
+
+@functools.lru_cache(maxsize=4096)
+def _content(path: Path, changed: int, size: int) -> bytes:
+    return path.read_bytes()
+
+
+def content(path: Path) -> bytes:
+    """What a file holds; read again once it has changed."""
+    found = path.stat()
+    return _content(path, found.st_mtime_ns, found.st_size)
+
+
+def described(value: Any) -> str:
+    """The layout of a nested value, or of a tuple of them, as text."""
+    if not isinstance(value, tuple):
+        return "n"
+    kind = type(value)
+    return f"{kind.__module__}.{kind.__qualname__}({','.join(map(described, value))})"
+
+
+def key_of(value: Any, *more: Any) -> str:
+    """The key of code for values laid out like this one; `more`: whatever else decides it."""
+    from tandemlift.trace.machine import processor
+
+    versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
+    digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())
+    for path in sources(value):
+        digest.update(path.name.encode() + b"\0" + content(path) + b"\0")
+    return digest.hexdigest()[:32]
