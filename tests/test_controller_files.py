@@ -2,11 +2,11 @@
 
 import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from patience import completed
 
 import tandemlift as tl
 from tandemlift.laws.controllers import CONTROLLERS, controller, load_controller, register
@@ -58,7 +58,7 @@ def test_a_second_process_finds_the_compiled_law_until_the_file_changes(own, tmp
     def needs_compiling(*fly: str) -> str:
         environment = {**os.environ, "TANDEMLIFT_CACHE": str(tmp_path / "cache")}
         command = [sys.executable, "-c", CACHED, "my_pd.py", *fly]
-        return subprocess.run(command, capture_output=True, text=True, env=environment, check=True).stdout.strip()
+        return completed(command, capture_output=True, text=True, env=environment, check=True).stdout.strip()
 
     assert needs_compiling("and fly") == "True"
     compiled = sorted((tmp_path / "cache").rglob("*.nbc"))

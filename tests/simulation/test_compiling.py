@@ -3,12 +3,12 @@
 import inspect
 import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from patience import completed
 
 import tandemlift as tl
 from tandemlift.jit.cache import sources
@@ -20,7 +20,7 @@ PACKAGE = Path(tl.__file__).parent
 
 
 def python(code, **environment):
-    done = subprocess.run(
+    done = completed(
         [sys.executable, "-W", "error", "-c", code],
         capture_output=True,
         text=True,
