@@ -231,7 +231,7 @@ class Step:
     def swing(self, f: Function) -> None:
         """Move the body over the step."""
         if not self.likes.grounded:
-            self.keep(f, self.moved, self.traced.low)
+            f.read["moved"] = lambda i: f.value(self.traced.low[i])  # as far as it is asked for
             return
         low = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
         near, far, done = f.fresh("near"), f.fresh("far"), f.fresh("done")

@@ -247,7 +247,7 @@ class Function:
         g = self.graph
         for node in self._missing(roots):
             op, args = g.ops[node], g.args[node]
-            if op == "const":
+            if op == "const" or node in self._values:  # an input may be had from other nodes
                 continue
             if op == "in":
                 self._values[node] = self.read[args[0]](args[1])
