@@ -11,7 +11,7 @@ import llvmlite.binding as llvm
 
 
 class Level(NamedTuple):
-    """How much is done for the speed of machine code: passes over the text, generation of code; neighbours as vectors."""
+    """How much is done for speed: passes over the text, generation of code, neighbours as vectors."""
 
     passes: int
     code: int
