@@ -52,7 +52,7 @@ def _on_points(push, force, point):
 
 
 @choice
-def pushed(external: Any, hand: Hand) -> Hand:
+def pushed(external: Any, hand: Hand) -> Any:
     """The push of a step with what is added to it."""
 
 
