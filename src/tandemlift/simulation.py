@@ -5,18 +5,16 @@ from __future__ import annotations
 import math
 import operator
 import time
-import warnings
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tandemlift.errors import FlightWarning, InputError, suggestion
+from tandemlift.errors import InputError, suggestion
 from tandemlift.flight import CHANNELS, DERIVED, TIME, Channel, Divergence, Flight
 from tandemlift.flown import Flown, channels_of, divergence_of, flight_of, take_tallies
 from tandemlift.kernels import place
-from tandemlift.missions import check, tables_of
 from tandemlift.missions.explain import shown
 from tandemlift.prepared import Prepared
 from tandemlift.recording import engine_of
@@ -27,6 +25,7 @@ from tandemlift.trace import leaves, unflat
 
 Array = NDArray[np.float64]
 FORCE, POINT, THRUSTS = slice(0, 3), slice(3, 6), slice(6, -1)  # of the numbers of a `laws.external.External`
+MOST_SEED = 10**18  # as `mission.seed`
 TOLD_EVERY = 1000  # steps between two reports of the time spent, which decides when optimised code is made
 
 
@@ -278,11 +277,10 @@ def with_seed(mission: Mission, seed: Any) -> Mission:
     Raises:
         InputError: the seed cannot be one.
     """
-    tables = tables_of(mission)
     try:
-        tables["mission"]["seed"] = operator.index(seed)
+        number = operator.index(seed)
     except TypeError:
-        raise InputError(f"seed = {shown(seed)}: must be a whole number from 0 to 1e18") from None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)  # given when the mission was loaded
-        return check(tables, "reset")
+        number = -1
+    if not 0 <= number <= MOST_SEED:
+        raise InputError(f"seed = {shown(seed)}: must be a whole number from 0 to {MOST_SEED:g}")
+    return mission.model_copy(update={"mission": mission.mission.model_copy(update={"seed": number})})
