@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tandemlift.jit.cache import sources
 
 import tandemlift as tl
-from tandemlift.jit.cache import sources
 from tandemlift.kernels import LANES
 from tandemlift.law import LAWS
 from tandemlift.prepared import Prepared

@@ -8,7 +8,6 @@ from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 
 import tandemlift as tl
 from tandemlift.assembly import assemble
-from tandemlift.jit import leaves, unflat
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN, WALL
 from tandemlift.laws.allocation import Working
 from tandemlift.laws.push import Hand, push_of
@@ -18,6 +17,7 @@ from tandemlift.laws.walls import consider
 from tandemlift.laws.wind import gust_velocity
 from tandemlift.loop import Inputs, finish, joined, think
 from tandemlift.pilot import with_allocation
+from tandemlift.trace import leaves, unflat
 from tandemlift.vector import ZERO
 
 
