@@ -99,7 +99,6 @@ def _as_it_is(mission: Mission, window: bool, real_time: bool, pictures: bool) -
     from tandemlift.gazebo.views import shots_of
     from tandemlift.simulate import fly
 
-    _tell_of_compiling(mission)
     shots, step = shots_of(fly(mission)) if pictures else [], mission.mission.step
     with opened(mission, shots, window=window, real_time=real_time) as gazebo:
         _tell_how_to_push(mission, gazebo)
@@ -129,7 +128,6 @@ def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
     from tandemlift.live.recorded import RecordedFlight
 
     mission = by_hand(mission)
-    _tell_of_compiling(mission)
     with opened(mission, window=window, real_time=True) as gazebo, _until_stopped() as stopped:
         recorded = RecordedFlight(mission, "gazebo")
         _tell_how_to_push(mission, gazebo)
@@ -149,13 +147,6 @@ def _until_stopped() -> Iterator[Callable[[], bool]]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-
-
-def _tell_of_compiling(mission: Mission) -> None:
-    from tandemlift.prepared import needs_compiling
-
-    if needs_compiling(mission):
-        click.echo("Compiling the flight loop for this machine (once, up to a minute or two) …", err=True)
 
 
 def _tell_how_to_push(mission: Mission, gazebo: Gazebo) -> None:

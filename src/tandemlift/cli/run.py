@@ -137,12 +137,10 @@ def parse_setting(text: str) -> tuple[str, Any]:
 
 def _fly(mission: Mission, engine: str | None, controller: Controller | None) -> Flight:
     from tandemlift.laws.controllers import file_of, told
-    from tandemlift.prepared import needs_compiling, takes_long
+    from tandemlift.prepared import takes_long
     from tandemlift.simulate import fly
 
     try:
-        if needs_compiling(mission):
-            click.echo("Compiling the flight loop for this machine (once, a few seconds) …", err=True)
         with bar("Flying", mission.mission.steps, shown=takes_long(mission)) as progress:
             return fly(mission, engine, progress=progress)
     except InputError:
