@@ -7,7 +7,7 @@ functions that machine code has no instruction for, `layout` nested values in fl
 
 from tandemlift.trace import elementary  # what `ops` calls of symbols
 from tandemlift.trace.fused import traced
-from tandemlift.trace.graph import LEAVES, Graph, Symbol, TraceError, symbols
+from tandemlift.trace.graph import LEAVES, Graph, Symbol, TraceError, refused, symbols
 from tandemlift.trace.layout import flat, is_value, leaves, rebuilt, unflat, zeroed
 from tandemlift.trace.llvm import Function, Module, double
 
@@ -24,6 +24,7 @@ __all__ = [
     "is_value",
     "leaves",
     "rebuilt",
+    "refused",
     "symbols",
     "traced",
     "unflat",
