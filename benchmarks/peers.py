@@ -44,7 +44,7 @@ class Worker:
             self.process.stdin.write(f"{mode} {seconds}\n")
             answer = json.loads(self._line())
         except (BrokenPipeError, json.JSONDecodeError):
-            raise Failed(f"its process ended with code {self.process.wait()}") from None
+            raise Failed(f"its process ended with code {self.process.wait(PATIENCE)}") from None
         if "error" in answer:
             raise Failed(answer["error"])
         return answer["speed"]
@@ -58,7 +58,7 @@ class Worker:
 
     def close(self) -> None:
         self.process.kill()
-        self.process.communicate()
+        self.process.communicate(timeout=PATIENCE)
 
 
 def compare(ours: Worker, theirs: Worker, mode: str, rounds: int, seconds: float) -> dict[str, float]:

@@ -12,6 +12,8 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+from waiting import PATIENCE
+
 HERE = Path(__file__).resolve().parent
 
 IMPORT = """
@@ -41,7 +43,7 @@ def _run(command: list[str], cache: str | None = None) -> tuple[float, str]:
     """Seconds and output of one process."""
     env = dict(os.environ, **({"TANDEMLIFT_CACHE": cache} if cache else {}))
     began = time.perf_counter()
-    done = subprocess.run(command, cwd=HERE, env=env, capture_output=True, text=True)
+    done = subprocess.run(command, cwd=HERE, env=env, capture_output=True, text=True, timeout=PATIENCE)
     seconds = time.perf_counter() - began
     if done.returncode:
         lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.delays import Ends
-from tandemlift.engines.compiled import Moved, Plant, advance, aloft
+from tandemlift.engines.compiled import Moved, Plant, advance
 from tandemlift.law import law
 from tandemlift.laws.body import State
 from tandemlift.laws.partner import asks_to_land, lend
@@ -140,14 +140,6 @@ def located(m: Moving, near: Any, partner: Any) -> Moving:
 def continued(f: Flying, moving: Moving) -> Flying:
     """A flight with what has changed."""
     return Flying(moving, f.pilot, f.plant, f.rotors, f.weather, f.sensors, f.estimator, f.reads, f.partner, f.delays)
-
-
-@law
-def lifted_off(f: Flying) -> Flying:
-    """A flight whose feet cannot touch the floor for some steps."""
-    return Flying(
-        f.moving, f.pilot, aloft(f.plant), f.rotors, f.weather, f.sensors, f.estimator, f.reads, f.partner, f.delays
-    )
 
 
 @law

@@ -1,13 +1,14 @@
 """What a page says to a flight, and what becomes of it; the flight is moved by the tests, not by the clock."""
 
 import threading
-import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from patience import COMPILING, until
 
 import tandemlift as tl
-from tandemlift.live import messages
+from tandemlift.live import compiling, messages
 from tandemlift.live.by_hand import NEVER, by_hand, renewed
 from tandemlift.live.controls import BY_KEY, controls_of
 from tandemlift.live.frames import read_frames
@@ -284,17 +285,31 @@ def test_a_rotor_that_cannot_fail_is_not_killed(session):
         say(session, "kill", rotor=3)
 
 
-def test_another_controller_takes_over_once_it_is_compiled(session):
-    fly(session, 3.0)
-    for _ in range(40):
+def told_once_it_is_compiled(session, kind, **what):
+    """What is told of a controller that is chosen again and again, as a person is asked to, until it is not refused."""
+
+    def told():
         try:
-            say(session, "set", key="controller.name", value="pid")
-            break
+            told = say(session, kind, key="controller.name", **what)
         except tl.InputError as error:
-            assert "is being compiled" in str(error)  # noqa: PT017
+            told = [{"type": "refused", "reason": str(error)}]
+        refused = [t["reason"] for t in told if t["type"] == "refused"]
+        assert all("is being compiled for this flight: choose it again" in reason for reason in refused)
+        return None if refused else told
+
+    return until(told, "a controller that is compiled", COMPILING)
+
+
+def test_another_controller_takes_over_once_it_is_compiled(session, monkeypatch):
+    fly(session, 3.0)
+    with monkeypatch.context() as hasty:
+        hasty.setattr(compiling, "PATIENCE", 0.0)
+        with pytest.raises(tl.InputError, match="pid is being compiled for this flight: choose it again"):
+            say(session, "set", key="controller.name", value="pid")
+    told_once_it_is_compiled(session, "set", value="pid")
     fly(session, 1.0)
     assert session._flight.now.controller.name == "pid"
-    told = say(session, "restore", key="controller.name")
+    told = told_once_it_is_compiled(session, "restore")
     assert [t["type"] for t in told] == ["changed", "scene"]
     assert session._flight.now.controller == session._mission.controller, "with the mission's own settings"
     fly(session, 1.0)
@@ -333,8 +348,9 @@ def test_the_thread_flies_until_it_is_stopped_and_pauses(session):
     session.start()
     until(lambda: session.status()["recorded_s"] > 0.2)
     say(session, "pause", on=True)
-    then = session.status()["recorded_s"]
-    time.sleep(0.1)
+    then, rests = session.status()["recorded_s"], []
+    session._flight.rest = lambda: rests.append(None)
+    until(lambda: len(rests) > 20)
     assert session.status()["recorded_s"] == then
     say(session, "pause", on=False)
     until(lambda: session.status()["recorded_s"] > then)
@@ -353,17 +369,10 @@ def test_a_body_that_waits_is_told_of_a_pause(session):
     until(lambda: body.rests > 3)
 
 
-def until(true, patience=30.0):
-    end = time.monotonic() + patience
-    while not true():
-        assert time.monotonic() < end
-        time.sleep(0.01)
-
-
 @pytest.fixture
 def clock(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("tandemlift.live.pace.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("tandemlift.live.pace.time", SimpleNamespace(perf_counter=lambda: now[0]))
     return now
 
 

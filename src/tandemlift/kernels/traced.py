@@ -11,10 +11,11 @@ import itertools
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tandemlift.engines.compiled import aloft
+from tandemlift.engines.compiled import first_motion, untouched
 from tandemlift.kernels.likes import COMMAND, Likes
 from tandemlift.kernels.outside import GAUSSIAN, GUST, SPAN, active, draws
 from tandemlift.laws.allocation import Working, beyond, commanded, limits_at
+from tandemlift.laws.clearance import clearance, may_press
 from tandemlift.laws.contact import may_touch
 from tandemlift.laws.controllers import control
 from tandemlift.laws.detection import left_of, with_trials
@@ -113,10 +114,10 @@ class Traced:
         self.thought = thought
         acting = traced(act)(self.flying, thought.decision.thrusts, self.given, self.t)
         self.body = Body(self.all(acting), self._mean_push())
-        low = self._swung(self.flying.plant, acting)
-        self.low, self.high = self.all(low), list[Symbol]()
-        if likes.grounded:
-            self.high = self.all(self._swung(traced(aloft)(self.flying.plant), acting))
+        self.near, self.apart = self.all(self._swung(self.flying.plant, acting)), list[Symbol]()
+        if likes.grounded or likes.walled:
+            self.apart = self.all(self._swung(traced(untouched)(self.flying.plant), acting))
+        self.pressing = [self._pressing(acting)] if likes.walled else []
         moved = self.given_by("moved", likes.moved)
         moving, sample = traced(observe)(self.flying, thought, acting, moved, self.given)
         check_layout(self.flying.pilot.controller, likes.flying.moving, moving)
@@ -146,6 +147,15 @@ class Traced:
 
     def _swung(self, plant: Any, acting: Any) -> Any:
         return traced(swing)(plant, self.flying.moving, acting, self.given.hand, self.dt)
+
+    def _pressing(self, acting: Any) -> Symbol:
+        """Whether anything may touch a wall in this step."""
+        before, plant, dt = self.flying.moving, self.flying.plant, self.dt
+        free, air = traced(untouched)(plant), acting.weather.loads
+        args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
+        rate = traced(first_motion)(free, *args)
+        room = traced(clearance)(plant.walls, before.near, plant.frame, before.state)
+        return traced(may_press)(plant.walls, room, before.state, rate, dt)
 
     def _mean_push(self) -> Symbols:
         hand, attitude = self.given.hand, self.flying.moving.state.attitude
@@ -181,7 +191,7 @@ class Traced:
         return [self.all(traced(normals)(number, i, *keys)) for i in range(draws(self.likes.given.noise))]
 
     @cached_property
-    def near(self) -> Symbols:
+    def nearest(self) -> Symbols:
         """The nearest walls once a row of the table of walls was looked at."""
         f, wall = self.flying, self.given_by("wall", WALL)
         return self.all(traced(consider)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))
