@@ -48,6 +48,7 @@ class Step:
         self.gust = take("gust", 3)
         self.asked, self.answer = take("asked", len(self.traced.asked)), take("answer", 4 + 3)
         self.acting = take("acting", len(self.traced.body.acting))
+        self.external = take("external", leaves(x.given.external))
         self.push, self.moved = take("push", 6), take("moved", leaves(x.moved))
         needs = self.traced.limits
         self.solving = take("solving", len(needs.problem) + len(needs.held) + 3 if needs else 0)
@@ -211,6 +212,7 @@ class Step:
             "noise": lambda i: f.load(noise, i * pace),
             "gust": lambda i: f.load("%work", self.gust + i),
             "answer": lambda i: f.load("%work", self.answer + i),
+            "external": lambda i: f.load("%work", self.external + i),
             "moved": lambda i: f.load("%work", self.moved + i),
             "solved": lambda i: f.load("%work", self.solved + i),
         }

@@ -1,8 +1,8 @@
 """A step of a flight, traced: every number that it gives, as a symbol of what it is given.
 
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
-`solved` by the allocation within limits; `moved`, the body after the step. Of what is formed ahead: `push` and `gusts`
-(a row of a table), `wall`, `when`, `number`, `key`.
+`solved` by the allocation within limits; `external`, what the caller of a step adds; `moved`, the body after the step.
+Of what is formed ahead: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from tandemlift.laws.random import normals
 from tandemlift.laws.rectangle import WALL
 from tandemlift.laws.walls import consider
 from tandemlift.laws.wind import gust_velocity
-from tandemlift.loop import Inputs, Thought, act, joined, observe, perceive, swing, think
+from tandemlift.loop import Inputs, Thought, act, joined, observe, overruled, perceive, swing, think
 from tandemlift.pilot import brief, conclude, with_allocation, with_thrusts
 from tandemlift.trace import Graph, Symbol, TraceError, leaves, rebuilt, refused, symbols, traced
 from tandemlift.vector import ZERO, layout, total
@@ -104,6 +104,7 @@ class Traced:
             self.given_by("gust", ZERO),
             self.given_by("noise", likes.given.noise),
             self.flying.moving.partner,
+            self.given_by("external", likes.given.external),
         )
         self.given = traced(joined)(self.flying, outer, self.t, self.dt)
         self.asked: Symbols = []
@@ -111,7 +112,7 @@ class Traced:
         self.limits: Limits | None = None
         if likes.constrained:
             thought = self._limited(thought)
-        self.thought = thought
+        self.thought = thought = traced(overruled)(thought, self.given.external)
         acting = traced(act)(self.flying, thought.decision.thrusts, self.given, self.t)
         self.body = Body(self.all(acting), self._mean_push())
         self.near, self.apart = self.all(self._swung(self.flying.plant, acting)), list[Symbol]()
