@@ -278,7 +278,7 @@ def test_every_built_in_mission_loads_without_a_compiler():
             "import sys",
             "from tandemlift.missions import built_in, load_mission",
             "[load_mission(name) for name in built_in()]",
-            "print([m for m in ('numba', 'scipy', 'mujoco', 'matplotlib') if m in sys.modules])",
+            "print([m for m in ('numba', 'llvmlite', 'scipy', 'mujoco', 'matplotlib') if m in sys.modules])",
         ]
     )
     done = completed([sys.executable, "-c", code], capture_output=True, text=True, check=True)

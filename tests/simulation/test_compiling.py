@@ -8,10 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+<<<<<<< HEAD
+from tandemlift.jit.cache import sources
+=======
 from patience import completed
+>>>>>>> core
 
 import tandemlift as tl
-from tandemlift.jit.cache import sources
 from tandemlift.kernels import LANES
 from tandemlift.law import LAWS
 from tandemlift.prepared import Prepared

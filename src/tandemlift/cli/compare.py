@@ -12,6 +12,7 @@ import click
 
 from tandemlift.cli.results import bar, results_in
 from tandemlift.cli.run import DIVERGED, chosen_controller, load, parse_setting, say
+from tandemlift.cli.telling import teller
 from tandemlift.errors import InputError
 from tandemlift.files import whole
 
@@ -112,13 +113,9 @@ def _names(option: str, given: str, example: str) -> list[str]:
 
 def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
     from tandemlift.comparison import compare
-    from tandemlift.prepared import needs_compiling
 
-    missions = [e.mission for e in entered if e.mission]
-    if count := sum(map(needs_compiling, missions)):
-        loops = "the flight loop" if count == 1 else f"{count} flight loops"
-        click.echo(f"Compiling {loops} for this machine (once, up to a minute each) …", err=True)
-    with bar("Flying", len(missions), shown=sys.stderr.isatty()) as progress:
+    count = sum(e.mission is not None for e in entered)
+    with teller.together(), bar("Flying", count, shown=sys.stderr.isatty()) as progress:
         return compare(entered, engine, progress)
 
 
@@ -178,14 +175,11 @@ def _write_json(found: Any, path: Path) -> None:
 def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], out: str | None) -> None:
     """Fly a mission in several engines, print how far they are apart, and write the page."""
     from tandemlift.apart import fly_in, summary_of
-    from tandemlift.prepared import needs_compiling
     from tandemlift.report.engines import write_engines
 
     loaded = load(mission, settings)
     with results_in(out, Path("out") / loaded.mission.name, OF_ENGINES) as folder:
-        if needs_compiling(loaded):
-            click.echo("Compiling the flight loop for this machine (once, up to a minute or two) …", err=True)
-        with bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
+        with teller.together(), bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
             flights = fly_in(loaded, names, progress)
         found = summary_of(flights)
         _print_differences(loaded.mission.name, found)

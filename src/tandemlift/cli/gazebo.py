@@ -14,7 +14,7 @@ import click
 
 from tandemlift.cli.live import DEFAULT
 from tandemlift.cli.results import bar, keep_recording, results_in, write_results
-from tandemlift.cli.run import DIVERGED, load, say, summarise
+from tandemlift.cli.run import DIVERGED, load, say, say_report, summarise
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
@@ -75,11 +75,11 @@ def gazebo(
         began = time.perf_counter()
         window = not no_window and _has_display()
         flight, views = _by_hand(loaded, window) if by_hand else _as_it_is(loaded, window, not fast, pictures)
-        summarise(flight, time.perf_counter() - began)
+        summarise(flight)
         if not by_hand:
             keep_recording(loaded, folder)
         write_results(flight, folder, figures=not no_figures, views=views)
-        say(f"  report: {folder / 'report.html'}")
+        say_report(folder, time.perf_counter() - began)
     if flight.divergence:
         click.echo(f"{flight.name}: {flight.divergence}", err=True)
         sys.exit(DIVERGED)
@@ -99,7 +99,6 @@ def _as_it_is(mission: Mission, window: bool, real_time: bool, pictures: bool) -
     from tandemlift.gazebo.views import shots_of
     from tandemlift.simulate import fly
 
-    _tell_of_compiling(mission)
     shots, step = shots_of(fly(mission)) if pictures else [], mission.mission.step
     with opened(mission, shots, window=window, real_time=real_time) as gazebo:
         _tell_how_to_push(mission, gazebo)
@@ -129,7 +128,6 @@ def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
     from tandemlift.live.recorded import RecordedFlight
 
     mission = by_hand(mission)
-    _tell_of_compiling(mission)
     with opened(mission, window=window, real_time=True) as gazebo, _until_stopped() as stopped:
         recorded = RecordedFlight(mission, "gazebo")
         _tell_how_to_push(mission, gazebo)
@@ -149,13 +147,6 @@ def _until_stopped() -> Iterator[Callable[[], bool]]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-
-
-def _tell_of_compiling(mission: Mission) -> None:
-    from tandemlift.prepared import needs_compiling
-
-    if needs_compiling(mission):
-        click.echo("Compiling the flight loop for this machine (once, up to a minute or two) …", err=True)
 
 
 def _tell_how_to_push(mission: Mission, gazebo: Gazebo) -> None:

@@ -17,6 +17,7 @@ from tandemlift.kernels.outside import GAUSSIAN, GUST, SPAN, active, draws
 from tandemlift.laws.allocation import Working, beyond, commanded, limits_at
 from tandemlift.laws.clearance import clearance, may_press
 from tandemlift.laws.contact import may_touch
+from tandemlift.laws.controllers import control
 from tandemlift.laws.detection import left_of, with_trials
 from tandemlift.laws.limits import Bounded, Search, begun, searched
 from tandemlift.laws.push import moment_of, push_of
@@ -26,7 +27,7 @@ from tandemlift.laws.walls import consider
 from tandemlift.laws.wind import gust_velocity
 from tandemlift.loop import Inputs, Thought, act, joined, observe, overruled, perceive, swing, think
 from tandemlift.pilot import brief, conclude, with_allocation, with_thrusts
-from tandemlift.trace import Graph, Symbol, TraceError, leaves, rebuilt, symbols, traced
+from tandemlift.trace import Graph, Symbol, TraceError, leaves, rebuilt, refused, symbols, traced
 from tandemlift.vector import ZERO, layout, total
 
 Symbols = list[Symbol]
@@ -72,6 +73,20 @@ def changed_layout(before: Any, after: Any, path: str = "") -> str:
     return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law returns what it was given"
 
 
+def check_layout(gains: Any, before: Any, after: Any) -> None:
+    """Refuse laws that lay out a flight otherwise after a step than before it; `gains`: of the controller.
+
+    Raises:
+        TraceError: with the law, if it is the controller's.
+    """
+    if layout(before) == layout(after):
+        return
+    what, law = changed_layout(before, after), control.table.get(type(gains))
+    if law is not None and "memory.controller" in what:
+        raise refused(f"returns another layout: {what}", law.__code__, law.__code__.co_firstlineno)
+    raise TraceError(what)
+
+
 class Traced:
     """The graph of a step of flights like `likes`.
 
@@ -106,8 +121,7 @@ class Traced:
         self.pressing = [self._pressing(acting)] if likes.walled else []
         moved = self.given_by("moved", likes.moved)
         moving, sample = traced(observe)(self.flying, thought, acting, moved, self.given)
-        if layout(moving) != layout(likes.flying.moving):
-            raise TraceError(changed_layout(likes.flying.moving, moving))
+        check_layout(self.flying.pilot.controller, likes.flying.moving, moving)
         self.moving, self.sample = self.all(moving), self.all(sample)
 
     def given_by(self, kind: str, like: Any) -> Any:

@@ -10,12 +10,15 @@ import ctypes
 import threading
 import time
 from collections.abc import Callable, Iterable
+from concurrent.futures import Future, wait
 from typing import Any, NamedTuple
 
+from tandemlift.events import Compiled, compiling
 from tandemlift.trace import machine, store
 from tandemlift.trace.optimising import optimised_beside
 
 PAYS = 2.0  # times what unoptimised code took to make: a third or so of what optimised code takes
+LOOK = 0.1  # s between looks at whether somebody interrupts
 HELD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # keeps Python's lock: for calls of microseconds
 FREE = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # gives it up: for calls that take long
 
@@ -25,6 +28,24 @@ class Written(NamedTuple):
 
     text: str
     about: dict[str, Any]
+
+
+def _interruptible(work: Callable[[], bytes]) -> bytes:
+    """What `work` gives. The main thread waits for it, and hears Ctrl-C meanwhile: LLVM cannot be interrupted."""
+    if threading.current_thread() is not threading.main_thread():
+        return work()
+    done: Future[bytes] = Future()
+
+    def run() -> None:
+        try:
+            done.set_result(work())
+        except BaseException as error:
+            done.set_exception(error)
+
+    threading.Thread(target=run, name="compiling").start()
+    while not done.done():
+        wait([done], LOOK)
+    return done.result()
 
 
 class Code:
@@ -61,10 +82,16 @@ class Code:
 
     def _quick(self) -> store.Entry:
         began = time.perf_counter()
-        written = self._text()
-        code = machine.compiled(written.text, machine.QUICK)
-        entry = store.Entry({**written.about, "seconds": time.perf_counter() - began}, code)
-        store.write(f"{self._key}-quick", entry)
+        compiling(None)
+        came = Compiled(0.0, is_kept=False, is_made=False)
+        try:
+            written = self._text()
+            code = _interruptible(lambda: machine.compiled(written.text, machine.QUICK))
+            seconds = time.perf_counter() - began
+            entry = store.Entry({**written.about, "seconds": seconds}, code)
+            came = Compiled(seconds, store.write(f"{self._key}-quick", entry))
+        finally:
+            compiling(came)
         return entry
 
     def _take(self, code: bytes) -> None:
@@ -86,8 +113,14 @@ class Code:
         if self._spent > PAYS * self.about["seconds"]:
             self.optimise()
 
-    def optimise(self) -> threading.Thread | None:
-        """Make optimised code beside, in a process of its own; the thread that waits for it, if there is one."""
+    def optimise(self, *, trace_first: bool = False) -> threading.Thread | None:
+        """Make optimised code beside, in a process of its own; the thread that waits for it, if there is one.
+
+        Args:
+            trace_first: whether the module is traced before this returns, if it was not yet; else beside as well.
+        """
+        if trace_first and not self.is_best:
+            self._text()
         with self._lock:
             if self.is_best or self._making:
                 return None

@@ -194,6 +194,11 @@ class Function:
         """What a symbol is, in all lanes."""
         return self.values([symbol])[0]
 
+    def scalar(self, symbol: Symbol) -> str:
+        """What a symbol is that has the same value in all lanes."""
+        self._write([symbol.node])
+        return self._operand(symbol.node, spread=False)
+
     def known(self) -> set[int]:
         """The nodes that have been computed here."""
         return set(self._values)
