@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
 from typing import Any, NamedTuple
 
 from tandemlift.kernels.solving import write_limits, write_solver
 from tandemlift.kernels.traced import check_layout, limited
 from tandemlift.laws.allocation import Constrained
 from tandemlift.pilot import PilotMemory, PilotParameters, decide
-from tandemlift.trace import Function, Graph, Module, rebuilt, symbols, traced
+from tandemlift.trace import Function, Graph, Module, Place, symbols, traced
 from tandemlift.trace.code import Written
 
 POINTERS = ("numbers", "heard", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
@@ -56,7 +55,7 @@ class Sampling:
 
     def given_by(self, kind: str, like: Any) -> Any:
         """A nested value whose numbers are inputs of a kind."""
-        return rebuilt((self.graph.input(kind, i) for i in itertools.count()), like)
+        return self.graph.inputs(kind, like)
 
     def all(self, value: Any) -> Any:
         """The numbers of a nested value."""
@@ -73,17 +72,16 @@ class Sampling:
         dt = f.load("%c", len(POINTERS), "double")
         solved = len(self.limits.problem) if self.limits else 0
         f.read = {
-            "pilot": lambda i: f.load("%numbers", i),
-            "heard": lambda i: f.load("%heard", i),
+            "pilot": lambda i: Place("%numbers", i),
+            "heard": lambda i: Place("%heard", i),
             "dt": lambda i: dt,
-            "solved": lambda i: f.load("%work", solved + i),
+            "solved": lambda i: Place("%work", solved + i),
         }
         if self.limits:
             write_limits(f, self.limits, 0)
-        thrusts, after = f.values(self.thrusts), f.values(self.after)
-        for base, values in (("%thrusts", thrusts), ("%numbers", after)):
-            for m, value in enumerate(values):
-                f.store(value, base, m)
+        f.values(self.after)
+        f.put("%thrusts", 0, self.thrusts)
+        f.put("%numbers", 0, self.after, "pilot")
         f.end("i64 0")
-        size = solved + len(self.limits.held) + 3 if self.limits else 1
+        size = solved + len(self.limits.search) if self.limits else 1
         return Written(module.text, {"size": size})
