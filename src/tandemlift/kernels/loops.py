@@ -235,8 +235,11 @@ class Step:
 
     def swing(self, f: Function) -> None:
         """Move the body over the step."""
-        if not self.traced.apart and not self.graph.rolls_from:
-            f.read["moved"] = lambda i: f.value(self.traced.near[i])  # as far as it is asked for
+        if not self.traced.apart:
+            if self.graph.rolls_from:
+                self.keep(f, self.moved, self.traced.near)
+            else:
+                f.read["moved"] = lambda i: f.value(self.traced.near[i])  # as far as it is asked for
             return
         touches = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
         for value in f.values(self.traced.pressing):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.kernels.solving import write_limits, write_solver
-from tandemlift.kernels.traced import check_layout, limited
+from tandemlift.kernels.traced import check_layout, graph_for, limited
 from tandemlift.laws.allocation import Constrained
 from tandemlift.pilot import PilotMemory, PilotParameters, decide
-from tandemlift.trace import Function, Graph, Module, Place, symbols, traced
+from tandemlift.trace import Function, Module, Place, symbols, traced
 from tandemlift.trace.code import Written
 
 POINTERS = ("numbers", "heard", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
@@ -37,10 +37,10 @@ class Decided(NamedTuple):
 
 
 class Sampling:
-    """A sample of a pilot, traced: inputs `pilot`, `heard`, `dt` and what is `solved` for."""
+    """A sample of a pilot of so many quadrotors, traced: inputs `pilot`, `heard`, `dt` and what is `solved` for."""
 
-    def __init__(self, onboard: Onboard, heard: Any) -> None:
-        self.graph = Graph()
+    def __init__(self, onboard: Onboard, heard: Any, quadrotors: int) -> None:
+        self.graph = graph_for(quadrotors)
         pilot, dt = self.given_by("pilot", onboard), self.graph.input("dt")
         t = pilot.samples * dt
         decided = Decided(*traced(decide)(pilot.parameters, pilot.memory, self.given_by("heard", heard), t, dt))

@@ -34,6 +34,11 @@ Symbols = list[Symbol]
 MANY = 5  # quadrotors whose sets are arrays in memory, and served by loops
 
 
+def graph_for(quadrotors: int) -> Graph:
+    """An empty graph for the laws of so many quadrotors."""
+    return Graph(MANY if quadrotors >= MANY else 0)
+
+
 class Solver:
     """A step of the solver of limits, traced: inputs `problem`, and `search` as it goes on."""
 
@@ -103,7 +108,7 @@ class Traced:
 
     def __init__(self, likes: Likes, asks: bool = False) -> None:
         self.likes, self.asks = likes, asks
-        self.graph = Graph(MANY if len(likes.flying.plant.frame.mass) >= MANY else 0)
+        self.graph = graph_for(len(likes.flying.plant.frame.mass))
         self.flying = self.given_by("fly", likes.flying)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
         outer = Inputs(
