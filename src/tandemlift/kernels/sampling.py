@@ -8,7 +8,7 @@ from tandemlift.kernels.solving import write_limits, write_solver
 from tandemlift.kernels.traced import check_layout, graph_for, limited
 from tandemlift.laws.allocation import Constrained
 from tandemlift.pilot import PilotMemory, PilotParameters, decide
-from tandemlift.trace import Function, Module, Place, symbols, traced
+from tandemlift.trace import Function, Module, Place, symbols, traced, written_out
 from tandemlift.trace.code import Written
 
 POINTERS = ("numbers", "heard", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
@@ -50,7 +50,7 @@ class Sampling:
             decided = Decided(*within)
         self.thrusts = self.all(decided.decision.thrusts)
         after = Remembered(pilot.samples + 1.0, decided.memory)
-        check_layout(pilot.parameters.controller, Remembered(onboard.samples, onboard.memory), after)
+        check_layout(pilot.parameters.controller, Remembered(onboard.samples, onboard.memory), written_out(after))
         self.after = self.all(after)
 
     def given_by(self, kind: str, like: Any) -> Any:
