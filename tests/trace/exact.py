@@ -13,9 +13,10 @@ def rounded(exact: Fraction, sign: float) -> float:
     if exact == 0:
         return math.copysign(0.0, sign)
     try:
-        return math.copysign(float(exact), exact)  # Python rounds a quotient of integers once
+        size = abs(float(exact))  # Python rounds a quotient of integers once
     except OverflowError:
-        return math.copysign(math.inf, exact)
+        size = math.inf
+    return size if exact > 0 else -size
 
 
 def sign_of(x: float) -> float:
@@ -51,9 +52,8 @@ def divided(a: float, b: float) -> float:
 
 def once(a: float, b: float, c: float) -> float:
     """a b + c."""
-    product = multiplied(a, b)
     if not finite(a, b, c):
-        return added(product, c)
+        return c if finite(a, b) else added(multiplied(a, b), c)
     both = sign_of(a) * sign_of(b) < 0.0 and sign_of(c) < 0.0
     return rounded(Fraction(a) * Fraction(b) + Fraction(c), -1.0 if both else 1.0)
 

@@ -43,7 +43,7 @@ TRACED: dict[str, Callable[..., Any]] = {
     "&": operator.and_,
     "|": operator.or_,
     "^": operator.xor,
-    "~": operator.invert,
+    "~": lambda a: ~a if isinstance(a, Symbol) else not a,
 }
 NUMBERS = {"+": 2, "-": 2, "*": 2, "/": 2, "fma": 3, "sqrt": 1, "floor": 1, "abs": 1, "negative": 1}
 CHOICES = {"minimum": 2, "maximum": 2}
