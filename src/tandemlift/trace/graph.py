@@ -397,11 +397,15 @@ def once_rounded(a: Any, b: Any, c: Any) -> Any:
             exact = not isinstance(a, tuple) and not isinstance(b, tuple) and _is_exact(a, b)
             return _made(graph, "fadd", a * b, c) if exact else _made(graph, "fma", a, b, c)
         return _made(graph, "fma", a, b, c)
-    plain = a * b + c
-    if isinstance(plain, int) or not math.isfinite(plain):
-        return plain
+    if all(isinstance(v, int) for v in (a, b, c)):
+        return a * b + c
+    if not (math.isfinite(a) and math.isfinite(b) and math.isfinite(c)):
+        return c if math.isfinite(a) and math.isfinite(b) else a * b + c
     exact = Fraction(a) * Fraction(b) + Fraction(c)
-    return float(exact) if exact else plain
+    try:
+        return float(exact) if exact else a * b + c
+    except OverflowError:
+        return math.inf if exact > 0 else -math.inf
 
 
 def _is_exact(a: Any, b: Any) -> bool:
