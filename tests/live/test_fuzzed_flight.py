@@ -52,6 +52,7 @@ def flown(tmp_path, monkeypatch):
     monkeypatch.setattr(viewers, "MOST_MESSAGES", math.inf)  # else the first two thousand in a second are the last
     monkeypatch.setattr(viewers, "SILENT", PATIENCE)
     flight = Noting(tl.load_mission("hover", GUIDED), out=tmp_path / "out")
+    flight.prepare()
     flight.heard = []
     while flight._flight.step * flight._flight.dt < 8.0:
         flight._flight.advance()
