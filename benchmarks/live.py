@@ -27,6 +27,7 @@ from pathlib import Path
 import numpy as np
 from machine import describe, heading, table
 from playwright.async_api import Page, async_playwright
+from waiting import PATIENCE, ended, said
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
@@ -45,7 +46,6 @@ NAP, LATE = (
 )
 LOOKERS = 4
 TURN_EVERY, TURNS_A_SAVE = 5.0, 12  # s between two changes of a setting; changes between two savings
-PATIENCE = 60.0  # s
 KINDS = ((1, 0, 0, 0), ("s", "/s", "ms", "/s"))  # digits and units of what is seen
 HELD = 0.4  # s, after which the page tells who holds the beam
 
@@ -65,7 +65,7 @@ class Looker:
         """Count what is told."""
         where = {"uri": self.address.replace("http", "ws") + "ws", "origin": self.address.rstrip("/")}
         try:
-            with connect(**where) as self.socket:
+            with connect(**where, ping_timeout=None) as self.socket:
                 for told in self.socket:
                     self.hear(told)
         except ConnectionClosed:
@@ -95,12 +95,10 @@ def started(out: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """`tandemlift live zigzag` and its address."""
     command = [sys.executable, "-m", "tandemlift", "live", "zigzag", "--no-browser", "--port=0", f"--out={out}"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    assert process.stdout
     try:
-        yield process, next(f for line in process.stdout if (f := re.search(r"http://\S+", line)))[0]
+        yield process, said(process, r"http://\S+")[0]
     finally:
-        process.terminate()  # a process in the background is deaf to Ctrl-C
-        process.wait()
+        ended(process)  # by SIGTERM: a process in the background is deaf to Ctrl-C
 
 
 def processor_time(pid: int) -> float:
@@ -179,8 +177,7 @@ def idler() -> Iterator[Callable[[], float]]:
         try:
             yield lambda: 1e3 * (max(map(float, (told.seek(0), told.read().split()[:-1])[1])) - NAP)
         finally:
-            process.terminate()
-            process.wait()
+            ended(process)
 
 
 def watched(process: subprocess.Popen[str], lookers: list[Looker], seconds: float) -> tuple[float, float, float]:
@@ -204,7 +201,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=10.0, help="of flight with four lookers-on")
     minutes = parser.parse_args().minutes
-    print(heading(describe(("tandemlift", "websockets", "numba"))), flush=True)
+    print(heading(describe(("tandemlift", "websockets", "llvmlite"))), flush=True)
     with tempfile.TemporaryDirectory() as out, started(out) as (process, address):
         rows = measured(process, address, 60.0 * minutes)
     print("\n" + table(["", "target", "measured"], rows))

@@ -6,6 +6,7 @@ drawn without a graphics card, and at its own pace in the animation.
 
 from __future__ import annotations
 
+import asyncio
 import io
 import sys
 import tempfile
@@ -15,7 +16,8 @@ from pathlib import Path
 import numpy as np
 from live import CHROMIUM, FLAGS, Looker, grabbed, started, until
 from PIL import Image
-from playwright.sync_api import Page, sync_playwright
+from playwright.async_api import Page, async_playwright
+from waiting import PATIENCE
 
 SIZE, SHOWN = {"width": 1200, "height": 750}, (720, 450)
 EVERY, SECONDS, SLOWLY = 0.125, 8.0, "0.1"  # s of flight; pace
@@ -37,21 +39,24 @@ def ahead_of(place: np.ndarray) -> np.ndarray:
     return way / np.linalg.norm(way)
 
 
-def led(page: Page, looker: Looker) -> list[Image.Image]:
+async def led(page: Page, looker: Looker) -> list[Image.Image]:
     """Pictures of the page while the beam is led along the corridor."""
-    x, y = grabbed(page)
+    x, y = await grabbed(page)
     pictures, due = list[Image.Image](), looker.seen["time"][0]
-    end = due + SECONDS
+    end, over = due + SECONDS, time.monotonic() + PATIENCE
     while looker.seen["time"][0] < end:
+        if time.monotonic() > over:
+            sys.exit(f"{SECONDS:g} s of flight took longer than {PATIENCE:g} s")
         seen = looker.seen
         position, target = seen["position"][:2], seen["hand_target"][:2]
         off = position + PULL * ahead_of(position) - target
         x, y = x - PIXELS * off[1] * 0.3, y - PIXELS * off[0] * 0.3  # forward is up, and world y to the left
-        page.mouse.move(x, y)
+        await page.mouse.move(x, y)
         if seen["time"][0] >= due:
-            pictures.append(Image.open(io.BytesIO(page.screenshot())).convert("RGB").resize(SHOWN, Image.LANCZOS))
+            picture = Image.open(io.BytesIO(await page.screenshot()))
+            pictures.append(picture.convert("RGB").resize(SHOWN, Image.LANCZOS))
             due += EVERY
-    page.mouse.up()
+    await page.mouse.up()
     return pictures
 
 
@@ -64,20 +69,27 @@ def palette_of(picture: Image.Image) -> Image.Image:
     return palette
 
 
+async def taken(address: str) -> list[Image.Image]:
+    """Pictures of the page at an address."""
+    async with async_playwright() as playwright:
+        looker = Looker(address)
+        browser = await playwright.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
+        page = await browser.new_page(viewport=SIZE)
+        await page.goto(address)
+        await until(page, "#mode", "guided")
+        await page.get_by_text("level", exact=True).first.click()
+        await page.click("#show-panel")
+        await page.get_by_label("Pace of time").select_option(SLOWLY)
+        await asyncio.sleep(1.0)
+        pictures = await led(page, looker)
+        await browser.close()
+    return pictures
+
+
 def main(path: Path) -> None:
     """Make the animation."""
-    with tempfile.TemporaryDirectory() as out, started(out) as (_, address), sync_playwright() as playwright:
-        looker = Looker(address)
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
-        page = browser.new_page(viewport=SIZE)
-        page.goto(address)
-        until(page, "#mode", "guided")
-        page.get_by_text("level", exact=True).first.click()
-        page.click("#show-panel")
-        page.get_by_label("Pace of time").select_option(SLOWLY)
-        time.sleep(1.0)
-        pictures = led(page, looker)
-        browser.close()
+    with tempfile.TemporaryDirectory() as out, started(out) as (_, address):
+        pictures = asyncio.run(taken(address))
     palette = palette_of(pictures[len(pictures) // 2])
     small = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
     small[0].save(path, save_all=True, append_images=small[1:], duration=round(1e3 * EVERY), loop=0, optimize=True)

@@ -23,9 +23,9 @@ from typing import Any
 
 import numpy as np
 from machine import describe, heading, table
+from waiting import PATIENCE, ended
 
 TOPIC, KIND = "/tandemlift/odometry", "nav_msgs/Odometry"
-PATIENCE = 180.0  # s, for a flight to begin: it may have to be compiled
 SETTLE = 5.0  # s
 TICKS = os.sysconf("SC_CLK_TCK")
 NAMES = {"1": "ROS 1, rospy", "2": "ROS 2, DDS"}
@@ -50,8 +50,7 @@ def running(*command: str, environment: Mapping[str, str], until: str = "") -> I
                 time.sleep(0.1)
             yield process
         finally:
-            process.send_signal(signal.SIGINT)
-            process.wait(30.0)
+            ended(process, signal.SIGINT)
 
 
 class Listener:
@@ -126,7 +125,12 @@ def measure(version: str, seconds: float, environment: Mapping[str, str]) -> Ite
             command = [sys.executable, __file__, "--listen", version, "--seconds", str(seconds)]
             before, began = processor_time(flying.pid), time.monotonic()
             told = subprocess.run(
-                command + ["--all"] * everything, env=environment, stdout=subprocess.PIPE, check=True, text=True
+                command + ["--all"] * everything,
+                env=environment,
+                stdout=subprocess.PIPE,
+                check=True,
+                text=True,
+                timeout=seconds + PATIENCE,
             ).stdout
             share = (processor_time(flying.pid) - before) / (time.monotonic() - began)
         t = json.loads(told.splitlines()[-1])

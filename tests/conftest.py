@@ -1,4 +1,4 @@
-"""What all tests share: programs that need root, and hypothesis without deadlines on a shared machine."""
+"""What all tests share: programs that need root, and hypothesis that minds no machine's speed."""
 
 import os
 import shutil
@@ -6,7 +6,8 @@ import shutil
 import hypothesis
 import pytest
 
-hypothesis.settings.register_profile("tandemlift", deadline=None, derandomize=True)
+SLOW = hypothesis.HealthCheck.too_slow
+hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)
 hypothesis.settings.load_profile("tandemlift")
 
 

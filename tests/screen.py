@@ -1,8 +1,10 @@
 """A screen that nobody sees, and what is on it."""
 
+import signal
 import subprocess
 
 import numpy as np
+from patience import ended, said
 
 HEAD, COLOURS = (0, 19), 12  # of an XWD dump: words for its length and for its colours, of so many bytes each
 
@@ -22,7 +24,7 @@ class Screen:
             stderr=subprocess.DEVNULL,
             text=True,
         )
-        self.name = f":{self._server.stdout.readline().strip()}"
+        self.name = f":{said(self._server, '[0-9]+')[0]}"
 
     def picture(self):
         """What is shown: red, green and blue (height, width, 3), 0 to 255."""
@@ -34,5 +36,4 @@ class Screen:
         return pixels.reshape(height, -1, 4)[:, :width, 2::-1]
 
     def close(self):
-        self._server.kill()
-        self._server.communicate()
+        ended(self._server, signal.SIGKILL)

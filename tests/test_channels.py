@@ -6,13 +6,13 @@ import pytest
 import tandemlift as tl
 from tandemlift.flight import CHANNELS, DERIVED
 from tandemlift.flown import Flown, flight_of
-from tandemlift.jit import leaves
 from tandemlift.laws.guidance import GuidedChannels
 from tandemlift.laws.supervision import SupervisedChannels
 from tandemlift.prepared import Prepared
 from tandemlift.readout import EstimatedChannels, MeasuredChannels
 from tandemlift.sample import Actuated, Air, Contact, Disturbed, Sample, Watched
 from tandemlift.tally import EMPTY
+from tandemlift.trace import leaves
 
 GROUPS = {
     "actuated": Actuated,

@@ -1,6 +1,8 @@
 """The command line as a process of its own: pipes, signals and terminals."""
 
 import os
+import re
+import select
 import signal
 import subprocess
 import sys
@@ -8,6 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
+from patience import COMPILING, PATIENCE, completed
 
 OURS = {"mission.toml", "flight.npz", "metrics.json", "report.html"}
 SHORT = ("--no-figures", "--set", "mission.duration=0.5")
@@ -15,7 +18,7 @@ SHORT = ("--no-figures", "--set", "mission.duration=0.5")
 
 def process(*arguments: str, folder: Path, **environment: str) -> subprocess.CompletedProcess:
     """The command line as a process of its own."""
-    return subprocess.run(
+    return completed(
         [sys.executable, "-m", "tandemlift", *arguments],
         cwd=folder,
         capture_output=True,
@@ -44,20 +47,33 @@ def test_a_terminal_of_ascii_shows_everything(tmp_path):
         assert b"Traceback" not in done.stderr
 
 
+def told(terminal: int, pattern: bytes) -> bytes:
+    """What a process tells a terminal, until a pattern is in it."""
+    text, end = b"", time.monotonic() + COMPILING
+    while not re.search(pattern, text, re.DOTALL):
+        assert select.select([terminal], [], [], max(0.0, end - time.monotonic()))[0], f"after {text!r} it is silent"
+        text += os.read(terminal, 4096)  # an OSError, if it has ended
+    return text
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 def test_ctrl_c_ends_a_flight_without_a_traceback_or_results(tmp_path):
     endless = ("--set", "mission.duration=900000", "--set", "mission.log_interval=10")
     command = [sys.executable, "-m", "tandemlift", "run", "hover", *endless]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as flying:
-        deadline = time.monotonic() + 60.0
-        while not (tmp_path / "out" / "hover").exists() and time.monotonic() < deadline:
-            time.sleep(0.05)
-        time.sleep(1.0)
+    reading, writing = os.openpty()  # a terminal, on which it shows how far it is
+    flying = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=writing)
+    os.close(writing)
+    try:
+        err = told(reading, rb"Flying.*\d\d:\d\d")  # how long it will take is known once some of it is flown
+        assert (tmp_path / "out" / "hover").exists()
         flying.send_signal(signal.SIGINT)
-        out, err = flying.communicate(timeout=30)
+        err += told(reading, b"stopped")
+        out, _ = flying.communicate(timeout=PATIENCE)
+    finally:
+        os.close(reading)
+        flying.kill()
     assert flying.returncode == 130
     assert b"Traceback" not in err
-    assert b"stopped" in err
     assert out == b""
     assert not (tmp_path / "out").exists()
 
@@ -71,7 +87,7 @@ def test_a_reader_that_leaves_early_is_no_error(arguments, tmp_path):
     reading, writing = os.pipe()
     os.close(reading)  # as if `head` had ended before the first line
     try:
-        done = subprocess.run(command, cwd=tmp_path, stdout=writing, stderr=subprocess.PIPE, check=False)
+        done = completed(command, cwd=tmp_path, stdout=writing, stderr=subprocess.PIPE, check=False)
     finally:
         os.close(writing)
     assert b"Traceback" not in done.stderr

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.jit import flat
 from tandemlift.laws.controllers import CONTROLLERS, controller, load_controller
 from tandemlift.laws.controllers import control as control_law
+from tandemlift.trace import flat
 
 GUIDE = (Path(__file__).parents[1] / "docs" / "controllers.md").read_text("utf-8")
 FILES = dict(re.findall(r"<!-- (\S+) -->\n```python\n(.*?)```", GUIDE, re.DOTALL))

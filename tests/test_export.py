@@ -2,12 +2,12 @@
 
 import json
 import re
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 from exported import SAMPLES, eventful, flight_of, mcap_of, numbers, stamps, xyz
+from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
@@ -46,7 +46,7 @@ def ros1(program):
     script = Path(__file__).parent / "messages_as_numbers.py"
 
     def read(path):
-        done = subprocess.run([*python.split(), str(script), str(path)], capture_output=True, check=True, text=True)
+        done = completed([*python.split(), str(script), str(path)], capture_output=True, check=True, text=True)
         found = {}
         for line in done.stdout.splitlines():
             topic, kind, time, leaves = json.loads(line)
@@ -280,7 +280,7 @@ def test_the_mission_in_a_bag_flies_again(read, flight, tmp_path):
 
 def test_ros_knows_the_message_types_of_a_ros_1_bag(flight, folder, program):
     path = export(flight, folder / "types.bag")
-    info = subprocess.run([program("rosbag"), "info", str(path)], capture_output=True, check=True, text=True).stdout
+    info = completed([program("rosbag"), "info", str(path)], capture_output=True, check=True, text=True).stdout
     assert dict(re.findall(r"(\w+/\w+) +\[(\w{32})\]", info)) == MD5
     assert re.search(r"compression: +lz4", info)
 

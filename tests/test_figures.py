@@ -3,7 +3,6 @@
 import dataclasses
 import re
 import struct
-import subprocess
 import sys
 
 import numpy as np
@@ -12,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.collections import PolyCollection
 from matplotlib.patches import FancyArrowPatch
+from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
@@ -113,7 +113,7 @@ assert "matplotlib" not in sys.modules
 tandemlift.figures.FIGURES["reference"](Flight.load({str(flight)!r}))
 assert "matplotlib.figure" in sys.modules and "matplotlib.pyplot" not in sys.modules
 """
-    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
+    completed([sys.executable, "-W", "error", "-c", code], check=True)
 
 
 def test_the_path_is_drawn_in_parallel_projection_at_one_scale(paper, path_figure, projection):

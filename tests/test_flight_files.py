@@ -2,13 +2,13 @@ import json
 import math
 import pickle
 import random
-import subprocess
 import sys
 import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
+from patience import completed
 
 import tandemlift as tl
 from tandemlift.flight import CHANNELS, FORMAT, Divergence, Flight
@@ -36,7 +36,7 @@ def test_a_saved_flight_loads_to_the_last_bit(short, lost, tmp_path):
         assert loaded.mission == flight.mission
         assert loaded.metrics() == flight.metrics()
         assert loaded.divergence == flight.divergence
-        assert set(loaded.version) >= {"tandemlift", "numba", "numpy"}
+        assert set(loaded.version) >= {"tandemlift", "llvmlite", "numpy"}
         assert loaded.version == flight.version
     assert list((tmp_path / "deep").iterdir()) == [tmp_path / "deep" / "flight.npz"]
 
@@ -190,5 +190,5 @@ def test_a_save_that_is_killed_leaves_the_old_file(short, tmp_path):
         "np.savez = die\n"
         "flight.save(sys.argv[1])\n"
     )
-    assert subprocess.run([sys.executable, "-c", program, str(path)], check=False).returncode == 9
+    assert completed([sys.executable, "-c", program, str(path)], check=False).returncode == 9
     assert Flight.load(path) == short

@@ -1,7 +1,6 @@
 """Missions as models of other simulators: worlds read by libsdformat, MuJoCo models beside the engine's own."""
 
 import importlib
-import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -10,6 +9,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from exported import flight_of
+from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
@@ -66,16 +66,14 @@ def inertia_about(links):
 def reader(program, tmp_path_factory):
     """What libsdformat reads of a world, which is strict: what it does not know, or warns of, is an error."""
     compiler = program("g++")
-    package = subprocess.run(
-        [program("pkg-config"), "--cflags", "--libs", "sdformat12"], capture_output=True, text=True
-    )
+    package = completed([program("pkg-config"), "--cflags", "--libs", "sdformat12"], capture_output=True, text=True)
     if package.returncode:
         pytest.skip("libsdformat-dev 12 is not installed")
     made, source = tmp_path_factory.mktemp("reader") / "reader", Path(__file__).parent / "sdf_reader.cpp"
-    subprocess.run([compiler, "-std=c++17", str(source), "-o", str(made), *package.stdout.split()], check=True)
+    completed([compiler, "-std=c++17", str(source), "-o", str(made), *package.stdout.split()], check=True)
 
     def read(path):
-        done = subprocess.run([str(made), str(path)], capture_output=True, text=True)
+        done = completed([str(made), str(path)], capture_output=True, text=True)
         assert (done.returncode, done.stderr) == (0, "")
         return [line.split() for line in done.stdout.splitlines()]
 

@@ -5,12 +5,12 @@ import html
 import math
 import re
 import shutil
-import subprocess
 import tomllib
 from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from patience import completed
 
 import tandemlift as tl
 from tandemlift.cli.results import write_results
@@ -339,7 +339,7 @@ def test_a_browser_without_a_network_shows_every_figure(report, tmp_path, progra
     copy.write_text(report.read_text("utf-8") + probe, "utf-8")
     quiet = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--dump-dom"]
     offline = ["--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={tmp_path / 'profile'}"]
-    shown = subprocess.run([browser, *quiet, *offline, copy.as_uri()], capture_output=True, text=True, timeout=120)
+    shown = completed([browser, *quiet, *offline, copy.as_uri()], capture_output=True, text=True)
     assert shown.returncode == 0, shown.stderr
     assert "<title>2148,2148,2148,2148,1050,2148</title>" in shown.stdout
     shutil.rmtree(tmp_path / "profile", ignore_errors=True)

@@ -149,6 +149,12 @@ def maximum(a, b):
 
 
 @law
+def least(values):
+    """The smallest of the values of a set."""
+    return functools.reduce(minimum, values)
+
+
+@law
 def greatest(values):
     """The largest of the values of a set."""
     return functools.reduce(maximum, values)

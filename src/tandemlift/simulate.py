@@ -20,10 +20,9 @@ from tandemlift.kernels import LANES, Memory
 from tandemlift.prepared import Prepared
 from tandemlift.recording import engine_of
 from tandemlift.settings import Mission
-from tandemlift.stepwise import fly_stepwise
+from tandemlift.stepwise import body_in, fly_stepwise
 from tandemlift.tally import EMPTY
 from tandemlift.trace import leaves, unflat
-from tandemlift.vehicle import Vehicle
 
 Progress = Callable[[int, int], None]
 STRETCH = 0.1  # s between looks at the keyboard and at the progress bar
@@ -121,10 +120,10 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
         InputError: the engine is not known, or the mission cannot be built.
     """
     engine = engine_of(mission) if engine is None else engine
-    chosen, p = engine_named(engine), Prepared(mission)
-    rows = p.steps // p.every + 1
-    if chosen.module:
-        body = chosen.start(mission, Vehicle.from_settings(mission.vehicle), p.flying.plant.floor, p.flying.plant.walls)
+    engine_named(engine)
+    p = Prepared(mission)
+    rows, body = p.steps // p.every + 1, body_in(engine, p)
+    if body is not None:
         return flight_of(p, fly_stepwise(p, rows, p.every, progress, body), engine)
     (flown,) = _fly_together([p], rows, p.every, progress)
     return flight_of(p, flown)

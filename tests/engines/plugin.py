@@ -5,6 +5,7 @@ import struct
 import threading
 
 import numpy as np
+from patience import joined
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
@@ -94,12 +95,12 @@ class Plugin:
         self.port = self.socket.getsockname()[1]
         self.socket.settimeout(0.01)
         self.closed = False
-        self.thread = threading.Thread(target=self._serve, daemon=True)
+        self.thread = threading.Thread(target=self._serve, name="plugin", daemon=True)
         self.thread.start()
 
     def close(self):
         self.closed = True
-        self.thread.join()
+        joined(self.thread)
         self.socket.close()
 
     def __enter__(self):

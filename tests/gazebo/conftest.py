@@ -2,11 +2,11 @@
 
 import shlex
 import socket
-import subprocess
 import time
 
 import numpy as np
 import pytest
+from patience import PATIENCE, completed
 
 import tandemlift as tl
 from tandemlift.engines.gazebo import rotors_of, start_of, world_of
@@ -15,7 +15,7 @@ from tandemlift.engines.gazebo_ros import RosWire
 from tandemlift.engines.gazebo_server import Server, command, exported, free_port, in_gazebo, root
 from tandemlift.engines.gazebo_wire import Wire
 
-PATIENCE, OVER_ROS = 0.4, 1.0  # s
+SILENT, SILENT_OVER_ROS = 1.5, 3.0  # s, after which a pilot is given up
 
 
 class Gazebo:
@@ -26,14 +26,14 @@ class Gazebo:
         self.vehicle = tl.Vehicle.from_settings(self.mission.vehicle)
         self.dt = self.mission.mission.step
         self.port = free_port(socket.SOCK_DGRAM)
-        staying = {"wait": "false", "stay": "true", "patience": str(OVER_ROS if over_ros else PATIENCE)}
+        staying = {"wait": "false", "stay": "true", "patience": str(SILENT_OVER_ROS if over_ros else SILENT)}
         if over_ros:
             node()
             self.server = Server(world_of(self.mission, "ros", **staying), environment())
-            self.call = lambda: RosWire(self.vehicle.count, 30.0, self.server.check)
+            self.call = lambda: RosWire(self.vehicle.count, PATIENCE, self.server.check)
         else:
             self.server = Server(world_of(self.mission, self.port, **staying))
-            self.call = lambda: Wire(self.port, self.vehicle.count, 30.0, self.server.check)
+            self.call = lambda: Wire(self.port, self.vehicle.count, PATIENCE, self.server.check)
         self.wires = []
 
     def wire(self, *, place=True, real_time=False):
@@ -47,12 +47,12 @@ class Gazebo:
     def gz(self, *arguments):
         """Run Gazebo's own `gz`."""
         script = in_gazebo(self.server.master, f"gz {shlex.join(arguments)}")
-        return subprocess.run(command(root(), script), capture_output=True, text=True, timeout=60, check=True).stdout
+        return completed(command(root(), script), capture_output=True, text=True, check=True).stdout
 
     def ros(self, *arguments):
         """Run ROS's own tool that lies where Gazebo is, for some seconds at most; what it says."""
-        script = exported(environment()) + f"timeout -s INT 20 {shlex.join(arguments)}"
-        return subprocess.run(command(root(), script), capture_output=True, text=True, timeout=60, check=False).stdout
+        script = exported(environment()) + f"timeout -s INT 60 {shlex.join(arguments)}"
+        return completed(command(root(), script), capture_output=True, text=True, check=False).stdout
 
     def close(self):
         for wire in self.wires:
@@ -69,12 +69,12 @@ def fly(wire, steps, amplitude=0.3):
     return np.array(told)
 
 
-def rest_and_fly(body, vehicle, patience):
+def rest_and_fly(body, vehicle, silent):
     """Fly, rest for much longer than a server waits, and fly on from there."""
     step = np.full(vehicle.rotor_count, vehicle.weight / vehicle.rotor_count), np.zeros(0), np.zeros(3), np.zeros(3)
     body.advance(*step)
     stood = body.state.copy()
-    for _ in range(round(3.0 * patience / 0.05)):
+    for _ in range(round(3.0 * silent / 0.05)):
         time.sleep(0.05)
         body.rest()
     body.advance(*step)

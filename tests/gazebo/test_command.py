@@ -3,14 +3,13 @@
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
-import time
 
 import matplotlib.image
 import numpy as np
 import pytest
+from patience import COMPILING, completed, ended, said, until
 from screen import Screen
 
 import tandemlift as tl
@@ -18,7 +17,6 @@ from tandemlift.engines.gazebo_server import command, in_gazebo, root
 
 pytestmark = pytest.mark.gazebo
 TANDEMLIFT = [sys.executable, "-m", "tandemlift", "gazebo"]
-LONGEST = 240.0  # s, for a loop that may have to be compiled
 
 
 def begun(*arguments, folder, **environment):
@@ -30,26 +28,23 @@ def begun(*arguments, folder, **environment):
         text=True,
         env=os.environ | environment,
     )
-    for line in process.stdout:
-        if found := re.search(r"GAZEBO_MASTER_URI=(\S+)", line):
-            return process, found[1]
-    raise AssertionError("it ended before it flew")
+    return process, said(process, r"GAZEBO_MASTER_URI=(\S+)")[1]
 
 
 def gz(master, *arguments):
-    return subprocess.run(
-        command(root(), in_gazebo(master, f"timeout 10 gz {' '.join(arguments)}")),
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    ).stdout
+    script = in_gazebo(master, f"timeout 60 gz {' '.join(arguments)}")
+    return completed(command(root(), script), capture_output=True, text=True, check=False).stdout
+
+
+def flown(master):
+    """How long it has flown [s]."""
+    told = re.findall(r"^ *[\d.]+, +([\d.]+), ", gz(master, "stats", "-p", "-d", "2"), re.MULTILINE)
+    return float(told[-1]) if told else 0.0
 
 
 def test_a_corridor_is_flown_from_ground_to_ground_and_photographed(tmp_path):
     process, _ = begun("zigzag", "--fast", "--pictures", "--no-window", folder=tmp_path)
-    process.communicate(timeout=2.0 * LONGEST)
-    assert process.returncode == 0
+    assert ended(process, None, COMPILING) == 0
     flight, alike = tl.Flight.load(tmp_path / "flight.npz"), tl.fly(tl.load_mission("zigzag"))
     assert flight.version["engine"] == "gazebo"
     assert flight["contact_force"][[0, -1], 2] == pytest.approx(34.3, abs=0.5)  # N: it stood, and stands
@@ -66,12 +61,11 @@ def test_a_corridor_is_flown_from_ground_to_ground_and_photographed(tmp_path):
 
 def test_a_flight_by_hand_yields_to_the_topic_and_is_kept(tmp_path):
     process, master = begun("iris", "--by-hand", "--no-window", folder=tmp_path)
-    time.sleep(16.0)  # s: it lifts, and tares until 12 s
+    until(lambda: flown(master) > 14.0, "the end of the tare")  # s: it lifts, and tares until 12 s
     gz(master, "topic", "-p", "/gazebo/default/tandemlift/push", "-m", """'data: "force 2 0 0 duration 2"'""")
-    time.sleep(6.0)
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=60.0)
-    assert process.returncode == 0
+    pushed = flown(master)
+    until(lambda: flown(master) > pushed + 4.0, "the end of the push")
+    assert ended(process) == 0
     flight = tl.Flight.load(tmp_path / "flight.npz")
     assert flight.mission["mission"]["duration"] == pytest.approx(flight.time[-1], abs=0.02)
     assert np.abs(flight["push_estimate"][:, 0]).max() == pytest.approx(2.0, abs=0.3)  # N
@@ -84,10 +78,7 @@ def test_the_window_opens_and_closes_with_the_flight(tmp_path, program):
     try:
         dark = screen.picture()
         process, _ = begun("zigzag", "--set", "mission.duration=20.0", folder=tmp_path / "out", DISPLAY=screen.name)
-        time.sleep(12.0)
-        shown = screen.picture()
-        process.communicate(timeout=LONGEST)
-        assert process.returncode == 0
-        assert np.mean((dark != shown).any(axis=2)) > 0.2
+        until(lambda: np.mean((dark != screen.picture()).any(axis=2)) > 0.2, "a window")
+        assert ended(process, None, COMPILING) == 0
     finally:
         screen.close()

@@ -4,10 +4,10 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
+from patience import ended, said, until
 
 import tandemlift as tl
 from tandemlift.engines import gazebo
@@ -105,14 +105,10 @@ def test_a_flight_that_is_killed_takes_its_server_with_it():
         "while True: body.advance(np.full(8, 4.0), np.zeros(0), np.zeros(3), np.zeros(3))"
     )
     pilot = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
-    server = int(pilot.stdout.readline())
+    server = int(said(pilot, r"\d+")[0])
     assert runs(server)
-    os.kill(pilot.pid, signal.SIGKILL)
-    pilot.communicate()
-    ends = time.monotonic() + 20.0
-    while runs(server) and time.monotonic() < ends:
-        time.sleep(0.1)
-    assert not runs(server)
+    ended(pilot, signal.SIGKILL)
+    until(lambda: not runs(server), "the end of its server")
 
 
 def test_a_server_without_the_plugin_is_told_of(monkeypatch):

@@ -1,6 +1,5 @@
 """The plugin when pilots die, come back and interfere, and when a person pushes by Gazebo's own topic."""
 
-import os
 import random
 import signal
 import subprocess
@@ -10,12 +9,13 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from patience import ended, said
 
 from tandemlift.constants import GRAVITY
 from tandemlift.engines.gazebo import GazeboBody, rotors_of
 from tandemlift.engines.gazebo_wire import HEADER, Wire
 
-from .conftest import PATIENCE, fly, rest_and_fly
+from .conftest import SILENT, fly, rest_and_fly
 
 pytestmark = pytest.mark.gazebo
 HOLD = 0.1  # s
@@ -40,11 +40,11 @@ def pushed(gazebo, wire, text, steps=600):
     script = ["topic", "-p", PUSH, "-m", f'data: "{text}"']
     told = []
     with ThreadPoolExecutor(1) as pool:
-        said = pool.submit(gazebo.gz, *script)
-        while not said.done():
+        tool = pool.submit(gazebo.gz, *script)
+        while not tool.done():  # `gz` is ended if it does not end
             told.append(wire.advance().numbers[3:].copy())
             time.sleep(0.001)
-    said.result()
+    tool.result()
     told.extend(wire.advance().numbers[3:].copy() for _ in range(steps))
     return np.array(told)
 
@@ -53,7 +53,7 @@ def test_a_vehicle_whose_pilot_is_silent_is_held_for_a_moment_then_falls(gazebo)
     wire = gazebo.wire()
     fly(wire, 10, amplitude=0.0)
     ended = wire.told.clock[0]
-    time.sleep(PATIENCE + 0.8)
+    time.sleep(SILENT + 0.8)
     told = gazebo.wire(place=False).told
     falling = told.clock[0] - ended - HOLD
     assert falling > 0.1  # s
@@ -64,14 +64,14 @@ def test_a_vehicle_whose_pilot_is_silent_is_held_for_a_moment_then_falls(gazebo)
 def test_a_pilot_that_rests_is_not_given_up(gazebo, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_GAZEBO_PORT", str(gazebo.port))
     body = GazeboBody(gazebo.mission, gazebo.vehicle)
-    rest_and_fly(body, gazebo.vehicle, PATIENCE)
+    rest_and_fly(body, gazebo.vehicle, SILENT)
     body.close()
 
 
 def test_a_pilot_that_was_given_up_is_told_so(gazebo):
     wire = gazebo.wire()
     fly(wire, 3)
-    time.sleep(PATIENCE + 0.5)
+    time.sleep(SILENT + 0.5)
     with pytest.raises(ConnectionError, match=r"refuses step 4: the session is over"):
         wire.advance()
 
@@ -82,13 +82,12 @@ def test_twenty_pilots_killed_at_any_moment_leave_a_server_that_flies_to_the_las
     arguments = [sys.executable, "-c", PILOT, str(gazebo.port), repr(gazebo.vehicle.weight), rotors]
     for _ in range(20):
         pilot = subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True)
-        assert pilot.stdout.readline() == "flying\n"
+        said(pilot, "^flying$")
         time.sleep(chance.uniform(0.0, 0.1))
-        os.kill(pilot.pid, signal.SIGKILL)
-        pilot.communicate()
+        ended(pilot, signal.SIGKILL)
         gazebo.server.check()
         if chance.random() < 0.5:  # the next one comes while it waits, or after it was given up
-            time.sleep(PATIENCE + 0.3)
+            time.sleep(SILENT + 0.3)
     after = fly(gazebo.wire(), 300)
     assert np.array_equal(after, before)
 

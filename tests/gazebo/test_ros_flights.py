@@ -4,16 +4,16 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
+from patience import completed, ended, said, until
 
 import tandemlift as tl
 from tandemlift.engines.gazebo_ros import over_ros
 from tandemlift.engines.gazebo_server import root
 
-from .conftest import OVER_ROS, Gazebo, rest_and_fly
+from .conftest import SILENT_OVER_ROS, Gazebo, rest_and_fly
 from .test_flights import WINDY, runs
 
 pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore")]  # rospy is of another age
@@ -56,7 +56,7 @@ def test_debian_11s_rospy_flies_the_same(tmp_path):
             (older / folder.name).symlink_to(folder)
     arguments = [sys.executable, "-c", OLDER, str(older), str(tmp_path / "flight.npz")]
     without = {k: v for k, v in os.environ.items() if not k.startswith("ROS_")}
-    subprocess.run(arguments, check=True, timeout=120, env=without)
+    completed(arguments, check=True, env=without)
     assert same(tl.fly(mission, engine="gazebo"), tl.Flight.load(tmp_path / "flight.npz"))
 
 
@@ -78,7 +78,7 @@ def test_a_pilot_that_rests_is_not_given_up_by_a_world_that_is_joined(monkeypatc
     monkeypatch.setenv("TANDEMLIFT_GAZEBO_ROS", "world")
     world = Gazebo(over_ros=True)
     body = over_ros(world.mission, world.vehicle)
-    rest_and_fly(body, world.vehicle, OVER_ROS)
+    rest_and_fly(body, world.vehicle, SILENT_OVER_ROS)
     body.close()
     world.close()
 
@@ -92,16 +92,11 @@ def test_a_flight_that_is_killed_takes_server_and_master_with_it():
     )
     without = {k: v for k, v in os.environ.items() if not k.startswith("ROS_")}
     pilot = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, env=without)
-    server, master = pilot.stdout.readline().split()
+    server, master = said(pilot, r"(\d+) (\S+)").groups()
     assert runs(int(server))
     assert answers(master)
-    os.kill(pilot.pid, signal.SIGKILL)
-    pilot.communicate()
-    ends = time.monotonic() + 20.0
-    while (runs(int(server)) or answers(master)) and time.monotonic() < ends:
-        time.sleep(0.1)
-    assert not runs(int(server))
-    assert not answers(master)
+    ended(pilot, signal.SIGKILL)
+    until(lambda: not runs(int(server)) and not answers(master), "the end of server and master")
 
 
 def answers(uri):

@@ -1,11 +1,11 @@
 """Exported worlds as Gazebo's own checker reads them."""
 
 import shutil
-import subprocess
 import tempfile
 from pathlib import Path
 
 import pytest
+from patience import completed
 
 import tandemlift as tl
 from tandemlift.engines.gazebo_server import command, in_gazebo, root
@@ -25,7 +25,7 @@ def folder():
 
 def check(seen):
     script = in_gazebo("http://127.0.0.1:1", f"gz sdf -k {seen} 2>&1")
-    return subprocess.run(command(root(), script), capture_output=True, text=True, timeout=60, check=False).stdout
+    return completed(command(root(), script), capture_output=True, text=True, check=False).stdout
 
 
 @pytest.mark.parametrize("name", ["paper", "four", "heavy-payload", "zigzag"])

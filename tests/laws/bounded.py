@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 import pytest
-from numba.extending import register_jitable
 from scipy.optimize import lsq_linear
 
-from tandemlift.laws.limits import PARTS, limited, weighted_rows, weights_of
+from tandemlift.kernels.solving import write_solver
+from tandemlift.kernels.traced import Solver
+from tandemlift.laws.allocation import Mixer, Working
+from tandemlift.laws.body import Wrench
+from tandemlift.laws.limits import GAMMA, Bounded, weighted_rows, weights_of
+from tandemlift.trace import Function, Module, flat
+from tandemlift.trace.machine import BEST, QUICK, Loaded
+from tandemlift.trace.machine import compiled as object_code
+from tandemlift.vector import each, vec3
 from tandemlift.vehicle import Vehicle
 
 from .helpers import BEAM, quadrotor
 
-PRIORITIES, GAMMA = (30.0, 900.0, 900.0, 1.0), 1e-3
+PRIORITIES = (30.0, 900.0, 900.0, 1.0)
 LIMIT = 7.066  # N, of IRIS
 PLACES = {
     1: [(0.0, 0.0)],
@@ -28,10 +35,6 @@ PLACES = {
 }
 VEHICLES = [(count, layout) for count in PLACES for layout in ("+", "x")]
 EVERY = pytest.mark.parametrize(("count", "layout"), VEHICLES)
-
-for _part in PARTS:
-    register_jitable(forceinline=True, error_model="numpy")(_part)  # as the kernels do: a process may fly afterwards
-compiled = numba.njit(error_model="numpy")(limited)
 
 
 class Craft(NamedTuple):
@@ -86,10 +89,88 @@ def problems(c: Craft, number: int, seed: int = 0) -> Iterator[Problem]:
         yield p if rng.random() < 0.8 else p._replace(limits=p.limits * rng.uniform(0.0, 1.0, n))
 
 
+def wrench_of(values: Any) -> Wrench:
+    return Wrench(float(values[0]), vec3(values[1:]))
+
+
+def set_of(values: Any) -> Any:
+    """One number for each rotor."""
+    return each(len(values))(*map(float, values))
+
+
+def asked(c: Craft, p: Problem) -> Bounded:
+    """What is minimised, as values."""
+    rows = Mixer(*map(set_of, c.rows))
+    return Bounded(rows, wrench_of(c.weights), wrench_of(p.wanted), set_of(p.unlimited), set_of(p.limits))
+
+
+class Code:
+    """The solver of so many rotors in machine code: as it flies, `solve`, for lanes of problems, and `search`, counted.
+
+    `search` takes at most so many steps, and gives their number; otherwise it is the same.
+    """
+
+    def __init__(self, bounded: Bounded, lanes: int) -> None:
+        self.lanes, solver, module = lanes, Solver(bounded), Module()
+        self.begin, self.end = solver.problem_size, solver.problem_size + 2 * solver.rotors + 3
+        write_solver(module, solver, lanes)
+        module.functions[-1] = module.functions[-1].replace("internal void", "void")
+        if lanes == 1:
+            self._write_search(module, solver)
+        level = BEST if solver.rotors <= 16 else QUICK
+        names = ["solve", "search"] if lanes == 1 else ["solve"]
+        self.code = Loaded(object_code(module.text, level), names)
+        self.solve = ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self.code.addresses["solve"])
+        if lanes == 1:
+            counted = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64)
+            self.search = counted(self.code.addresses["search"])
+
+    def _write_search(self, module: Module, solver: Solver) -> None:
+        f = Function(module, solver.graph, 1, "i64 @search(ptr noalias %s, i64 %most) #0")
+        f.read = {"problem": lambda i: f.load("%s", i), "search": lambda i: f.load("%s", self.begin + i)}
+        for values in (solver.begun, solver.after):
+            if values is solver.after:
+                f.label("first")
+                f.label("search")
+                f.lines.append("  %step = phi i64 [ 1, %first ], [ %next, %goes_on ]")
+            with f.scope():
+                for m, value in enumerate(f.values(values)):
+                    f.store(value, "%s", self.begin + m)
+        ended = f.op(f"fcmp one double {f.load('%s', self.end - 1)}, 0.0")
+        last = f.op("icmp sge i64 %step, %most")
+        f.do(f"br i1 {f.op(f'or i1 {ended}, {last}')}, label %done, label %goes_on")
+        f.lines += ["goes_on:", "  %next = add i64 %step, 1", "  br label %search", "done:"]
+        f.end("i64 %step")
+
+    def numbers(self, bounded: Bounded, held: Working) -> np.ndarray:
+        """A problem, where its search begins, and room for its flags."""
+        return np.array([*flat(bounded), *flat(held), 0.0, 0.0, 0.0])
+
+
+CODES: dict[tuple[int, int], Code] = {}
+
+
+def code_of(bounded: Bounded, lanes: int = 1) -> Code:
+    key = len(bounded.limits), lanes
+    if key not in CODES:
+        CODES[key] = Code(bounded, lanes)
+    return CODES[key]
+
+
+def compiled(p: Bounded, held: Working, most: int) -> tuple[Working, int]:
+    """`limited` in machine code."""
+    code, n = code_of(p), len(p.limits)
+    numbers = code.numbers(p, held)
+    steps = code.search(numbers.ctypes.data, most)
+    active, thrusts = numbers[code.begin : code.begin + n], numbers[code.begin + n : code.begin + 2 * n]
+    return Working(set_of(active), set_of(thrusts)), steps
+
+
 def solve(c: Craft, p: Problem, start: Answer | None = None, run: Any = compiled, most: int | None = None) -> Answer:
     n = len(p.limits)
-    f, active = (np.zeros(n), np.zeros(n)) if start is None else (start.f.copy(), start.active.copy())
-    steps = run(c.rows, c.weights, p.wanted, p.unlimited, p.limits, GAMMA, active, f, np.zeros(n), most or 8 * n)
+    f, active = (np.zeros(n), np.zeros(n)) if start is None else (start.f, start.active)
+    found, steps = run(asked(c, p), Working(set_of(active), set_of(f)), most or 8 * n)
+    f, active = np.array(found.thrusts), np.array(found.active)
     assert np.all(f >= 0.0)
     assert np.all(f <= np.maximum(p.limits, 0.0))
     return Answer(f, active, steps)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from hypothesis import strategies as st
@@ -59,6 +59,11 @@ def rebuilt(numbers: Any, like: Any) -> Any:
         return type(part)(*map(build, part)) if isinstance(part, tuple) else next(source)
 
     return build(like)
+
+
+def record(name: str, values: Any) -> Any:
+    """Any number of values as one nested value."""
+    return NamedTuple(name, [(f"x{i}", Any) for i in range(len(values))])(*values)  # type: ignore[misc]
 
 
 def array(value: Any) -> np.ndarray:

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 
-from tandemlift.jit import flat, install, leaves, load, store, unflat
 from tandemlift.laws.body import State
 from tandemlift.laws.estimation import Push, PushEstimator, estimate, push_estimator, start_push
 from tandemlift.laws.loads import Felt
 from tandemlift.laws.navigation import Navigation, Navigator, navigate, navigator, start_navigation
 from tandemlift.laws.sensing import Hiss, Readings, Sensors, sense, sensors, start_sensing
-from tandemlift.vector import ZERO, Quat, Vec3, each
+from tandemlift.trace import leaves, unflat
+from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each
+
+from .machine_code import Loop
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
@@ -73,20 +73,22 @@ def step(x: Onboard, truth: Any, hiss: Any, t: Any) -> Any:
     return Seen(push, state, readings, navigation), after
 
 
+class Given(NamedTuple):
+    """What a step of a flight is given."""
+
+    truth: Happening
+    hiss: Any
+    time: Any
+
+
+def step_of(fixed: Any, x: Onboard, given: Given) -> Any:
+    return step(x, given.truth, given.hiss, given.time)
+
+
 @functools.cache
-def loop() -> Callable[..., Any]:
-    """loop(a, truth, normals, out, dt): all steps of a flight."""
-    install()
-    compiled = numba.njit(error_model="numpy")(step)
-    like, onboard, noise = LIKE, ONBOARD, HISS
-
-    def loop(a, truth, normals, out, dt):
-        x = load(a, onboard)
-        for k in range(truth.shape[0]):
-            seen, x = compiled(x, load(truth[k], like), load(normals[k], noise), k * dt)
-            store(out[k], seen)
-
-    return numba.njit(error_model="numpy")(loop)
+def loop() -> Loop:
+    """All steps of a flight, in machine code."""
+    return Loop(step_of, Nothing(), ONBOARD, Given(LIKE, HISS, 0.0))
 
 
 def onboard(
@@ -107,9 +109,8 @@ def onboard(
 def perceived(x: Onboard, truth: np.ndarray, seed: int = 0, step_size: float = STEP) -> Any:
     """`Seen` with arrays over the steps of `truth` (steps × numbers of a `Happening`)."""
     normals = np.random.default_rng(seed).standard_normal((len(truth), leaves(HISS)))
-    out = np.zeros((len(truth), leaves(SEEN)))
-    loop()(np.array(flat(x)), truth, normals, out, step_size)
-    columns = iter(out.T)
+    times = step_size * np.arange(len(truth))[:, None]
+    columns = iter(loop()(Nothing(), x, np.hstack([truth, normals, times])).T)
 
     def gathered(like: Any) -> Any:
         return type(like)(*map(gathered, like)) if isinstance(like, tuple) else next(columns)

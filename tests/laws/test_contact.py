@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import given
-from numba.extending import register_jitable
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from tandemlift.constants import GRAVITY
-from tandemlift.jit import flat, install, leaves, load, store, unflat, zeroed
+from tandemlift.law import law
 from tandemlift.laws.body import Body, State, Wrench, rigid_body_motion
 from tandemlift.laws.contact import (
     Floor,
@@ -30,10 +28,12 @@ from tandemlift.laws.contact import (
 from tandemlift.laws.loads import Frame, Load, Loads, frame_of, resultant
 from tandemlift.laws.push import CentralPush
 from tandemlift.ops import sqrt
+from tandemlift.trace import flat, unflat
 from tandemlift.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.vehicle import Vehicle
 
 from .helpers import BEAM, array, free_body, paper_vehicle, quadrotor, random_state, random_vehicle, seeds
+from .machine_code import Loop, answers
 
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 UNTOUCHED = Load(ZERO, ZERO)
@@ -66,13 +66,13 @@ class Moving(NamedTuple):
     grip: Any
 
 
-@register_jitable(error_model="numpy")
+@law
 def motion(world, grip, s):
     load = resultant(world.frame, s.attitude, Loads(UNTOUCHED, touch(world.floor, grip, world.frame, s)))
     return rigid_body_motion(world.body, s, Wrench(0.0, load.moment), CentralPush(load.force + world.force))
 
 
-@register_jitable(error_model="numpy")
+@law
 def advanced(world, x, dt):
     s, grip = x.state, x.grip
     k1 = motion(world, grip, s)
@@ -85,27 +85,28 @@ def advanced(world, x, dt):
     return Moving(s, slip(world.floor, grip, s))
 
 
+class Given(NamedTuple):
+    """The length of a step [s]."""
+
+    step: Any
+
+
+def step_of(world, x, given):
+    after = advanced(world, x, given.step)
+    return after, after
+
+
 @pytest.fixture(scope="module")
 def flown():
     """flown(start, duration, floor, force, step): a flight of the paper's vehicle from a state, one row a step."""
-    install()
-    frame = frame_of(VEHICLE)
-    world_like = zeroed(World(FLOOR, frame, BODY, ZERO))
-    start = State(ZERO, ZERO, LEVEL, ZERO)
-    like = zeroed(Moving(start, start_grip(FLOOR, start)))
-
-    @numba.njit(error_model="numpy")
-    def loop(numbers, dt, rows):
-        world, x = load(numbers, world_like), load(rows[0], like)
-        for k in range(1, len(rows)):
-            x = advanced(world, x, dt)
-            store(rows[k], x)
+    frame, begin = frame_of(VEHICLE), State(ZERO, ZERO, LEVEL, ZERO)
+    loop = Loop(step_of, World(FLOOR, frame, BODY, ZERO), Moving(begin, start_grip(FLOOR, begin)), Given(STEP))
 
     def fly(start: State, duration: float, floor=FLOOR, force=(0.0, 0.0, 0.0), step=STEP) -> Flight:
-        rows = np.zeros((round(duration / step) + 1, leaves(like)))
-        rows[0] = flat(Moving(start, start_grip(floor, start)))
-        loop(np.array(flat(World(floor, frame, BODY, vec3(force)))), step, rows)
-        return Flight(rows, floor)
+        steps = np.full((round(duration / step), 1), step)
+        first = Moving(start, start_grip(floor, start))
+        rows = loop(World(floor, frame, BODY, vec3(force)), first, steps)
+        return Flight(np.vstack([flat(first), rows]), floor)
 
     return fly
 
@@ -321,32 +322,19 @@ def test_no_foot_touches_while_it_is_said_that_none_may(flown):
     assert pressed.any()
 
 
-class Arguments(NamedTuple):
-    floor: Floor
-    grip: Any
-    frame: Frame
-    state: State
-
-
 class Answer(NamedTuple):
     load: Load
     grip: Any
 
 
+def both(ground, grip, frame, s):
+    return Answer(touch(ground, grip, frame, s), slip(ground, grip, s))
+
+
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
-def test_compiled_contact_equals_plain_python(count):
-    install()
+def test_machine_code_of_contact_equals_plain_python(count):
     ground, frame, grip, s = near_floor(np.random.default_rng(7), count)
-    arguments = Arguments(ground, grip, frame, s)
-    answer = Answer(touch(ground, grip, frame, s), slip(ground, grip, s))
-    like = zeroed(arguments)
-
-    @numba.njit(error_model="numpy")
-    def evaluate(a, y):
-        x = load(a, like)
-        store(y, Answer(touch(x.floor, x.grip, x.frame, x.state), slip(x.floor, x.grip, x.state)))
-
-    found, wanted = np.zeros(leaves(answer)), np.array(flat(answer))
-    evaluate(np.array(flat(arguments)), found)
+    answer = both(ground, grip, frame, s)
+    found, wanted = answers(both, (ground, grip, frame, s))[0], np.array(flat(answer))
     assert np.abs(flat(answer.load)).max() > 1.0
     assert np.abs(found - wanted).max() < 1e-12 * np.abs(wanted).max()

@@ -1,20 +1,20 @@
-"""One source everywhere: the whole step in plain Python, NumPy, Numba, JAX and CasADi, for several variants."""
+"""One source everywhere: the whole step in plain Python, NumPy, machine code, JAX and CasADi, for several variants."""
 
 from __future__ import annotations
 
 from functools import cache
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 import pytest
 
 import tandemlift as tl
 from tandemlift.assembly import assemble
-from tandemlift.jit import install, leaves, load, store, zeroed
 from tandemlift.loop import Flying, Inputs, move
+from tandemlift.trace import leaves
 
 from .helpers import flat, rebuilt
+from .machine_code import answers
 
 IDEAL: dict[str, dict[str, Any]] = {
     "tanh, hard gate, zero derivatives, exact rates, exact tilt, cubic, diagonal inertia, central pushes": {},
@@ -145,21 +145,11 @@ def test_casadi_traces_the_step_of_a_vehicle_whose_parameters_are_numbers(case, 
     case.agrees(np.array(casadi.Function("step", [symbols], [outputs])(case.numbers)))
 
 
-@pytest.mark.parametrize("name", IDEAL)  # the longest takes a minute; tests of whole flights compile it anyway
-def test_numba_compiles_the_step(name):
-    install()
-    case = case_of(name)
-    like = zeroed(case.like)
+def compiled_step(flying, given):
+    return move(flying, given, T, DT)
 
-    @numba.njit(error_model="numpy")
-    def step(a, y):
-        x = load(a, like)
-        store(y, move(x.flying, x.given, T, DT))
 
-    found = np.zeros_like(case.expected)
+@pytest.mark.parametrize("lanes", [1, 8])
+def test_machine_code_of_the_step(case, lanes):
     assert len(case.numbers) == leaves(case.like)
-    for column, y in zip(case.numbers.T.copy(), found.T, strict=True):
-        out = np.zeros(len(y))
-        step(column, out)
-        y[:] = out
-    case.agrees(found)
+    case.agrees(answers(compiled_step, tuple(case.like), case.numbers.T, lanes).T)

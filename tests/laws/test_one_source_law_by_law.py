@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
-import numba
 import numpy as np
 import pytest
 
-from tandemlift.jit import install, load, store
 from tandemlift.laws import (
     admittance,
     allocation,
@@ -37,7 +35,8 @@ from tandemlift.laws.rectangle import Wall
 from tandemlift.ops import power
 from tandemlift.vector import Mat3, Nothing, Quarters, Quat, Vec3, apply, apply_transposed, cross, each, hamilton, outer
 
-from .helpers import flat, rebuilt
+from .helpers import flat, rebuilt, record
+from .machine_code import answers
 
 V = Vec3(0.0, 0.0, 0.0)
 M = Mat3(V, V, V)
@@ -131,11 +130,6 @@ BATCH = 12
 EACH = pytest.mark.parametrize("name", LAWS)
 
 
-def record(name: str, values: Any) -> Any:
-    """Any number of values as one nested value."""
-    return NamedTuple(name, [(f"x{i}", Any) for i in range(len(values))])(*values)  # type: ignore[misc]
-
-
 def inputs(name: str) -> np.ndarray:
     """Random numbers for a law's arguments: (numbers × BATCH)."""
     rng = np.random.default_rng(len(name))
@@ -177,27 +171,9 @@ def test_casadi_traces_the_law(name, casadi):
     agree(np.array(casadi.Function("law", [symbols], [outputs])(inputs(name))), expected(name))
 
 
-@pytest.fixture(scope="module")
-def compiled():
-    """The answers of all laws from one compiled function."""
-    install()
-    like = record("Everything", [record(f"Of{i}", arguments) for i, (_, arguments) in enumerate(LAWS.values())])
-    calls = ", ".join(f"f{i}(*x[{i}])" for i in range(len(LAWS)))
-    scope: dict[str, Any] = {"load": load, "store": store, "like": like}
-    scope |= {f"f{i}": law for i, (law, _) in enumerate(LAWS.values())}
-    exec(f"def evaluate(a, y):\n    x = load(a, like)\n    store(y, ({calls}))", scope)
-    evaluate = numba.njit(error_model="numpy")(scope["evaluate"])
-    columns = np.vstack([inputs(name) for name in LAWS])
-    wanted = {name: expected(name) for name in LAWS}
-    found = np.zeros((sum(map(len, wanted.values())), BATCH))
-    for i in range(BATCH):
-        y = np.zeros(len(found))
-        evaluate(columns[:, i].copy(), y)
-        found[:, i] = y
-    ends = np.cumsum([len(rows) for rows in wanted.values()])
-    return dict(zip(LAWS, np.split(found, ends[:-1]), strict=True))
-
-
 @EACH
-def test_numba_compiles_the_law(name, compiled):
-    agree(compiled[name], expected(name))
+def test_machine_code_of_the_law(name):
+    law, arguments = LAWS[name]
+    alone, block = (answers(law, arguments, inputs(name).T, lanes) for lanes in (1, 8))
+    agree(alone.T, expected(name))
+    assert np.array_equal(alone, block)

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tandemlift.jit import flat as floats
 from tandemlift.laws.estimation import push_estimator
 from tandemlift.laws.loads import Felt
 from tandemlift.laws.meters import Grade
 from tandemlift.laws.navigation import navigator
 from tandemlift.laws.sensing import sensors
+from tandemlift.trace import flat as floats
 from tandemlift.vector import ZERO, spread
 
 from .helpers import flat, random_state, random_vec3, rebuilt

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from itertools import pairwise
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from tandemlift.jit import install, store_lane
 from tandemlift.laws.random import MASK, Words, keys_of, normals, philox, radius
+from tandemlift.trace.functions import compiled, written
+
+from .machine_code import answers
 
 LANES, STEPS, DRAWS, SEEDS = 8, 20_000, 3, 5
 words = st.integers(0, MASK)
@@ -30,52 +32,30 @@ def hexadecimal(text: str) -> list[int]:
     return [int(word, 16) for word in text.split()]
 
 
-@pytest.fixture(scope="module")
-def alone() -> Callable[..., np.ndarray]:
-    """The four compiled numbers of one step and draw."""
-    install()
-
-    @numba.njit(error_model="numpy")
-    def fill(out, step, draw, key0, key1):
-        store_lane(out, 0, 1, normals(step, draw, key0, key1))
-
-    def draw_of(*given: float) -> np.ndarray:
-        out = np.zeros(4)
-        fill(out, *given)
-        return out
-
-    return draw_of
+@functools.cache
+def code(lanes: int) -> Callable[[np.ndarray], np.ndarray]:
+    return compiled(normals, 0.0, 0.0, 0.0, 0.0, lanes=lanes)
 
 
-@pytest.fixture(scope="module")
-def block():
-    """The kernel of eight flights: a holds their keys, and receives their numbers, interleaved."""
-    install()
-
-    @numba.njit(error_model="numpy")
-    def block(a, step, draw):
-        for lane in range(LANES):
-            store_lane(a, 2 * LANES + lane, LANES, normals(step, draw, a[lane], a[LANES + lane]))
-
-    return block
+def alone(*given: float) -> np.ndarray:
+    """The four numbers of one step and draw, in machine code."""
+    return code(1)(np.array([given], dtype=float))[0]
 
 
 @pytest.fixture(scope="module")
 def sample() -> np.ndarray:
     """Numbers (seeds × draws × four × steps) of the first steps."""
-    install()
+    steps = np.arange(STEPS)
+    rows = [
+        np.stack([steps, *(np.full(STEPS, x) for x in (draw, *keys_of(seed)))], axis=1)
+        for seed in range(SEEDS)
+        for draw in range(DRAWS)
+    ]
+    return np.array([code(LANES)(part).T for part in rows]).reshape(SEEDS, DRAWS, 4, STEPS)
 
-    @numba.njit(error_model="numpy")
-    def fill(out, draw, key0, key1):
-        for step in range(out.shape[1]):
-            x = normals(step, draw, key0, key1)
-            out[0, step], out[1, step], out[2, step], out[3, step] = x.first, x.second, x.third, x.fourth
 
-    out = np.zeros((SEEDS, DRAWS, 4, STEPS))
-    for seed in range(SEEDS):
-        for draw in range(DRAWS):
-            fill(out[seed, draw], draw, *keys_of(seed))
-    return out
+def words_of(first, second, third, fourth, key0, key1):
+    return philox(Words(int(first), int(second), int(third), int(fourth)), int(key0), int(key1))
 
 
 @pytest.mark.parametrize(("counter", "key", "answer"), KNOWN)
@@ -83,21 +63,17 @@ def test_philox_gives_the_published_answers(counter, key, answer):
     assert list(philox(Words(*hexadecimal(counter)), *hexadecimal(key))) == hexadecimal(answer)
 
 
+@pytest.mark.parametrize("lanes", [1, LANES])
 @pytest.mark.parametrize(("counter", "key", "answer"), KNOWN)
-def test_compiled_philox_gives_the_published_answers(counter, key, answer):
-    install()
-
-    @numba.njit(error_model="numpy")
-    def words_of(x, key0, key1):
-        return philox(x, key0, key1)
-
-    assert list(words_of(Words(*hexadecimal(counter)), *hexadecimal(key))) == hexadecimal(answer)
+def test_philox_in_machine_code_gives_the_published_answers(counter, key, answer, lanes):
+    given = hexadecimal(counter) + hexadecimal(key)
+    assert list(answers(words_of, (0.0,) * 6, [given], lanes)[0]) == hexadecimal(answer)
 
 
 @given(st.integers(0, 10**9), st.integers(0, 100), words, words)
-def test_compiled_numbers_equal_those_of_plain_python(alone, step, draw, key0, key1):
-    compiled = alone(step, draw, float(key0), float(key1))
-    assert compiled == pytest.approx(np.array(normals(step, draw, float(key0), float(key1))), abs=1e-12, rel=0.0)
+def test_numbers_in_machine_code_equal_those_of_plain_python(step, draw, key0, key1):
+    found = alone(step, draw, key0, key1)
+    assert found == pytest.approx(np.array(normals(step, draw, float(key0), float(key1))), abs=1e-12, rel=0.0)
     assert normals(step, draw, key0, key1) == normals(float(step), draw, float(key0), float(key1))
 
 
@@ -116,25 +92,21 @@ def test_the_largest_and_the_smallest_number_are_finite():
 
 
 @given(st.integers(0, 10**9), st.integers(0, 100))
-def test_a_flight_in_a_block_gets_the_bits_of_a_flight_alone(alone, block, step, draw):
-    keys = [keys_of(seed) for seed in range(LANES)]
-    a = np.concatenate([np.transpose(keys).ravel(), np.zeros(4 * LANES)])
-    block(a, step, draw)
-    for found, key in zip(a[2 * LANES :].reshape(4, LANES).T, keys, strict=True):
-        assert np.array_equal(found, alone(step, draw, *key))
+def test_a_flight_in_a_block_gets_the_bits_of_a_flight_alone(step, draw):
+    rows = np.array([[step, draw, *keys_of(seed)] for seed in range(LANES)])
+    assert code(LANES)(rows).tobytes() == code(1)(rows).tobytes()
 
 
-def test_a_block_goes_through_vector_instructions(block):
-    block(np.zeros(6 * LANES), 0, 0)
-    code = next(iter(block.inspect_llvm().values()))
-    assert "x i64>" in code
-    assert "declare <" in code
-    assert "llvm.fma.f64" not in code
+def test_a_block_goes_through_vector_instructions():
+    text, _ = written(normals, 0.0, 0.0, 0.0, 0.0, lanes=LANES)
+    assert f"mul <{LANES} x i64>" in text
+    assert f"call <{LANES} x double> @llvm.fma.v{LANES}f64" in text
+    assert "llvm.fma.f64" not in text
     for name in ("@sin(", "@cos(", "@log(", "@llvm.sin", "@llvm.cos", "@llvm.log"):
-        assert name not in code
+        assert name not in text
 
 
-def test_the_numbers_do_not_depend_on_the_order_in_which_they_are_asked_for(alone, sample):
+def test_the_numbers_do_not_depend_on_the_order_in_which_they_are_asked_for(sample):
     for step in (STEPS - 1, 0, 137):
         assert np.array_equal(alone(step, 1, *keys_of(2)), sample[2, 1, :, step])
 
@@ -180,6 +152,6 @@ def test_a_key_is_two_words_that_floats_hold_and_seeds_do_not_share():
     assert [int(word) for word in keys_of(7)] == list(np.random.SeedSequence(7).generate_state(2))
 
 
-def test_neighbouring_steps_draws_and_keys_differ(alone):
+def test_neighbouring_steps_draws_and_keys_differ():
     at = [alone(*given) for given in ((5, 1, 3.0, 4.0), (6, 1, 3.0, 4.0), (5, 2, 3.0, 4.0), (5, 1, 4.0, 4.0))]
     assert all(np.abs(a - b).min() > 1e-6 for a, b in pairwise(at))

@@ -2,28 +2,40 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import given
-from numba.extending import register_jitable
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
-from tandemlift.jit import flat, install, leaves, load, store, zeroed
+from tandemlift.law import law
 from tandemlift.laws.body import Body, State, Wrench, rigid_body_motion
 from tandemlift.laws.loads import Frame, Loads, frame_of, resultant
 from tandemlift.laws.push import CentralPush
 from tandemlift.laws.rectangle import WALL, Wall, offset, wall
 from tandemlift.laws.walls import Walls, consider, may_reach, nowhere, press, walls
-from tandemlift.ops import sqrt
+from tandemlift.ops import sqrt, where
 from tandemlift.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.vehicle import Vehicle
 
-from .helpers import BEAM, array, free_body, paper_vehicle, quadrotor, random_state, random_vehicle, seeds
+from .helpers import (
+    BEAM,
+    array,
+    flat,
+    free_body,
+    paper_vehicle,
+    quadrotor,
+    random_state,
+    random_vehicle,
+    rebuilt,
+    record,
+    seeds,
+)
+from .machine_code import Loop, answers
 
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 LENGTH, RADIUS, GUARD = 2.0, 0.05, 0.375
@@ -256,14 +268,14 @@ class World(NamedTuple):
     force: Vec3
 
 
-@register_jitable(error_model="numpy")
+@law
 def motion(world, near, s):
     wrench = resultant(world.frame, s.attitude, press(world.walls, near, world.frame, s))
     push = CentralPush(wrench.force + world.force)
     return rigid_body_motion(world.body, s, Wrench(0.0, wrench.moment), push), dot(wrench.force, wrench.force)
 
 
-@register_jitable(error_model="numpy")
+@law
 def advanced(world, near, s, dt):
     k1, square = motion(world, near, s)
     k2, _ = motion(world, near, s + k1 * (0.5 * dt))
@@ -273,31 +285,61 @@ def advanced(world, near, s, dt):
     return State(s.position, s.velocity, s.attitude * (1.0 / sqrt(dot(s.attitude, s.attitude))), s.rates), square
 
 
+class Moving(NamedTuple):
+    state: State
+    near: Any
+
+
+class Given(NamedTuple):
+    """The length of a step [s], and whether walls are looked at."""
+
+    step: Any
+    looks: Any
+
+
+class Surroundings(NamedTuple):
+    """A world, and its walls; `nowhere`, whose numbers count."""
+
+    world: World
+    table: Any
+    nowhere: Any
+
+
+@law
+def look(fixed, state):
+    near = fixed.nowhere
+    for one in fixed.table:
+        near = consider(fixed.world.walls, one, near, fixed.world.frame, state)
+    return near
+
+
+def step_of(fixed, x, given):
+    fresh = look(fixed, x.state)
+    near = rebuilt([where(given.looks > 0.0, a, b) for a, b in zip(flat(fresh), flat(x.near), strict=True)], fresh)
+    after, square = advanced(fixed.world, near, x.state, given.step)
+    return (x.state, square), Moving(after, near)
+
+
+@functools.cache
+def loop_among(count):
+    """A flight's steps among so many walls."""
+    w = walls_of(FLAT)
+    world = World(w, frame_of(FLAT), free_body(FLAT.mass, FLAT.inertia), ZERO)
+    fixed = Surroundings(world, record("Table", [WALL] * count), nowhere(w))
+    return Loop(step_of, fixed, Moving(at(ZERO), nowhere(w)), Given(STEP, 1.0))
+
+
 @pytest.fixture(scope="module")
 def flown():
     """flown(start, duration, table, …): a weightless flight of `FLAT`, one row a step: state, then |force|²."""
-    install()
-    frame, body = frame_of(FLAT), free_body(FLAT.mass, FLAT.inertia)
-    w = walls_of(FLAT)
-    world_like, state_like, wall_like = zeroed(World(w, frame, body, ZERO)), zeroed(at(ZERO)), zeroed(WALL)
-    none = nowhere(w)
+    frame, body, known = frame_of(FLAT), free_body(FLAT.mass, FLAT.inertia), walls_of(FLAT)
 
-    @numba.njit(error_model="numpy")
-    def loop(numbers, table, start, dt, every, rows):
-        world, s, near = load(numbers, world_like), load(start, state_like), none
-        for k in range(len(rows)):
-            if k % every == 0:
-                near = none
-                for i in range(len(table)):
-                    near = consider(world.walls, load(table[i], wall_like), near, world.frame, s)
-            store(rows[k], s)
-            s, rows[k, 13] = advanced(world, near, s, dt)
-
-    def fly(start, duration, table, w=w, force=(0.0, 0.0, 0.0), step=STEP, every=1) -> np.ndarray:
-        rows = np.zeros((round(duration / step) + 1, 14))
-        numbers = np.array(flat(World(w, frame, body, vec3(force + np.array([0.0, 0.0, FLAT.weight])))))
-        loop(numbers, np.array([flat(one) for one in table]), np.array(flat(start)), step, every, rows)
-        return rows
+    def fly(start, duration, table, w=known, force=(0.0, 0.0, 0.0), step=STEP, every=1) -> np.ndarray:
+        world = World(w, frame, body, vec3(force + np.array([0.0, 0.0, FLAT.weight])))
+        count = round(duration / step) + 1
+        given = np.stack([np.full(count, step), np.arange(count) % every == 0], axis=1)
+        fixed = Surroundings(world, record("Table", table), nowhere(w))
+        return loop_among(len(table))(fixed, Moving(start, nowhere(w)), given)
 
     return fly
 
@@ -382,37 +424,23 @@ def test_no_wall_presses_while_it_is_said_that_none_may(flown):
     assert not may.all()
 
 
-class Arguments(NamedTuple):
-    walls: Walls
-    wall: Wall
-    near: Any
-    frame: Frame
-    state: State
-
-
 class Answer(NamedTuple):
     near: Any
     loads: Loads
 
 
+def both(w, one, near, frame, s):
+    near = consider(w, one, near, frame, s)
+    return Answer(near, press(w, near, frame, s))
+
+
 @EACH_COUNT
-def test_compiled_walls_equal_plain_python(count):
-    install()
+def test_machine_code_of_walls_equals_plain_python(count):
     rng = np.random.default_rng(count)
     vehicle, s = random_vehicle(rng, count), random_state(rng)
     w = walls_of(vehicle, guard=0.5, beam=(LENGTH, 0.3) if count % 2 else None)
     frame, table = frame_of(vehicle), [random_wall(rng) for _ in range(5)]
-    arguments = Arguments(w, table[-1], found(w, table[:-1], frame, s), frame, s)
     answer = Answer(found(w, table, frame, s), pressed(w, table, vehicle, s))
-    like = zeroed(arguments)
-
-    @numba.njit(error_model="numpy")
-    def evaluate(a, y):
-        x = load(a, like)
-        near = consider(x.walls, x.wall, x.near, x.frame, x.state)
-        store(y, Answer(near, press(x.walls, near, x.frame, x.state)))
-
-    computed, wanted = np.zeros(leaves(answer)), np.array(flat(answer))
-    evaluate(np.array(flat(arguments)), computed)
+    computed = answers(both, (w, table[-1], found(w, table[:-1], frame, s), frame, s))[0]
     assert np.abs(flat(answer.loads)).max() > 1.0
-    assert np.abs(computed - wanted).max() < 1e-12 * np.abs(flat(answer.loads)).max()
+    assert np.abs(computed - np.array(flat(answer))).max() < 1e-12 * np.abs(flat(answer.loads)).max()

@@ -9,7 +9,6 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import given
@@ -19,7 +18,6 @@ from scipy.linalg import expm, solve_continuous_lyapunov
 from scipy.signal import welch
 from scipy.spatial.transform import Rotation
 
-from tandemlift.jit import install, leaves, load, store, zeroed
 from tandemlift.laws.body import State
 from tandemlift.laws.loads import frame_of
 from tandemlift.laws.random import keys_of, normals
@@ -43,6 +41,7 @@ from tandemlift.laws.wind import (
 from tandemlift.vector import ZERO, Nothing, Vec3
 
 from .helpers import flat, numbers, paper_vehicle, random_state, random_vec3, rebuilt
+from .machine_code import Loop, answers
 from .test_air_drag import drag_of
 
 FOOT = 0.3048
@@ -175,27 +174,31 @@ def test_without_a_horizontal_mean_wind_the_eddies_pass_along_x():
     assert dryden(8.0, 6.0, 4.0, (0.0, 0.0, 0.0), 1e-3) == dryden(8.0, 6.0, 4.0, X, 1e-3)
 
 
+class Blowing(NamedTuple):
+    """A wind, and the key of its turbulence."""
+
+    wind: Wind
+    key0: Any
+    key1: Any
+
+
+class Step(NamedTuple):
+    number: Any
+
+
+def blown(fixed: Blowing, eddies: Eddies, given: Step) -> Any:
+    x, y = normals(given.number, 0, fixed.key0, fixed.key1), normals(given.number, 1, fixed.key0, fixed.key1)
+    return blow(fixed.wind, eddies, ZERO, Whiffs(x.first, x.second, x.third, x.fourth, y.first))
+
+
 @pytest.fixture(scope="module")
 def flown() -> tuple[np.ndarray, float, float]:
     """A day of compiled turbulence (3 × samples), its step [s] and airspeed [m/s]."""
-    install()
     step, V, count = 0.05, 10.0, 2**21
-    d = dryden(8.0, 6.0, V, X, step)
-    like = zeroed(Wind(ZERO, d))
-
-    @numba.njit(error_model="numpy")
-    def fly(a, out, key0, key1):
-        wind = load(a, like)
-        x, y = normals(0, 2, key0, key1), normals(0, 3, key0, key1)
-        eddies = Eddies(x.first, x.second, x.third, x.fourth, y.first)
-        for k in range(out.shape[1]):
-            x, y = normals(k, 0, key0, key1), normals(k, 1, key0, key1)
-            air, eddies = blow(wind, eddies, ZERO, Whiffs(x.first, x.second, x.third, x.fourth, y.first))
-            out[0, k], out[1, k], out[2, k] = air.x, air.y, air.z
-
-    out = np.zeros((3, count))
-    fly(np.array(flat(Wind(ZERO, d))), out, *keys_of(1))
-    return out, step, V
+    wind = Wind(ZERO, dryden(8.0, 6.0, V, X, step))
+    fixed, (x, y) = Blowing(wind, *keys_of(1)), (normals(0, draw, *keys_of(1)) for draw in (2, 3))
+    loop = Loop(blown, fixed, NO_EDDIES, Step(0.0))
+    return loop(fixed, Eddies(*x, y.first), np.arange(count)[:, None]).T, step, V
 
 
 @pytest.mark.parametrize("axis", range(3), ids="uvw")
@@ -309,21 +312,12 @@ def many() -> tuple[list[Given], np.ndarray]:
     return cases, np.array([flat(everything(case, frame_of(paper_vehicle()))) for case in cases])
 
 
-def test_compiled_laws_equal_those_of_plain_python(many):
-    install()
+def test_machine_code_equals_plain_python(many):
     cases, wanted = many
-    like, frame = zeroed(cases[0]), frame_of(paper_vehicle())
-
-    @numba.njit(error_model="numpy")
-    def evaluate(a, y):
-        store(y, everything_compiled(load(a, like), frame))
-
-    everything_compiled = numba.njit(error_model="numpy")(everything)
-    assert leaves(cases[0]) == len(flat(cases[0]))
-    for case, row in zip(cases, wanted, strict=True):
-        y = np.zeros(len(row))
-        evaluate(np.array(flat(case)), y)
-        assert y == pytest.approx(row, abs=1e-12, rel=1e-12)
+    frame = frame_of(paper_vehicle())
+    rows = [flat(case) + flat(frame) for case in cases]
+    for lanes in (1, 8):
+        assert answers(everything, (cases[0], frame), rows, lanes) == pytest.approx(wanted, abs=1e-12, rel=1e-12)
 
 
 def test_numpy_jax_and_casadi_evaluate_the_same_laws(many, jax, casadi):

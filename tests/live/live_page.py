@@ -8,18 +8,20 @@ import contextlib
 import http.client
 import json
 import os
+import select
 import socket
 import struct
 import threading
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from typing import Any
 from urllib.parse import urlsplit
 
+from patience import PATIENCE, joined, until
 from websockets.sync.client import ClientConnection, connect
 
 from tandemlift.live.server import Server, serve_until_stopped
 
-PATIENCE = 20.0  # s, before a test gives up
 PAGE = {
     "index.html": b"""<!doctype html><html><head><meta charset="utf-8"><title>page</title>
 <link rel="stylesheet" href="page.css"></head><body><div id="view"></div>
@@ -44,9 +46,10 @@ class Running:
     def __init__(self, server: Server) -> None:
         self.server = server
         self._ready = threading.Event()
-        self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()))
+        self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()), name="server", daemon=True)
         self._thread.start()
-        assert self._ready.wait(PATIENCE)
+        until(lambda: self._ready.is_set() or not self._thread.is_alive(), "a server")
+        assert self._ready.is_set(), "the server ended before it served"
         self.address = server.address
         self.host = urlsplit(server.address).netloc
         self.port = int(self.host.rpartition(":")[2])
@@ -62,9 +65,12 @@ class Running:
             await serving
 
     def stop(self) -> None:
-        self._loop.call_soon_threadsafe(self._stop.set)
-        self._thread.join(PATIENCE)
-        assert not self._thread.is_alive()
+        self.soon(self._stop.set)
+        joined(self._thread)
+
+    def soon(self, do: Callable[..., object], *args: object) -> None:
+        """Let something be done in the server's own thread."""
+        self._loop.call_soon_threadsafe(do, *args)
 
     def get(self, path: str = "/", method: str = "GET", **headers: str) -> tuple[int, dict[str, str], bytes]:
         """Status, headers and body of an answer; `Host` is the server's own unless given."""
@@ -83,7 +89,7 @@ class Running:
         """All that comes back for the bytes of a request."""
         with socket.create_connection(("127.0.0.1", self.port), PATIENCE) as s:
             s.sendall(request)
-            return b"".join(iter(lambda: s.recv(65536), b""))
+            return b"".join(pieces(s))
 
     @contextlib.contextmanager
     def viewer(self, **headers: str) -> Iterator[Good]:
@@ -96,12 +102,25 @@ class Running:
             max_queue=None,
             open_timeout=PATIENCE,
             close_timeout=PATIENCE,
+            ping_timeout=None,
         ) as connection:
             yield Good(connection)
 
     def raw(self) -> Raw:
         """A page that may do anything."""
         return Raw(self.port)
+
+
+def pieces(of: socket.socket) -> Iterator[bytes]:
+    """What comes through a socket until the other side hangs up, which it must."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        of.settimeout(max(0.1, end - time.monotonic()))
+        piece = of.recv(65_536)
+        if not piece:
+            return
+        yield piece
+    raise TimeoutError(f"the other side still talks after {PATIENCE:g} s")
 
 
 class Good:
@@ -118,21 +137,24 @@ class Good:
     def grab(self, *target: float) -> None:
         self.say(type="grab", point=[0.0, 0.0, 0.0], target=target, at="point")
 
+    def heard(self) -> Iterator[str | bytes]:
+        """What it is told, for so long as a test has patience."""
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            yield self.connection.recv(max(0.1, end - time.monotonic()))
+        raise TimeoutError(f"what was waited for was not said within {PATIENCE:g} s")
+
+    def texts(self) -> Iterator[dict[str, Any]]:
+        """The texts that it is told."""
+        return (json.loads(got) for got in self.heard() if isinstance(got, str))
+
     def text(self, kind: str, **wanted: Any) -> dict[str, Any]:
         """The next text of a kind that says what is wanted."""
-        while True:
-            got = self.connection.recv(PATIENCE)
-            if isinstance(got, str):
-                said = json.loads(got)
-                if said["type"] == kind and all(said[k] == v for k, v in wanted.items()):
-                    return said
+        return next(t for t in self.texts() if t["type"] == kind and all(t[k] == v for k, v in wanted.items()))
 
     def frame(self) -> bytes:
         """The next frame."""
-        while True:
-            got = self.connection.recv(PATIENCE)
-            if isinstance(got, bytes):
-                return got
+        return next(got for got in self.heard() if isinstance(got, bytes))
 
 
 class Raw:
@@ -153,17 +175,35 @@ class Raw:
         self.socket.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
         answer = b""
         while b"\r\n\r\n" not in answer:
-            answer += self.socket.recv(1)
+            piece = self.socket.recv(1)
+            assert piece, f"the server hung up after {answer!r}"
+            answer += piece
         assert answer.startswith(b"HTTP/1.1 101"), answer
 
     def send(self, *texts: bytes, opcode: int = 1) -> None:
         self.socket.sendall(b"".join(masked(text, opcode) for text in texts))
 
+    def skip(self) -> None:
+        """Read what has come by now: who reads nothing is cut off."""
+        while select.select([self.socket], [], [], 0.0)[0]:
+            if not self.socket.recv(65_536):
+                raise ConnectionError("the server hung up")
+
+    def hear(self, text: bytes) -> None:
+        """Read until the server has said something."""
+        last = b""
+        for piece in pieces(self.socket):
+            last = last[-len(text) :] + piece
+            if text in last:
+                return
+        raise ConnectionError(f"the server hung up before it said {text!r}")
+
     def closed(self) -> int:
         """Read until the server hangs up; the code of its good-bye, 0 without one."""
         data = b""
         with contextlib.suppress(ConnectionError):
-            data = b"".join(iter(lambda: self.socket.recv(65536), b""))
+            for piece in pieces(self.socket):
+                data += piece
         at = code = 0
         while at + 2 <= len(data):
             size, start = data[at + 1], at + 2

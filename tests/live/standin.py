@@ -7,6 +7,7 @@ import time
 from typing import Any
 
 import numpy as np
+from patience import PATIENCE, joined
 
 from tandemlift.errors import InputError
 from tandemlift.live.frames import fields_of, frames_of
@@ -29,7 +30,7 @@ class StandIn:
         self.heard: list[Message] = []
         self._wait = wait  # for which changes wait
         self._lock, self._over = threading.Lock(), threading.Event()
-        self._thread = threading.Thread(target=self._fly, daemon=True)
+        self._thread = threading.Thread(target=self._fly, name="stand-in", daemon=True)
         self._x, self._v = np.zeros(3), np.zeros(3)
         self._target: np.ndarray | None = None
         self._force, self._seq = np.zeros(3), 0
@@ -39,7 +40,7 @@ class StandIn:
 
     def stop(self) -> None:
         self._over.set()
-        self._thread.join()
+        joined(self._thread)
 
     def _fly(self) -> None:
         while not self._over.is_set():
@@ -76,7 +77,7 @@ class StandIn:
 
     def apply(self, message: Message, seq: int) -> Any:
         if isinstance(message, Set | Save | Reset) and self._wait:
-            self._wait.wait(10.0)
+            assert self._wait.wait(PATIENCE)
         with self._lock:
             self.heard.append(message)
             self._seq = seq

@@ -4,7 +4,6 @@ import contextlib
 import io
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -13,7 +12,9 @@ import time
 from pathlib import Path
 
 import numpy as np
+import patient_server
 import pytest
+from patience import PATIENCE, ended, joined, said, until
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
@@ -45,37 +46,40 @@ SETTINGS = {
     "admittance.threshold": 0.3,
 }
 SIZE = {"width": 800, "height": 450}
-PATIENCE = 60.0  # s, for a machine that has other things to do
-
-
-def until(true, what):
-    end = time.monotonic() + PATIENCE
-    while not (found := true()):
-        assert time.monotonic() < end, what
-        time.sleep(0.03)
-    return found
+MS = 1e3 * PATIENCE
 
 
 class Live:
-    """`tandemlift live`, as a person starts it, and what it shows to one who only watches."""
+    """`tandemlift live`, as a person starts it but for its patience, and what it shows to one who only watches."""
 
     def __init__(self, out):
         settings = [f"--set={key}={value}" for key, value in SETTINGS.items()]
-        command = [sys.executable, "-m", "tandemlift", "live", "hover", "--no-browser", "--port=0", f"--out={out}"]
-        self.process = subprocess.Popen([*command, *settings], stdout=subprocess.PIPE, text=True)
-        self.address = until(lambda: re.search(r"http://\S+", self.process.stdout.readline()), "an address")[0]
-        self.out, self.scene, self.frame, self.status = out, None, None, {}
-        self.watching = threading.Thread(target=self.watch)
+        command = [sys.executable, patient_server.__file__, "live", "hover", "--no-browser", "--port=0", f"--out={out}"]
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+        self.process = subprocess.Popen([*command, *settings], stdout=subprocess.PIPE, text=True, env=environment)
+        try:
+            self.begin(out)
+        except BaseException:
+            ended(self.process, signal.SIGKILL)
+            raise
+
+    def begin(self, out):
+        """See what it shows."""
+        self.address = said(self.process, r"http://\S+")[0]
+        self.out, self.scene, self.frame, self.frames, self.status = out, None, None, 0, {}
+        self.watching = threading.Thread(target=self.watch, name="who watches", daemon=True)
         self.watching.start()
-        until(lambda: self.scene and self.frame and self.status, "a scene, a frame and a status")
+        self.until(lambda: self.scene and self.frame and self.status, "a scene, a frame and a status")
 
     def watch(self):
         """Keep what is told last."""
         where = {"uri": self.address.replace("http", "ws") + "ws", "origin": self.address.rstrip("/")}
-        with contextlib.suppress(ConnectionClosed), connect(**where) as socket:
+        patient = {"open_timeout": PATIENCE, "ping_timeout": None}
+        with contextlib.suppress(ConnectionClosed), connect(**where, **patient) as socket:
             for told in socket:
                 if isinstance(told, bytes):
                     self.frame = told
+                    self.frames += 1
                 else:
                     self.heed(json.loads(told))
 
@@ -90,17 +94,30 @@ class Live:
         fields = tuple(map(tuple, self.scene["fields"]))
         return {name: value[0] for name, value in read_frames(fields, self.frame).items()}
 
+    def until(self, true, what):
+        """As `until`, as long as it is told anything."""
+
+        def found():
+            assert self.watching.is_alive(), f"the server hung up before {what} came"
+            return true()
+
+        return until(found, what)
+
     def wait(self, true, what):
-        return until(lambda: next((seen for seen in [self.look()] if true(seen)), None), what)
+        return self.until(lambda: next((seen for seen in [self.look()] if true(seen)), None), what)
 
     def wait_status(self, true, what):
-        until(lambda: true(self.status), what)
+        self.until(lambda: true(self.status), what)
+
+    def wait_frames(self, count):
+        """Wait for so many frames of now; what is seen in the last one."""
+        end = self.frames + count
+        self.until(lambda: self.frames >= end, f"{count} frames")
+        return self.look()
 
     def close(self):
-        self.process.send_signal(signal.SIGINT)
-        with self.process:
-            assert self.process.wait(PATIENCE) == 0
-        self.watching.join()
+        assert ended(self.process) == 0
+        joined(self.watching)
 
 
 @pytest.fixture(scope="module")
@@ -115,7 +132,7 @@ def live(tmp_path_factory):
 @pytest.fixture(scope="module")
 def browser():
     with sync_playwright() as playwright:
-        one = playwright.chromium.launch(executable_path=str(CHROMIUM), args=FLAGS)
+        one = playwright.chromium.launch(executable_path=str(CHROMIUM), args=FLAGS, timeout=MS)
         yield one
         one.close()
 
@@ -123,6 +140,7 @@ def browser():
 def opened(browser, address, prepare=lambda page: None, **options):
     """A page, and the list of what went wrong on it; `prepare` is done to it before it opens the address."""
     page = browser.new_context(viewport=SIZE, **options).new_page()
+    page.set_default_timeout(MS)
     prepare(page)
     page.wrong = []
     page.on("pageerror", lambda error: page.wrong.append(str(error)))
@@ -205,7 +223,7 @@ def test_one_holds_the_beam_at_a_time_and_a_page_that_is_closed_lets_go(page, li
     other.mouse.move(u + 30, v)
     other.mouse.down()
     other.mouse.move(u + 60, v)
-    time.sleep(0.3)
+    until(lambda: "somebody else holds the beam" in other.locator("#notices").text_content(), "a refusal")
     assert np.allclose(live.look()["hand_point"], held, atol=1e-6)
     other.mouse.up()
     assert live.look()["held"] == 1.0
@@ -278,8 +296,9 @@ def test_a_gamepad_pushes_beyond_its_dead_zone_and_lets_go_when_it_is_unplugged(
         return live.wait(lambda seen: np.abs(seen["push"] - force).max() < 0.05, f"a push of {force} N")
 
     stick(0.14, -0.14, 0.0, 0.14)  # within the dead zone
-    time.sleep(0.3)
-    assert np.abs(live.look()["push"]).max() < 0.01
+    for _ in range(20):
+        page.evaluate("new Promise(requestAnimationFrame)")  # the page looks at the stick
+    assert np.abs(live.wait_frames(20)["push"]).max() < 0.01
     stick(0.0, -1.0, 0.0, 0.0)
     pushed(3.0, 0.0, 0.0)
     stick(0.575, 0.0, 0.0, 0.0)  # half of what is beyond the dead zone
@@ -322,9 +341,8 @@ def test_the_keys_push_no_harder_than_the_hand_of_the_mission(page, live):
 def test_time_stands_still_while_it_is_paused(page, live):
     page.keyboard.press("p")
     live.wait_status(lambda status: status["paused"], "a pause")
-    then = live.look()["time"]
-    time.sleep(0.3)
-    assert live.look()["time"] == then
+    then = live.wait_frames(2)["time"]
+    assert live.wait_frames(20)["time"] == then
     page.keyboard.press("p")
     live.wait_status(lambda status: not status["paused"], "time going on")
 
@@ -437,18 +455,25 @@ def test_it_lands_is_reset_and_the_page_begins_anew(page, live):
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
 
 
+BUTTONS = ("Lift", "Land", "Stop", "Pause", "Save")
+
+
 @pytest.mark.parametrize("size", [(1280, 800), (800, 450), (390, 844)])
 def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live, size):
     page = opened(browser, live.address)
     page.set_viewport_size({"width": size[0], "height": size[1]})
-    time.sleep(0.5)
-    assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
-    for name in ("Lift", "Land", "Stop", "Pause", "Save"):
-        box = page.get_by_role("button", name=name).first.bounding_box()
-        assert box is not None, name
-        assert box["x"] >= 0.0, name
-        assert box["x"] + box["width"] <= size[0], name
-        assert box["y"] + box["height"] <= size[1], name
+
+    def cut_off():
+        boxes = {n: page.get_by_role("button", name=n).first.bounding_box() for n in BUTTONS}
+        inside = [
+            name
+            for name, box in boxes.items()
+            if box and box["x"] >= 0.0 and box["x"] + box["width"] <= size[0] and box["y"] + box["height"] <= size[1]
+        ]
+        wide = page.evaluate("document.documentElement.scrollWidth") > size[0]
+        return set(BUTTONS) - set(inside) | ({"the page"} if wide else set())
+
+    until(lambda: not cut_off(), "a page of that size")
     page.context.close()
 
 
@@ -459,6 +484,7 @@ def test_a_replay_opens_from_disk_with_the_network_off(browser, tmp_path):
     asked = []
     context = browser.new_context(viewport=SIZE, offline=True)
     page = context.new_page()
+    page.set_default_timeout(MS)
     page.on("request", lambda request: asked.append(request.url))
     page.on("pageerror", lambda error: asked.append(str(error)))
     page.goto(html.as_uri())

@@ -17,6 +17,7 @@ import urllib.request
 import numpy as np
 import pytest
 from live_page import PAGE, Running, put_page
+from patience import PATIENCE, said
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
@@ -345,13 +346,14 @@ def test_the_address_is_printed_and_ctrl_c_ends_it_well(verb, flight, page, tmp_
         stderr=subprocess.PIPE,
         text=True,
     )
-    line = process.stdout.readline()
-    address = line.strip().rpartition(" ")[2]
-    assert address.startswith("http://127.0.0.1:"), line + process.stderr.read()
-    with urllib.request.urlopen(address) as answer:
-        assert b"page.js" in answer.read()
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
+    try:
+        address = said(process, r"http://127\.0\.0\.1:\S+")[0]
+        with urllib.request.urlopen(address, timeout=PATIENCE) as answer:
+            assert b"page.js" in answer.read()
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=PATIENCE)
+    finally:
+        process.kill()
     assert process.returncode == 0
     assert err == "" or (err.startswith("Compiling") and err.count("\n") == 1)
     assert out.endswith("stopped\n")

@@ -3,11 +3,12 @@
 import contextlib
 import itertools
 import threading
-import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from live_page import PAGE, PATIENCE, Running, put_page
+from live_page import PAGE, Running, put_page
+from patience import PATIENCE, until
 from standin import StandIn
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
@@ -21,9 +22,12 @@ from tandemlift.live.server import Server
 MASS = {"type": "set", "key": "admittance.mass", "value": [2.0]}
 
 
-@pytest.fixture(autouse=True)
-def _patience(monkeypatch):
-    monkeypatch.setattr(viewers, "SILENT", PATIENCE)  # these viewers do not ping
+@pytest.fixture
+def clock(monkeypatch):
+    """The time by which the server judges its viewers, which stands still; [s], in a list."""
+    now = [1000.0]
+    monkeypatch.setattr(viewers, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    return now
 
 
 @pytest.fixture
@@ -47,14 +51,6 @@ def live(start):
     server = start(flight)
     server.flight = flight
     return server
-
-
-def until(what, *args):
-    """Wait until something holds."""
-    end = time.monotonic() + PATIENCE
-    while not what(*args):
-        assert time.monotonic() < end
-        time.sleep(0.005)
 
 
 def at_target(viewer, server, target):
@@ -196,10 +192,15 @@ def test_a_viewer_is_told_the_scene_then_frames_then_the_status(live):
 
 
 def test_time_goes_on_from_frame_to_frame(live):
+    times = []
     with live.viewer() as viewer:
-        times = [read_frames(live.flight.fields, viewer.frame())["time"].item() for _ in range(30)]
+
+        def goes_on():
+            times.append(read_frames(live.flight.fields, viewer.frame())["time"].item())
+            return len(times) >= 30 and times[-1] > times[0]
+
+        until(goes_on)
     assert all(a <= b for a, b in itertools.pairwise(times))
-    assert times[-1] > times[0]
 
 
 def test_who_moves_the_beam_is_shown_what_came_of_it_before_the_next_frame_for_all(live, monkeypatch):
@@ -352,19 +353,21 @@ def test_a_page_that_is_closed_lets_go(live):
     until(lambda: not live.flight.held)
 
 
-def test_a_page_that_hangs_lets_go_and_one_that_pings_does_not(live, monkeypatch):
-    monkeypatch.setattr(viewers, "SILENT", 0.5)
+def test_a_page_that_hangs_lets_go_and_one_that_pings_does_not(live, clock):
     with live.viewer() as one:
         one.grab(1.0, 0.0, 0.0)
-        until(lambda: live.flight.held)
-        end = time.monotonic() + 1.5
-        while time.monotonic() < end:
-            one.say(type="ping", t=0.0)
-            time.sleep(0.05)
+        one.text("status", holder="you")
+        for t in (1.0, 2.0, 3.0):
+            clock[0] += 0.9 * viewers.SILENT
+            one.say(type="ping", t=t)
+            one.text("pong", t=t)
+            assert one.text("status")["holder"] == "you"
         assert live.flight.held
-        until(lambda: not live.flight.held)  # its socket lives on
-        one.say(type="ping", t=1.0)
-        assert one.text("pong", t=1.0)
+        clock[0] += 1.1 * viewers.SILENT
+        one.text("status", holder="none")
+        assert not live.flight.held
+        one.say(type="ping", t=4.0)  # its socket lives on
+        assert one.text("pong", t=4.0)
 
 
 def test_a_viewer_who_does_not_hold_may_go_without_letting_go(live):
@@ -407,20 +410,26 @@ def test_changes_that_wait_are_made_in_order_and_not_too_many(start):
 # What one page cannot do to the others
 
 
-def test_a_page_that_does_not_read_misses_frames_and_the_others_none(start):
+def test_a_page_that_does_not_read_misses_frames_and_the_others_none(start, monkeypatch):
     class Large(StandIn):
         def frame(self):
             return super().frame() * 100
 
+    monkeypatch.setattr("tandemlift.live.server.RATE", 0.5 / PATIENCE)  # it shows what the test has it show
     server = start(Large())
     raw = server.raw()
     with server.viewer() as viewer:
-        until(lambda: viewer.frame() and any(v.dropped for v in server.server.viewers))
+
+        def somebody_misses_a_frame():
+            server.soon(server.server._show_once, 1)
+            return viewer.frame() and any(v.dropped for v in server.server.viewers)
+
+        until(somebody_misses_a_frame)
         assert sum(v.dropped == 0 for v in server.server.viewers) == 1
     raw.kill()
 
 
-def test_a_page_that_floods_is_cut_off_and_lets_go(live):
+def test_a_page_that_floods_is_cut_off_and_lets_go(live, clock):
     raw = live.raw()
     raw.send(b'{"type":"grab","seq":1,"point":[0,0,0],"target":[1,0,0],"at":"centre"}')
     until(lambda: live.flight.held)
@@ -460,7 +469,8 @@ def test_there_are_not_too_many_viewers(live, monkeypatch):
         assert refused.value.response.status_code == 503
 
 
-def test_stopping_says_goodbye_and_ends_the_flight(tmp_path):
+def test_stopping_says_goodbye_and_ends_the_flight(tmp_path, monkeypatch):
+    monkeypatch.setattr("tandemlift.live.server.FAREWELL", PATIENCE)
     flight = StandIn()
     server = Running(Server(page_files(put_page(tmp_path / "page")), flight, port=0))
     with server.viewer() as viewer:
@@ -474,17 +484,10 @@ def test_stopping_says_goodbye_and_ends_the_flight(tmp_path):
     assert flight.steps == steps
 
 
-def test_refusals_are_not_told_more_often_than_anybody_reads(live, monkeypatch):
-    monkeypatch.setattr(viewers.time, "monotonic", lambda: 1.0)
+def test_refusals_are_not_told_more_often_than_anybody_reads(live, clock):
     with live.viewer() as viewer:
         for _ in range(100):
             viewer.connection.send("{}")
         viewer.say(type="ping", t=0.0)
-        said = 0
-        while True:
-            got = viewer.connection.recv(PATIENCE)
-            if isinstance(got, str):
-                if '"pong"' in got:
-                    break
-                said += '"refused"' in got
-        assert said == viewers.MOST_REFUSALS
+        kinds = itertools.takewhile(lambda kind: kind != "pong", (text["type"] for text in viewer.texts()))
+        assert list(kinds).count("refused") == viewers.MOST_REFUSALS

@@ -1,10 +1,11 @@
 """What a page says to a flight, and what becomes of it; the flight is moved by the tests, not by the clock."""
 
 import threading
-import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from patience import PATIENCE, until
 
 import tandemlift as tl
 from tandemlift.live import messages
@@ -24,7 +25,6 @@ GUIDED = {
     "compliance.yaw.model": "yielding",
 }
 STIFFNESS, THRESHOLD = 6.0, 0.3  # N/m, N
-PATIENCE = 30.0  # s, for a machine that has other things to do
 
 
 @pytest.fixture
@@ -359,7 +359,7 @@ def test_a_flight_that_cannot_be_compiled_says_why_and_is_not_flown(tmp_path, mo
     one.start()
     until(lambda: one.status()["phase"] == "failed")
     assert one.status()["preparing"]["failure"] == "law.py:3 branches on data"
-    with pytest.raises(tl.InputError, match="cannot be flown: law.py:3 branches on data"):
+    with pytest.raises(tl.InputError, match=r"cannot be flown: law\.py:3 branches on data"):
         say(one, "reset")
     assert "law.py:3" in caplog.text
     assert len(one.frame()) > 0
@@ -378,9 +378,7 @@ def test_a_session_that_still_compiles_is_stopped_at_once(tmp_path, monkeypatch)
     one = unprepared(tmp_path)
     one.start()
     assert compiles.wait(PATIENCE)
-    began = time.monotonic()
-    one.stop()
-    assert time.monotonic() - began < 5.0
+    one.stop()  # which does not wait for what is compiled
     goes_on.set()
     one._thread.join(PATIENCE)
 
@@ -401,8 +399,9 @@ def test_the_thread_flies_until_it_is_stopped_and_pauses(session):
     session.start()
     until(lambda: session.status()["recorded_s"] > 0.2)
     say(session, "pause", on=True)
-    then = session.status()["recorded_s"]
-    time.sleep(0.1)
+    then, rests = session.status()["recorded_s"], []
+    session._flight.rest = lambda: rests.append(None)
+    until(lambda: len(rests) > 20)
     assert session.status()["recorded_s"] == then
     say(session, "pause", on=False)
     until(lambda: session.status()["recorded_s"] > then)
@@ -421,17 +420,10 @@ def test_a_body_that_waits_is_told_of_a_pause(session):
     until(lambda: body.rests > 3)
 
 
-def until(true, patience=PATIENCE):
-    end = time.monotonic() + patience
-    while not true():
-        assert time.monotonic() < end
-        time.sleep(0.01)
-
-
 @pytest.fixture
 def clock(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("tandemlift.live.pace.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("tandemlift.live.pace.time", SimpleNamespace(perf_counter=lambda: now[0]))
     return now
 
 

@@ -1,11 +1,11 @@
 import os
-import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 import tomli_w
 from malformed import CASES, QUADROTOR
+from patience import completed
 from schema import EVERYTHING
 
 import tandemlift as tl
@@ -82,7 +82,7 @@ def test_the_command_line_refuses_with_exit_code_2_and_writes_nothing(mine, tmp_
         name = f"case{number}.toml"
         mine(f'extends = "paper"\n{cases[number].toml}\n', name)
         command = [sys.executable, "-m", "tandemlift", "run", name, "--out", f"out{number}/deep"]
-        return subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
+        return completed(command, capture_output=True, text=True, encoding="utf-8", check=False)
 
     with ThreadPoolExecutor(2 if (os.cpu_count() or 1) < 4 else 4) as pool:
         runs = list(pool.map(run, range(len(cases))))

@@ -35,7 +35,7 @@ using Bytes = std::vector<char>;
 using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
 
 const size_t MOST = 100000;
-const auto PATIENCE = std::chrono::seconds(30);
+const auto PATIENCE = std::chrono::seconds(300);
 const auto SETTLE = std::chrono::seconds(4);  // from when we know of the others until they surely know of us
 
 // A type of which only the name is known; its values are what is on the wire.

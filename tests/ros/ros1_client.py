@@ -12,6 +12,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 seen = {"events": [], "phases": []}
+PATIENCE = 300.0  # s
 
 
 def note(message):
@@ -19,9 +20,9 @@ def note(message):
         seen["events" if status.name == "tandemlift: pilot" else "phases"].append(status.message)
 
 
-def until(what, patience=60.0):
+def until(what):
     """Wait for something that comes true."""
-    end = time.monotonic() + patience
+    end = time.monotonic() + PATIENCE
     while not what():
         if time.monotonic() > end:
             sys.exit(f"nothing came of it; seen: {seen}")
@@ -29,6 +30,7 @@ def until(what, patience=60.0):
 
 
 def ask(what):
+    rospy.wait_for_service(f"/tandemlift/{what}", PATIENCE)
     answer = rospy.ServiceProxy(f"/tandemlift/{what}", Trigger)()
     return [answer.success, answer.message]
 
@@ -47,10 +49,21 @@ rospy.Subscriber("/diagnostics", DiagnosticArray, note)
 publisher = rospy.Publisher("/tandemlift/push", WrenchStamped, queue_size=10)
 until(lambda: seen["phases"] and seen["phases"][-1] == "guided")
 until(lambda: publisher.get_num_connections())
-odometry = "/tandemlift/odometry"
-here = rospy.wait_for_message(odometry, Odometry, 10.0).pose.pose.position.x
-push(publisher, "base_world", (1.5, 0.0, 0.0), 1.5)
-there = rospy.wait_for_message(odometry, Odometry, 10.0).pose.pose.position.x
+
+
+def place():
+    return rospy.wait_for_message("/tandemlift/odometry", Odometry, PATIENCE).pose.pose.position.x
+
+
+def moved():
+    """How far it has come, pushed for a while more; a flight on a busy machine is slow."""
+    push(publisher, "base_world", (1.5, 0.0, 0.0), 1.5)
+    return place() - here
+
+
+here = place()
+until(lambda: moved() > 0.1)
+there = place()
 push(publisher, "mars", (1.0, 0.0, 0.0), 0.1)
 push(publisher, "world", (float("nan"), 0.0, 0.0), 0.1)
 until(lambda: sum("push refused" in event for event in seen["events"]) == 2)
@@ -58,7 +71,7 @@ rospy.set_param("/tandemlift/admittance/mass", 4)
 rospy.set_param("/tandemlift/admittance/threshold", "none")
 until(lambda: rospy.get_param("/tandemlift/admittance/mass") == [4.0, 4.0, 4.0])
 until(lambda: isinstance(rospy.get_param("/tandemlift/admittance/threshold"), list))
-mission = rospy.wait_for_message("/tandemlift/mission", String, 10.0).data
+mission = rospy.wait_for_message("/tandemlift/mission", String, PATIENCE).data
 asked = {what: ask(what) for what in ("lift", "tare", "land")}
 until(lambda: seen["phases"][-1] == "idle")
 print(json.dumps({"moved": there - here, "asked": asked, "mission": mission, **seen}))

@@ -91,6 +91,7 @@ class Trial:
 
     def fly(self, seconds):
         self.session._fly(round(seconds / self.session.flight.dt))
+        self.front._due = dict.fromkeys(self.front._due, 0.0)  # all is due, however little time this took
         self.front.publish()
 
     def sent(self, topic):

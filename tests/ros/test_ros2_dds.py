@@ -2,13 +2,13 @@
 
 import dataclasses
 import os
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 from exported import flight_of
-from processes import ended, node
+from patience import completed, ended
+from processes import node
 from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
 
@@ -108,7 +108,7 @@ def test_the_domain_is_ros_s_own(monkeypatch):
 
 
 SCRIPT = f"""
-read {COUNT} then push base_world 1.5 0 0 1.5 then push mars 1.5 0 0 0.1 then read 1
+read {COUNT} then push base_world 1.5 0 0 4 then push mars 1.5 0 0 0.1 then read 1
 then request lift then request dance then set admittance.mass 4 then request land then mission
 """
 
@@ -120,7 +120,7 @@ def peer(tmp_path_factory, program):
     compiler = program("g++")
     if not Path("/usr/include/fastdds").is_dir():
         pytest.skip("libfastrtps-dev and libfastcdr-dev are not installed")
-    subprocess.run([compiler, "-std=c++17", "-O1", str(source), "-o", str(made), "-lfastrtps", "-lfastcdr"], check=True)
+    completed([compiler, "-std=c++17", "-O1", str(source), "-o", str(made), "-lfastrtps", "-lfastcdr"], check=True)
     return made
 
 
@@ -131,7 +131,7 @@ def tried(peer, tmp_path_factory):
     options = ("--version", "2", "--save", str(folder / "saved"))
     flying = node(folder / "node.log", *options, environment=os.environ | {"ROS_DOMAIN_ID": domain})
     try:
-        done = subprocess.run([str(peer), domain, *SCRIPT.split()], capture_output=True, text=True, timeout=150.0)
+        done = completed([str(peer), domain, *SCRIPT.split()], capture_output=True, text=True)
     finally:
         assert ended(flying) == 0, (folder / "node.log").read_text("utf-8")
     assert done.returncode == 0, (done.stderr, done.stdout[-2000:])

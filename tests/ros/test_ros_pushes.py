@@ -1,5 +1,8 @@
 """Pushes by messages: where they act, how long, and what is refused."""
 
+import time
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from ros_trial import UP, wrench
@@ -123,10 +126,15 @@ def test_a_push_is_cut_to_what_the_hand_has_and_that_is_told(up):
     assert "push cut: 50 N is more than partner.max_force = 4 N" in up.said()
 
 
-def test_the_same_words_are_told_once_a_second_at_most(up):
-    for _ in range(50):
-        up.heed(wrench("mars"))
-    assert sum("mars" in said for said in up.said()) == 1
+def test_the_same_words_are_told_once_a_second_at_most(up, monkeypatch):
+    now = [1000.0]
+    clocks = SimpleNamespace(monotonic=lambda: now[0], time_ns=time.time_ns)
+    monkeypatch.setattr("tandemlift.ros.telling.time", clocks)
+    for times in (1, 2):
+        for _ in range(50):
+            up.heed(wrench("mars"))
+        assert sum("mars" in said for said in up.said()) == times
+        now[0] += 1.0
 
 
 def test_pushes_are_refused_while_sensors_are_tared(up):

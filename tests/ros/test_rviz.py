@@ -2,15 +2,14 @@
 
 import os
 import socket
-import time
 
 import numpy as np
 import pytest
-from processes import ended, node, started
+from patience import ended, until
+from processes import node, started
 from screen import Screen
 
 pytestmark = pytest.mark.ros
-PATIENCE = 90.0  # s, for RViz to begin to draw on a busy machine
 ENOUGH = 300  # pixels
 
 
@@ -34,10 +33,7 @@ def test_rviz_shows_the_vehicle(tmp_path, program):
     try:
         assert orange(screen.picture()) == 0
         flying = node(tmp_path / "node.log", "--rviz", environment=environment)
-        until = time.monotonic() + PATIENCE
-        while orange(screen.picture()) < ENOUGH:
-            assert time.monotonic() < until, "RViz shows no beam"
-            time.sleep(1.0)
+        until(lambda: orange(screen.picture()) >= ENOUGH, "a beam in RViz")
     finally:
         if flying:
             assert ended(flying) == 0, (tmp_path / "node.log").read_text("utf-8")

@@ -2,29 +2,16 @@
 
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.jit import flat, install, leaves, load, store, unflat, zeroed
+from tandemlift.kernels import COMMAND
 from tandemlift.laws.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
+from tandemlift.trace import flat, leaves, unflat
+from tandemlift.trace.functions import compiled
 
-
-class Handed(NamedTuple):
-    """What a compiled controller is handed."""
-
-    gains: Any
-    memory: Any
-    measured: Any
-    reference: Any
-
-
-class Answered(NamedTuple):
-    """What it answers."""
-
-    command: Any
-    memory: Any
+SIZE = leaves(COMMAND)
 
 
 class ByHand(NamedTuple):
@@ -36,25 +23,15 @@ class ByHand(NamedTuple):
 @pytest.fixture
 def by_hand():
     """Changes to `iris` by which its controller is a function that the loop does not know how to compile."""
-    install()
     laws: dict[str, Any] = {}
-
-    def compiled(like, answer):
-        @numba.njit(error_model="numpy")
-        def law(a, y):
-            x = load(a, like)
-            store(y, control(x.gains, x.memory, x.measured, x.reference))
-
-        return law, np.zeros(leaves(answer))
 
     @control.register(ByHand, compiled=False)
     def call(k: ByHand, memory: Any, measured: Measured, reference: Reference) -> Any:
-        handed = Handed(k.gains, memory, measured, reference)
-        answer = Answered(*control(*handed))
+        handed = k.gains, memory, measured, reference
         if "law" not in laws:
-            laws["law"], laws["y"] = compiled(zeroed(handed), answer)
-        laws["law"](np.array(flat(handed)), laws["y"])
-        return unflat(laws["y"], answer)
+            laws["law"] = compiled(control, *handed)
+        (numbers,) = laws["law"](np.array([[x for part in handed for x in flat(part)]]))
+        return unflat(numbers[:SIZE], COMMAND), unflat(numbers[SIZE:], memory)
 
     class Settings(nftsmc.NFTSMCSettings):
         name: str = "by-hand"

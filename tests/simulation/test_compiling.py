@@ -3,15 +3,18 @@
 import inspect
 import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+<<<<<<< HEAD
+from tandemlift.jit.cache import sources
+=======
+from patience import completed
+>>>>>>> core
 
 import tandemlift as tl
-from tandemlift.jit.cache import sources
 from tandemlift.kernels import LANES
 from tandemlift.law import LAWS
 from tandemlift.prepared import Prepared
@@ -20,7 +23,7 @@ PACKAGE = Path(tl.__file__).parent
 
 
 def python(code, **environment):
-    done = subprocess.run(
+    done = completed(
         [sys.executable, "-W", "error", "-c", code],
         capture_output=True,
         text=True,

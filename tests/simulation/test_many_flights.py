@@ -4,6 +4,7 @@ import threading
 
 import numpy as np
 import pytest
+from patience import joined
 
 import tandemlift as tl
 from tandemlift.errors import InputError
@@ -156,9 +157,8 @@ def test_threads_of_the_users_own_may_fly_at_once():
     def work(i):
         results[i] = tl.fly(missions[i])
 
-    threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+    threads = [threading.Thread(target=work, args=(i,), daemon=True) for i in range(4)]
     for thread in threads:
         thread.start()
-    for thread in threads:
-        thread.join()
+    joined(*threads)
     assert all(same(a, b) for a, b in zip(alone, results, strict=True))

@@ -105,7 +105,6 @@ def test_what_a_person_sees_is_what_was_exactly_their_delay_ago():
     mission = persons(1, **SHORT)[0]
     p = Prepared(mission)
     stepper, span = Stepper(p), place(p.flying, "moving", "partner", "seen")
-    stepper.compile()
     at = span.at + place(Sight(*[vec3([0.0] * 3)] * 4, 0.0, 0.0), "position").at
     was, seen = [], []
     for k in range(1500):

@@ -8,16 +8,17 @@ from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 
 import tandemlift as tl
 from tandemlift.assembly import assemble
-from tandemlift.jit import leaves, unflat
-from tandemlift.kernels import GAUSSIAN, GUST, SPAN, WALL
+from tandemlift.kernels import GAUSSIAN, GUST, SPAN
 from tandemlift.laws.allocation import Working
 from tandemlift.laws.push import Hand, push_of
 from tandemlift.laws.random import normals
+from tandemlift.laws.rectangle import WALL
 from tandemlift.laws.sensing import Readings
 from tandemlift.laws.walls import consider
 from tandemlift.laws.wind import gust_velocity
 from tandemlift.loop import Inputs, finish, joined, think
 from tandemlift.pilot import with_allocation
+from tandemlift.trace import leaves, unflat
 from tandemlift.vector import ZERO
 
 

@@ -62,14 +62,50 @@ class Above(NamedTuple):
     floor: Floor
 
 
+class Apart(NamedTuple):
+    """Walls out of reach for a step: the same numbers, and no force."""
+
+    walls: Walls
+
+
 class Clear(NamedTuple):
-    """The load of a floor out of reach: zero, and added like any other, so that no bit of a flight depends on it."""
+    """The load of what is out of reach: zero, and added like any other, so that no bit of a flight depends on it."""
+
+
+@choice
+def above(floor: Any) -> Any:
+    """A floor, or `Nothing`, out of reach."""
+
+
+@above.register(Nothing)
+def _above_nothing(floor):
+    return floor
+
+
+@above.register(Floor)
+def _above_floor(floor):
+    return Above(floor)
+
+
+@choice
+def apart(walls: Any) -> Any:
+    """Walls, or `Nothing`, out of reach."""
+
+
+@apart.register(Nothing)
+def _apart_from_nothing(walls):
+    return walls
+
+
+@apart.register(Walls)
+def _apart_from_walls(walls):
+    return Apart(walls)
 
 
 @law
-def aloft(plant: Plant) -> Plant:
-    """The same body where no foot can touch the floor."""
-    return Plant(plant.effect, plant.body, plant.frame, Above(plant.floor), plant.walls)
+def untouched(plant: Plant) -> Plant:
+    """The same body where nothing can touch floor or walls."""
+    return Plant(plant.effect, plant.body, plant.frame, above(plant.floor), apart(plant.walls))
 
 
 @choice
@@ -102,6 +138,11 @@ def _no_walls(walls, b, s):
     return walls
 
 
+@of_walls.register(Apart)
+def _walls_out_of_reach(walls, b, s):
+    return Clear()
+
+
 @of_walls.register(Walls)
 def _walls(walls, b, s):
     return press(walls, b.near, b.plant.frame, s)
@@ -119,7 +160,7 @@ def _none(load, frame, attitude):
 
 @summed.register(Loads)
 def _of_all(load, frame, attitude):
-    return resultant(frame, attitude, load)
+    return resultant(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
 
 
 @summed.register(Load)
@@ -231,6 +272,13 @@ def _in_the_air(floor, grip, s):
 @gripping.register(Floor)
 def _feet(floor, grip, s):
     return slip(floor, grip, s)
+
+
+@law
+def first_motion(plant: Plant, s: State, grip: Any, near: Any, thrusts: Any, air: Any, hand: Hand) -> State:
+    """The motion at the start of a step."""
+    b = Surrounded(plant, summed(air, plant.frame, s.attitude), grip, near)
+    return motion(b, s, wrench(plant.effect, thrusts), hand.start)
 
 
 @law

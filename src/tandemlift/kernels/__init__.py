@@ -18,6 +18,7 @@ from tandemlift.kernels.outside import GAUSSIAN, GUST, HALVES, LANES, SPAN, Tabl
 from tandemlift.kernels.places import place, stretches_of
 from tandemlift.kernels.traced import Traced
 from tandemlift.loop import Flying, Inputs
+from tandemlift.trace import machine
 from tandemlift.trace.code import Code, Written
 from tandemlift.trace.key import key_of
 
@@ -75,7 +76,8 @@ class Kernels:
             if (kind, number) not in self._codes:
                 x = self.likes
                 key = key_of((x.flying, x.given), kind, number, x.nowhere)
-                self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number), going)
+                best = machine.BEST_OF_VECTORS if kind == "loop" and number > 1 else machine.BEST
+                self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number), best, going)
             return self._codes[kind, number]
 
     def _written(self, kind: str, number: int) -> Written:

@@ -38,7 +38,7 @@ class Step:
     def everything(self) -> Symbols:
         """All that a step gives."""
         x = self.traced
-        return [*x.moving, *x.sample, *x.low, *x.high, *self._limits(), *x.asked, *x.body.acting, *x.body.push]
+        return [*x.moving, *x.sample, *self._swings(), *self._limits(), *x.asked, *x.body.acting, *x.body.push]
 
     def _take_rooms(self) -> None:
         x, take = self.likes, self.rooms.take
@@ -48,6 +48,7 @@ class Step:
         self.gust = take("gust", 3)
         self.asked, self.answer = take("asked", len(self.traced.asked)), take("answer", 4 + 3)
         self.acting = take("acting", len(self.traced.body.acting))
+        self.external = take("external", leaves(x.given.external))
         self.push, self.moved = take("push", 6), take("moved", leaves(x.moved))
         needs = self.traced.limits
         self.solving = take("solving", len(needs.problem) + len(needs.held) + 3 if needs else 0)
@@ -156,7 +157,7 @@ class Step:
                 f.read["wall"] = lambda m: f.load(row, m)
                 f.read["fly"] = lambda m: f.load("%flying", m)
                 with f.afresh():
-                    for m, value in enumerate(f.values(self.traced.near)):
+                    for m, value in enumerate(f.values(self.traced.nearest)):
                         f.store(value, "%flying", at + m)
         if x.accompanied:
             self._find_legs(f)
@@ -211,6 +212,7 @@ class Step:
             "noise": lambda i: f.load(noise, i * pace),
             "gust": lambda i: f.load("%work", self.gust + i),
             "answer": lambda i: f.load("%work", self.answer + i),
+            "external": lambda i: f.load("%work", self.external + i),
             "moved": lambda i: f.load("%work", self.moved + i),
             "solved": lambda i: f.load("%work", self.solved + i),
         }
@@ -230,13 +232,15 @@ class Step:
 
     def swing(self, f: Function) -> None:
         """Move the body over the step."""
-        if not self.likes.grounded:
-            self.keep(f, self.moved, self.traced.low)
+        if not self.traced.apart:
+            f.read["moved"] = lambda i: f.value(self.traced.near[i])  # as far as it is asked for
             return
-        low = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
-        near, far, done = f.fresh("near"), f.fresh("far"), f.fresh("done")
-        f.do(f"br i1 {low}, label %{near}, label %{far}")
-        for name, values in ((near, self.traced.low), (far, self.traced.high)):
+        touches = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
+        for value in f.values(self.traced.pressing):
+            touches = f.op(f"or i1 {touches}, {f.any(value)}")
+        near, apart, done = f.fresh("near"), f.fresh("apart"), f.fresh("done")
+        f.do(f"br i1 {touches}, label %{near}, label %{apart}")
+        for name, values in ((near, self.traced.near), (apart, self.traced.apart)):
             f.lines.append(f"{name}:")
             with f.scope():
                 self.keep(f, self.moved, values)
@@ -402,7 +406,7 @@ class Step:
         return self.leave(f, nodes, f"handed_on_{len(waiting)}")
 
     def _swings(self) -> Symbols:
-        return [*self.traced.low, *self.traced.high]
+        return [*self.traced.near, *self.traced.apart, *self.traced.pressing]
 
     def _limits(self) -> Symbols:
         needs = self.traced.limits
@@ -417,7 +421,7 @@ class Step:
             self.call(f, "feel", f"i64 {k}")
             if self.draws and self.lanes == 1:
                 self.call(f, "draw", f"i64 {k}")
-            f.store(double(1.0), "%work", self.low * self.lanes, "double")
+            f.store(double(float(self.likes.grounded)), "%work", self.low * self.lanes, "double")
             waiting = self.leave(f, [n for n in nodes if not f.is_uniform(n)], "steady")
         self.find(f, waiting)
         return waiting

@@ -6,7 +6,7 @@ import itertools
 from typing import Any, NamedTuple
 
 from tandemlift.kernels.solving import write_limits, write_solver
-from tandemlift.kernels.traced import limited
+from tandemlift.kernels.traced import check_layout, limited
 from tandemlift.laws.allocation import Constrained
 from tandemlift.pilot import PilotMemory, PilotParameters, decide
 from tandemlift.trace import Function, Graph, Module, rebuilt, symbols, traced
@@ -50,7 +50,9 @@ class Sampling:
             self.limits, *within = limited(self, pilot.parameters, pilot.memory, decided, t)
             decided = Decided(*within)
         self.thrusts = self.all(decided.decision.thrusts)
-        self.after = self.all(Remembered(pilot.samples + 1.0, decided.memory))
+        after = Remembered(pilot.samples + 1.0, decided.memory)
+        check_layout(pilot.parameters.controller, Remembered(onboard.samples, onboard.memory), after)
+        self.after = self.all(after)
 
     def given_by(self, kind: str, like: Any) -> Any:
         """A nested value whose numbers are inputs of a kind."""

@@ -1,8 +1,8 @@
 """A step of a flight, traced: every number that it gives, as a symbol of what it is given.
 
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
-`solved` by the allocation within limits; `moved`, the body after the step. Of what is formed ahead: `push` and `gusts`
-(a row of a table), `wall`, `when`, `number`, `key`.
+`solved` by the allocation within limits; `external`, what the caller of a step adds; `moved`, the body after the step.
+Of what is formed ahead: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
 """
 
 from __future__ import annotations
@@ -11,11 +11,13 @@ import itertools
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tandemlift.engines.compiled import aloft
+from tandemlift.engines.compiled import first_motion, untouched
 from tandemlift.kernels.likes import COMMAND, Likes
 from tandemlift.kernels.outside import GAUSSIAN, GUST, SPAN, active, draws
 from tandemlift.laws.allocation import Working, beyond, commanded, limits_at
+from tandemlift.laws.clearance import clearance, may_press
 from tandemlift.laws.contact import may_touch
+from tandemlift.laws.controllers import control
 from tandemlift.laws.detection import left_of, with_trials
 from tandemlift.laws.limits import Bounded, Search, begun, searched
 from tandemlift.laws.push import moment_of, push_of
@@ -23,9 +25,9 @@ from tandemlift.laws.random import normals
 from tandemlift.laws.rectangle import WALL
 from tandemlift.laws.walls import consider
 from tandemlift.laws.wind import gust_velocity
-from tandemlift.loop import Inputs, Thought, act, joined, observe, perceive, swing, think
+from tandemlift.loop import Inputs, Thought, act, joined, observe, overruled, perceive, swing, think
 from tandemlift.pilot import brief, conclude, with_allocation, with_thrusts
-from tandemlift.trace import Graph, Symbol, TraceError, leaves, rebuilt, symbols, traced
+from tandemlift.trace import Graph, Symbol, TraceError, leaves, rebuilt, refused, symbols, traced
 from tandemlift.vector import ZERO, layout, total
 
 Symbols = list[Symbol]
@@ -71,6 +73,20 @@ def changed_layout(before: Any, after: Any, path: str = "") -> str:
     return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law returns what it was given"
 
 
+def check_layout(gains: Any, before: Any, after: Any) -> None:
+    """Refuse laws that lay out a flight otherwise after a step than before it; `gains`: of the controller.
+
+    Raises:
+        TraceError: with the law, if it is the controller's.
+    """
+    if layout(before) == layout(after):
+        return
+    what, law = changed_layout(before, after), control.table.get(type(gains))
+    if law is not None and "memory.controller" in what:
+        raise refused(f"returns another layout: {what}", law.__code__, law.__code__.co_firstlineno)
+    raise TraceError(what)
+
+
 class Traced:
     """The graph of a step of flights like `likes`.
 
@@ -88,6 +104,7 @@ class Traced:
             self.given_by("gust", ZERO),
             self.given_by("noise", likes.given.noise),
             self.flying.moving.partner,
+            self.given_by("external", likes.given.external),
         )
         self.given = traced(joined)(self.flying, outer, self.t, self.dt)
         self.asked: Symbols = []
@@ -95,17 +112,16 @@ class Traced:
         self.limits: Limits | None = None
         if likes.constrained:
             thought = self._limited(thought)
-        self.thought = thought
+        self.thought = thought = traced(overruled)(thought, self.given.external)
         acting = traced(act)(self.flying, thought.decision.thrusts, self.given, self.t)
         self.body = Body(self.all(acting), self._mean_push())
-        low = self._swung(self.flying.plant, acting)
-        self.low, self.high = self.all(low), list[Symbol]()
-        if likes.grounded:
-            self.high = self.all(self._swung(traced(aloft)(self.flying.plant), acting))
+        self.near, self.apart = self.all(self._swung(self.flying.plant, acting)), list[Symbol]()
+        if likes.grounded or likes.walled:
+            self.apart = self.all(self._swung(traced(untouched)(self.flying.plant), acting))
+        self.pressing = [self._pressing(acting)] if likes.walled else []
         moved = self.given_by("moved", likes.moved)
         moving, sample = traced(observe)(self.flying, thought, acting, moved, self.given)
-        if layout(moving) != layout(likes.flying.moving):
-            raise TraceError(changed_layout(likes.flying.moving, moving))
+        check_layout(self.flying.pilot.controller, likes.flying.moving, moving)
         self.moving, self.sample = self.all(moving), self.all(sample)
 
     def given_by(self, kind: str, like: Any) -> Any:
@@ -132,6 +148,15 @@ class Traced:
 
     def _swung(self, plant: Any, acting: Any) -> Any:
         return traced(swing)(plant, self.flying.moving, acting, self.given.hand, self.dt)
+
+    def _pressing(self, acting: Any) -> Symbol:
+        """Whether anything may touch a wall in this step."""
+        before, plant, dt = self.flying.moving, self.flying.plant, self.dt
+        free, air = traced(untouched)(plant), acting.weather.loads
+        args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
+        rate = traced(first_motion)(free, *args)
+        room = traced(clearance)(plant.walls, before.near, plant.frame, before.state)
+        return traced(may_press)(plant.walls, room, before.state, rate, dt)
 
     def _mean_push(self) -> Symbols:
         hand, attitude = self.given.hand, self.flying.moving.state.attitude
@@ -167,7 +192,7 @@ class Traced:
         return [self.all(traced(normals)(number, i, *keys)) for i in range(draws(self.likes.given.noise))]
 
     @cached_property
-    def near(self) -> Symbols:
+    def nearest(self) -> Symbols:
         """The nearest walls once a row of the table of walls was looked at."""
         f, wall = self.flying, self.given_by("wall", WALL)
         return self.all(traced(consider)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))

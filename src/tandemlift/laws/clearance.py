@@ -12,8 +12,10 @@ from tandemlift.laws.loads import Frame
 from tandemlift.laws.rectangle import offset, offset_from_top
 from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.laws.walls import Beam, Near, Walls, beam_axis, moved_to, on_beam, point_by_edge, point_by_top
-from tandemlift.ops import minimum, sqrt
+from tandemlift.ops import least, minimum, sqrt
 from tandemlift.vector import Nothing, Vec3, apply, dot
+
+FAR = 1000.0  # m
 
 
 class Clearance(NamedTuple):
@@ -77,6 +79,43 @@ def _walls(w, near: Near, frame, s):
     p = moved_to(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
     guards = minimum(away(offset(near.first, p), w.guards), away(offset(near.second, p), w.guards))
     return Clearance(guards, beam_clearance(w.beam, w, near.beam, frame, s))
+
+
+@choice
+def closest(c: Any) -> Any:
+    """The least of a clearance [m]."""
+
+
+@closest.register(Nothing)
+def _of_no_beam(c):
+    return FAR
+
+
+@closest.register(BeamClearance)
+def _of_a_beam(c):
+    return minimum(least(c.ends), c.length)
+
+
+@closest.register(Clearance)
+def _of_a_vehicle(c):
+    return minimum(least(c.guards), closest(c.beam))
+
+
+@law
+def fastest(w: Walls, s: State) -> Any:
+    """A bound on the speed of every point of the vehicle [m/s], or on its acceleration, if `s` is the motion."""
+    return sqrt(dot(s.velocity, s.velocity)) + w.reach * sqrt(dot(s.rates, s.rates))
+
+
+@law
+def may_press(w: Walls, c: Clearance, s: State, rate: State, dt: Any) -> Any:
+    """Whether anything may touch a wall in a step of dt [s] from state `s`, whose motion without walls is `rate`.
+
+    Every point moves at no more than |v| + r |ω|, r the vehicle's reach, and that grows by what it is accelerated;
+    twice that way is kept.
+    """
+    fast, faster = fastest(w, s), fastest(w, rate)
+    return closest(c) < 2.0 * dt * (fast + faster * dt)
 
 
 @choice

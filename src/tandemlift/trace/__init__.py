@@ -5,8 +5,9 @@ functions that machine code has no instruction for, `layout` nested values in fl
 `machine` the text as code, `code` machine code in two tiers, `store` what is kept on disk.
 """
 
+from tandemlift.trace import elementary  # which `ops` asks for where it meets a symbol
 from tandemlift.trace.fused import traced
-from tandemlift.trace.graph import LEAVES, Graph, Symbol, TraceError, symbols
+from tandemlift.trace.graph import LEAVES, Graph, Symbol, TraceError, refused, symbols
 from tandemlift.trace.layout import flat, is_value, leaves, rebuilt, unflat, zeroed
 from tandemlift.trace.llvm import Function, Module, double
 
@@ -18,10 +19,12 @@ __all__ = [
     "Symbol",
     "TraceError",
     "double",
+    "elementary",
     "flat",
     "is_value",
     "leaves",
     "rebuilt",
+    "refused",
     "symbols",
     "traced",
     "unflat",

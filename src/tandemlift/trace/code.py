@@ -63,6 +63,7 @@ class Code:
         key: of everything that decides it (`trace.key`).
         names: of its functions.
         write: gives the module as text; asked only if no code is on disk.
+        best: how much is done for the speed of optimised code.
         going: whether to go on; asked before what cannot be interrupted.
 
     Attributes:
@@ -71,9 +72,14 @@ class Code:
     """
 
     def __init__(
-        self, key: str, names: Iterable[str], write: Callable[[], Written], going: Callable[[], bool] = always
+        self,
+        key: str,
+        names: Iterable[str],
+        write: Callable[[], Written],
+        best: machine.Level = machine.BEST,
+        going: Callable[[], bool] = always,
     ) -> None:
-        self._key, self._names, self._write = key, tuple(names), write
+        self._key, self._names, self._write, self._best = key, tuple(names), write, best
         self._lock, self._making, self._spent = threading.Lock(), False, 0.0
         self._written: Written | None = None
         self.held, self.free = dict[str, Any](), dict[str, Any]()
@@ -139,7 +145,7 @@ class Code:
 
     def _improve(self) -> None:
         found = store.read(f"{self._key}-best")
-        code = found.code if found else optimised_beside(self._text().text)
+        code = found.code if found else optimised_beside(self._text().text, self._best)
         if code is None:
             return  # what there is flies on
         before = self._loaded  # a call may still be in it

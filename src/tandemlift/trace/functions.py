@@ -18,6 +18,23 @@ from tandemlift.trace.llvm import Function, Module
 Array = NDArray[np.float64]
 
 
+def written(function: Callable[..., Any], *likes: Any, lanes: int = 1) -> tuple[str, int]:
+    """A module whose `rows` evaluates a function as `compiled` does, as text, and how many numbers it gives."""
+    graph, inputs = Graph(), itertools.count()
+    arguments = [rebuilt((graph.input("x", i) for i in inputs), like) for like in likes]
+    found = symbols(graph, traced(function)(*arguments))
+    module = Module()
+    f = Function(module, graph, lanes, "i64 @rows(ptr %x, ptr %y, i64 %count) #0")
+    with f.repeat("%count") as row:
+        x = f.at("%x", f.whole("mul", row, sum(map(leaves, likes))))
+        y = f.at("%y", f.whole("mul", row, len(found)))
+        f.read["x"] = lambda i: f.load(x, i)
+        for m, value in enumerate(f.values(found)):
+            f.store(value, y, m)
+    f.end("i64 0")
+    return module.text, len(found)
+
+
 def compiled(
     function: Callable[..., Any], *likes: Any, lanes: int = 1, level: machine.Level = machine.BEST
 ) -> Callable[[Array], Array]:
@@ -36,19 +53,9 @@ def compiled(
     Raises:
         TraceError: the function cannot be traced.
     """
-    graph, inputs = Graph(), itertools.count()
-    arguments = [rebuilt((graph.input("x", i) for i in inputs), like) for like in likes]
-    found = symbols(graph, traced(function)(*arguments))
-    width, height = sum(map(leaves, likes)), len(found)
-    module = Module()
-    f = Function(module, graph, lanes, "i64 @rows(ptr %x, ptr %y, i64 %count) #0")
-    with f.repeat("%count") as row:
-        x, y = f.at("%x", f.whole("mul", row, width)), f.at("%y", f.whole("mul", row, height))
-        f.read["x"] = lambda i: f.load(x, i)
-        for m, value in enumerate(f.values(found)):
-            f.store(value, y, m)
-    f.end("i64 0")
-    code = machine.Loaded(machine.compiled(module.text, level), ["rows"])
+    text, height = written(function, *likes, lanes=lanes)
+    width = sum(map(leaves, likes))
+    code = machine.Loaded(machine.compiled(text, level), ["rows"])
 
     def call(rows: Array) -> Array:
         blocks = -(-len(rows) // lanes)

@@ -10,14 +10,17 @@ from __future__ import annotations
 import ast
 import builtins
 import functools
+import linecache
 import threading
+import traceback
 import types
 from collections.abc import Callable, Iterator
 from typing import Any, TypeGuard
 
+from tandemlift.errors import InputError
 from tandemlift.law import LAWS, Choice, Elementwise
 from tandemlift.ops import PRIMITIVES
-from tandemlift.trace.graph import fma
+from tandemlift.trace.graph import fma, is_ours, refused
 
 FMA = "_fma_"
 ONE_AT_A_TIME = threading.RLock()
@@ -48,12 +51,10 @@ def _negated(node: ast.expr) -> ast.expr:
 
 
 @functools.cache
-def _definitions(path: str) -> dict[tuple[str, int], ast.FunctionDef]:
-    """The functions of a source file by name and first line, decorators included."""
-    with open(path, encoding="utf-8") as file:
-        tree = ast.parse(file.read())
+def _definitions(source: str) -> dict[tuple[str, int], ast.FunctionDef]:
+    """The functions of a source text by name and first line, decorators included."""
     found = {}
-    for node in ast.walk(tree):
+    for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.FunctionDef):
             found[node.name, min([node.lineno, *[d.lineno for d in node.decorator_list]])] = node
     return found
@@ -65,8 +66,9 @@ def _source(function: Callable[..., Any]) -> ast.FunctionDef | None:
         return None
     code = function.__code__
     try:
-        return _definitions(code.co_filename).get((code.co_name, code.co_firstlineno))
-    except (OSError, SyntaxError, ValueError):
+        source = "".join(linecache.getlines(code.co_filename))  # as it was run, where `load_controller` did that
+        return _definitions(source).get((code.co_name, code.co_firstlineno))
+    except (SyntaxError, ValueError):
         return None
 
 
@@ -78,6 +80,13 @@ def _codes(code: types.CodeType) -> Iterator[types.CodeType]:
             yield from _codes(inner)
 
 
+def _bare(given: ast.arguments) -> ast.arguments:
+    """Arguments without annotations and defaults."""
+    first, others, last = ([ast.arg(a.arg) for a in part] for part in (given.posonlyargs, given.args, given.kwonlyargs))
+    many, named = (a and ast.arg(a.arg) for a in (given.vararg, given.kwarg))
+    return ast.arguments(first, others, many, last, [None] * len(last), named, [])
+
+
 @functools.cache
 def fused(function: Callable[..., Any]) -> Callable[..., Any]:
     """The copy of a law that is traced: fused, and calling what stands for other laws while they are traced."""
@@ -85,10 +94,8 @@ def fused(function: Callable[..., Any]) -> Callable[..., Any]:
         node = _source(function)
         if node is None:
             return function
-        names = [ast.arg(a.arg) for a in node.args.args]
-        arguments = ast.arguments([], names, node.args.vararg, [], [], None, [])
         body = [_Fuse().visit(line) for line in node.body]
-        definition = ast.FunctionDef(node.name, arguments, body, [], None)
+        definition = ast.FunctionDef(node.name, _bare(node.args), body, [], None)
         tree = ast.fix_missing_locations(ast.Module([ast.copy_location(definition, node)], []))
         module = compile(tree, function.__code__.co_filename, "exec", dont_inherit=True)
     code = next(c for c in module.co_consts if isinstance(c, types.CodeType))
@@ -98,7 +105,9 @@ def fused(function: Callable[..., Any]) -> Callable[..., Any]:
     scope |= {"__builtins__": builtins, FMA: fma}
     if "int" in used:
         scope["int"] = _elementary("whole")
-    return types.FunctionType(code, scope, function.__name__, function.__defaults__)
+    copy = types.FunctionType(code, scope, function.__name__, function.__defaults__)
+    copy.__kwdefaults__ = function.__kwdefaults__
+    return copy
 
 
 def _elementary(name: str) -> Callable[..., Any]:
@@ -107,14 +116,27 @@ def _elementary(name: str) -> Callable[..., Any]:
     return getattr(elementary, name)
 
 
-MARKED: set[Callable[..., Any]] = set()
 PRIMITIVE = {operation: operation.__name__[1:] for operation in PRIMITIVES}
 
 
-def _is_law(function: Callable[..., Any]) -> bool:
-    if len(MARKED) != len(LAWS):
-        MARKED.update(LAWS)
-    return function in MARKED
+@functools.lru_cache(maxsize=1)
+def _marked(count: int) -> frozenset[Callable[..., Any]]:
+    return frozenset(LAWS)
+
+
+def _run(law: Callable[..., Any], *args: Any) -> Any:
+    """A law on symbols; one of a user's own that fails on them is refused."""
+    try:
+        return fused(law)(*args)
+    except InputError:
+        raise
+    except Exception as error:
+        if is_ours(law.__code__):
+            raise
+        trace = traceback.extract_tb(error.__traceback__)
+        lines = [f.lineno for f in trace if f.filename == law.__code__.co_filename and f.lineno]
+        what = f"fails on symbols, {type(error).__name__}: {error}: use vectors and the functions of tandemlift.ops"
+        raise refused(what, law.__code__, lines[-1] if lines else law.__code__.co_firstlineno) from error
 
 
 def traced(thing: Any) -> Any:
@@ -122,10 +144,10 @@ def traced(thing: Any) -> Any:
     if isinstance(thing, Elementwise):
         return thing.calling(traced(thing.scalar))
     if isinstance(thing, Choice):
-        return lambda *args: fused(thing.chosen(args[0]))(*args)
+        return lambda *args: _run(thing.chosen(args[0]), *args)
     if isinstance(thing, types.FunctionType):
         if thing in PRIMITIVE:
             return lambda *args: _elementary(PRIMITIVE[thing])(*args)
-        if _is_law(thing):
-            return lambda *args: fused(thing)(*args)
+        if thing in _marked(len(LAWS)):
+            return functools.partial(_run, thing)
     return thing

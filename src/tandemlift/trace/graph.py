@@ -14,13 +14,16 @@ import sys
 from collections.abc import Container, Iterable
 from fractions import Fraction
 from pathlib import Path
+from types import CodeType
 from typing import Any
 
 from tandemlift.errors import InputError
 
 MOST_NODES = 1_000_000
 HERE = str(Path(__file__).parent)
+OURS = str(Path(__file__).parent.parent)
 LEAVES = ("const", "in")
+NAMES = {"f": "a number", "b": "a truth", "i": "an integer"}
 
 
 class TraceError(InputError):
@@ -43,7 +46,7 @@ class Graph:
         if found is None:
             found = self._known[key] = len(self.ops)
             if found >= MOST_NODES:
-                raise TraceError(f"{_culprit()} makes more than {MOST_NODES:,} operations: write it for fewer")
+                raise _refused(f"makes more than {MOST_NODES:,} operations: write it for fewer")
             self.ops.append(op)
             self.args.append(args)
             self.types.append(kind)
@@ -164,22 +167,20 @@ class Symbol:
         return _bitwise("ashr", self, count)
 
     def __pow__(self, power: Any) -> Any:
-        raise TraceError(f"{_culprit()} takes a power by **: write a product, or power(x, p) of tandemlift.ops")
+        raise _refused("takes a power by **: write a product, or power(x, p) of tandemlift.ops")
 
     __rpow__ = __pow__
 
     def __bool__(self) -> bool:
-        raise TraceError(
-            f"{_culprit()} branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.ops"
-        )
+        raise _refused("branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.ops")
 
     def __float__(self) -> float:
-        raise TraceError(f"{_culprit()} takes a plain number out of its data: use the functions of tandemlift.ops")
+        raise _refused("takes a plain number out of its data: use the functions of tandemlift.ops")
 
     __int__ = __index__ = __float__
 
     def __iter__(self) -> Any:
-        raise TraceError(f"{_culprit()} takes a number apart as if it were a vector")
+        raise _refused("takes a number apart as if it were a vector")
 
 
 def symbols(graph: Graph, value: Any) -> list[Symbol]:
@@ -189,13 +190,27 @@ def symbols(graph: Graph, value: Any) -> list[Symbol]:
     return [Symbol(graph, graph.number(value), "f")]
 
 
-def _culprit() -> str:
-    """Name, file and line of the innermost function outside this package that is being traced."""
+def is_ours(code: CodeType) -> bool:
+    """Whether a function is one of this package."""
+    return code.co_filename.startswith(OURS)
+
+
+def refused(what: str, code: CodeType, line: int) -> TraceError:
+    """That a law cannot be traced: its file, line and name, why, and what is allowed."""
+    way = "" if is_ours(code) else "; or register the controller with compiled=False"
+    return TraceError(f"{code.co_filename}, line {line}: {code.co_name}() {what}{way}")
+
+
+def _refused(what: str) -> TraceError:
+    """That the innermost law that is being traced cannot be: of a user's own, the function that has it."""
     frame = sys._getframe(1)
     while frame.f_back and frame.f_code.co_filename.startswith(HERE):
         frame = frame.f_back
-    code = frame.f_code
-    return f"{code.co_filename}, line {frame.f_lineno}: {code.co_name}()"
+    innermost = frame
+    while frame.f_back and is_ours(frame.f_code) and not frame.f_back.f_code.co_filename.startswith(HERE):
+        frame = frame.f_back
+    frame = frame if frame.f_back else innermost
+    return refused(what, frame.f_code, frame.f_lineno)
 
 
 def _graph_of(*values: Any) -> Graph:
@@ -257,7 +272,7 @@ def _compared(predicate: str, whole: str, a: Any, b: Any) -> Any:
 def _bitwise(op: str, a: Any, b: Any) -> Any:
     graph, kind = _graph_of(a, b), _type_of(a)
     if kind != _type_of(b) or kind == "f":
-        raise TraceError(f"{_culprit()} joins {kind!r} and {_type_of(b)!r} bit by bit: only truths, or integers")
+        raise _refused(f"joins {NAMES[kind]} and {NAMES[_type_of(b)]} bit by bit: only truths, or integers")
     return Symbol(graph, graph.node(op, (_node_of(graph, a), _node_of(graph, b)), kind), kind)
 
 

@@ -17,6 +17,7 @@ from tandemlift.trace.graph import LEAVES, Graph, Symbol
 BASE = {"f": "double", "b": "i1", "i": "i64"}
 BINARY = frozenset(["fadd", "fsub", "fmul", "fdiv", "add", "sub", "mul", "and", "or", "xor", "shl", "ashr"])
 INTRINSICS = {"fma": "fma", "sqrt": "sqrt", "fabs": "fabs", "floor": "floor"}
+CYCLES = {"fma": 4, "fmul": 3, "fadd": 3, "fsub": 3, "fdiv": 13, "sqrt": 20, "select": 2}  # about, until the result
 WIDE = '"prefer-vector-width"="512" "min-legal-vector-width"="512"'
 ATTRIBUTES = [f"attributes #0 = {{ nounwind {WIDE} }}", f"attributes #1 = {{ nounwind noinline {WIDE} }}"]
 Read = Callable[[int], str]
@@ -193,6 +194,11 @@ class Function:
         """What a symbol is, in all lanes."""
         return self.values([symbol])[0]
 
+    def scalar(self, symbol: Symbol) -> str:
+        """What a symbol is that has the same value in all lanes."""
+        self._write([symbol.node])
+        return self._operand(symbol.node, spread=False)
+
     def known(self) -> set[int]:
         """The nodes that have been computed here."""
         return set(self._values)
@@ -229,13 +235,24 @@ class Function:
             seen.add(node)
             if g.ops[node] not in LEAVES and node not in self.kept:
                 stack += g.args[node]
-        return sorted(seen)
+        return sorted(seen) if self.lanes > 1 else self._by_urgency(sorted(seen))
+
+    def _by_urgency(self, nodes: list[int]) -> list[int]:
+        """Nodes in an order in which those come first whose consequences take longest."""
+        g, urgency = self.graph, dict.fromkeys(nodes, 0)
+        for node in reversed(nodes):
+            if g.ops[node] not in LEAVES and node not in self.kept:
+                after = urgency[node] + CYCLES.get(g.ops[node], 1)
+                for argument in g.args[node]:
+                    if argument in urgency and urgency[argument] < after:
+                        urgency[argument] = after
+        return sorted(nodes, key=lambda node: (-urgency[node], node))
 
     def _write(self, roots: list[int]) -> None:
         g = self.graph
         for node in self._missing(roots):
             op, args = g.ops[node], g.args[node]
-            if op == "const":
+            if op == "const" or node in self._values:  # an input may be had from other nodes
                 continue
             if op == "in":
                 self._values[node] = self.read[args[0]](args[1])

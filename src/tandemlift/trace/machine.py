@@ -11,13 +11,14 @@ import llvmlite.binding as llvm
 
 
 class Level(NamedTuple):
-    """How much is done for the speed of machine code: of the passes over the text, and of what generates code."""
+    """How much is done for speed: passes over the text, generation of code, neighbours as vectors."""
 
     passes: int
     code: int
+    vectors: bool = False
 
 
-QUICK, BEST = Level(0, 0), Level(2, 2)
+QUICK, BEST, BEST_OF_VECTORS = Level(0, 0), Level(3, 3, vectors=True), Level(0, 2)
 LIBRARIES = iter(range(1 << 62))
 
 
@@ -48,6 +49,7 @@ def compiled(text: str, level: Level = BEST) -> bytes:
     module.triple, module.data_layout = llvm.get_process_triple(), str(target.target_data)
     if level.passes:
         tuning = llvm.create_pipeline_tuning_options(speed_level=level.passes)
+        tuning.slp_vectorization = level.vectors
         builder = llvm.create_pass_builder(target, tuning)
         builder.getModulePassManager().run(module, builder)
     return target.emit_object(module)

@@ -1,6 +1,6 @@
 """Optimised machine code, made in a process of its own: LLVM works on one module at a time in a process.
 
-`python -m tandemlift.trace.optimising` reads a module as text, and writes its object code.
+`python -m tandemlift.trace.optimising LEVEL` reads a module as text, and writes its object code.
 """
 
 from __future__ import annotations
@@ -10,13 +10,15 @@ import os
 import subprocess
 import sys
 
+from tandemlift.trace.machine import Level, compiled
+
 COURTESY = 10  # of the process: it leaves the processor to those that fly
 RUNNING: set[subprocess.Popen[bytes]] = set()
 
 
-def optimised_beside(text: str) -> bytes | None:
-    """The optimised object code of a module; None if it cannot be made."""
-    command = [sys.executable, "-m", "tandemlift.trace.optimising"]
+def optimised_beside(text: str, level: Level) -> bytes | None:
+    """The object code of a module, optimised so far; None if it cannot be made."""
+    command = [sys.executable, "-m", "tandemlift.trace.optimising", *[str(int(part)) for part in level]]
     pipe = subprocess.PIPE
     try:
         process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, start_new_session=True)
@@ -36,14 +38,13 @@ def end() -> None:
         process.wait()
 
 
-def main() -> None:
+def main(passes: str, code: str, vectors: str) -> None:
     """Read a module from standard input, write object code to standard output."""
-    from tandemlift.trace import machine
-
     if hasattr(os, "nice"):
         os.nice(COURTESY)
-    sys.stdout.buffer.write(machine.compiled(sys.stdin.buffer.read().decode(), machine.BEST))
+    level = Level(int(passes), int(code), bool(int(vectors)))
+    sys.stdout.buffer.write(compiled(sys.stdin.buffer.read().decode(), level))
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

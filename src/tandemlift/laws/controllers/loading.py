@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+import linecache
 import re
 import sys
+from importlib.util import decode_source
 from pathlib import Path
 from types import FunctionType, ModuleType
 
@@ -38,7 +40,10 @@ def load_controller(path: str | Path) -> Controller:
     before = dict(CONTROLLERS), sys.modules.get(module.__name__)
     sys.modules[module.__name__] = module  # also while it runs: annotations are looked up there
     try:
-        exec(compile(source, str(path), "exec"), module.__dict__)
+        code = compile(source, str(path), "exec")
+        lines = decode_source(source).splitlines(True)
+        linecache.cache[str(path)] = len(source), None, lines, str(path)  # what is traced, even if the file changes
+        exec(code, module.__dict__)
         new = [c for name, c in CONTROLLERS.items() if before[0].get(name) is not c]
         if len(new) != 1:
             raise InputError(f"registers {len(new)} controllers; it must register one with @register(NAME, SETTINGS)")

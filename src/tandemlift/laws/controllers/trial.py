@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numbers
-import re
 import traceback
 from pathlib import Path
 from typing import Any
@@ -89,8 +88,4 @@ def told(error: BaseException, file: str) -> str:
     said: Any = error
     if isinstance(error, SyntaxError) and error.filename == file:
         lines, said = [error.lineno], error.msg
-    if type(error).__module__.startswith("numba."):
-        lines = re.findall(rf"{re.escape(name)}\W+(?:line )?(\d+)", str(error))[:1]
-        said = "the compiler cannot do this; see the rules for laws in docs/controllers.md, or register the law with "
-        said += "compiled=False"
     return f"{name}{f', line {lines[-1]}' if lines else ''}: {kind}{said}"

@@ -1,0 +1,76 @@
+"""Laws as machine code, for tests: a step of one's own in a loop, and any function over rows of numbers."""
+
+from __future__ import annotations
+
+import ctypes
+import itertools
+from collections.abc import Callable
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from tandemlift.trace import Function, Graph, Module, flat, leaves, rebuilt, symbols
+from tandemlift.trace.functions import compiled
+from tandemlift.trace.fused import fused
+from tandemlift.trace.machine import BEST, Level, Loaded
+from tandemlift.trace.machine import compiled as object_code
+
+STEPS = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_int64)
+
+
+def fused_copy(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A function as laws are traced, whether it is marked as one or not."""
+    return fused(function) if isinstance(function, FunctionType) else function
+
+
+def answers(function: Callable[..., Any], arguments: tuple[Any, ...], rows: Any = None, lanes: int = 1) -> np.ndarray:
+    """What machine code of a function makes of rows of numbers (rows × numbers), of its arguments' own without any."""
+    table = np.array([[x for a in arguments for x in flat(a)]] if rows is None else rows, dtype=float)
+    return compiled(fused_copy(function), *arguments, lanes=lanes)(table)
+
+
+class Loop:
+    """A step in a loop of machine code: (shown, moving after) of (fixed, moving, given).
+
+    Args:
+        step: of values, fused as a law is.
+        fixed: a value like that which stays.
+        moving: one like that which a step hands to the next.
+        given: one like that which every step gets a row of.
+    """
+
+    def __init__(self, step: Callable[..., Any], fixed: Any, moving: Any, given: Any, level: Level = BEST) -> None:
+        graph, inputs = Graph(), itertools.count
+        arguments = [
+            rebuilt((graph.input(kind, i) for i in inputs()), like)
+            for kind, like in (("fixed", fixed), ("moving", moving), ("given", given))
+        ]
+        shown, after = (symbols(graph, part) for part in fused_copy(step)(*arguments))
+        self.width, self.given, module = len(shown), leaves(given), Module()
+        head = "i64 @steps(ptr %fixed, ptr %moving, ptr %given, ptr %shown, i64 %count) #0"
+        f = Function(module, graph, 1, head)
+        with f.repeat("%count") as i:
+            row, out = (
+                f.at(base, f.whole("mul", i, n)) for base, n in (("%given", self.given), ("%shown", self.width))
+            )
+            f.read = {
+                "fixed": lambda m: f.load("%fixed", m),
+                "moving": lambda m: f.load("%moving", m),
+                "given": lambda m: f.load(row, m),
+            }
+            values, next_ones = f.values(shown), f.values(after)
+            for base, numbers in ((out, values), ("%moving", next_ones)):
+                for m, value in enumerate(numbers):
+                    f.store(value, base, m)
+        f.end("i64 0")
+        self.code = Loaded(object_code(module.text, level), ["steps"])
+        self.run = STEPS(self.code.addresses["steps"])
+
+    def __call__(self, fixed: Any, moving: Any, given: Any) -> np.ndarray:
+        """What the steps show (steps × numbers), a step for every row of `given` (steps × numbers)."""
+        arrays = [np.array(flat(fixed)), np.array(flat(moving)), np.ascontiguousarray(given, dtype=float)]
+        assert arrays[2].shape[1:] == (self.given,)
+        shown = np.zeros((len(arrays[2]), self.width))
+        self.run(*[a.ctypes.data for a in (*arrays, shown)], len(shown))
+        return shown

@@ -1,0 +1,27 @@
+"""A server that is as patient as a test: on a busy machine a viewer may be silent for longer than a person's page may.
+
+As a program: `tandemlift` with such a server.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from patience import PATIENCE
+
+from tandemlift.live import server, viewers
+
+
+def make_patient(put: Callable[[Any, str, Any], None] = setattr) -> None:
+    """Let silence and pings that are not answered end nothing; `put` as `setattr`."""
+    serve = server.serve
+    put(viewers, "SILENT", PATIENCE)
+    put(server, "serve", lambda *args, **options: serve(*args, **{**options, "ping_timeout": None}))
+
+
+if __name__ == "__main__":
+    from tandemlift.cli import main
+
+    make_patient()
+    main()
