@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 
@@ -14,7 +15,10 @@ def main() -> None:
         sys.stderr.write("\nstopped; nothing more is written\n")
         sys.stderr.flush()
         os._exit(130)
-    run()
+    try:
+        run()
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # what is left is Python's own end
 
 
 if __name__ == "__main__":

@@ -1,10 +1,19 @@
-"""What the core tells while it works, to whoever shows it: so far, that a loop is compiled."""
+"""What the core tells while it works, to whoever shows it: that a loop is compiled; and how it is told to stop."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
+
+
+class Stopped(Exception):
+    """Work that is not to go on."""
+
+
+def always() -> bool:
+    """Whether to go on: yes."""
+    return True
 
 
 class Compiled(NamedTuple):

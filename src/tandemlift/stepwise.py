@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from tandemlift.changing import Changing, Due, hand_place
 from tandemlift.engines import Body, Waiting, engine_named
+from tandemlift.events import Stopped, always
 from tandemlift.flown import Flown, take_tallies
 from tandemlift.kernels import GIVEN, Memory, place
 from tandemlift.laws.controllers import control
@@ -28,10 +29,6 @@ Progress = Callable[[int, int], None]
 PROGRESS_EVERY = 1000  # steps
 STATE = 13  # numbers of a state
 NEVER = -1  # the number of no step
-
-
-class Stopped(Exception):
-    """A flight that is not to go on."""
 
 
 def body_in(engine: str, p: Prepared) -> Body | None:
@@ -174,11 +171,6 @@ class Stepper:
     def lost(self) -> bool:
         """Whether the state is no longer sound."""
         return bool(self.a[self.at_lost] != 0.0)
-
-
-def always() -> bool:
-    """Whether to go on: yes."""
-    return True
 
 
 def fly_stepwise(

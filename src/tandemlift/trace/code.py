@@ -13,12 +13,13 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Future, wait
 from typing import Any, NamedTuple
 
-from tandemlift.events import Compiled, compiling
+from tandemlift.events import Compiled, Stopped, always, compiling
 from tandemlift.trace import machine, store
 from tandemlift.trace.optimising import optimised_beside
 
 PAYS = 2.0  # times what unoptimised code took to make: a third or so of what optimised code takes
 LOOK = 0.1  # s between looks at whether somebody interrupts
+ONE_AT_A_TIME = threading.Lock()  # as LLVM does anyway; who waits may still stop
 HELD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # keeps Python's lock: for calls of microseconds
 FREE = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # gives it up: for calls that take long
 
@@ -28,6 +29,13 @@ class Written(NamedTuple):
 
     text: str
     about: dict[str, Any]
+
+
+def _compiled(text: str, going: Callable[[], bool]) -> bytes:
+    with ONE_AT_A_TIME:
+        if not going():
+            raise Stopped
+        return machine.compiled(text, machine.QUICK)
 
 
 def _interruptible(work: Callable[[], bytes]) -> bytes:
@@ -56,6 +64,7 @@ class Code:
         names: of its functions.
         write: gives the module as text; asked only if no code is on disk.
         best: how much is done for the speed of optimised code.
+        going: whether to go on; asked before what cannot be interrupted.
 
     Attributes:
         about: what must be known to call the functions.
@@ -63,7 +72,12 @@ class Code:
     """
 
     def __init__(
-        self, key: str, names: Iterable[str], write: Callable[[], Written], best: machine.Level = machine.BEST
+        self,
+        key: str,
+        names: Iterable[str],
+        write: Callable[[], Written],
+        best: machine.Level = machine.BEST,
+        going: Callable[[], bool] = always,
     ) -> None:
         self._key, self._names, self._write, self._best = key, tuple(names), write, best
         self._lock, self._making, self._spent = threading.Lock(), False, 0.0
@@ -71,7 +85,7 @@ class Code:
         self.held, self.free = dict[str, Any](), dict[str, Any]()
         found = store.read(f"{key}-best")
         self.is_best = found is not None
-        entry = found or store.read(f"{key}-quick") or self._quick()
+        entry = found or store.read(f"{key}-quick") or self._quick(going)
         self.about = entry.about
         self._take(entry.code)
 
@@ -80,13 +94,13 @@ class Code:
             self._written = self._write()
         return self._written
 
-    def _quick(self) -> store.Entry:
+    def _quick(self, going: Callable[[], bool]) -> store.Entry:
         began = time.perf_counter()
         compiling(None)
         came = Compiled(0.0, is_kept=False, is_made=False)
         try:
             written = self._text()
-            code = _interruptible(lambda: machine.compiled(written.text, machine.QUICK))
+            code = _interruptible(lambda: _compiled(written.text, going))
             seconds = time.perf_counter() - began
             entry = store.Entry({**written.about, "seconds": seconds}, code)
             came = Compiled(seconds, store.write(f"{self._key}-quick", entry))
