@@ -17,8 +17,8 @@ from exact import EXACT
 from tandemlift.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.trace import Function, Graph, Module, Symbol
 from tandemlift.trace.elementary import floor
-from tandemlift.trace.graph import fma
 from tandemlift.trace.machine import BEST, QUICK, Loaded, compiled
+from tandemlift.trace.symbol import fma
 
 LANES, INPUTS, SHARED, OPERATIONS, ROWS = 8, 5, 2, 60, 24
 TRACED: dict[str, Callable[..., Any]] = {
