@@ -8,17 +8,26 @@ out of the pseudo-inverse's reach. Every time is a median; nothing here asserts 
 from __future__ import annotations
 
 import argparse
+import ctypes
 import time
+from collections.abc import Callable
 from statistics import median
 from typing import Any
 
-import numba
 import numpy as np
 from machine import describe, heading, number, pin, save, table
-from numba.extending import register_jitable
 
 import tandemlift as tl
-from tandemlift.laws.limits import PARTS, limited, weighted_rows, weights_of
+from tandemlift.kernels.solving import write_solver
+from tandemlift.kernels.traced import Solver
+from tandemlift.laws.allocation import Mixer, Working
+from tandemlift.laws.body import Wrench
+from tandemlift.laws.limits import Bounded, Search, begun, searched, weighted_rows, weights_of
+from tandemlift.trace import Function, Module, double, flat, leaves
+from tandemlift.trace.functions import compiled
+from tandemlift.trace.machine import BEST, Loaded
+from tandemlift.trace.machine import compiled as machine_code
+from tandemlift.vector import Vec3, each
 from tandemlift.vehicle import Vehicle
 
 PLACES = {
@@ -27,24 +36,61 @@ PLACES = {
     3: [(0.9, 0.0), (-0.5, 0.8), (-0.5, -0.8)],
     4: [(0.8, 0.8), (0.8, -0.8), (-0.8, 0.8), (-0.8, -0.8)],
 }
-PRIORITIES, GAMMA = (30.0, 900.0, 900.0, 1.0), 1e-3
+PRIORITIES = (30.0, 900.0, 900.0, 1.0)
 CALLS = 4000
 SIZE = np.array([12.0, 6.0, 3.0, 2.0])  # N and N·m, of the wrench's motion about hover
-
-for _part in PARTS:
-    register_jitable(forceinline=True, error_model="numpy")(_part)
-solve = numba.njit(error_model="numpy")(limited)
+ALL = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)
 
 
-@numba.njit(error_model="numpy")
-def solve_all(rows, weights, wanted, unlimited, limits, warm, steps):
-    n = rows.shape[1]
-    active, f, scratch = np.zeros(n), np.zeros(n), np.zeros(n)
-    for k in range(len(wanted)):
+def bounded(v: Vehicle, wanted: np.ndarray, unlimited: np.ndarray, limits: np.ndarray) -> Bounded:
+    """One problem."""
+    rotors, weights = each(v.rotor_count), weights_of(v.effect, PRIORITIES)
+    rows = Mixer(*[rotors(*map(float, row)) for row in weighted_rows(v.effect, weights)])
+    thrust, *moment = map(float, wanted)
+    w, *m = map(float, weights)
+    values = [rotors(*map(float, x)) for x in (unlimited, limits)]
+    return Bounded(rows, Wrench(w, Vec3(*m)), Wrench(thrust, Vec3(*moment)), *values)
+
+
+def in_a_row(like: Bounded, warm: bool) -> Callable[[np.ndarray, np.ndarray], None]:
+    """Machine code that solves problems one after another: of their changing numbers, and of memory for one of them."""
+    module, solver, n = Module(), Solver(like), len(like.limits)
+    size = solver.problem_size
+    fixed, search = size - 4 - 2 * n, size
+    write_solver(module, solver, 1)
+    f = Function(module, solver.graph, 1, "i64 @all(ptr noalias %problems, i64 %count, ptr noalias %s) #0")
+    with f.repeat("%count") as k:
+        problem = f.at("%problems", f.whole("mul", k, size - fixed))
+        with f.repeat(size - fixed) as m:
+            f.store(f.load(problem, m), "%s", f.whole("add", m, fixed))
         if not warm:
-            active[:] = 0.0
-            f[:] = unlimited[k]
-        steps[k] = solve(rows, weights, wanted[k], unlimited[k], limits[k], GAMMA, active, f, scratch, 8 * n)
+            with f.repeat(n) as i:
+                f.store(f.zero, "%s", f.whole("add", i, search))
+                f.store(f.load(problem, f.whole("add", i, 4)), "%s", f.whole("add", i, search + n))
+        f.store(double(0.0), "%s", search + 2 * n + 2)
+        f.do("call void @solve(ptr %s)")
+    f.end("i64 0")
+    code = Loaded(machine_code(module.text, BEST), ["all"])
+
+    def run(problems: np.ndarray, memory: np.ndarray) -> None:
+        ALL(code.addresses["all"])(problems.ctypes.data, len(problems), memory.ctypes.data)
+
+    return run
+
+
+def steps_of(like: Bounded, problems: np.ndarray, warm: bool) -> np.ndarray:
+    """How many steps of the search each problem takes."""
+    n = len(like.limits)
+    working = Working(like.limits, like.limits)
+    begin, step = compiled(begun, like.limits, working), compiled(searched, like, Search(working, 0.0, 0.0, 0.0))
+    fixed, taken, held = flat(like)[: -4 - 2 * n], np.zeros(len(problems)), np.zeros(2 * n)
+    for k, problem in enumerate(problems):
+        start = held if warm else np.concatenate([np.zeros(n), problem[4 : 4 + n]])
+        x = begin(np.array([[*problem[-n:], *start]]))
+        while not x[0, -1] and taken[k] < 8 * n:
+            x, taken[k] = step(np.concatenate([[[*fixed, *problem]], x], axis=1)), taken[k] + 1
+        held = x[0, : 2 * n]
+    return taken
 
 
 def vehicle(count: int) -> Vehicle:
@@ -74,14 +120,17 @@ def measured(v: Vehicle, warm: bool, rounds: int) -> dict[str, float]:
     wanted, limits = (smooth if warm else unrelated)(v, np.random.default_rng(v.count))
     unlimited = wanted @ v.allocation().T
     beyond = np.flatnonzero(np.any((unlimited < 0.0) | (unlimited > limits), axis=1))[:CALLS]
-    weights, steps = weights_of(v.effect, PRIORITIES), np.zeros(len(beyond))
-    problem = weighted_rows(v.effect, weights), weights, wanted[beyond], unlimited[beyond], limits[beyond], warm, steps
-    solve_all(*problem)
+    like = bounded(v, wanted[0], unlimited[0], limits[0])
+    problems = np.ascontiguousarray(np.hstack([wanted, unlimited, limits])[beyond])
+    run, memory = in_a_row(like, warm), np.zeros(leaves(like) + 2 * v.rotor_count + 3)
+    memory[: leaves(like)] = flat(like)
+    run(problems, memory)
     taken = []
     for _ in range(rounds):
         began = time.perf_counter()
-        solve_all(*problem)
+        run(problems, memory)
         taken.append((time.perf_counter() - began) / len(beyond) * 1e9)
+    steps = steps_of(like, problems, warm)
     return {"ns": median(taken), "mean_steps": float(steps.mean()), "most_steps": float(steps.max())}
 
 
@@ -95,7 +144,7 @@ def main() -> None:
     parser.add_argument("--json", metavar="FILE", help="write the results to this file too")
     parser.add_argument("--rounds", type=int, default=15, help="rounds that a median is taken over")
     options = parser.parse_args()
-    about = describe(("tandemlift", "numba", "numpy"))
+    about = describe(("tandemlift", "llvmlite", "numpy"))
     pin(1)
     starts = {"cold": False, "warm": True}
     speeds = {

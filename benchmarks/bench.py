@@ -62,7 +62,7 @@ def other_rows(results: dict[str, Any]) -> list[list[str]]:
         ["share of bare `mj_step` in it", number(results["mujoco"]["bare_share"])],
         ["`import tandemlift`, s", number(starts["import_s"])],
         ["first `load_mission`, s", number(starts["load_mission_s"])],
-        ["Numba loaded after import / after `load_mission`", _loaded(starts)],
+        ["llvmlite loaded after import / after `load_mission`", _loaded(starts)],
         ["process: an empty Python, s", number(starts["empty_python_s"])],
         ["process: `fly(load_mission('paper'))`, empty cache, s", number(starts["first_flight_s"])],
         ["process: the same, warm cache, s", number(starts["warm_flight_s"])],
@@ -77,7 +77,7 @@ def other_rows(results: dict[str, Any]) -> list[list[str]]:
 
 
 def _loaded(starts: dict[str, Any]) -> str:
-    return f"{_yes(starts['numba_after_import'])} / {_yes(starts['numba_after_load_mission'])}"
+    return f"{_yes(starts['llvmlite_after_import'])} / {_yes(starts['llvmlite_after_load_mission'])}"
 
 
 def _kept(name: str) -> str:
@@ -86,7 +86,7 @@ def _kept(name: str) -> str:
 
 
 def measure(rounds: int) -> dict[str, Any]:
-    about = describe(("tandemlift", "numba", "llvmlite", "numpy", "pydantic", "mujoco"))
+    about = describe(("tandemlift", "llvmlite", "numpy", "pydantic", "mujoco"))
     return {
         "machine": about,
         "missions": {name: flights.mission_speeds(name, rounds) for name in flights.MISSIONS},

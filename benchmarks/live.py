@@ -201,7 +201,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=10.0, help="of flight with four lookers-on")
     minutes = parser.parse_args().minutes
-    print(heading(describe(("tandemlift", "websockets", "numba"))), flush=True)
+    print(heading(describe(("tandemlift", "websockets", "llvmlite"))), flush=True)
     with tempfile.TemporaryDirectory() as out, started(out) as (process, address):
         rows = measured(process, address, 60.0 * minutes)
     print("\n" + table(["", "target", "measured"], rows))

@@ -153,7 +153,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5, help="pairs of bursts that a median is taken over")
     parser.add_argument("--seconds", type=float, default=0.4, help="length of a burst")
     options = parser.parse_args()
-    about = describe(("tandemlift", "numba", "numpy", "crazyflow", "jax", "l2f", "mujoco", "rotorpy", "torch"))
+    about = describe(("tandemlift", "llvmlite", "numpy", "crazyflow", "jax", "l2f", "mujoco", "rotorpy", "torch"))
     results = measure(options.only or list(SIMULATORS), options.rounds, options.seconds)
     print(f"{heading(about)}\n\n{table(HEADER, map(_cells, results), texts=2)}")
     save(options.json, {"machine": about, "rows": results})

@@ -21,14 +21,14 @@ import json, sys, time
 began = time.perf_counter()
 import tandemlift
 imported = time.perf_counter() - began
-after_import = "numba" in sys.modules
+after_import = "llvmlite" in sys.modules
 began = time.perf_counter()
 tandemlift.load_mission("paper")
 print(json.dumps({
     "import_s": imported,
     "load_mission_s": time.perf_counter() - began,
-    "numba_after_import": after_import,
-    "numba_after_load_mission": "numba" in sys.modules,
+    "llvmlite_after_import": after_import,
+    "llvmlite_after_load_mission": "llvmlite" in sys.modules,
 }))
 """
 
@@ -56,7 +56,7 @@ def imports(repeats: int) -> dict[str, Any]:
     runs = [json.loads(_run([sys.executable, "-c", IMPORT])[1]) for _ in range(repeats)]
     python = [_run([sys.executable, "-c", "pass"])[0] for _ in range(repeats)]
     times = {key: median([r[key] for r in runs]) for key in ("import_s", "load_mission_s")}
-    flags = {key: runs[0][key] for key in runs[0] if key.startswith("numba")}
+    flags = {key: runs[0][key] for key in runs[0] if key.startswith("llvmlite")}
     return {**times, **flags, "empty_python_s": median(python)}
 
 

@@ -13,14 +13,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from machine import describe, heading, table
-from numba import njit
 
 import tandemlift as tl
 from tandemlift.apart import turned
 from tandemlift.engines import engine_named
 from tandemlift.engines.compiled import advance, start_plant, start_state
-from tandemlift.jit import flat, install
 from tandemlift.laws.push import CentralPush, Hand
+from tandemlift.trace import flat, traced, unflat
+from tandemlift.trace.functions import compiled
 from tandemlift.vector import ZERO, Nothing, each
 from tandemlift.vehicle import Vehicle
 
@@ -95,17 +95,17 @@ def open_loop(engine: str, count: int) -> dict[str, float]:
     state, plant = start_state(mission), start_plant(mission, vehicle, NONE, NONE)
     body = engine_named(engine).start(mission, vehicle, NONE, NONE)
     hand, rotors, thrusts_at = Hand(*[CentralPush(ZERO)] * 3), each(vehicle.rotor_count), excited(mission, vehicle)
-    install()
 
-    @njit(error_model="numpy")
-    def step(state, thrusts):
-        return advance(plant, state, NONE, NONE, thrusts, NONE, hand, h)
+    def step(state: Any, thrusts: Any) -> Any:
+        return traced(advance)(plant, state, NONE, NONE, thrusts, NONE, hand, h)
 
+    like = advance(plant, state, NONE, NONE, rotors(*thrusts_at(0.0, state)), NONE, hand, h)
+    stepped = compiled(step, state, rotors(*[0.0] * vehicle.rotor_count))
     apart, joints = dict.fromkeys(QUANTITIES, 0.0), {"joint_force": slice(3, 3 + 3 * count)}
     joints["joint_torque"] = slice(3 + 3 * count, 3 + 6 * count)
     for k in range(round(ALONE[engine] / h)):
         thrusts = thrusts_at(k * h, state)
-        moved = step(state, rotors(*thrusts))
+        moved = unflat(stepped(np.array([[*flat(state), *thrusts]]))[0], like)
         body.advance(thrusts, NO_AIR, NO_PUSH, NO_PUSH)
         state, felt = moved.state, np.abs(np.array(flat(moved.felt)) - body.felt)
         found = {name: felt[part].max() * looked_at(engine, k * h) for name, part in joints.items()}
@@ -178,7 +178,7 @@ def all_rows(engine: str) -> Iterator[Row]:
 
 def main() -> None:
     engines = sys.argv[1:] or ["mujoco"]
-    print(heading(describe(("tandemlift", "numba", "numpy", "mujoco"))), end="\n\n")
+    print(heading(describe(("tandemlift", "llvmlite", "numpy", "mujoco"))), end="\n\n")
     columns = [list(all_rows(engine)) for engine in engines]
     print("Largest difference of each engine from the compiled one:", end="\n\n")
     header = ["flight", "quantity", *(cell for engine in engines for cell in ("tolerance", f"`{engine}`"))]

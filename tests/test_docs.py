@@ -12,7 +12,10 @@ from tandemlift.flight import CHANNELS, DERIVED
 
 ROOT = Path(__file__).parent.parent
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-CODE = [ROOT / "README.md", ROOT / "docs" / "flights.md"]  # docs/controllers.md has tests of its own
+CODE = [
+    ROOT / "README.md",
+    *[ROOT / "docs" / name for name in ("flights.md", "simulation.md")],
+]  # docs/controllers.md has tests of its own
 
 
 def blocks(path, language):

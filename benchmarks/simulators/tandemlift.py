@@ -9,8 +9,8 @@ STEP = (
     "as one body, running metrics; float64, 1 ms"
 )
 ROWS = {
-    "one-push": Row("tandemlift, `one-push`", STEP.format(switching="saturation"), ("tandemlift", "numba")),
-    "paper": Row("tandemlift, `paper`, eight pushes", STEP.format(switching="tanh"), ("tandemlift", "numba")),
+    "one-push": Row("tandemlift, `one-push`", STEP.format(switching="saturation"), ("tandemlift", "llvmlite")),
+    "paper": Row("tandemlift, `paper`, eight pushes", STEP.format(switching="tanh"), ("tandemlift", "llvmlite")),
 }
 LONG = {"mission.duration": 400.0, "mission.log_interval": 400.0}  # s
 BLOCKS = 2  # of 8 flights, a processor

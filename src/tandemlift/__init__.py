@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from tandemlift.onboard import Pilot
     from tandemlift.settings import Mission
     from tandemlift.simulate import fly, fly_many
+    from tandemlift.simulation import Simulation
     from tandemlift.vehicle import Vehicle
 
 __version__ = "0.1.0"
@@ -29,6 +30,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "InputError": "errors",
     "Mission": "settings",
     "Pilot": "onboard",
+    "Simulation": "simulation",
     "Vehicle": "vehicle",
     "fly": "simulate",
     "fly_many": "simulate",
@@ -42,6 +44,7 @@ __all__ = [
     "InputError",
     "Mission",
     "Pilot",
+    "Simulation",
     "Vehicle",
     "fly",
     "fly_many",

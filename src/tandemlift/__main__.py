@@ -1,5 +1,25 @@
-"""`python -m tandemlift`."""
+"""`python -m tandemlift`, and `tandemlift`."""
 
-from tandemlift.cli import main
+from __future__ import annotations
 
-main()
+import os
+import signal
+import sys
+
+
+def main() -> None:
+    """Run the command line; Ctrl-C ends it by one line also while it is being loaded."""
+    try:
+        from tandemlift.cli import main as run
+    except KeyboardInterrupt:
+        sys.stderr.write("\nstopped; nothing more is written\n")
+        sys.stderr.flush()
+        os._exit(130)
+    try:
+        run()
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # what is left is Python's own end
+
+
+if __name__ == "__main__":
+    main()

@@ -46,7 +46,7 @@ def due_of(before: Prepared, mission: Mission, key: str, first: int, duration: f
     Raises:
         InputError: the key is one that cannot be changed in flight.
     """
-    after = Prepared(mission)
+    after = Prepared(mission, interactive=before.interactive)
     _check(before, after, key)
     return Due(first, max(1, round(duration / before.dt)), after)
 

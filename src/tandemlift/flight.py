@@ -11,13 +11,18 @@ import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.errors import InputError, suggestion
 from tandemlift.files import whole
+from tandemlift.tables import to_pandas, to_xarray
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 Array = NDArray[np.float64]
 FORMAT = 1
@@ -178,6 +183,29 @@ class Flight(Mapping[str, Array]):
     def metrics(self) -> dict[str, Any]:
         """The flight's metrics: flat, SI, the unit at the end of each name; None where it could not be formed."""
         return dict(self.results)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The channels as a table: a row for each sample, a column for each component, indexed by `time` [s].
+
+        Columns are called `position_x`, `attitude_w`, `euler_roll`, `rotor_thrusts_rotor_1`,
+        `joint_force_quadrotor_1_x`, and `thrust` where there is one component. `attrs` holds `name`, `units` by column,
+        `metrics`, and `divergence` as text or None.
+
+        Raises:
+            InputError: pandas is not installed (extra: pandas).
+        """
+        return to_pandas(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The channels as variables over `time` [s] and `axis`, `angle`, `quaternion`, `rotor` or `quadrotor`.
+
+        Each has `units`, `frame` and `long_name` in its `attrs`, where they say something. Those of the dataset are
+        texts: `name`; `mission`, `metrics` and `version` in JSON; `divergence`, if the flight has one.
+
+        Raises:
+            InputError: xarray is not installed (extra: xarray).
+        """
+        return to_xarray(self)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the flight to an .npz file, exactly; the file appears whole or not at all. Returns its path."""

@@ -58,7 +58,8 @@ def take_tallies(numbers: Array, like: Flying, lanes: int) -> list[Tally]:
     return tallies
 
 
-def _divergence(p: Prepared, flown: Flown) -> Divergence | None:
+def divergence_of(p: Prepared, flown: Flown) -> Divergence | None:
+    """Why a flight was stopped, or None."""
     if not flown.lost:
         return None
     at, state = flown.step * p.dt, flown.moving.state
@@ -160,6 +161,6 @@ def flight_of(p: Prepared, flown: Flown, engine: str = "compiled") -> Flight:
         channels=channels,
         mission=portable(tables_of(p.mission)),
         results=metrics_of(p, flown),
-        divergence=_divergence(p, flown),
+        divergence=divergence_of(p, flown),
         version={**versions(engine), "engine": engine},
     )

@@ -14,6 +14,7 @@ from tandemlift.delays import Ends
 from tandemlift.engines.compiled import Moved, Plant, advance
 from tandemlift.law import law
 from tandemlift.laws.body import State
+from tandemlift.laws.external import pushed, thrusts_of
 from tandemlift.laws.partner import asks_to_land, lend
 from tandemlift.laws.push import Hand, Push
 from tandemlift.laws.requests import UNAWARE, operator_of
@@ -21,10 +22,10 @@ from tandemlift.laws.rotation import sine_of_roll
 from tandemlift.laws.rotors import drive
 from tandemlift.ops import absolute, maximum, where
 from tandemlift.perception import all_sensed, estimate_all, read_push, read_state, sensed, tare_time, usable
-from tandemlift.pilot import Decision, Heard, PilotMemory, PilotParameters, decide
+from tandemlift.pilot import Decision, Heard, PilotMemory, PilotParameters, decide, with_thrusts
 from tandemlift.sample import errors_of, show
 from tandemlift.tally import Tally, count
-from tandemlift.vector import Quat, dot
+from tandemlift.vector import Nothing, Quat, dot
 from tandemlift.weather import weather
 
 SIN_ROLL_LIMIT = 0.9998476951563913  # sin 89°
@@ -72,12 +73,16 @@ class Noise(NamedTuple):
 
 
 class Inputs(NamedTuple):
-    """What a step is given from outside: the push, gusts [m/s], standard normals; a person's memory, once they push."""
+    """What a step is given from outside: the push, gusts [m/s], standard normals; a person's memory, once they push.
+
+    `external` is what a caller adds who steps the flight by hand, else `Nothing`.
+    """
 
     hand: Hand
     gust: Any
     noise: Any
     partner: Any
+    external: Any = Nothing()
 
 
 class Thought(NamedTuple):
@@ -144,10 +149,10 @@ def continued(f: Flying, moving: Moving) -> Flying:
 
 @law
 def joined(flying: Flying, given: Inputs, t: Any, dt: Any) -> Inputs:
-    """What a step is given, with the push of the person who guides the vehicle."""
+    """What a step is given, with the push of its caller and of the person who guides the vehicle."""
     before, noise = flying.moving, given.noise.partner
-    lent = lend(flying.partner, before.partner, given.hand, before.state, noise, t, dt)
-    return Inputs(lent.hand, given.gust, given.noise, lent.memory)
+    lent = lend(flying.partner, before.partner, pushed(given.external, given.hand), before.state, noise, t, dt)
+    return Inputs(lent.hand, given.gust, given.noise, lent.memory, given.external)
 
 
 @law
@@ -170,6 +175,13 @@ def think(flying: Flying, push: Push, t: Any, dt: Any) -> Thought:
     known, heard, estimator = perceive(flying, push, t, dt)
     decision, memory = decide(flying.pilot, flying.moving.memory, heard, t, dt)
     return Thought(known, heard.state.attitude, decision, memory, estimator)
+
+
+@law
+def overruled(thought: Thought, external: Any) -> Thought:
+    """The pilot's part of a step, with the thrusts that its caller gives in place of the pilot's."""
+    decision = with_thrusts(thought.decision, thrusts_of(external, thought.decision.thrusts))
+    return Thought(thought.known, thought.believed, decision, thought.memory, thought.estimator)
 
 
 @law
@@ -223,6 +235,7 @@ def swing(plant: Plant, before: Moving, acting: Acting, hand: Hand, dt: Any) -> 
 @law
 def finish(flying: Flying, thought: Thought, given: Inputs, t: Any, dt: Any) -> Any:
     """The rest of a step once the pilot has decided: (Moving after it, the Sample at its start)."""
+    thought = overruled(thought, given.external)
     acting = act(flying, thought.decision.thrusts, given, t)
     return observe(flying, thought, acting, swing(flying.plant, flying.moving, acting, given.hand, dt), given)
 

@@ -11,10 +11,11 @@ import numpy as np
 from tandemlift.assembly import assemble
 from tandemlift.kernels import Aside, Grid, Kernels, Start
 from tandemlift.laws.controllers import NoMemory, control
+from tandemlift.laws.external import External
 from tandemlift.settings import Mission
 from tandemlift.tally import LATE
 from tandemlift.trace import flat
-from tandemlift.vector import layout
+from tandemlift.vector import ZERO, each, layout
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take more than a second
 
@@ -22,14 +23,23 @@ KERNELS: dict[Any, Kernels] = {}
 
 
 class Prepared:
-    """A mission ready to fly: its loop at t = 0, what it is given from outside, and its grid of steps."""
+    """A mission ready to fly: its loop at t = 0, what it is given from outside, and its grid of steps.
 
-    def __init__(self, mission: Mission) -> None:
-        self.mission = mission
+    Args:
+        mission: from `load_mission`.
+        interactive: whether the caller of a step may add a push, and give thrusts (`laws.external`).
+    """
+
+    def __init__(self, mission: Mission, *, interactive: bool = False) -> None:
+        self.mission, self.interactive = mission, interactive
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
         self.dt = mission.mission.step
         self.flying, self.given, self.tables, self.delays, self.seeds = assemble(mission)
+        if interactive:
+            rotors = each(4 * len(mission.vehicle.quadrotors))
+            nothing = External(ZERO, ZERO, rotors(*[0.0] * len(rotors._fields)), 0.0)
+            self.given = self.given._replace(external=nothing)
         self.interpreted: tuple[Any, Any] | None = None
         if type(self.flying.pilot.controller) in control.interpreted:
             self._set_controller_aside()

@@ -13,16 +13,16 @@ from typing import Any, Literal
 from tandemlift.changing import changes_in_flight
 from tandemlift.engines import engine_named
 from tandemlift.errors import InputError
+from tandemlift.events import Stopped, always
 from tandemlift.flight import Flight
 from tandemlift.flown import Flown, flight_of, metrics_of, take_tallies
 from tandemlift.kernels import LANES, Memory
 from tandemlift.prepared import Prepared
 from tandemlift.recording import engine_of
 from tandemlift.settings import Mission
-from tandemlift.stepwise import Stopped, always, fly_stepwise
+from tandemlift.stepwise import body_in, fly_stepwise
 from tandemlift.tally import EMPTY
 from tandemlift.trace import leaves, unflat
-from tandemlift.vehicle import Vehicle
 
 Progress = Callable[[int, int], None]
 STRETCH = 0.1  # s between looks at the keyboard and at the progress bar
@@ -57,7 +57,9 @@ def _fly_compiled(
     """Fly one flight, or up to LANES of one variant and one grid; of these, lost ones again, to stop where they do."""
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
-    memory = Memory(p.kernels.loop(len(lanes)), [f.start() for f in lanes], p.grid(rows, every), leaves(p.sample))
+    memory = Memory(
+        p.kernels.loop(len(lanes), going), [f.start() for f in lanes], p.grid(rows, every), leaves(p.sample)
+    )
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
     for k in _stretches(p, memory, going):
         if k == p.late_step < p.steps:
@@ -118,10 +120,10 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
         InputError: the engine is not known, or the mission cannot be built.
     """
     engine = engine_of(mission) if engine is None else engine
-    chosen, p = engine_named(engine), Prepared(mission)
-    rows = p.steps // p.every + 1
-    if chosen.module:
-        body = chosen.start(mission, Vehicle.from_settings(mission.vehicle), p.flying.plant.floor, p.flying.plant.walls)
+    engine_named(engine)
+    p = Prepared(mission)
+    rows, body = p.steps // p.every + 1, body_in(engine, p)
+    if body is not None:
         return flight_of(p, fly_stepwise(p, rows, p.every, progress, body), engine)
     (flown,) = _fly_together([p], rows, p.every, progress)
     return flight_of(p, flown)

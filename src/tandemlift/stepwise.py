@@ -10,9 +10,11 @@ import time
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.changing import Changing, Due, hand_place
-from tandemlift.engines import Body, Waiting
+from tandemlift.engines import Body, Waiting, engine_named
+from tandemlift.events import Stopped, always
 from tandemlift.flown import Flown, take_tallies
 from tandemlift.kernels import GIVEN, Memory, place
 from tandemlift.laws.controllers import control
@@ -20,15 +22,25 @@ from tandemlift.prepared import Prepared
 from tandemlift.tally import EMPTY
 from tandemlift.trace import flat, leaves, unflat
 from tandemlift.vector import layout
+from tandemlift.vehicle import Vehicle
 
+Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 PROGRESS_EVERY = 1000  # steps
 STATE = 13  # numbers of a state
 NEVER = -1  # the number of no step
 
 
-class Stopped(Exception):
-    """A flight that is not to go on."""
+def body_in(engine: str, p: Prepared) -> Body | None:
+    """The body of a mission at t = 0 in an engine; None for the compiled one.
+
+    Raises:
+        InputError: the engine is not known, not installed, or cannot take the mission.
+    """
+    chosen, plant = engine_named(engine), p.flying.plant
+    if not chosen.module:
+        return None
+    return chosen.start(p.mission, Vehicle.from_settings(p.mission.vehicle), plant.floor, plant.walls)
 
 
 class Stepper:
@@ -62,11 +74,13 @@ class Stepper:
     def _find_rooms(self) -> None:
         """Where a step's parts leave what Python or another engine takes, and look for what it answers."""
         room = {
-            name: self.memory.work[self.memory.room(name)] for name in ("asked", "answer", "acting", "push", "moved")
+            name: self.memory.work[self.memory.room(name)]
+            for name in ("asked", "answer", "external", "acting", "push", "moved")
         }
         acting = self.p.kernels.likes.acting
         thrusts, air = place(acting, "thrusts"), place(acting, "weather", "loads")
         self.x, self.y, self.v, self.push = room["asked"], room["answer"], room["moved"], room["push"]
+        self.external = room["external"]
         if self.body is not None:
             self.v[:] = flat(self.p.kernels.likes.moved)
         self.thrusts = room["acting"][thrusts.at : thrusts.at + thrusts.size]
@@ -107,9 +121,17 @@ class Stepper:
         if hand is not None:
             self.hold(hand)
 
-    def step(self, k: int, *, final: bool = False) -> None:
-        """Take step number k; its sample is left in `row`. If `final`, only the sample is taken."""
+    def step(self, k: int, *, final: bool = False, external: Array | None = None) -> None:
+        """Take step number k; its sample is left in `row`.
+
+        Args:
+            k: the step.
+            final: whether only the sample is taken. A body in another engine moves all the same.
+            external: the numbers of a `laws.external.External`, where the mission was prepared as interactive.
+        """
         self._change(k)
+        if external is not None:
+            self.external[:] = external
         put, call, at = self.memory.put, self.code.held, self.memory.address
         put("k", k)
         put("since", k)
@@ -149,11 +171,6 @@ class Stepper:
     def lost(self) -> bool:
         """Whether the state is no longer sound."""
         return bool(self.a[self.at_lost] != 0.0)
-
-
-def always() -> bool:
-    """Whether to go on: yes."""
-    return True
 
 
 def fly_stepwise(

@@ -57,6 +57,7 @@ def flown(tmp_path, monkeypatch):
     """A flight in hover, and its server."""
     monkeypatch.setattr(viewers, "MOST_MESSAGES", math.inf)  # else the first two thousand in a second are the last
     flight = Noting(tl.load_mission("hover", GUIDED), out=tmp_path / "out")
+    flight.prepare()
     flight.heard = []
     for _ in range(round(8.0 / flight._flight.dt)):
         flight._flight.advance()

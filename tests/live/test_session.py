@@ -5,10 +5,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from patience import COMPILING, until
+from patience import PATIENCE, until
 
 import tandemlift as tl
-from tandemlift.live import compiling, messages
+from tandemlift.live import messages
 from tandemlift.live.by_hand import NEVER, by_hand, renewed
 from tandemlift.live.controls import BY_KEY, controls_of
 from tandemlift.live.frames import read_frames
@@ -30,6 +30,7 @@ STIFFNESS, THRESHOLD = 6.0, 0.3  # N/m, N
 @pytest.fixture
 def session(tmp_path):
     one = Session(tl.load_mission("hover", GUIDED | {"admittance.threshold": THRESHOLD}), out=tmp_path)
+    one.prepare()
     yield one
     one.stop()
 
@@ -242,7 +243,6 @@ def test_a_tare_begins_a_second_after_it_was_asked_for_or_is_asked_for_again():
     with pytest.raises(tl.InputError, match="took too long to make ready"):
         knobs.tare(slow)
     assert slow.now.estimator.tare_start == 5.0
-    knobs.close()
 
 
 def test_a_mission_that_is_guided_by_the_clock_says_that_it_asks_nobody(session):
@@ -285,31 +285,12 @@ def test_a_rotor_that_cannot_fail_is_not_killed(session):
         say(session, "kill", rotor=3)
 
 
-def told_once_it_is_compiled(session, kind, **what):
-    """What is told of a controller that is chosen again and again, as a person is asked to, until it is not refused."""
-
-    def told():
-        try:
-            told = say(session, kind, key="controller.name", **what)
-        except tl.InputError as error:
-            told = [{"type": "refused", "reason": str(error)}]
-        refused = [t["reason"] for t in told if t["type"] == "refused"]
-        assert all("is being compiled for this flight: choose it again" in reason for reason in refused)
-        return None if refused else told
-
-    return until(told, "a controller that is compiled", COMPILING)
-
-
-def test_another_controller_takes_over_once_it_is_compiled(session, monkeypatch):
+def test_another_controller_takes_over_at_once(session):
     fly(session, 3.0)
-    with monkeypatch.context() as hasty:
-        hasty.setattr(compiling, "PATIENCE", 0.0)
-        with pytest.raises(tl.InputError, match="pid is being compiled for this flight: choose it again"):
-            say(session, "set", key="controller.name", value="pid")
-    told_once_it_is_compiled(session, "set", value="pid")
+    say(session, "set", key="controller.name", value="pid")
     fly(session, 1.0)
     assert session._flight.now.controller.name == "pid"
-    told = told_once_it_is_compiled(session, "restore")
+    told = say(session, "restore", key="controller.name")
     assert [t["type"] for t in told] == ["changed", "scene"]
     assert session._flight.now.controller == session._mission.controller, "with the mission's own settings"
     fly(session, 1.0)
@@ -342,6 +323,76 @@ def test_what_was_flown_is_saved_under_its_name_and_flies_again(session, tmp_pat
     assert answer == {"type": "done", "what": "save", "detail": str(tmp_path / "mine")}
     again = tl.fly(tl.load_mission(tmp_path / "mine" / "recorded.toml"))
     np.testing.assert_array_equal(again["position"], tl.Flight.load(tmp_path / "mine" / "flight.npz")["position"])
+
+
+def unprepared(tmp_path, **settings):
+    return Session(tl.load_mission("hover", GUIDED | settings), out=tmp_path)
+
+
+def test_before_it_is_compiled_the_vehicle_is_seen_where_it_will_begin(tmp_path):
+    one = unprepared(tmp_path, **{"initial.position": [1.0, 2.0, 0.0]})
+    assert one.status()["phase"] == "preparing"
+    before, controls = seen(one), one.scene["controls"]
+    one.prepare()
+    assert one.status()["phase"] != "preparing"
+    for field in ("position", "attitude", "velocity"):
+        np.testing.assert_array_equal(before[field], seen(one)[field], err_msg=field)
+    assert one.scene["controls"] == controls
+    one.stop()
+
+
+def test_before_it_is_compiled_nothing_is_heeded_and_a_hand_that_goes_does_no_harm(tmp_path):
+    one = unprepared(tmp_path)
+    one.release()
+    for kind, what in {"reset": {}, "pause": {"on": True}, "save": {"name": "mine"}}.items():
+        with pytest.raises(tl.InputError, match="the flight is still being prepared"):
+            say(one, kind, **what)
+    one.stop()
+
+
+def test_a_flight_that_cannot_be_compiled_says_why_and_is_not_flown(tmp_path, monkeypatch, caplog):
+    def fail(*_):
+        raise tl.InputError("law.py:3 branches on data")
+
+    monkeypatch.setattr("tandemlift.live.session.RecordedFlight", fail)
+    one = unprepared(tmp_path)
+    one.start()
+    until(lambda: one.status()["phase"] == "failed")
+    assert one.status()["preparing"]["failure"] == "law.py:3 branches on data"
+    with pytest.raises(tl.InputError, match=r"cannot be flown: law\.py:3 branches on data"):
+        say(one, "reset")
+    assert "law.py:3" in caplog.text
+    assert len(one.frame()) > 0
+    one.stop()
+
+
+def test_a_session_that_still_compiles_is_stopped_at_once(tmp_path, monkeypatch):
+    compiles, goes_on = threading.Event(), threading.Event()
+
+    def compile_for_long(*_):
+        compiles.set()
+        goes_on.wait(PATIENCE)
+        raise tl.InputError("nobody waits for this")
+
+    monkeypatch.setattr("tandemlift.live.session.RecordedFlight", compile_for_long)
+    one = unprepared(tmp_path)
+    one.start()
+    assert compiles.wait(PATIENCE)
+    one.stop()  # which does not wait for what is compiled
+    goes_on.set()
+    one._thread.join(PATIENCE)
+
+
+def test_optimised_code_takes_over_while_it_flies(tmp_path, monkeypatch):
+    monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr("tandemlift.prepared.KERNELS", {})
+    one = unprepared(tmp_path)
+    one.start()
+    until(lambda: one.is_ready and one.flight._stepper.code.is_best, patience=4 * PATIENCE)
+    then = one.flight.step
+    until(lambda: one.flight.step > then + 100)
+    assert not one.flight.lost
+    one.stop()
 
 
 def test_the_thread_flies_until_it_is_stopped_and_pauses(session):

@@ -14,14 +14,17 @@ from tandemlift import __version__
 from tandemlift.cli.compare import compare
 from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
+from tandemlift.cli.leaving import heed_interrupts, leave
 from tandemlift.cli.live import live
 from tandemlift.cli.render import render
 from tandemlift.cli.replay import replay
 from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run, say
+from tandemlift.cli.telling import teller
 from tandemlift.cli.validate import validate
 from tandemlift.errors import FlightWarning, InputError, suggestion
+from tandemlift.events import watching
 
 BAD_INPUT = 2
 INTERRUPTED = 130  # as shells report it
@@ -128,14 +131,16 @@ def main() -> None:
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: what was started is ended too
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a character shows '?'
+    heed_interrupts()
     try:
-        sys.exit(cli.main(prog_name="tandemlift", standalone_mode=False))
+        with watching(teller):
+            sys.exit(cli.main(prog_name="tandemlift", standalone_mode=False))
     except click.ClickException as error:
         error.show()
         sys.exit(error.exit_code)
     except (click.Abort, KeyboardInterrupt):
         click.echo("stopped; nothing more is written", err=True)
-        sys.exit(INTERRUPTED)
+        leave(INTERRUPTED)
     except InputError as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(BAD_INPUT)

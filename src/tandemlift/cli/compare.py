@@ -12,6 +12,7 @@ import click
 
 from tandemlift.cli.results import bar, results_in
 from tandemlift.cli.run import DIVERGED, chosen_controller, load, parse_setting, say
+from tandemlift.cli.telling import teller
 from tandemlift.errors import InputError
 from tandemlift.files import whole
 
@@ -113,8 +114,8 @@ def _names(option: str, given: str, example: str) -> list[str]:
 def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
     from tandemlift.comparison import compare
 
-    count = sum(1 for e in entered if e.mission)
-    with bar("Flying", count, shown=sys.stderr.isatty()) as progress:
+    count = sum(e.mission is not None for e in entered)
+    with teller.together(), bar("Flying", count, shown=sys.stderr.isatty()) as progress:
         return compare(entered, engine, progress)
 
 
@@ -178,7 +179,7 @@ def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], 
 
     loaded = load(mission, settings)
     with results_in(out, Path("out") / loaded.mission.name, OF_ENGINES) as folder:
-        with bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
+        with teller.together(), bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
             flights = fly_in(loaded, names, progress)
         found = summary_of(flights)
         _print_differences(loaded.mission.name, found)

@@ -14,7 +14,7 @@ import click
 
 from tandemlift.cli.live import DEFAULT
 from tandemlift.cli.results import bar, keep_recording, results_in, write_results
-from tandemlift.cli.run import DIVERGED, load, say, summarise
+from tandemlift.cli.run import DIVERGED, load, say, say_report, summarise
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
@@ -75,11 +75,11 @@ def gazebo(
         began = time.perf_counter()
         window = not no_window and _has_display()
         flight, views = _by_hand(loaded, window) if by_hand else _as_it_is(loaded, window, not fast, pictures)
-        summarise(flight, time.perf_counter() - began)
+        summarise(flight)
         if not by_hand:
             keep_recording(loaded, folder)
         write_results(flight, folder, figures=not no_figures, views=views)
-        say(f"  report: {folder / 'report.html'}")
+        say_report(folder, time.perf_counter() - began)
     if flight.divergence:
         click.echo(f"{flight.name}: {flight.divergence}", err=True)
         sys.exit(DIVERGED)

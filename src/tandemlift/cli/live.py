@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.leaving import leave
 from tandemlift.cli.run import load
 from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
 
@@ -56,14 +57,11 @@ def live(
     from tandemlift.live.server import Server
 
     serve_here(Server(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
+    leave(0)  # it may still be compiling
 
 
 def session_of(mission: Mission, engine: str, out: Path = OUT) -> Session:
-    """A flight in real time, compiled; who waits for that is told."""
-    from tandemlift.live.by_hand import by_hand
+    """A flight in real time, checked; nothing is compiled yet."""
     from tandemlift.live.session import Session
-    from tandemlift.prepared import needs_compiling
 
-    if needs_compiling(by_hand(mission)):
-        click.echo("Compiling the flight loop for this machine (once, a minute or two) …", err=True)
     return Session(mission, engine, out)

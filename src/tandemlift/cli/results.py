@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.telling import teller
 from tandemlift.errors import InputError
 from tandemlift.files import whole
 
@@ -118,5 +119,5 @@ def bar(label: str, length: int, *, shown: bool = True) -> Iterator[Callable[[in
     if not shown:
         yield None
         return
-    with click.progressbar(length=length, label=label, file=sys.stderr) as bar:
+    with teller.together(), click.progressbar(length=length, label=label, file=sys.stderr) as bar:
         yield lambda done, total: bar.update(done - bar.pos)

@@ -75,6 +75,7 @@ def ros(
     middleware = _middleware(version, arguments)
     try:
         session = session_of(loaded, engine)
+        session.prepare()
         end = _fly(session, middleware, rate, f"{mission} in ROS {version}", rviz=rviz)
     finally:
         middleware.shutdown()

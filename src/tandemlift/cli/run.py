@@ -82,10 +82,10 @@ def run(
     loaded = load(mission, settings, chosen)
     with results_in(out, Path("out") / loaded.mission.name) as folder:
         flight = _fly(loaded, engine, chosen)
-        summarise(flight, time.perf_counter() - began)
+        summarise(flight)
         keep_recording(loaded, folder)
         write_results(flight, folder, figures=not no_figures)
-        say(f"  report: {folder / 'report.html'}")
+        say_report(folder, time.perf_counter() - began)
     if flight.divergence:
         click.echo(f"{flight.name}: {flight.divergence}", err=True)
         sys.exit(DIVERGED)
@@ -151,8 +151,13 @@ def _fly(mission: Mission, engine: str | None, controller: Controller | None) ->
         raise InputError(f"controller {controller.name!r} fails: {told(error, file_of(controller))}") from error
 
 
-def summarise(flight: Flight, seconds: float) -> None:
-    """Print what came of a flight, and how long [s] all of it took."""
+def say_report(folder: Path, seconds: float) -> None:
+    """Print where the report is, and how long [s] all of it took: compiling, flying and writing."""
+    say(f"  report: {folder / 'report.html'} ({seconds:.2f} s in all)")
+
+
+def summarise(flight: Flight) -> None:
+    """Print what came of a flight."""
     m = flight.metrics()
     late = "_after_10s" if m["position_rmse_after_10s_m"] else ""
     when = "after 10 s" if late else "whole flight"
@@ -165,7 +170,7 @@ def summarise(flight: Flight, seconds: float) -> None:
         ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (least, most)"),
         ("human work", _list([m["human_work_j"]], 2), "J"),
     ]
-    say(f"{flight.name}: {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms ({seconds:.2f} s in all)")
+    say(f"{flight.name}: {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms")
     for label, value, unit in rows:
         if value:
             say(f"  {label:36}{value} {unit}")

@@ -28,13 +28,15 @@ def validate(engine: str, draws: int | None, chapters: tuple[str, ...], out: str
       tandemlift validate --chapter tracking --engine mujoco
     """
     from tandemlift.cli.run import say
+    from tandemlift.cli.telling import teller
     from tandemlift.engines import engine_named
     from tandemlift.validation import Bench, chosen, rows_of, table
 
     engine_named(engine)
     names = chosen(list(chapters))
     bench = Bench(engine, draws or (200 if engine == "compiled" else 10))
-    rows = rows_of(bench, names, lambda name: click.echo(f"flying {name} …", err=True))
+    with teller.together():
+        rows = rows_of(bench, names, lambda name: click.echo(f"flying {name} …", err=True))
     text = table(rows)
     say(text)
     if out:

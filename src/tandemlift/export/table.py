@@ -6,15 +6,14 @@ are written with as many digits as bring the same float64 back.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from tandemlift.flight import Flight
-
-ROTORS = ("rotor_thrusts", "rotor_commands")
-JOINTS = ("joint_force", "joint_torque", "measured_joint_force", "measured_joint_torque")
+from tandemlift.tables import ROTORS, dimensions
 
 
 def components(name: str, frame: str, count: int) -> Sequence[str]:
@@ -27,13 +26,8 @@ def components(name: str, frame: str, count: int) -> Sequence[str]:
     """
     if name in ROTORS:
         return [f"{1 + i // 4}.{1 + i % 4}" for i in range(count)]
-    if name in JOINTS:
-        return [f"{1 + i // 3}.{'xyz'[i % 3]}" for i in range(count)]
-    if frame == "body to world" and count == 4:
-        return "wxyz"
-    if count == 3 and frame:
-        return ("roll", "pitch", "yaw") if frame == "zxy" else "xyz"
-    return [str(1 + i) for i in range(count)]
+    labels = [d.labels for d in dimensions(name, frame, count)]
+    return [".".join(map(str, parts)) for parts in itertools.product(*labels)]
 
 
 def headings(flight: Flight) -> Iterator[str]:

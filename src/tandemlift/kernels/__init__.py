@@ -7,8 +7,10 @@ instruction serves all of them. The laws are the same, and so is every bit of th
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from functools import cached_property
 
+from tandemlift.events import always
 from tandemlift.kernels.likes import COMMAND, GIVEN, Aside, Likes, likes_of
 from tandemlift.kernels.loops import Step
 from tandemlift.kernels.memory import Grid, Memory, Start
@@ -56,22 +58,26 @@ class Kernels:
     def _traced(self) -> Traced:
         return Traced(self.likes, self.asks)
 
-    def loop(self, lanes: int) -> Code:
-        """`fly`, the loop over steps, for one flight or for a block of LANES."""
-        return self._code("loop", lanes, ["fly"])
+    def loop(self, lanes: int, going: Callable[[], bool] = always) -> Code:
+        """`fly`, the loop over steps, for one flight or for a block of LANES; it is compiled while `going`.
+
+        Raises:
+            Stopped: it was not compiled.
+        """
+        return self._code("loop", lanes, ["fly"], going)
 
     def parts(self, *, leaves_body: bool) -> Code:
         """A step in parts: `ask` up to a controller in Python, `decide` up to another body, `complete` to its end."""
         names = ["ask"] * self.asks + ["decide"] * leaves_body + ["complete"]
         return self._code("parts", int(leaves_body), names)
 
-    def _code(self, kind: str, number: int, names: list[str]) -> Code:
+    def _code(self, kind: str, number: int, names: list[str], going: Callable[[], bool] = always) -> Code:
         with self._lock:
             if (kind, number) not in self._codes:
                 x = self.likes
                 key = key_of((x.flying, x.given), kind, number, x.nowhere)
                 best = machine.BEST_OF_VECTORS if kind == "loop" and number > 1 else machine.BEST
-                self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number), best)
+                self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number), best, going)
             return self._codes[kind, number]
 
     def _written(self, kind: str, number: int) -> Written:

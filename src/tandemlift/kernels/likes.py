@@ -78,12 +78,12 @@ class Likes(NamedTuple):
 
 def likes_of(flying: Flying, given: Inputs) -> Likes:
     """The layouts of a flight's steps, from its first."""
-    before = flying.moving
+    before, outer = flying.moving, given
     given = joined(flying, given, 0.0, 0.001)
     thought = think(flying, given.hand.start, 0.0, 0.001)
     acting = act(flying, thought.decision.thrusts, given, 0.0)
     air = acting.weather.loads
     moved = advance(flying.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
     _, sample = observe(flying, thought, acting, moved, given)
-    layouts = [zeroed(x) for x in (flying, given, thought, acting, moved, sample)]
+    layouts = [zeroed(x) for x in (flying, outer, thought, acting, moved, sample)]
     return Likes._make([*layouts, before.near])

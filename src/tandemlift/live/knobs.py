@@ -10,11 +10,10 @@ from typing import Any
 
 from tandemlift.errors import InputError
 from tandemlift.live.by_hand import NEVER
-from tandemlift.live.compiling import Compiling
 from tandemlift.live.controls import BY_KEY, CHOICES, CONTROLLER, bounds_of, keys_of, value_of
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.live.taring import TARE, check_in_time, start_of_tare
-from tandemlift.missions import changed, tables_of
+from tandemlift.missions import tables_of
 from tandemlift.missions.explain import MISSING, shown
 from tandemlift.settings import Mission
 
@@ -35,11 +34,7 @@ class Knobs:
 
     def __init__(self, first: Mission, lock: threading.RLock) -> None:
         self._first, self._lock = first, lock
-        self._compiling, self.turn = Compiling(), threading.RLock()
-
-    def close(self) -> None:
-        """End what is compiled beside the flight."""
-        self._compiling.close()
+        self.turn = threading.RLock()
 
     def set(self, flight: RecordedFlight, key: str, value: Any) -> Told:
         """Set a control, and tell of it.
@@ -122,11 +117,9 @@ class Knobs:
         with self.turn:
             if flight.over:
                 raise InputError(f"{key}: the flight is over; reset it first")
-            chosen, name = key in CHOICES and value != value_of(tables_of(flight.now), key), value
             if key == CONTROLLER and value == self._first.controller.name:  # with the mission's own settings
                 key, value = "controller", tables_of(self._first)["controller"]
-            if chosen and not self._compiling.is_ready(changed(flight.now, key, value)):
-                raise InputError(f"{name} is being compiled for this flight: choose it again in a minute")
             due = flight.prepare(key, value, duration)
             with self._lock:
                 flight.change(due, key, value, duration)
+            flight.optimise()

@@ -33,6 +33,10 @@ class Pace:
         self._then = time.perf_counter()
         self._flown: deque[tuple[float, int]] = deque()
 
+    def begin(self) -> None:
+        """Owe nothing of the time that has passed."""
+        self.behind, self._then = 0.0, time.perf_counter()
+
     def due(self) -> int:
         """Steps to be flown now."""
         now = time.perf_counter()

@@ -9,13 +9,13 @@ from __future__ import annotations
 import time
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.changing import Due, due_of
-from tandemlift.engines import engine_named
+from tandemlift.engines import Body, engine_named
 from tandemlift.errors import FlightWarning, InputError
 from tandemlift.files import whole
 from tandemlift.flight import Flight
@@ -35,12 +35,33 @@ Array = NDArray[np.float64]
 MISSION, HAND, FLIGHT = "recorded.toml", "hand.npz", "flight.npz"
 
 
+class Ready(NamedTuple):
+    """A mission put together, and its body if it lives elsewhere; nothing is compiled yet."""
+
+    p: Prepared
+    body: Body | None
+
+
+def ready_of(mission: Mission, engine: str = "compiled") -> Ready:
+    """All of a flight that needs no compiling.
+
+    Raises:
+        InputError: the engine is not known, or the mission cannot be built.
+    """
+    chosen, p = engine_named(engine), Prepared(mission)
+    plant = p.flying.plant
+    vehicle = Vehicle.from_settings(mission.vehicle)
+    body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.module else None
+    return Ready(p, body)
+
+
 class RecordedFlight:
-    """One flight of a mission whose `partner.model` is "grab".
+    """One flight of a mission whose `partner.model` is "grab"; what it needs is compiled as it is made.
 
     Args:
         mission: how it begins; at the end of its duration it can only be saved.
         engine: name of the body's engine.
+        ready: the same, put together before.
 
     Attributes:
         layout: of a sample.
@@ -51,11 +72,8 @@ class RecordedFlight:
         InputError: the engine is not known, or the mission cannot be built.
     """
 
-    def __init__(self, mission: Mission, engine: str = "compiled") -> None:
-        chosen, p = engine_named(engine), Prepared(mission)
-        plant = p.flying.plant
-        vehicle = Vehicle.from_settings(mission.vehicle)
-        body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.module else None
+    def __init__(self, mission: Mission, engine: str = "compiled", ready: Ready | None = None) -> None:
+        p, body = ready or ready_of(mission, engine)
         self.start, self.now, self.engine, self.step = mission, mission, engine, 0
         self._p, self._early, self._wall = p, EMPTY, 0.0
         self.layout = p.sample
@@ -64,6 +82,10 @@ class RecordedFlight:
         self._before, self._like = self._stepper.a.copy(), p.flying.moving
         self._rows: list[tuple[int, Array]] = []
         self._changes: list[dict[str, Any]] = []
+
+    def optimise(self) -> None:
+        """Have optimised code made beside the flight; what must be traced for it is traced before this returns."""
+        self._stepper.code.optimise(trace_first=True)
 
     @property
     def dt(self) -> float:
@@ -135,7 +157,7 @@ class RecordedFlight:
             warnings.simplefilter("ignore", FlightWarning)
             due = due_of(self._stepper.p, changed(self.now, key, value), key, 0, duration)
         if due.prepared.variant != self._stepper.p.variant:
-            Stepper(due.prepared)  # its parts are compiled
+            Stepper(due.prepared, self._stepper.body)  # its code is compiled
         return due
 
     def change(self, due: Due, key: str, value: Any, duration: float = 0.0) -> None:

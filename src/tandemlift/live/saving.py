@@ -6,6 +6,7 @@ NumPy would keep the interpreter to itself while it writes a file, up to a tenth
 
 from __future__ import annotations
 
+import os
 import pickle
 import subprocess
 import sys
@@ -14,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from tandemlift.live.compiling import step_back
 from tandemlift.live.recorded import Snapshot, save_flight
 
+COURTESY = 10  # of the process: it leaves the processor to the one that flies
 REST, LOG = "rest.pickle", "log"
 PIECE = 1000  # rows that are written at once, in less than a millisecond
 
@@ -43,7 +44,8 @@ def _spool(snapshot: Snapshot, spool: Path) -> None:
 
 def main(folder: str, spool: str) -> None:
     """Save the flight that was spooled."""
-    step_back()
+    if hasattr(os, "nice"):
+        os.nice(COURTESY)
     flown, shape, engine = pickle.loads((Path(spool) / REST).read_bytes())
     flown.log = np.fromfile(Path(spool) / LOG).reshape(shape)
     save_flight(Path(folder), flown, engine)

@@ -56,6 +56,8 @@ quiet.propagate = False
 class LiveFlight(Protocol):
     """A flight that goes on while people watch; its methods may be called from any thread.
 
+    There is a scene, a frame and a status from the beginning, also while it is still being prepared.
+
     Attributes:
         generation: grows with every reset, after which `scene` is a new one.
     """
@@ -67,10 +69,10 @@ class LiveFlight(Protocol):
         """What a viewer must know, as `scene.scene_of` makes it."""
 
     def start(self) -> None:
-        """Begin to fly, in a thread of its own."""
+        """Begin to fly, in a thread of its own, where it is prepared first."""
 
     def stop(self) -> None:
-        """End that thread."""
+        """End that thread, at once."""
 
     def frame(self) -> bytes:
         """The latest state, as the scene's `fields` say."""
@@ -215,6 +217,7 @@ class Server:
         viewer = Viewer(connection)
         viewer.tell({"type": "scene", **self._flight.scene})
         self.viewers.join(viewer)
+        self.viewers.tell_status(self._flight.status())
         self._somebody.set()
         flooding = False
         try:

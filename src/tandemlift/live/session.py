@@ -1,12 +1,11 @@
 """One flight in real time, in a thread of its own, moved by the hand of whoever holds the beam.
 
-Every method may be called from any thread. The flight never waits for anybody: a change that takes long to make ready
-is made ready beside it.
+Every method may be called from any thread. There is something to see before the flight is compiled. The flight never
+waits for anybody: a change that takes long to make ready is made ready beside it.
 """
 
 from __future__ import annotations
 
-import gc
 import logging
 import sys
 import threading
@@ -16,8 +15,6 @@ from functools import singledispatchmethod
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from tandemlift.errors import InputError
 from tandemlift.flown import channels_of
 from tandemlift.laws.grab import NOBODY_HOLDS
@@ -26,20 +23,18 @@ from tandemlift.laws.rotation import rotation_from_quaternion
 from tandemlift.live import messages
 from tandemlift.live.by_hand import by_hand, renewed
 from tandemlift.live.controls import CHOICES, controls_of
-from tandemlift.live.frames import fields_of, frames_of
+from tandemlift.live.framing import Framing
 from tandemlift.live.grip import Grip
 from tandemlift.live.knobs import Knobs
 from tandemlift.live.pace import BATCH, BREATH, NAP, SWITCHING, Pace
-from tandemlift.live.recorded import Array, RecordedFlight
+from tandemlift.live.preparing import Preparing, without_long_pauses
+from tandemlift.live.recorded import Ready, RecordedFlight, ready_of
 from tandemlift.live.saving import save_aside
-from tandemlift.live.scene import alarm_names, scene_of
+from tandemlift.live.scene import alarm_names
 from tandemlift.live.states import check_listens, check_touch, dead_rotors
 from tandemlift.live.taring import check_may_tare
-from tandemlift.live.values import places_of, values_of
-from tandemlift.missions import tables_of
 from tandemlift.settings import Mission
 from tandemlift.vector import ZERO, Quat, Vec3, apply
-from tandemlift.vehicle import Vehicle
 
 WISH = 0.2  # s, for which a wish to lift or to land is said
 
@@ -55,8 +50,12 @@ class Session:
         out: folder that flights are saved in, each in one of its name.
 
     Attributes:
+        is_ready: whether it flies, or may; until then a viewer sees where the vehicle stands.
         watchers: told of every step, in the flight's thread.
         pace: how the flight keeps up with the clock.
+
+    Raises:
+        InputError: the mission cannot be flown by hand, or cannot be built.
     """
 
     def __init__(self, mission: Mission, engine: str = "compiled", out: Path = Path("out/live")) -> None:
@@ -65,59 +64,80 @@ class Session:
         self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
         self._knobs, self._names, self._failed = Knobs(self._mission, self._lock), alarm_names(), False
         self.pace = Pace(mission.mission.step)
-        self.generation, self.watchers = 0, list[Callable[[RecordedFlight], None]]()
-        self._begin(self._mission)
+        self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
+        self._flight: RecordedFlight
+        self._preparing, self.is_ready = Preparing(), False
+        self._first = ready_of(self._mission, engine)
+        self._framing = Framing(self._mission, engine, self._first)
 
-    def _begin(self, mission: Mission) -> None:
-        flight = RecordedFlight(mission, self._engine)
+    def prepare(self) -> None:
+        """Compile what the flight needs, and take its first step; once."""
+        if not self.is_ready:
+            self._preparing.step = "compiling the flight loop"
+            self._begin(self._mission, self._first, self._framing)
+            self.is_ready = True
+
+    def _begin(self, mission: Mission, ready: Ready, framing: Framing) -> None:
+        flight = RecordedFlight(mission, self._engine, ready)
+        flight.hold(NOBODY_HOLDS)
+        flight.advance()
         with self._lock:
-            self._flight, self._grip, self._failed = flight, Grip(), False
-            self._fields = fields_of(Vehicle.from_settings(mission.vehicle).rotor_count)
-            self._scene = scene_of(mission, self._engine)
-            self._phases, self._places = tables_of(mission)["phases"], places_of(flight.layout)
-            flight.hold(NOBODY_HOLDS)
-            flight.advance()
-            self.generation += 1
+            self._flight, self._framing = flight, framing
+            self._grip, self._failed = Grip(), False
 
     @property
     def flight(self) -> RecordedFlight:
-        """What is flown, until a reset."""
+        """What is flown, until a reset; once it is ready."""
         return self._flight
 
     @property
     def scene(self) -> dict[str, Any]:
         """What a viewer must know, with the settings as they are."""
-        now = self._flight.now
+        now = self._flight.now if self.is_ready else self._mission
         p = now.partner
         spring = {"stiffness": p.stiffness, "damping": p.damping, "max_force": p.max_force}
         about = {"threshold": list(now.admittance.threshold), "spring": spring}
-        return self._scene | about | {"controls": list(controls_of(now, self._mission))}
+        return self._framing.scene | about | {"controls": list(controls_of(now, self._mission))}
 
     # the thread
 
     def start(self) -> None:
-        """Begin to fly; garbage is not looked for in what is there by then, which would take a tenth of a second."""
-        gc.collect()
-        gc.freeze()
-        self.pace = Pace(self._flight.dt)
+        """Prepare the flight, and fly, in a thread of its own."""
         self._thread.start()
 
     def stop(self) -> None:
-        """End the flight's thread, and what is compiled beside it."""
+        """End the flight's thread; nobody waits for one that still compiles."""
         self._stopping.set()
         if self._thread.is_alive():
-            self._thread.join()
-            gc.unfreeze()
-        self._knobs.close()
+            self._thread.join(None if self.is_ready else 0.0)
 
     def _run(self) -> None:
         switching = sys.getswitchinterval()
         sys.setswitchinterval(SWITCHING)
+        try:
+            if self._is_prepared():
+                with without_long_pauses():
+                    self._fly_on()
+        finally:
+            sys.setswitchinterval(switching)
+
+    def _is_prepared(self) -> bool:
+        """Prepare the flight, with faster code on its way; whether that could be done."""
+        try:
+            self.prepare()
+            self._flight.optimise()
+        except Exception as error:
+            log.error("error: the flight cannot be flown: %s", error, exc_info=not isinstance(error, InputError))
+            self._preparing.failure = str(error) if isinstance(error, InputError) else repr(error)
+            return False
+        return True
+
+    def _fly_on(self) -> None:
+        self.pace.begin()
         while not self._stopping.is_set():
             with self._lock:
                 steps = self._fly(min(self.pace.due(), BATCH))
             time.sleep(NAP if steps < BATCH else BREATH)
-        sys.setswitchinterval(switching)
 
     def _fly(self, steps: int) -> int:
         """Fly some steps, as far as the flight goes; how many."""
@@ -141,24 +161,26 @@ class Session:
 
     def frame(self) -> bytes:
         """The latest state, as the scene's `fields` say."""
+        if not self.is_ready:
+            return self._framing.first()
         with self._lock:
-            moment, hand, seq = self._flight.moment, self._flight.hand, self._grip.seq
-        values = self._values(*moment)
+            moment, hand, seq, framing = self._flight.moment, self._flight.hand, self._grip.seq, self._framing
         held = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
-        return frames_of(self._fields, {**values, **held, "seq": seq % 2**24}).tobytes()
+        return framing.frame({**framing.values(*moment), **held, "seq": seq % 2**24})
 
     def channels(self) -> dict[str, Any]:
         """The channels of the latest sample (1, …)."""
         return dict(channels_of(self._flight.layout, self._flight.sample[None, :].copy()))
 
-    def _values(self, sample: Array, at: float) -> dict[str, Any]:
-        channels = {name: sample[places] for name, places in self._places.items()}
-        return values_of(channels, np.array([at]), self._phases)
+    def _values(self) -> dict[str, Any]:
+        return self._framing.values(*self._flight.moment)
 
     def status(self) -> dict[str, Any]:
-        """Phase, alarm, pace and what was recorded, for people."""
+        """Phase, alarm, pace and what was recorded, for people; before, what is being prepared."""
+        if not self.is_ready:
+            return self._preparing.status()
         with self._lock:
-            flight, pace, values = self._flight, self.pace, self._values(*self._flight.moment)
+            flight, pace, values = self._flight, self.pace, self._values()
             most, pace.most_behind = pace.most_behind, 0.0
             return {
                 "phase": self._phase(int(values["phase"][0])),
@@ -184,6 +206,8 @@ class Session:
         Raises:
             InputError: it cannot be done; the text says why.
         """
+        if not self.is_ready:
+            raise InputError(self._preparing.refusal)
         with self._lock:
             if isinstance(message, (messages.Grab, messages.Move, messages.Release, messages.Force)):
                 self._grip.seq = seq
@@ -191,8 +215,9 @@ class Session:
 
     def release(self) -> None:
         """Nobody holds the beam any more."""
-        with self._lock:
-            self._move(held=0.0, force=ZERO)
+        if self.is_ready:
+            with self._lock:
+                self._move(held=0.0, force=ZERO)
 
     def _move(self, **changes: Any) -> None:
         self._flight.hold(self._flight.hand._replace(**changes))
@@ -208,8 +233,8 @@ class Session:
     @_heed.register
     def _grab(self, m: messages.Grab) -> None:
         with self._lock:
-            check_touch(self._flight, self._scene, m.point)
-            point, attitude = Vec3(*m.point), Quat(*map(float, self._values(*self._flight.moment)["attitude"][0]))
+            check_touch(self._flight, self._framing.scene, m.point)
+            point, attitude = Vec3(*m.point), Quat(*map(float, self._values()["attitude"][0]))
             arm = apply(rotation_from_quaternion(attitude), point)
             centre = m.at == "centre"
             self._grip.offset = -arm if centre else ZERO
@@ -231,7 +256,7 @@ class Session:
         with self._lock:
             force = Vec3(*m.force)
             if any(force):
-                check_touch(self._flight, self._scene, m.point)
+                check_touch(self._flight, self._framing.scene, m.point)
             grip = {"grip": Vec3(*m.point)} if any(force) and not self._flight.hand.held else {}
             self._move(force=force, **grip)
 
@@ -262,7 +287,10 @@ class Session:
     @_heed.register
     def _reset(self, m: messages.Reset) -> None:
         with self._knobs.turn:
-            self._begin(renewed(self._flight.now, self._mission))
+            again = renewed(self._flight.now, self._mission)
+            ready = ready_of(again, self._engine)
+            self._begin(again, ready, Framing(again, self._engine, ready))
+            self.generation += 1
 
     @_heed.register
     def _save(self, m: messages.Save) -> dict[str, Any]:
@@ -275,7 +303,7 @@ class Session:
     @_heed.register
     def _tare(self, m: messages.Tare) -> dict[str, Any]:
         with self._lock:
-            check_may_tare(self._flight, self._phase(int(self._values(*self._flight.moment)["phase"][0])))
+            check_may_tare(self._flight, self._phase(int(self._values()["phase"][0])))
         return {"type": "done", "what": "tare", "detail": self._knobs.tare(self._flight)}
 
     @_heed.register

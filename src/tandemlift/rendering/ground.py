@@ -1,11 +1,12 @@
 """What is behind everything: the sky, and a floor with a grid of metres that fades into the haze.
 
-Pixel by pixel in compiled code. A line of the grid colours a pixel by the share of it that it covers, so that the grid
+Every pixel by compiled code. A line of the grid colours a pixel by the share of it that it covers, so that the grid
 needs no smoothing and far away turns into an even grey.
 """
 
 from __future__ import annotations
 
+import itertools
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +15,11 @@ from numpy.typing import NDArray
 from tandemlift.rendering.camera import View
 from tandemlift.rendering.light import HAZE, SKYLIGHT, SUN, SUNLIGHT, ZENITH, Shadow
 from tandemlift.rendering.mesh import linear
-from tandemlift.rendering.raster import compiled
+from tandemlift.rendering.pixels import LANES, Pixels, array, columns, store_where
+from tandemlift.trace import Function, Graph, flat, rebuilt
+from tandemlift.trace.elementary import exp, maximum, minimum, sqrt, where, whole
+from tandemlift.trace.elementary import floor as rounded_down
+from tandemlift.vector import ZERO, Vec3
 
 Array = NDArray[np.float64]
 
@@ -23,108 +28,157 @@ THIN, THICK = 0.018, 0.04  # width over distance of the lines of every cell, and
 FAR = 9.0  # distances from the eye to the vehicle at which the floor is half lost in the haze
 DARKEST, DIM = 0.75, 0.22  # share of the sun and of the sky that the middle of a shadow keeps out
 LEVEL = 1e-4  # slope below the horizon at which the floor is too far to be seen
+LOG_2 = 0.6931471805599453
 SLOPE = 2.2  # of the sky's colour over the share of the way that goes up
 
 
-@compiled
-def covered(start: float, blur: float, cell: float, width: float) -> float:
+def covered(start: Any, blur: Any, cell: Any, width: Any) -> Any:
     """Share of the interval from `start` to `start + blur` on lines of a width, one from every multiple of a cell."""
     end = start + blur
-    first, last = np.floor(start / cell), np.floor(end / cell)
-    before = first * width + min(start - first * cell, width)
-    after = last * width + min(end - last * cell, width)
+    first, last = rounded_down(start / cell), rounded_down(end / cell)
+    before = first * width + minimum(start - first * cell, width)
+    after = last * width + minimum(end - last * cell, width)
     return (after - before) / blur
 
 
-@compiled
-def free(x: float, blur: float, cell: float) -> float:
+def free(x: Any, blur: Any, cell: Any) -> Any:
     """Share of x ± blur/2 that no line of the grid covers."""
     thin, thick = THIN * cell, THICK * cell
-    x -= 0.5 * blur
+    x = x - 0.5 * blur
     return (1.0 - covered(x + 0.5 * thin, blur, cell, thin)) * (1.0 - covered(x + 0.5 * thick, blur, 5.0 * cell, thick))
-
-
-@compiled
-def shade_at(table: Array, row: float, column: float) -> float:
-    """A table of shade between its entries; 0 outside."""
-    if not (0.0 <= row < table.shape[0] - 1.0 and 0.0 <= column < table.shape[1] - 1.0):
-        return 0.0
-    i, j = int(row), int(column)
-    y, x = row - i, column - j
-    upper = table[i, j] * (1.0 - x) + table[i, j + 1] * x
-    lower = table[i + 1, j] * (1.0 - x) + table[i + 1, j + 1] * x
-    return upper * (1.0 - y) + lower * y
 
 
 class Floor(NamedTuple):
     """The floor as the eye sees it.
 
-    Its `height` [m], the `cell` of its grid [m], the distance `hazy` at which the haze hides half of it [m], and the
-    shadow on it: a table, its lowest corner [m] and its step [m].
+    Its `height` [m], the `cell` of its grid [m], the distance `hazy` at which the haze hides half of it [m], and of the
+    shadow's table the lowest corner (`west`, `south`) [m] and the step `texel` [m].
     """
 
-    height: float
-    cell: float
-    hazy: float
-    shade: Array
-    low: Array
-    texel: float
+    height: Any
+    cell: Any
+    hazy: Any
+    west: Any
+    south: Any
+    texel: Any
 
 
-@compiled
-def lines_at(floor: Floor, view: View, ray: Any, x: float, y: float) -> float:
+class Eye(NamedTuple):
+    """What a `View` is, in numbers."""
+
+    place: Vec3
+    right: Vec3
+    up: Vec3
+    ahead: Vec3
+    focal: Any
+    width: Any
+    middle: Any
+
+    @classmethod
+    def of(cls, view: View) -> Eye:
+        """The eye of a view."""
+        place, right, up, ahead = (Vec3(*map(float, v)) for v in (view.eye, *view.axes))
+        return cls(place, right, up, ahead, view.focal, view.width, view.middle)
+
+    def ray(self, row: Any, column: Any) -> Vec3:
+        """The direction in which it looks through the centre of a pixel."""
+        up, right = (self.middle - row - 0.5) / self.focal, (column + 0.5 - self.width / 2.0) / self.focal
+        return Vec3(*(right * r + up * u + a for r, u, a in zip(self.right, self.up, self.ahead, strict=True)))
+
+
+def lines_at(floor: Floor, eye: Eye, ray: Vec3, x: Any, y: Any) -> Any:
     """Share of the pixel that looks along a ray, at (x, y) on the floor [m], that lines of the grid cover."""
-    dx, dy, dz = ray
-    right, up, _ = view.axes
+    right, up = eye.right, eye.up
     # how the place on the floor changes from one pixel to the next, right and up
-    step = (floor.height - view.eye[2]) / (dz * view.focal)
-    blur_x = step * (abs(right[0] - dx * right[2] / dz) + abs(up[0] - dx * up[2] / dz))
-    blur_y = step * (abs(right[1] - dy * right[2] / dz) + abs(up[1] - dy * up[2] / dz))
+    step = (floor.height - eye.place.z) / (ray.z * eye.focal)
+    blur_x = step * (abs(right.x - ray.x * right.z / ray.z) + abs(up.x - ray.x * up.z / ray.z))
+    blur_y = step * (abs(right.y - ray.y * right.z / ray.z) + abs(up.y - ray.y * up.z / ray.z))
     return 1.0 - free(x, blur_x, floor.cell) * free(y, blur_y, floor.cell)
 
 
-@compiled
-def paint_floor(light: Array, floor: Floor, view: View, ray: Any) -> None:
-    """Fill in the light (3) of the floor where a ray meets it."""
-    dx, dy, dz = ray
-    reach = (floor.height - view.eye[2]) / dz
-    x, y = view.eye[0] + dx * reach, view.eye[1] + dy * reach
-    line = lines_at(floor, view, ray, x, y)
-    shade = shade_at(floor.shade, (y - floor.low[1]) / floor.texel - 0.5, (x - floor.low[0]) / floor.texel - 0.5)
-    way = reach * np.sqrt(dx * dx + dy * dy + dz * dz) / floor.hazy
-    haze = 1.0 - np.exp2(-way * way)
+def place_in(floor: Floor, x: Any, y: Any, rows: Any, columns: Any) -> Any:
+    """Whether a place on the floor is in the shadow's table, the entry of its cell, and how far it is in that cell."""
+    row, column = (y - floor.south) / floor.texel - 0.5, (x - floor.west) / floor.texel - 0.5
+    known = (row >= 0.0) & (row < rows - 1.0) & (column >= 0.0) & (column < columns - 1.0)
+    row, column = where(known, row, 0.0), where(known, column, 0.0)
+    i, j = whole(row), whole(column)
+    return known, i * columns + j, row - i, column - j
+
+
+def shade_at(known: Any, corners: Any, y: Any, x: Any) -> Any:
+    """The shade between the four corners of a cell of the table; 0 outside of it."""
+    a, b, c, d = corners
+    upper, lower = a * (1.0 - x) + b * x, c * (1.0 - x) + d * x
+    return where(known, upper * (1.0 - y) + lower * y, 0.0)
+
+
+def floor_light(floor: Floor, ray: Vec3, reach: Any, line: Any, shade: Any) -> list[Any]:
+    """Light (3) of the floor where a ray meets it."""
+    way = reach * sqrt(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z) / floor.hazy
+    haze = 1.0 - exp(-way * way * LOG_2)
+    light = []
     for k in range(3):
         sent = SUN[2] * SUNLIGHT[k] * (1.0 - DARKEST * shade) + SKYLIGHT[k] * (1.0 - DIM * shade)
         here = (FLOOR[k] + (LINE[k] - FLOOR[k]) * line) * sent
-        light[k] = here + (HAZE[k] - here) * haze
+        light.append(here + (HAZE[k] - here) * haze)
+    return light
 
 
-@compiled
-def paint_sky(light: Array, ray: Any) -> None:
-    """Fill in the light (3) of the sky along a ray."""
-    dx, dy, dz = ray
-    share = min(max(SLOPE * dz / np.sqrt(dx * dx + dy * dy + dz * dz), 0.0), 1.0)
-    for k in range(3):
-        light[k] = HAZE[k] + (ZENITH[k] - HAZE[k]) * share
+def sky_light(ray: Vec3) -> list[Any]:
+    """Light (3) of the sky along a ray."""
+    part = SLOPE * ray.z / sqrt(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z)
+    part = minimum(maximum(part, 0.0), 1.0)
+    return [HAZE[k] + (ZENITH[k] - HAZE[k]) * part for k in range(3)]
 
 
-@compiled
-def paint(light: Array, floor: Floor, view: View) -> None:
-    """Fill in the light (H, W, 3) of floor and sky."""
-    axes = view.axes
-    for row in range(view.height):
-        up = (view.middle - row - 0.5) / view.focal
-        for column in range(view.width):
-            right = (column + 0.5 - view.width / 2.0) / view.focal
-            ray = (
-                right * axes[0, 0] + up * axes[1, 0] + axes[2, 0],
-                right * axes[0, 1] + up * axes[1, 1] + axes[2, 1],
-                right * axes[0, 2] + up * axes[1, 2] + axes[2, 2],
-            )
-            if ray[2] > -LEVEL:
-                paint_sky(light[row, column], ray)
-            else:
-                paint_floor(light[row, column], floor, view, ray)
+def _traced(g: Graph) -> tuple[list[Any], Any]:
+    """The light (3) of a pixel, of inputs `shade` 0 to 3 among others; the entry of the first of these in the table."""
+    numbers = (g.input("number", i) for i in itertools.count())
+    floor = rebuilt(numbers, Floor(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    eye = rebuilt(numbers, Eye(ZERO, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0))
+    ray = eye.ray(g.input("row", type="i"), g.input("column", type="i"))
+    down = ray.z <= -LEVEL
+    below = ray._replace(z=where(down, ray.z, -1.0))
+    reach = (floor.height - eye.place.z) / below.z
+    x, y = eye.place.x + below.x * reach, eye.place.y + below.y * reach
+    known, entry, v, u = place_in(floor, x, y, *(g.input(kind, type="i") for kind in ("rows", "columns")))
+    shade = shade_at(known, [g.input("shade", i) for i in range(4)], v, u)
+    ground = floor_light(floor, below, reach, lines_at(floor, eye, below, x, y), shade)
+    return [where(down, a, b) for a, b in zip(ground, sky_light(ray), strict=True)], entry
+
+
+def _looked_up(f: Function, table: str, entries: str, beyond: str | int) -> str:
+    """Numbers of a table so far beyond entries."""
+    found = "poison"
+    for lane in range(LANES):
+        entry = f.whole("add", f.op(f"extractelement <{LANES} x i64> {entries}, i64 {lane}"), beyond)
+        found = f.op(f"insertelement {f.vector} {found}, double {f.load(table, entry, 'double')}, i64 {lane}")
+    return found
+
+
+def _write_paint(g: Graph, f: Function, at: dict[str, str]) -> None:
+    light, entry = _traced(g)
+    numbers, shade, picture = (array(f, at[name]) for name in ("numbers", "shade", "light"))
+    f.read |= {"rows": lambda i: at["rows"], "columns": lambda i: at["columns"], "width": lambda i: at["width"]}
+    f.read["number"] = lambda i: f.load(numbers, i, "double")
+    next_row = f.whole("add", at["columns"], 1)
+    within = g.input("column", type="i") < g.input("width", type="i")
+    with f.repeat(at["height"]) as row:
+        f.read["row"] = lambda i: row
+        with columns(f, "0", at["width"]) as first:
+            entries = f.value(entry)
+            beyond = ["0", "1", at["columns"], next_row]
+            f.read["shade"] = lambda i: _looked_up(f, shade, entries, beyond[i])
+            place = f.whole("mul", f.whole("add", f.whole("mul", row, at["width"]), first), 3)
+            store_where(f, f.value(within), f.values(light), f.at(picture, place, "double"))
+
+
+paint = Pixels(
+    "paint",
+    ("height", "width", "rows", "columns", "numbers", "shade", "light"),
+    _write_paint,
+    ("number", "rows", "columns", "row", "width"),
+)
 
 
 def background(view: View, height: float, distance: float, shadow: Shadow, cell: float) -> Array:
@@ -137,6 +191,8 @@ def background(view: View, height: float, distance: float, shadow: Shadow, cell:
         shadow: of the vehicle.
         cell: of the grid [m].
     """
+    west, south = shadow.low
+    floor = Floor(height, cell, FAR * distance, west, south, shadow.texel)
     light = np.empty((view.height, view.width, 3))
-    paint(light, Floor(height, cell, FAR * distance, shadow.shade, shadow.low, shadow.texel), view)
+    paint(*light.shape[:2], *shadow.shade.shape, np.array(flat(floor) + flat(Eye.of(view))), shadow.shade, light)
     return light

@@ -10,12 +10,16 @@ import ctypes
 import threading
 import time
 from collections.abc import Callable, Iterable
+from concurrent.futures import Future, wait
 from typing import Any, NamedTuple
 
+from tandemlift.events import Compiled, Stopped, always, compiling
 from tandemlift.trace import machine, store
 from tandemlift.trace.optimising import optimised_beside
 
 PAYS = 2.0  # times what unoptimised code took to make: a third or so of what optimised code takes
+LOOK = 0.1  # s between looks at whether somebody interrupts
+ONE_AT_A_TIME = threading.Lock()  # as LLVM does anyway; who waits may still stop
 HELD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # keeps Python's lock: for calls of microseconds
 FREE = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # gives it up: for calls that take long
 
@@ -27,6 +31,31 @@ class Written(NamedTuple):
     about: dict[str, Any]
 
 
+def _compiled(text: str, going: Callable[[], bool]) -> bytes:
+    with ONE_AT_A_TIME:
+        if not going():
+            raise Stopped
+        return machine.compiled(text, machine.QUICK)
+
+
+def _interruptible(work: Callable[[], bytes]) -> bytes:
+    """What `work` gives. The main thread waits for it, and hears Ctrl-C meanwhile: LLVM cannot be interrupted."""
+    if threading.current_thread() is not threading.main_thread():
+        return work()
+    done: Future[bytes] = Future()
+
+    def run() -> None:
+        try:
+            done.set_result(work())
+        except BaseException as error:
+            done.set_exception(error)
+
+    threading.Thread(target=run, name="compiling").start()
+    while not done.done():
+        wait([done], LOOK)
+    return done.result()
+
+
 class Code:
     """The functions of a module, called with the address of a context; each gives an integer.
 
@@ -35,6 +64,7 @@ class Code:
         names: of its functions.
         write: gives the module as text; asked only if no code is on disk.
         best: how much is done for the speed of optimised code.
+        going: whether to go on; asked before what cannot be interrupted.
 
     Attributes:
         about: what must be known to call the functions.
@@ -42,7 +72,12 @@ class Code:
     """
 
     def __init__(
-        self, key: str, names: Iterable[str], write: Callable[[], Written], best: machine.Level = machine.BEST
+        self,
+        key: str,
+        names: Iterable[str],
+        write: Callable[[], Written],
+        best: machine.Level = machine.BEST,
+        going: Callable[[], bool] = always,
     ) -> None:
         self._key, self._names, self._write, self._best = key, tuple(names), write, best
         self._lock, self._making, self._spent = threading.Lock(), False, 0.0
@@ -50,7 +85,7 @@ class Code:
         self.held, self.free = dict[str, Any](), dict[str, Any]()
         found = store.read(f"{key}-best")
         self.is_best = found is not None
-        entry = found or store.read(f"{key}-quick") or self._quick()
+        entry = found or store.read(f"{key}-quick") or self._quick(going)
         self.about = entry.about
         self._take(entry.code)
 
@@ -59,12 +94,18 @@ class Code:
             self._written = self._write()
         return self._written
 
-    def _quick(self) -> store.Entry:
+    def _quick(self, going: Callable[[], bool]) -> store.Entry:
         began = time.perf_counter()
-        written = self._text()
-        code = machine.compiled(written.text, machine.QUICK)
-        entry = store.Entry({**written.about, "seconds": time.perf_counter() - began}, code)
-        store.write(f"{self._key}-quick", entry)
+        compiling(None)
+        came = Compiled(0.0, is_kept=False, is_made=False)
+        try:
+            written = self._text()
+            code = _interruptible(lambda: _compiled(written.text, going))
+            seconds = time.perf_counter() - began
+            entry = store.Entry({**written.about, "seconds": seconds}, code)
+            came = Compiled(seconds, store.write(f"{self._key}-quick", entry))
+        finally:
+            compiling(came)
         return entry
 
     def _take(self, code: bytes) -> None:
@@ -86,8 +127,14 @@ class Code:
         if self._spent > PAYS * self.about["seconds"]:
             self.optimise()
 
-    def optimise(self) -> threading.Thread | None:
-        """Make optimised code beside, in a process of its own; the thread that waits for it, if there is one."""
+    def optimise(self, *, trace_first: bool = False) -> threading.Thread | None:
+        """Make optimised code beside, in a process of its own; the thread that waits for it, if there is one.
+
+        Args:
+            trace_first: whether the module is traced before this returns, if it was not yet; else beside as well.
+        """
+        if trace_first and not self.is_best:
+            self._text()
         with self._lock:
             if self.is_best or self._making:
                 return None

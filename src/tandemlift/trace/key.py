@@ -6,6 +6,7 @@ import functools
 import hashlib
 import inspect
 import sys
+from collections.abc import Iterable
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -53,12 +54,18 @@ def described(value: Any) -> str:
     return f"{kind.__module__}.{kind.__qualname__}({','.join(map(described, value))})"
 
 
-def key_of(value: Any, *more: Any) -> str:
-    """The key of code for values laid out like this one; `more`: whatever else decides it."""
+def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
+    """The key of code for values laid out like this one.
+
+    Args:
+        value: nested, or a tuple of such.
+        more: whatever else decides it.
+        files: what it is made of, beside `trace`, if that is not a flight.
+    """
     from tandemlift.trace.machine import processor
 
     versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
     digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())
-    for path in sources(value):
+    for path in sorted([*files, *(PACKAGE / "trace").glob("*.py")]) if files else sources(value):
         digest.update(path.name.encode() + b"\0" + content(path) + b"\0")
     return digest.hexdigest()[:32]

@@ -31,7 +31,7 @@ def optimised_beside(text: str, level: Level) -> bytes | None:
 
 
 @atexit.register
-def _end() -> None:
+def end() -> None:
     """Let no process outlive this one."""
     for process in list(RUNNING):
         process.kill()

@@ -179,11 +179,9 @@ export class Frontend {
   }
 
   /** What to do first, until it was done. */
-  private hint({ phase }: Status): void {
+  private hint(status: Status): void {
     const hint = byId("hint");
-    const ready = phase === "guided";
-    const text =
-      phase === "idle" ? "Press Lift to take off." : ready && !this.pulled ? "Drag the beam to pull it." : "";
+    const text = hintOf(status, this.pulled);
     if (hint.textContent !== text) hint.textContent = text;
     hint.hidden = text === "" || this.app.replay !== null;
   }
@@ -210,6 +208,13 @@ export class Frontend {
     }
     return keys;
   }
+}
+
+function hintOf({ phase, preparing }: Status, pulled: boolean): string {
+  if (preparing?.failure) return `The flight cannot be flown: ${preparing.failure}`;
+  if (preparing) return `Preparing the flight: ${preparing.step} \u2026`;
+  if (phase === "idle") return "Press Lift to take off.";
+  return phase === "guided" && !pulled ? "Drag the beam to pull it." : "";
 }
 
 /** A button that shows and hides a part of the page. */

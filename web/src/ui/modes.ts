@@ -9,6 +9,7 @@ interface Mode {
 }
 
 const MODES: Partial<Record<string, Mode>> = {
+  preparing: { text: "being prepared", kind: "off", tint: "rgba(0, 0, 0, 0)" },
   idle: { text: "on the ground", kind: "off", tint: "rgba(93, 104, 117, 0.10)" },
   lift: { text: "lifting", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
   guided: { text: "guided", kind: "active", tint: "rgba(31, 157, 118, 0.13)" },

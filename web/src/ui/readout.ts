@@ -33,7 +33,7 @@ export class Readout {
     this.badge.textContent = status.paused ? `paused \u00b7 ${text}` : text;
     this.badge.className = `badge ${kind}`;
     const factor = status.factor ?? 0;
-    const late = !status.paused && factor < LATE * status.speed;
+    const late = !status.paused && !status.preparing && factor < LATE * status.speed;
     this.set("speed", `\u00d7${factor.toFixed(2)}`, late ? `behind by ${(status.behind_ms ?? 0).toFixed(0)} ms` : "");
     this.set("held by", HOLDERS[status.holder]);
     this.set("viewers", String(status.viewers));

@@ -88,6 +88,13 @@ export interface Scene {
   replay?: { start: number; end: number; speed: number } | null;
 }
 
+/** What is done before the first step, and for how long; `failure`: why it cannot be flown. */
+export interface Preparing {
+  step: string;
+  seconds: number;
+  failure: string;
+}
+
 export interface Status {
   phase: string;
   alarm: string;
@@ -99,6 +106,7 @@ export interface Status {
   viewers: number;
   holder: "you" | "other" | "none";
   enabled?: boolean; // whether the pilot listens to the hand
+  preparing?: Preparing; // until it flies
   dead?: number[]; // rotors that are stopped for good, counted over the whole vehicle from 0
 }
 

@@ -1,0 +1,273 @@
+"""How long it takes until something flies, from an empty cache and a warm one: `python benchmarks/compiling.py`.
+
+Prints Markdown: wall and processor time of whole processes, imports and children among them. With `--base PATH` the
+same is done with another checkout, turn by turn, so that what else the machine does meets both alike; a ratio is the
+median over the pairs. Against the last commit that Numba compiled:
+
+    git worktree add ../base e5ecfdc
+    python3 -m venv ../base/.venv && ../base/.venv/bin/pip install -r ../base/lock/run.txt
+    python benchmarks/compiling.py --base ../base --rounds 3
+
+A round takes a quarter of an hour with that base, half a minute without. The base runs in `PATH/.venv` if there is one,
+else in this environment, and nothing is installed of either checkout: each is found by PYTHONPATH.
+
+First step: the first report of progress, after up to 5,000 steps. Optimised: the same mission flies on and on until
+optimised code has taken the place of what flew at once; with Numba that is the first step. Processor times are what a
+busy machine tells best.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from statistics import median
+from typing import Any, NamedTuple
+
+from machine import NO_RESULT, describe, heading, number, save, table
+from waiting import PATIENCE
+
+HERE = Path(__file__).resolve().parent.parent
+NUMBERS = (1, 2, 4, 8, 64)  # of quadrotors
+PACKAGES = ("tandemlift", "llvmlite", "numba", "numpy")
+
+LOAD = """
+import json, sys, time
+import tandemlift as tl
+mission = tl.load_mission(sys.argv[1], json.loads(sys.argv[2]))
+def first(done, total): sys.exit()
+"""
+FIRST = f"{LOAD}tl.fly(mission, progress=first)"
+BEST = f"""{LOAD}
+import importlib.util
+if importlib.util.find_spec("tandemlift.trace"):
+    from tandemlift.prepared import Prepared
+    code = Prepared(mission).kernels.loop(1)
+    while not code.is_best: tl.fly(mission)
+tl.fly(mission, progress=first)
+"""
+BLOCK = f'{LOAD}tl.fly_many([mission] * 64, keep="metrics")'
+AGAIN = f"""{LOAD}
+def spent():
+    began = time.perf_counter(), time.process_time()
+    tl.fly(mission)
+    return time.perf_counter() - began[0], time.process_time() - began[1]
+print(json.dumps(sorted(spent() for _ in range(7))[3]))
+"""
+VERSIONS = """
+import sys
+sys.path.insert(0, sys.argv[1])
+import machine
+about = machine.describe({})
+print(f"Python {{about['python']}},", ", ".join(f"{{name}} {{v}}" for name, v in about["versions"].items()))
+"""
+
+
+class Failed(Exception):
+    """A process that ended with an error."""
+
+
+class Spent(NamedTuple):
+    """Wall and processor time [s]."""
+
+    wall: float
+    cpu: float
+
+
+class Checkout(NamedTuple):
+    """Sources, and the Python that runs them."""
+
+    path: Path
+    python: str
+
+    def environment(self, cache: str) -> dict[str, str]:
+        """Of a process that finds these sources, and keeps what it compiles in a folder."""
+        return {**os.environ, "PYTHONPATH": str(self.path / "src"), "TANDEMLIFT_CACHE": cache}
+
+    @classmethod
+    def at(cls, path: Path) -> Checkout:
+        """The checkout in a folder, with the environment that is there, or else this one."""
+        own = path.resolve() / ".venv/bin/python"
+        return cls(path.resolve(), str(own) if own.exists() else sys.executable)
+
+    @property
+    def about(self) -> str:
+        """Its commit, and the versions that it runs with."""
+        git = ["git", "-C", str(self.path), "describe", "--always", "--dirty"]
+        versions = [self.python, "-c", VERSIONS.format(PACKAGES), str(Path(__file__).parent)]
+        commit, said = (subprocess.run(c, capture_output=True, text=True, timeout=PATIENCE) for c in (git, versions))
+        return f"`{self.path.name}` at {commit.stdout.strip()}, with {said.stdout.strip()}"
+
+
+class Job(NamedTuple):
+    """A row of the table: what a checkout does in an environment, and how many times less than the base is aimed at.
+
+    `before`: what is done first, untimed, that leaves a warm cache; without it the cache is empty. `alone`: the base is
+    spared it.
+    """
+
+    what: str
+    measure: Callable[[Checkout, dict[str, str]], Spent]
+    aim: str = ""
+    before: Callable[[Checkout, dict[str, str]], Spent] | None = None
+    alone: bool = False
+
+
+def process(command: list[str], environment: dict[str, str], until: str = "") -> tuple[Spent, str]:
+    """What a process spends until its end, or until it prints a pattern, and its output; it is ended then."""
+    began = time.perf_counter()
+    with tempfile.TemporaryFile("w+") as errors:
+        p = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=errors, text=True)
+        watch = threading.Timer(PATIENCE, p.kill)
+        watch.start()
+        assert p.stdout
+        said, found = "", False
+        while not found and (line := p.stdout.readline()):
+            said, found = said + line, bool(until and re.search(until, line))
+        wall = time.perf_counter() - began
+        if found:
+            p.terminate()
+        _, status, used = os.wait4(p.pid, 0)
+        watch.cancel()
+        p.returncode = os.waitstatus_to_exitcode(status)
+        errors.seek(0)
+        if not found and (until or p.returncode):
+            raise Failed((errors.read().strip().splitlines() or [f"status {p.returncode}"])[-1])
+    wall = wall if found else time.perf_counter() - began
+    return Spent(wall, used.ru_utime + used.ru_stime), said
+
+
+def script(code: str, mission: str, changes: dict[str, Any] | None = None) -> Callable[..., Spent]:
+    """Run Python on a mission, as a whole process."""
+    given = [mission, json.dumps(changes or {})]
+    return lambda checkout, environment: process([checkout.python, "-c", code, *given], environment)[0]
+
+
+def again(mission: str) -> Callable[..., Spent]:
+    """Fly a mission time and again in one process: the median of a flight."""
+
+    def measure(checkout: Checkout, environment: dict[str, str]) -> Spent:
+        return Spent(*json.loads(process([checkout.python, "-c", AGAIN, mission, "{}"], environment)[1]))
+
+    return measure
+
+
+def command(*words: str, until: str = "") -> Callable[..., Spent]:
+    """Run `tandemlift` with words, and a folder for what it writes."""
+
+    def measure(checkout: Checkout, environment: dict[str, str]) -> Spent:
+        with tempfile.TemporaryDirectory() as out:
+            called = [checkout.python, "-m", "tandemlift", *words, f"--out={out}"]
+            return process(called, environment, until)[0]
+
+    return measure
+
+
+def with_quadrotors(count: int) -> dict[str, Any]:
+    """`iris` with so many quadrotors: two at the ends of the beam, another number on a circle."""
+    import tandemlift as tl
+
+    one = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(mode="json", exclude_none=True)
+    turns = [2.0 * math.pi * i / count + math.pi / 2.0 for i in range(count)]
+    reach = 1.0 if count > 1 else 0.0
+    places = [[reach * math.cos(turn), reach * math.sin(turn), 0.075] for turn in turns]
+    return {"vehicle.quadrotors": [{**one, "position": place} for place in places]}
+
+
+def jobs() -> list[Job]:
+    """All rows."""
+    live = command("live", "zigzag", "--no-browser", "--port=0", until=r"http://\S+")
+    runs = {name: command("run", name, "--no-figures") for name in ("paper", "iris")}
+    firsts = {"paper": "20", "iris": "40", "zigzag": "40"}
+    bests = {"paper": "8", "iris": "20", "zigzag": "20"}
+    return [
+        *[Job(f"`{name}`, empty cache, first step", script(FIRST, name), aim) for name, aim in firsts.items()],
+        *[Job(f"`{name}`, empty cache, optimised", script(BEST, name), aim) for name, aim in bests.items()],
+        Job("64 `iris` by `fly_many`, empty cache", script(BLOCK, "iris"), "20"),
+        Job("`live zigzag`, empty cache, served", live),
+        Job("`live zigzag`, warm, served", live, "1.25", live),
+        *[Job(f"`run {name} --no-figures`, warm", run, "1.25", run) for name, run in runs.items()],
+        *[Job(f"one `tl.fly` of `{name}`, optimised, warm", again(name), "1.25", script(BEST, name)) for name in runs],
+        *[
+            Job(f"`iris` × {n}, empty cache, first step", script(FIRST, "iris", with_quadrotors(n)), alone=True)
+            for n in NUMBERS
+        ],
+    ]
+
+
+def measured(job: Job, checkout: Checkout, caches: dict[Any, str]) -> Spent:
+    """A job once, with an empty cache or a warm one."""
+    if job.before is None:
+        with tempfile.TemporaryDirectory() as cache:
+            return job.measure(checkout, checkout.environment(cache))
+    key = checkout, job.what
+    environment = checkout.environment(caches.setdefault(key, f"{caches['root']}/{len(caches)}"))
+    if not Path(environment["TANDEMLIFT_CACHE"]).exists():
+        Path(environment["TANDEMLIFT_CACHE"]).mkdir()
+        job.before(checkout, environment)
+    return job.measure(checkout, environment)
+
+
+def measure_all(chosen: list[Job], checkouts: list[Checkout], rounds: int) -> dict[str, Any]:
+    """For each row a list of turns, each what every checkout spent, or the reason that there is none."""
+    results: dict[str, Any] = {job.what: [] for job in chosen}
+    with tempfile.TemporaryDirectory() as root:
+        caches: dict[Any, str] = {"root": root}
+        for turn in range(rounds):
+            for job in chosen:
+                print(f"{turn + 1} of {rounds}: {job.what} …", file=sys.stderr, flush=True)
+                if not isinstance(results[job.what], list):
+                    continue
+                try:
+                    asked = checkouts[:1] if job.alone else checkouts
+                    results[job.what].append([measured(job, checkout, caches) for checkout in asked])
+                except Failed as error:
+                    results[job.what] = str(error)
+    return results
+
+
+def row(job: Job, turns: Any) -> list[str]:
+    """Cells of a row: medians, and the median over the pairs of how many times less than the base."""
+    if not isinstance(turns, list):
+        return [f"{job.what}. **Not measured: {turns}**", *[NO_RESULT] * 6, job.aim]
+    columns = list(zip(*turns, strict=True))
+    times = [[median(s.wall for s in column), median(s.cpu for s in column)] for column in columns]
+    ratios = [[b / a for a, b in zip(*pair, strict=True)] for pair in turns if len(pair) == 2]
+    less = [median(r) for r in zip(*ratios, strict=True)] or [None, None]
+    base = times[1] if len(times) == 2 else [None, None]
+    return [job.what, *map(number, [*times[0], *base, *less]), f"≥ {job.aim}" if job.aim else ""]
+
+
+HEADER = ("", "wall, s", "processor, s", "base: wall", "processor", "times less: wall", "processor", "to reach")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--base", type=Path, metavar="PATH", help="another checkout to measure in pairs with this one")
+    parser.add_argument("--rounds", type=int, default=3, help="turns that a median is taken over")
+    parser.add_argument("--only", default="", metavar="PATTERN", help="measure only rows whose text has this")
+    parser.add_argument("--json", metavar="FILE", help="write the results to this file too")
+    options = parser.parse_args()
+    checkouts = [Checkout.at(HERE), *([Checkout.at(options.base)] if options.base else [])]
+    checkouts[0] = checkouts[0]._replace(python=sys.executable)
+    machine, abouts = describe(PACKAGES), [checkout.about for checkout in checkouts]
+    chosen = [job for job in jobs() if re.search(options.only, job.what)]
+    results = measure_all(chosen, checkouts, options.rounds)
+    print(heading(machine), *abouts, sep="\n\n", end="\n\n")
+    print(table(HEADER, [row(job, results[job.what]) for job in chosen]))
+    load = f"{os.getloadavg()[0]:.2f}" if hasattr(os, "getloadavg") else "unknown"
+    print(f"\nMedians of {options.rounds}; load at the end {load}.")
+    save(options.json, {"machine": machine, "checkouts": abouts, "rows": results})
+
+
+if __name__ == "__main__":
+    main()

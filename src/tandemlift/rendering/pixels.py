@@ -1,0 +1,116 @@
+"""Compiled loops over pixels: the formula of a pixel is traced, its loops are written around it.
+
+A loop is handed one array of 64-bit words: addresses of arrays, and whole numbers.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tandemlift.trace import Function, Graph, Module
+from tandemlift.trace.code import Code, Written
+from tandemlift.trace.key import PACKAGE, key_of
+
+LANES = 8  # columns that one instruction serves
+RAMP = f"<{', '.join(f'i64 {j}' for j in range(LANES))}>"
+FILES = [*Path(__file__).parent.glob("*.py"), *(PACKAGE / f"{name}.py" for name in ("law", "ops", "vector"))]
+
+
+class Pixels:
+    """A compiled loop over pixels; it is compiled when it is first called.
+
+    Args:
+        name: of the loop.
+        words: the names of its arguments.
+        write: writes its body, given the graph, the function and the arguments by name.
+        uniform: kinds of inputs that are the same for neighbouring columns.
+    """
+
+    def __init__(self, name: str, words: tuple[str, ...], write: Callable[..., None], uniform: tuple[str, ...]) -> None:
+        self.name, self.words, self.write, self.uniform = name, words, write, uniform
+        self._lock, self._code = threading.Lock(), list[Code]()
+
+    def _written(self) -> Written:
+        module, graph = Module(), Graph()
+        f = Function(module, graph, LANES, f"i64 @{self.name}(ptr noalias %c) #0", self.uniform)
+        self.write(graph, f, {word: f.load("%c", i, "i64") for i, word in enumerate(self.words)})
+        f.end("i64 0")
+        return Written(module.text, {})
+
+    def __call__(self, *given: Any) -> None:
+        """Run it: arrays, whose memory is in order, and whole numbers."""
+        with self._lock:
+            if not self._code:
+                self._code.append(Code(key_of(0.0, self.name, files=FILES), [self.name], self._written))
+        (code,) = self._code
+        words = np.array([x.ctypes.data if isinstance(x, np.ndarray) else x for x in given], np.int64)
+        began = time.perf_counter()
+        code.free[self.name](words.ctypes.data)
+        code.spent(time.perf_counter() - began)
+
+
+def array(f: Function, word: str) -> str:
+    """The array at an address."""
+    return f.op(f"inttoptr i64 {word} to ptr")
+
+
+@contextmanager
+def columns(f: Function, first: str, after: str) -> Iterator[str]:
+    """A loop from a first column to the one before `after`, as many at a time as there are lanes: the first of these.
+
+    Input `column` is the number of a column, which may lie behind the last.
+    """
+    blocks = f.whole("sdiv", f.whole("add", f.whole("sub", after, first), LANES - 1), LANES)
+    with f.repeat(blocks) as block:
+        column = f.whole("add", first, f.whole("mul", block, LANES))
+        lanes = f.op(f"add <{LANES} x i64> {f.spread(column, 'i64')}, {RAMP}")
+        f.read["column"] = lambda i: lanes
+        yield column
+
+
+def load_where(f: Function, mask: str, base: str, count: int = 1) -> list[str]:
+    """So many numbers of each of neighbouring columns, 0 where a mask says no."""
+    size = LANES * count
+    kind, mask = f"<{size} x double>", _repeated(f, mask, count)
+    types = ["ptr align 8", f"<{size} x i1>", kind]
+    wide = f.call(kind, f"@llvm.masked.load.v{size}f64.p0", base, mask, "zeroinitializer", types=types)
+    if count == 1:
+        return [wide]
+    return [_picked(f, [wide, wide], kind, range(m, size, count)) for m in range(count)]
+
+
+def store_where(f: Function, mask: str, values: list[str], base: str, kind: str = "double") -> None:
+    """Write so many values of each of neighbouring columns where a mask says yes."""
+    count, size = len(values), LANES
+    order = [m * LANES + lane for lane in range(LANES) for m in range(count)]
+    values = [*values, *values[-1:] * (-count % 2 if count > 1 else 0)]
+    while len(values) > 1:
+        pairs = zip(values[::2], values[1::2], strict=True)
+        values = [_picked(f, pair, f"<{size} x {kind}>", range(2 * size)) for pair in pairs]
+        size *= 2
+    value = values[0] if count == 1 else _picked(f, values * 2, f"<{size} x {kind}>", order)
+    wide, mask = f"<{len(order)} x {kind}>", _repeated(f, mask, count)
+    name = f"@llvm.masked.store.v{len(order)}{'f64' if kind == 'double' else kind}.p0"
+    f.module.declared.add(f"declare void {name}({wide}, ptr, <{len(order)} x i1>)")
+    f.do(f"call void {name}({wide} {value}, ptr align 8 {base}, <{len(order)} x i1> {mask})")
+
+
+def _picked(f: Function, pair: Iterable[str], kind: str, order: Iterable[int]) -> str:
+    """The numbers of two vectors of a kind, in an order."""
+    a, b = pair
+    places = ", ".join(f"i32 {i}" for i in order)
+    return f.op(f"shufflevector {kind} {a}, {kind} {b}, <{places.count('i32')} x i32> <{places}>")
+
+
+def _repeated(f: Function, mask: str, count: int) -> str:
+    """A mask with each truth so many times."""
+    if count == 1:
+        return mask
+    return _picked(f, [mask, mask], f"<{LANES} x i1>", (lane for lane in range(LANES) for _ in range(count)))
