@@ -31,7 +31,7 @@ class Smoothed(NamedTuple):
 
 @elementwise
 def at_rest(x):
-    """x, or 0 where it is less than 1e-216: what fades ends, and not in denormal numbers, which processors are slow with."""
+    """x, or 0 where it is below 1e-216: what fades ends, and not in denormal numbers, which are slow."""
     return (x + REST) - REST
 
 
