@@ -40,6 +40,9 @@ class Elementwise:
         shape = next((a for a in args if getattr(a, "componentwise", False)), None)
         if shape is None:
             return self.scalar(*args)
+        rolled = next((a for a in args if getattr(a, "rolled", 0)), None)
+        if rolled is not None and getattr(type(shape), "is_set", False):  # of sets that are one symbol each
+            return self.scalar(*map(rolled.packed, args))
         kind = type(shape)
         columns = [a if isinstance(a, kind) else (a,) * len(shape) for a in args]
         return kind(*map(self.scalar, *columns))

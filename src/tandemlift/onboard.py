@@ -54,8 +54,8 @@ class Pilot:
 
     @cached_property
     def _sample(self) -> Callable[[], int]:
-        start = self._start
-        code = Code(key_of(start, "sample"), ["sample"], lambda: Sampling(start, HEARD).written())
+        start, quadrotors = self._start, len(self.thrusts) // 4
+        code = Code(key_of(start, "sample"), ["sample"], lambda: Sampling(start, HEARD, quadrotors).written())
         self._work = aligned(code.about["size"])
         arrays = (self._numbers, self._heard, self.thrusts, self._work)
         self._context = np.array([a.ctypes.data for a in arrays] + [0], dtype=np.int64)

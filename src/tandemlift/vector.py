@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import operator
+from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
 from tandemlift.law import law
@@ -39,36 +40,35 @@ def componentwise(cls: C) -> C:
     return linear(cls)
 
 
-def _check(a: tuple[Any, ...], b: tuple[Any, ...]) -> None:
-    if type(a) is not type(b):
-        raise TypeError(f"cannot combine {type(a).__name__} with {type(b).__name__}")
+def _by_fields(operation: Callable[[Any, Any], Any], a: Any, b: Any) -> Any:
+    if type(a) is type(b):
+        return type(a)(*map(operation, a, b))
+    if getattr(b, "rolled", 0):  # a set that is one symbol knows what to do with a set of numbers
+        return NotImplemented
+    raise TypeError(f"cannot combine {type(a).__name__} with {type(b).__name__}")
 
 
 def plus(a: V, b: V) -> V:
     """a + b, field by field."""
-    _check(a, b)
-    return type(a)(*map(operator.add, a, b))
+    return _by_fields(operator.add, a, b)
 
 
 def minus(a: V, b: V) -> V:
     """a − b, field by field."""
-    _check(a, b)
-    return type(a)(*map(operator.sub, a, b))
+    return _by_fields(operator.sub, a, b)
 
 
 def times(a: V, k: Any) -> V:
     """a scaled by a number, or, for vectors of one kind, the product component by component."""
-    if isinstance(k, tuple):
-        _check(a, k)
-        return type(a)(*map(operator.mul, a, k))
+    if isinstance(k, tuple) or (is_set(a) and getattr(k, "rolled", 0)):
+        return _by_fields(operator.mul, a, k)
     return type(a)(*[x * k for x in a])
 
 
 def over(a: V, k: Any) -> V:
     """a divided by a number, or component by component."""
-    if isinstance(k, tuple):
-        _check(a, k)
-        return type(a)(*map(operator.truediv, a, k))
+    if isinstance(k, tuple) or (is_set(a) and getattr(k, "rolled", 0)):
+        return _by_fields(operator.truediv, a, k)
     return type(a)(*[x / k for x in a])
 
 
@@ -192,8 +192,18 @@ def each(count: int) -> Any:
     """
     name = f"Each{count}"
     cls = NamedTuple(name, [(f"r{i}", Any) for i in range(count)])  # type: ignore[misc]
-    cls.__module__, cls.__qualname__ = __name__, name
+    cls.__module__, cls.__qualname__, cls.is_set = __name__, name, True  # type: ignore[attr-defined]
     return componentwise(cls)
+
+
+def set_of(values: Any) -> Any:
+    """A set of values; a set that is one symbol is one already."""
+    return values if getattr(values, "rolled", 0) else each(len(values))(*values)
+
+
+def is_set(value: Any) -> bool:
+    """Whether a value is a set of numbers or symbols."""
+    return isinstance(value, tuple) and getattr(type(value), "is_set", False)
 
 
 def __getattr__(name: str) -> Any:
@@ -221,8 +231,7 @@ class Quarters(NamedTuple):
 
 def quarters(v: Any) -> Quarters:
     """The four sets of a set of four a quadrotor."""
-    cls = each(len(v) // 4)
-    return Quarters(cls(*v[0::4]), cls(*v[1::4]), cls(*v[2::4]), cls(*v[3::4]))
+    return Quarters(*[set_of(v[i::4]) for i in range(4)])
 
 
 def total(v: Any) -> Any:

@@ -1,71 +1,89 @@
-"""Compiled loops: what is loaded when, what the cache sees, what the machine code is made of."""
+"""Compiled loops: what is loaded when, what decides their key, what the machine code is made of."""
 
 import inspect
 import os
+import re
 import shutil
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-<<<<<<< HEAD
-from tandemlift.jit.cache import sources
-=======
 from patience import completed
->>>>>>> core
 
 import tandemlift as tl
 from tandemlift.kernels import LANES
 from tandemlift.law import LAWS
+from tandemlift.missions import built_in
 from tandemlift.prepared import Prepared
+from tandemlift.trace import key, machine
+from tandemlift.trace.key import key_of, sources
 
 PACKAGE = Path(tl.__file__).parent
+LEVELS = {"quick": machine.QUICK, "best": machine.BEST, "best of blocks": machine.BEST_OF_VECTORS}
 
 
 def python(code, **environment):
-    done = completed(
-        [sys.executable, "-W", "error", "-c", code],
-        capture_output=True,
-        text=True,
-        env={**os.environ, **environment},
-        check=False,
-    )
+    command = [sys.executable, "-W", "error", "-c", code]
+    done = completed(command, capture_output=True, text=True, env={**os.environ, **environment})
     assert done.returncode == 0, done.stderr
     return done.stdout.split()
 
 
-def test_numba_is_not_loaded_until_something_flies():
+def test_no_compiler_is_loaded_until_something_flies():
     code = """
 import sys, tandemlift as tl
-print("numba" in sys.modules, "numpy" in sys.modules)
-tl.load_mission("paper")
-print("numba" in sys.modules, "matplotlib" in sys.modules)
-tl.fly
-print("numba" in sys.modules, "matplotlib" in sys.modules)
+print("llvmlite" in sys.modules, "numpy" in sys.modules)
+mission = tl.load_mission("paper", {"mission.duration": 0.1})
+print("llvmlite" in sys.modules, "matplotlib" in sys.modules)
+tl.fly(mission)
+print("llvmlite" in sys.modules, "matplotlib" in sys.modules, "numba" in sys.modules)
 """
-    assert python(code) == ["False", "False", "False", "False", "True", "False"]
+    assert python(code) == ["False", "False", "False", "False", "True", "False", "False"]
 
 
-def test_a_second_process_finds_the_loop_and_an_edit_of_any_law_loses_it(tmp_path):
+def test_a_second_process_finds_the_code_and_an_edit_of_a_law_loses_it(tmp_path):
     copy = tmp_path / "source"
     shutil.copytree(PACKAGE, copy / "tandemlift", ignore=shutil.ignore_patterns("__pycache__"))
     environment = {"PYTHONPATH": str(copy), "TANDEMLIFT_CACHE": str(tmp_path / "cache"), "PYTHONSAFEPATH": "1"}
     code = """
 import tandemlift as tl
-from tandemlift.prepared import Prepared, needs_compiling
-mission = tl.load_mission("one-push", {"mission.duration": 1.0})
-print(needs_compiling(mission))
-tl.fly(mission)
-single = Prepared(mission).kernels.single
-print(sum(single.stats.cache_hits.values()), sum(single.stats.cache_misses.values()), tl.__file__)
+from tandemlift.trace import machine
+made, compiled = [], machine.compiled
+machine.compiled = lambda *args: made.append(args) or compiled(*args)
+flight = tl.fly(tl.load_mission("one-push", {"mission.duration": 0.1}))
+print(len(made), flight["thrust"].sum().hex(), tl.__file__)
 """
     first, second = python(code, **environment), python(code, **environment)
-    assert first[:3] == ["True", "0", "1"]
-    assert second[:3] == ["False", "1", "0"]
-    assert first[3].startswith(str(copy))
+    assert [first[0], second[0]] == ["1", "0"]
+    assert first[1:] == second[1:]
+    assert first[2].startswith(str(copy))
     with (copy / "tandemlift" / "laws" / "rotation.py").open("a") as law:
         law.write("# an edit\n")
-    assert python(code.partition("tl.fly")[0], **environment) == ["True"]
+    assert python(code, **environment) == ["1", *first[1:]]
+
+
+def test_an_edit_of_any_source_changes_the_key(monkeypatch):
+    value = Prepared(tl.load_mission("one-push")).flying
+    before, content = key_of(value), key.content
+    assert len(sources(value)) > 80
+    for path in sources(value):
+        edit = lambda p, edited=path: content(p) + b"#" * (p == edited)  # noqa: E731
+        monkeypatch.setattr(key, "content", edit)
+        assert key_of(value) != before
+    monkeypatch.setattr(key, "content", content)
+    assert key_of(value) == before
+
+
+def test_other_versions_another_processor_and_another_layout_have_other_keys(monkeypatch):
+    changes = {"controller.switching": "saturation"}
+    paper, other = (Prepared(tl.load_mission("paper", c)).flying for c in ({}, changes))
+    keys = [key_of(paper), key_of(other), key_of(paper, "loop", 8)]
+    monkeypatch.setattr(machine, "processor", lambda: ("another", "+fma"))
+    keys.append(key_of(paper))
+    monkeypatch.setattr(key.metadata, "version", lambda name: "0.0.0")
+    keys.append(key_of(paper))
+    assert len(set(keys)) == len(keys)
 
 
 def test_two_variants_whose_parameters_are_equal_tuples_fly_differently():
@@ -74,45 +92,58 @@ def test_two_variants_whose_parameters_are_equal_tuples_fly_differently():
     assert not np.array_equal(tanh["thrust"], saturation["thrust"])
 
 
-@pytest.fixture(scope="module")
-def block_code(tmp_path_factory):
-    """The block loop of `one-push`, compiled afresh (a loop from the cache shows no code)."""
-    before = os.environ.get("TANDEMLIFT_CACHE")
-    os.environ["TANDEMLIFT_CACHE"] = str(tmp_path_factory.mktemp("cache"))
-    try:
-        from tandemlift import prepared
-        from tandemlift.kernels import Kernels
-
-        p = Prepared(tl.load_mission("one-push", {"mission.duration": 0.1}))
-        prepared.KERNELS[p.variant] = Kernels(p.flying, p.given)
-        tl.fly_many([p.mission] * 2)
-        block = prepared.KERNELS.pop(p.variant).block
-        return block, next(iter(block.inspect_llvm().values()))
-    finally:
-        os.environ.pop("TANDEMLIFT_CACHE")
-        if before is not None:
-            os.environ["TANDEMLIFT_CACHE"] = before
+def text_of(name, lanes):
+    """The module of a built-in mission's loop."""
+    return Prepared(tl.load_mission(name)).kernels._written("loop", lanes).text
 
 
-def test_the_block_loop_works_on_all_lanes_at_once(block_code):
-    _, code = block_code
-    vectors = [f"llvm.fma.v{width}f64" for width in (2, 4, 8, LANES)]
-    assert any(name in code for name in vectors)
+@pytest.mark.parametrize("name", built_in())
+def test_a_loop_calls_no_function_of_the_c_library(name):
+    own = {"sqrt", "fma", "floor", "fabs", "fptosi", "smax", "smin", "vector", "reduce"}  # instructions
+    for lanes in (1, LANES):
+        text = text_of(name, lanes)
+        called = set(re.findall(r"call [^@]*@([A-Za-z0-9_.]+)\(", text))
+        declared = set(re.findall(r"^declare [^@]*@([A-Za-z0-9_.]+)\(", text, re.MULTILINE))
+        defined = set(re.findall(r"^define [^@]*@([A-Za-z0-9_.]+)\(", text, re.MULTILINE))
+        assert called <= declared | defined
+        assert {"llvm"} == {word.split(".")[0] for word in declared}
+        assert {word.split(".")[1] for word in declared} <= own
 
 
-@pytest.mark.parametrize("name", ["exp", "tanh", "sin", "cos", "atan2", "pow", "log", "floor"])
-def test_the_block_loop_calls_no_function_of_the_c_library(block_code, name):
-    _, code = block_code
-    assert f"@{name}(" not in code
-    assert f"@llvm.{name}." not in code or name == "floor"
+@pytest.mark.parametrize("name", ["one-push", "iris"])
+def test_the_loop_of_a_block_works_on_all_lanes_at_once(name):
+    text = text_of(name, LANES)
+    assert f"call <{LANES} x double> @llvm.fma.v{LANES}f64(" in text
+    alone, together = (len(re.findall(rf"= f(?:add|sub|mul|div) {kind}", text)) for kind in ("double", "<8 x double>"))
+    assert together > 10 * alone  # times, and what else all lanes share
 
 
-def test_the_block_loop_is_compiled_without_python_objects(block_code):
-    block, _ = block_code
-    assert all(not overload.objectmode for overload in block.overloads.values())
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("lanes", [1, LANES])
+def test_machine_code_needs_nothing_from_outside_but_moves_of_memory(level, lanes):
+    """What an object does not define would come from a library."""
+    if not sys.platform.startswith("linux"):
+        pytest.skip("reads ELF")
+    missing = undefined(machine.compiled(text_of("one-push", lanes), LEVELS[level]))
+    assert missing <= {"memset", "memcpy", "memmove"}
 
 
-def test_every_law_that_a_loop_may_be_made_of_is_in_the_key_of_its_cache():
+def undefined(code):
+    """The names that an ELF object of 64 bits asks for."""
+
+    def word(at, size):
+        return int.from_bytes(code[at : at + size], "little")
+
+    assert code[:5] == b"\x7fELF\x02"
+    sections = [word(40, 8) + i * word(58, 2) for i in range(word(60, 2))]
+    table = next(s for s in sections if word(s + 4, 4) == 2)
+    names = word(sections[word(table + 40, 4)] + 24, 8)
+    begin, length = word(table + 24, 8), word(table + 32, 8)
+    places = [names + word(at, 4) for at in range(begin, begin + length, 24) if word(at + 6, 2) == 0 and word(at, 4)]
+    return {code[at : code.index(b"\0", at)].decode() for at in places}
+
+
+def test_every_law_that_a_loop_may_be_made_of_is_in_its_key():
     known = set(sources(()))
     own = {function for function in LAWS if function.__module__.startswith("tandemlift.")}
     assert len(own) > 200

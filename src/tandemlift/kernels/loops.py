@@ -13,7 +13,7 @@ from tandemlift.kernels.solving import write_limits, write_solver
 from tandemlift.kernels.traced import Symbols, Traced
 from tandemlift.laws.partner import LEG
 from tandemlift.laws.rectangle import WALL
-from tandemlift.trace import LEAVES, Function, Module, Symbol, double, flat, leaves
+from tandemlift.trace import LEAVES, Function, Module, Place, Symbol, double, flat, leaves, symbols
 
 NORMAL_LANES = 8  # of the loop that draws normal numbers for a flight alone
 MEMORY = "ptr noalias %c, ptr noalias %flying, ptr noalias %work"
@@ -51,7 +51,7 @@ class Step:
         self.external = take("external", leaves(x.given.external))
         self.push, self.moved = take("push", 6), take("moved", leaves(x.moved))
         needs = self.traced.limits
-        self.solving = take("solving", len(needs.problem) + len(needs.held) + 3 if needs else 0)
+        self.solving = take("solving", len(needs.problem) + len(needs.search) if needs else 0)
         self.sample = take("sample", leaves(x.sample) if self.lanes > 1 else 0)
         self.low = take("low", 1)
 
@@ -62,7 +62,8 @@ class Step:
         head = f"internal {result} @{name}({MEMORY}{more}) #1"
         f = Function(self.module, self.graph, lanes or self.lanes, head, UNIFORM)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
-        f.read = {"fly": lambda i: f.load("%flying", i), "dt": lambda i: "%dt"}
+        f.room = self.room
+        f.read = {"fly": lambda i: Place("%flying", i), "dt": lambda i: "%dt"}
         return f
 
     def export(self, name: str) -> None:
@@ -70,6 +71,10 @@ class Step:
         f = Function(self.module, self.graph, self.lanes, f"i64 @{name}(ptr %c) #0")
         given = [f"ptr {self.word(f, word)}" for word in ("flying", "work")]
         f.end("i64 " + f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})"))
+
+    def room(self, count: int) -> Place:
+        """Scratch memory for a set of so many numbers."""
+        return Place("%work", self.rooms.take(f"room_{self.rooms.size}", count))
 
     def call(self, f: Function, name: str, *more: str) -> None:
         """Call another inner function."""
@@ -90,7 +95,7 @@ class Step:
         pushes, count = self.word(f, "pushes"), self.word(f, "push_count")
         with f.repeat(count) as i:
             row = f.at(pushes, f.whole("mul", i, leaves(GAUSSIAN)))
-            f.read |= {"push": lambda m: f.load(row, m), "opens": lambda m: opens, "closes": lambda m: closes}
+            f.read |= {"push": lambda m: Place(row, m), "opens": lambda m: opens, "closes": lambda m: closes}
             with f.when(f.any(f.value(self.traced.pressed))), f.repeat(HALVES) as j:
                 number = f.op(f"sitofp i64 {f.whole('add', twice, j)} to double")
                 when = f.op(f"fmul double {number}, {half}")
@@ -107,7 +112,7 @@ class Step:
         gusts, count = self.word(f, "gusts"), self.word(f, "gust_count")
         with f.repeat(count) as i:
             row = f.at(gusts, f.whole("mul", i, leaves(GUST)))
-            f.read["gusts"] = lambda m: f.load(row, m)
+            f.read["gusts"] = lambda m: Place(row, m)
             self.add(f, self.gust, self.traced.gust)
         f.end()
 
@@ -154,11 +159,9 @@ class Step:
             walls, count = self.word(f, "walls"), self.word(f, "wall_count")
             with f.repeat(count) as i:
                 row = f.at(walls, f.whole("mul", i, leaves(WALL)))
-                f.read["wall"] = lambda m: f.load(row, m)
-                f.read["fly"] = lambda m: f.load("%flying", m)
+                f.read["wall"] = lambda m: Place(row, m)
                 with f.afresh():
-                    for m, value in enumerate(f.values(self.traced.nearest)):
-                        f.store(value, "%flying", at + m)
+                    f.put("%flying", at, self.traced.nearest)
         if x.accompanied:
             self._find_legs(f)
         f.end()
@@ -208,13 +211,13 @@ class Step:
         pace = SPAN if self.lanes == 1 else 1
         f.read |= {
             "t": lambda i: t,
-            "hand": lambda i: f.load(hand, i),
-            "noise": lambda i: f.load(noise, i * pace),
-            "gust": lambda i: f.load("%work", self.gust + i),
-            "answer": lambda i: f.load("%work", self.answer + i),
+            "hand": lambda i: Place(hand, i),
+            "noise": lambda i: Place(noise, i * pace, pace),
+            "gust": lambda i: Place("%work", self.gust + i),
+            "answer": lambda i: Place("%work", self.answer + i),
             "external": lambda i: f.load("%work", self.external + i),
-            "moved": lambda i: f.load("%work", self.moved + i),
-            "solved": lambda i: f.load("%work", self.solved + i),
+            "moved": lambda i: Place("%work", self.moved + i),
+            "solved": lambda i: Place("%work", self.solved + i),
         }
 
     @property
@@ -233,7 +236,10 @@ class Step:
     def swing(self, f: Function) -> None:
         """Move the body over the step."""
         if not self.traced.apart:
-            f.read["moved"] = lambda i: f.value(self.traced.near[i])  # as far as it is asked for
+            if self.graph.rolls_from:
+                self.keep(f, self.moved, self.traced.near)
+            else:
+                f.read["moved"] = lambda i: f.value(self.traced.near[i])  # as far as it is asked for
             return
         touches = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
         for value in f.values(self.traced.pressing):
@@ -249,8 +255,7 @@ class Step:
 
     def keep(self, f: Function, at: int, values: Symbols) -> None:
         """Write values to scratch memory."""
-        for m, value in enumerate(f.values(values)):
-            f.store(value, "%work", at + m)
+        f.put("%work", at, values)
 
     def show(self, f: Function, k: str) -> None:
         """Write the step's sample where it is logged, and where the last one goes."""
@@ -266,12 +271,10 @@ class Step:
                 self._show_lanes(f, row, logged)
 
     def _show_one(self, f: Function, row: str, logged: str, final: str) -> None:
-        values = f.values(self.traced.sample)
+        f.values(self.traced.sample)
         for condition, name, index in ((logged, "log", row), (final, "last", "0")):
             with f.when(condition):
-                base = f.at(self.word(f, name), f.whole("mul", index, len(values)))
-                for m, value in enumerate(values):
-                    f.store(value, base, m)
+                f.put(f.at(self.word(f, name), f.whole("mul", index, len(self.traced.sample))), 0, self.traced.sample)
 
     def _show_lanes(self, f: Function, row: str, logged: str) -> None:
         columns = len(self.traced.sample)
@@ -286,10 +289,7 @@ class Step:
 
     def go_on(self, f: Function, k: str) -> None:
         """Let the flight be what it is after the step."""
-        g = self.graph
-        for i, (symbol, value) in enumerate(zip(self.traced.moving, f.values(self.traced.moving), strict=True)):
-            if not (g.ops[symbol.node] == "in" and g.args[symbol.node] == ("fly", i)):
-                f.store(value, "%flying", i)
+        f.put("%flying", 0, self.traced.moving, "fly")
         if self.likes.late:
             self._delay(f, k)
 
@@ -410,7 +410,7 @@ class Step:
 
     def _limits(self) -> Symbols:
         needs = self.traced.limits
-        return [needs.excess, *needs.problem, *needs.held, *needs.wished] if needs else []
+        return [needs.beyond, *needs.problem, *needs.plain, *needs.search] if needs else []
 
     def settle(self, f: Function, k: str, roots: Symbols) -> dict[int, int]:
         """Where a flight begins or has changed: the tables for step k, and what will not change. Where that waits."""
@@ -428,14 +428,15 @@ class Step:
 
     def leave(self, f: Function, nodes: list[int], name: str) -> dict[int, int]:
         """Let nodes wait in scratch memory: where each does."""
-        at = self.rooms.take(name, len(nodes))
-        self.keep(f, at, [Symbol(self.graph, n, "f") for n in nodes])
-        return {node: at + m for m, node in enumerate(nodes)}
+        sizes = [self.graph.counts[node] or 1 for node in nodes]
+        at = self.rooms.take(name, sum(sizes))
+        self.keep(f, at, [s for n in nodes for s in symbols(self.graph, Symbol(self.graph, n, "f"))])
+        return {node: at + sum(sizes[:m]) for m, node in enumerate(nodes)}
 
     def find(self, f: Function, waiting: dict[int, int]) -> None:
         """Let a function find nodes where they wait."""
         for node, at in waiting.items():
-            f.kept[node] = lambda at=at: f.load("%work", at)
+            f.kept[node] = lambda at=at: Place("%work", at)
 
     def steady(self, roots: Symbols) -> list[int]:
         """The nodes that steps need and that depend on what does not change within a flight."""

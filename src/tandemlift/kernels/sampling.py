@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
 from typing import Any, NamedTuple
 
 from tandemlift.kernels.solving import write_limits, write_solver
-from tandemlift.kernels.traced import check_layout, limited
+from tandemlift.kernels.traced import check_layout, graph_for, limited
 from tandemlift.laws.allocation import Constrained
 from tandemlift.pilot import PilotMemory, PilotParameters, decide
-from tandemlift.trace import Function, Graph, Module, rebuilt, symbols, traced
+from tandemlift.trace import Function, Module, Place, symbols, traced, written_out
 from tandemlift.trace.code import Written
 
 POINTERS = ("numbers", "heard", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
@@ -38,10 +37,10 @@ class Decided(NamedTuple):
 
 
 class Sampling:
-    """A sample of a pilot, traced: inputs `pilot`, `heard`, `dt` and what is `solved` for."""
+    """A sample of a pilot of so many quadrotors, traced: inputs `pilot`, `heard`, `dt` and what is `solved` for."""
 
-    def __init__(self, onboard: Onboard, heard: Any) -> None:
-        self.graph = Graph()
+    def __init__(self, onboard: Onboard, heard: Any, quadrotors: int) -> None:
+        self.graph = graph_for(quadrotors)
         pilot, dt = self.given_by("pilot", onboard), self.graph.input("dt")
         t = pilot.samples * dt
         decided = Decided(*traced(decide)(pilot.parameters, pilot.memory, self.given_by("heard", heard), t, dt))
@@ -51,12 +50,12 @@ class Sampling:
             decided = Decided(*within)
         self.thrusts = self.all(decided.decision.thrusts)
         after = Remembered(pilot.samples + 1.0, decided.memory)
-        check_layout(pilot.parameters.controller, Remembered(onboard.samples, onboard.memory), after)
+        check_layout(pilot.parameters.controller, Remembered(onboard.samples, onboard.memory), written_out(after))
         self.after = self.all(after)
 
     def given_by(self, kind: str, like: Any) -> Any:
         """A nested value whose numbers are inputs of a kind."""
-        return rebuilt((self.graph.input(kind, i) for i in itertools.count()), like)
+        return self.graph.inputs(kind, like)
 
     def all(self, value: Any) -> Any:
         """The numbers of a nested value."""
@@ -73,17 +72,16 @@ class Sampling:
         dt = f.load("%c", len(POINTERS), "double")
         solved = len(self.limits.problem) if self.limits else 0
         f.read = {
-            "pilot": lambda i: f.load("%numbers", i),
-            "heard": lambda i: f.load("%heard", i),
+            "pilot": lambda i: Place("%numbers", i),
+            "heard": lambda i: Place("%heard", i),
             "dt": lambda i: dt,
-            "solved": lambda i: f.load("%work", solved + i),
+            "solved": lambda i: Place("%work", solved + i),
         }
         if self.limits:
             write_limits(f, self.limits, 0)
-        thrusts, after = f.values(self.thrusts), f.values(self.after)
-        for base, values in (("%thrusts", thrusts), ("%numbers", after)):
-            for m, value in enumerate(values):
-                f.store(value, base, m)
+        f.values(self.after)
+        f.put("%thrusts", 0, self.thrusts)
+        f.put("%numbers", 0, self.after, "pilot")
         f.end("i64 0")
-        size = solved + len(self.limits.held) + 3 if self.limits else 1
+        size = solved + len(self.limits.search) if self.limits else 1
         return Written(module.text, {"size": size})

@@ -7,7 +7,6 @@ Of what is formed ahead: `push` and `gusts` (a row of a table), `wall`, `when`, 
 
 from __future__ import annotations
 
-import itertools
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -26,33 +25,45 @@ from tandemlift.laws.rectangle import WALL
 from tandemlift.laws.walls import consider
 from tandemlift.laws.wind import gust_velocity
 from tandemlift.loop import Inputs, Thought, act, joined, observe, overruled, perceive, swing, think
+from tandemlift.ops import where
 from tandemlift.pilot import brief, conclude, with_allocation, with_thrusts
-from tandemlift.trace import Graph, Symbol, TraceError, leaves, rebuilt, refused, symbols, traced
+from tandemlift.trace import Graph, Symbol, TraceError, leaves, refused, symbols, traced, written_out
 from tandemlift.vector import ZERO, layout, total
 
 Symbols = list[Symbol]
+MANY = 5  # quadrotors whose sets are arrays in memory, and served by loops
+
+
+def graph_for(quadrotors: int) -> Graph:
+    """An empty graph for the laws of so many quadrotors."""
+    return Graph(MANY if quadrotors >= MANY else 0)
 
 
 class Solver:
     """A step of the solver of limits, traced: inputs `problem`, and `search` as it goes on."""
 
-    def __init__(self, bounded: Bounded) -> None:
-        self.graph, wished = Graph(), bounded.unlimited
-        self.rotors, self.problem_size = len(wished), leaves(bounded)
-        problem = rebuilt((self.graph.input("problem", i) for i in itertools.count()), bounded)
-        state = (self.graph.input("search", i) for i in itertools.count())
-        working = rebuilt(state, Working(wished, wished))
-        self.begun = symbols(self.graph, begun(problem.limits, working))
-        self.after = symbols(self.graph, searched(problem, Search(working, *itertools.islice(state, 3))))
+    def __init__(self, like: Bounded, rolls_from: int) -> None:
+        self.graph, rotors = Graph(rolls_from), like.unlimited
+        self.rotors, self.problem_size = len(rotors), leaves(like)
+        problem = self.graph.inputs("problem", like)
+        search = self.graph.inputs("search", Search(Working(rotors, rotors), 0.0, 0.0, 0.0))
+        self.begun = symbols(self.graph, self._unless_ended(search, begun(problem.limits, search.found)))
+        self.after = symbols(self.graph, self._unless_ended(search, searched(problem, search)))
+
+    def _unless_ended(self, s: Search, after: Search) -> Search:
+        """A search that has ended stays as it is."""
+        over = s.ended > 0.0
+        found = Working(*[where(over, a, b) for a, b in zip(s.found, after.found, strict=True)])
+        return Search(found, *[where(over, a, b) for a, b in zip(s[1:], after[1:], strict=True)])
 
 
 class Limits(NamedTuple):
-    """Thrusts within limits: what is solved for, where to start, and by how much thrusts leave their limits."""
+    """Thrusts within limits: whether thrusts leave them, what is solved for, the search without it and at its start."""
 
-    excess: Symbol
+    beyond: Symbol
     problem: Symbols
-    held: Symbols
-    wished: Symbols
+    plain: Symbols
+    search: Symbols
     solver: Solver
 
 
@@ -96,7 +107,8 @@ class Traced:
     """
 
     def __init__(self, likes: Likes, asks: bool = False) -> None:
-        self.likes, self.asks, self.graph = likes, asks, Graph()
+        self.likes, self.asks = likes, asks
+        self.graph = graph_for(len(likes.flying.plant.frame.mass))
         self.flying = self.given_by("fly", likes.flying)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
         outer = Inputs(
@@ -121,12 +133,12 @@ class Traced:
         self.pressing = [self._pressing(acting)] if likes.walled else []
         moved = self.given_by("moved", likes.moved)
         moving, sample = traced(observe)(self.flying, thought, acting, moved, self.given)
-        check_layout(self.flying.pilot.controller, likes.flying.moving, moving)
+        check_layout(self.flying.pilot.controller, likes.flying.moving, written_out(moving))
         self.moving, self.sample = self.all(moving), self.all(sample)
 
     def given_by(self, kind: str, like: Any) -> Any:
         """A nested value whose numbers are inputs of a kind."""
-        return rebuilt((self.graph.input(kind, i) for i in itertools.count()), like)
+        return self.graph.inputs(kind, like)
 
     def all(self, value: Any) -> Symbols:
         """The numbers of a nested value."""
@@ -216,9 +228,16 @@ def limited(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
     how, decision = pilot.allocation, thought.decision
     wished = decision.thrusts
     limits = traced(limits_at)(how, traced(left_of)(pilot.detection, held.detection), t)
-    excess = traced(total)(traced(beyond)(wished, limits))
-    problem = Bounded(how.rows, how.weights, decision.command.wrench, wished, limits)
-    needs = Limits(excess, owner.all(problem), owner.all(held.allocation), owner.all(wished), Solver(problem))
-    solved = owner.given_by("solved", Working(wished, wished))
+    outside = total(traced(beyond)(wished, limits)) > 0.0
+    problem, plain, before = (
+        Bounded(how.rows, how.weights, decision.command.wrench, wished, limits),
+        Working(wished * 0.0, wished),
+        held.allocation,
+    )
+    start = Working(where(outside, before.active, plain.active), where(outside, before.thrusts, plain.thrusts))
+    search = Search(start, 1.0, 0.0, where(outside, 0.0, 1.0))
+    solver = Solver(written_out(problem), owner.graph.rolls_from)
+    needs = Limits(outside, owner.all(problem), owner.all(plain), owner.all(search), solver)
+    solved = owner.given_by("solved", written_out(plain))
     commands = traced(with_trials)(pilot.detection, held.detection, traced(commanded)(how, solved.thrusts, t), t)
     return needs, traced(with_thrusts)(decision, commands), traced(with_allocation)(thought.memory, solved)

@@ -7,15 +7,17 @@ functions that machine code has no instruction for, `layout` nested values in fl
 
 from tandemlift.trace import elementary  # which `ops` asks for where it meets a symbol
 from tandemlift.trace.fused import traced
-from tandemlift.trace.graph import LEAVES, Graph, Symbol, TraceError, refused, symbols
+from tandemlift.trace.graph import LEAVES, Graph, Symbol, TraceError, refused, symbols, written_out
 from tandemlift.trace.layout import flat, is_value, leaves, rebuilt, unflat, zeroed
 from tandemlift.trace.llvm import Function, Module, double
+from tandemlift.trace.rolled import Place
 
 __all__ = [
     "LEAVES",
     "Function",
     "Graph",
     "Module",
+    "Place",
     "Symbol",
     "TraceError",
     "double",
@@ -28,5 +30,6 @@ __all__ = [
     "symbols",
     "traced",
     "unflat",
+    "written_out",
     "zeroed",
 ]

@@ -64,7 +64,9 @@ def double(i: Any) -> Any:
 
 def floor(x: Any) -> Any:
     """The largest integer that is not above x, as a double."""
-    return unary("floor", x) if isinstance(x, Symbol) else float(math.floor(x))
+    if isinstance(x, Symbol):
+        return unary("floor", x)
+    return math.copysign(math.floor(x), x) if math.isfinite(x) else x
 
 
 def sqrt(x: Any) -> Any:

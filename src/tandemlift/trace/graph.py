@@ -18,6 +18,8 @@ from types import CodeType
 from typing import Any
 
 from tandemlift.errors import InputError
+from tandemlift.trace.layout import is_value, leaves
+from tandemlift.vector import each, is_set
 
 MOST_NODES = 1_000_000
 HERE = str(Path(__file__).parent)
@@ -33,15 +35,19 @@ class TraceError(InputError):
 class Graph:
     """Nodes by number, in the order in which they were made: arguments come before what is made of them."""
 
-    def __init__(self) -> None:
+    def __init__(self, rolls_from: int = 0) -> None:
         self.ops: list[str] = []
         self.args: list[tuple[Any, ...]] = []
         self.types: list[str] = []
+        self.counts: list[int] = []
+        self.rolls_from = rolls_from
         self._known: dict[Any, int] = {}
 
-    def node(self, op: str, args: tuple[Any, ...], kind: str) -> int:
-        """The number of a node; a new one if there is none like it."""
-        key = (op, args, kind)
+    def node(self, op: str, args: tuple[Any, ...], kind: str, count: int = -1) -> int:
+        """The number of a node; a new one if there is none like it. `count`: that of its arguments, if not given."""
+        if count < 0:
+            count = max([self.counts[a] for a in args]) if self.rolls_from and op not in LEAVES else 0
+        key = (op, args, kind, count)
         found = self._known.get(key)
         if found is None:
             found = self._known[key] = len(self.ops)
@@ -50,6 +56,7 @@ class Graph:
             self.ops.append(op)
             self.args.append(args)
             self.types.append(kind)
+            self.counts.append(count)
         return found
 
     def needed(self, roots: Iterable[int], known: Container[int] = ()) -> list[int]:
@@ -68,6 +75,48 @@ class Graph:
         """A number that is given when the graph is evaluated."""
         return Symbol(self, self.node("in", (kind, index), type), type)
 
+    def inputs(self, kind: str, like: Any, first: int = 0) -> Any:
+        """A nested value laid out like `like` whose numbers are given, as inputs `first` and on of a kind."""
+        if is_set(like) and 0 < self.rolls_from <= len(like):
+            return Symbol(self, self.node("in", (kind, first), "f", len(like)), "f")
+        if not is_value(like):
+            return self.input(kind, first)
+        parts = []
+        for part in like:
+            parts.append(self.inputs(kind, part, first))
+            first += leaves(part)
+        return type(like)(*parts)
+
+    def pack(self, values: Any) -> int:
+        """The number of the node of a set of numbers and symbols."""
+        nodes = tuple([self.number(v) for v in values])
+        sources = [(self.args[n][0], int(self.ops[n][4:])) if self.ops[n][:4] == "get " else (-1, 0) for n in nodes]
+        source, first = sources[0]
+        step = sources[1][1] - first if len(nodes) > 1 else 1
+        if source >= 0 and sources == [(source, first + i * step) for i in range(len(nodes))]:
+            return self.take(source, first, step, len(nodes))
+        if all(self.ops[n] == "const" for n in nodes):
+            return self.node("const", tuple(self.args[n][0] for n in nodes), "f", len(nodes))
+        return self.node("pack", nodes, "f", len(nodes))
+
+    def take(self, source: int, first: int, step: int, count: int) -> int:
+        """The number of the node of some values of a set: `count` of them, from `first` on, every `step`."""
+        if (first, step, count) == (0, 1, self.counts[source]):
+            return source
+        if self.ops[source].startswith("take "):
+            at, pace = map(int, self.ops[source].split()[1:])
+            return self.take(self.args[source][0], at + first * pace, step * pace, count)
+        return self.node(f"take {first} {step}", (source,), "f", count)
+
+    def get(self, source: int, at: int) -> int:
+        """The number of the node of one value of a set."""
+        if self.ops[source] == "pack":
+            return self.args[source][at]
+        if self.ops[source].startswith("take "):
+            first, step = map(int, self.ops[source].split()[1:])
+            return self.get(self.args[source][0], first + at * step)
+        return self.node(f"get {at}", (source,), "f", 0)
+
     def constant(self, value: Any) -> int:
         """The number of the node of a constant."""
         if isinstance(value, bool):
@@ -78,6 +127,8 @@ class Graph:
 
     def number(self, value: Any) -> int:
         """The number of the node of a value as a double."""
+        if isinstance(value, tuple):
+            return self.pack(value)
         if not isinstance(value, Symbol):
             return self.constant(float(value))
         if value.type == "f":
@@ -86,7 +137,7 @@ class Graph:
 
 
 class Symbol:
-    """A scalar that is not known yet."""
+    """A number that is not known yet, or a set of numbers where these are so many that loops serve them."""
 
     __slots__ = ("graph", "node", "type")
     __array_ufunc__ = None  # a NumPy scalar on the left defers to our operators
@@ -94,6 +145,27 @@ class Symbol:
 
     def __init__(self, graph: Graph, node: int, type: str) -> None:
         self.graph, self.node, self.type = graph, node, type
+
+    @property
+    def rolled(self) -> int:
+        """How many numbers it holds; 0 for one that is no set."""
+        return self.graph.counts[self.node]
+
+    def packed(self, value: Any) -> Any:
+        """A set of values as one symbol, others as they are."""
+        return Symbol(self.graph, self.graph.pack(value), "f") if is_set(value) else value
+
+    def __len__(self) -> int:
+        if not self.rolled:
+            raise _refused("takes the length of a number")
+        return self.rolled
+
+    def __getitem__(self, which: Any) -> Any:
+        count, graph = len(self), self.graph
+        if isinstance(which, slice):
+            first, _, step = which.indices(count)
+            return Symbol(graph, graph.take(self.node, first, step, len(range(count)[which])), "f")
+        return Symbol(graph, graph.get(self.node, range(count)[which]), "f")
 
     def __add__(self, other: Any) -> Any:
         return _arithmetic("fadd", "add", self, other)
@@ -180,12 +252,21 @@ class Symbol:
     __int__ = __index__ = __float__
 
     def __iter__(self) -> Any:
+        if self.rolled:
+            return (self[i] for i in range(self.rolled))
         raise _refused("takes a number apart as if it were a vector")
+
+
+def written_out(value: Any) -> Any:
+    """A nested value with its sets value by value, none as one symbol."""
+    if isinstance(value, Symbol):
+        return each(value.rolled)(*value) if value.rolled else value
+    return type(value)(*map(written_out, value)) if is_value(value) else value
 
 
 def symbols(graph: Graph, value: Any) -> list[Symbol]:
     """The numbers of a nested value, or of a tuple of such, as symbols, those that are known as well."""
-    if isinstance(value, tuple):
+    if isinstance(value, tuple) or (isinstance(value, Symbol) and value.rolled):
         return [s for part in value for s in symbols(graph, part)]
     return [Symbol(graph, graph.number(value), "f")]
 
@@ -224,6 +305,8 @@ def _is_whole(value: Any) -> bool:
 
 def _node_of(graph: Graph, value: Any) -> int:
     """The node of a value in its own type."""
+    if isinstance(value, tuple):
+        return graph.pack(value)
     return value.node if isinstance(value, Symbol) else graph.constant(value)
 
 
@@ -233,12 +316,15 @@ def _type_of(value: Any) -> str:
     return "b" if isinstance(value, bool) else "i" if isinstance(value, int) else "f"
 
 
-def _is_scalar(value: Any) -> bool:
-    return isinstance(value, (Symbol, float, int)) or (not isinstance(value, tuple) and hasattr(value, "__float__"))
+def _is_operand(value: Any, other: Any) -> bool:
+    """Whether a value can stand beside another: a number, or a set beside one that is a symbol."""
+    if isinstance(value, tuple):
+        return is_set(value) and isinstance(other, Symbol) and other.rolled == len(value)
+    return isinstance(value, (Symbol, float, int)) or hasattr(value, "__float__")
 
 
 def _arithmetic(op: str, whole: str, a: Any, b: Any) -> Any:
-    if not (_is_scalar(a) and _is_scalar(b)):
+    if not (_is_operand(a, b) and _is_operand(b, a)):
         return NotImplemented
     graph = _graph_of(a, b)
     if whole and _is_whole(a) and _is_whole(b):
@@ -256,7 +342,7 @@ def _made(graph: Graph, op: str, *values: Any) -> Symbol:
 
 
 def _compared(predicate: str, whole: str, a: Any, b: Any) -> Any:
-    if not _is_scalar(b):
+    if not _is_operand(b, a):
         return NotImplemented
     graph = _graph_of(a, b)
     if _type_of(a) == _type_of(b) == "b" and whole in ("eq", "ne"):
@@ -308,13 +394,18 @@ def once_rounded(a: Any, b: Any, c: Any) -> Any:
     if any(isinstance(v, Symbol) for v in (a, b, c)):
         graph = _graph_of(a, b, c)
         if not isinstance(a, Symbol) and not isinstance(b, Symbol):
-            return _made(graph, "fadd", a * b, c) if _is_exact(a, b) else _made(graph, "fma", a, b, c)
+            exact = not isinstance(a, tuple) and not isinstance(b, tuple) and _is_exact(a, b)
+            return _made(graph, "fadd", a * b, c) if exact else _made(graph, "fma", a, b, c)
         return _made(graph, "fma", a, b, c)
-    plain = a * b + c
-    if isinstance(plain, int) or not math.isfinite(plain):
-        return plain
+    if all(isinstance(v, int) for v in (a, b, c)):
+        return a * b + c
+    if not (math.isfinite(a) and math.isfinite(b) and math.isfinite(c)):
+        return c if math.isfinite(a) and math.isfinite(b) else a * b + c
     exact = Fraction(a) * Fraction(b) + Fraction(c)
-    return float(exact) if exact else plain
+    try:
+        return float(exact) if exact else a * b + c
+    except OverflowError:
+        return math.inf if exact > 0 else -math.inf
 
 
 def _is_exact(a: Any, b: Any) -> bool:
@@ -324,7 +415,8 @@ def _is_exact(a: Any, b: Any) -> bool:
 
 def fma(a: Any, b: Any, c: Any) -> Any:
     """What a · b + c in the source of a law becomes: rounded once for numbers, field by field for linear values."""
-    if not (isinstance(a, tuple) or isinstance(b, tuple) or isinstance(c, tuple)):
+    rolled = any(isinstance(v, Symbol) and v.rolled for v in (a, b, c))
+    if not any(isinstance(v, tuple) and not (rolled and is_set(v)) for v in (a, b, c)):
         return once_rounded(a, b, c) if all(_type_of(v) != "b" for v in (a, b, c)) else operator.add(a * b, c)
     kind = type(c)
     fits = all(not isinstance(v, tuple) or type(v) is kind for v in (a, b))

@@ -1,0 +1,85 @@
+"""Every built-in mission alone, in a block of eight different lanes and step by step: the same to the last bit.
+
+Lanes differ in seed, start, true mass and pushes. Where there are real rotors, one is lost at another time in each
+lane. Two lanes are thrown over, one after the other, and the rest fly on.
+"""
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.flown import flight_of
+from tandemlift.kernels import LANES
+from tandemlift.missions import built_in
+from tandemlift.prepared import Prepared
+from tandemlift.simulate import _jobs
+from tandemlift.stepwise import fly_stepwise
+
+LOST = {5: 60.0, 7: -90.0}  # lanes, and what throws them over [N m]
+IDEAL = 1000.0  # times as much is needed, where thrusts have no limit
+
+
+def lanes(name, **changes):
+    """Eight variations on a mission: short, in the air early, each with its own troubles."""
+    mission = tl.load_mission(name)
+    short = {"mission.duration": 2.5, "mission.log_interval": 0.005, "phases.lift_start": 0.1}
+    made = []
+    for i in range(LANES):
+        own = {**short, **changes, "mission.seed": i, "plant.mass_scale": 1.0 + 0.01 * i}
+        if mission.ground.model != "floor":
+            own["initial.position"] = [0.05 * i, -0.3, 0.01 * i]
+        if mission.partner.model == "none":
+            own["pushes"] = [{"force": [1.0 + 0.2 * j, 0.0, 0.5], "time": 0.5 + j, "sigma": 0.2} for j in range(i % 4)]
+        if mission.actuators.model == "rotors":
+            own["faults"] = [{"quadrotor": 1, "rotor": i % 4 + 1, "time": 0.4 + 0.25 * i if i != 1 else 50.0}]
+        if i in LOST:
+            size = LOST[i] * (1.0 if mission.actuators.model == "rotors" else IDEAL)
+            own["disturbance.moment"] = [size, 0.0, 0.0]
+        made.append(tl.load_mission(name, own))
+    return made
+
+
+def different(a, b):
+    """In what two flights differ, apart from the time they took."""
+    metrics = [{k: v for k, v in f.metrics().items() if k != "wall_s"} for f in (a, b)]
+    found = [key for key in metrics[0].keys() | metrics[1].keys() if metrics[0].get(key) != metrics[1].get(key)]
+    found += [n for n in sorted({*a, *b}) if n not in a or n not in b or a[n].tobytes() != b[n].tobytes()]
+    return (
+        found
+        + ["divergence"] * (str(a.divergence) != str(b.divergence))
+        + ["time"] * (not np.array_equal(a.time, b.time))
+    )
+
+
+def step_by_step(mission):
+    p = Prepared(mission)
+    return flight_of(p, fly_stepwise(p, p.steps // p.every + 1, p.every))
+
+
+def check(missions):
+    """Fly them alone, in a block, and four of them step by step; the flights."""
+    assert [len(places) for places, _ in _jobs(missions)] == [LANES]
+    together = tl.fly_many(missions)
+    for i, mission in enumerate(missions):
+        assert different(together[i], tl.fly(mission)) == []
+        if i in (1, 2, *LOST):
+            assert different(together[i], step_by_step(mission)) == []
+    assert len({f["position"].tobytes() for f in together}) == LANES
+    return together
+
+
+@pytest.mark.parametrize("name", built_in())
+def test_a_built_in_mission_flies_alone_in_a_block_and_step_by_step_with_the_same_bits(name):
+    flights = check(lanes(name))
+    ends = {str(flights[i].divergence) for i in LOST}
+    assert len(ends) == 2
+    assert any(flights[i].divergence for i in LOST)
+    assert flights[1].divergence is None
+
+
+@pytest.mark.parametrize("count", [1, 3, 5])
+def test_any_number_of_quadrotors_flies_so_with_rotors_lost_in_flight(count):
+    one = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(mode="json", exclude_none=True)
+    places = np.linspace(1.0, -1.0, count) if count > 1 else [0.0]
+    quadrotors = [{**one, "position": [0.02 * i, float(y), 0.075]} for i, y in enumerate(places)]
+    check(lanes("rotor-loss", **{"vehicle.quadrotors": quadrotors}))

@@ -1,0 +1,103 @@
+"""Quick and optimised machine code: the same bits, exchanged in flight, and made once."""
+
+import threading
+
+import numpy as np
+import pytest
+from patience import COMPILING
+from test_same_bits import different, lanes
+
+import tandemlift as tl
+from tandemlift import prepared, simulate
+from tandemlift.kernels import LANES, Memory
+from tandemlift.prepared import Prepared
+from tandemlift.trace import code, leaves, store
+
+
+@pytest.fixture
+def empty(tmp_path, monkeypatch):
+    """No code on disk and none in this process; none is optimised unless it is asked for."""
+    monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(prepared, "KERNELS", {})
+    monkeypatch.setattr(code, "PAYS", 1e9)
+
+
+def optimised(mission, count):
+    """The code of a mission's loop, once the optimised one is in its place."""
+    found = Prepared(mission).kernels.loop(count)
+    assert not found.is_best
+    thread = found.optimise()
+    assert found.optimise() is None  # it is being made
+    thread.join(COMPILING)
+    assert found.is_best
+    assert found.optimise() is None
+    return found
+
+
+@pytest.mark.parametrize("name", ["paper", "four", "iris", "rotor-loss", "zigzag"])
+def test_optimised_code_gives_the_bits_of_quick_code(name, empty):
+    missions = lanes(name)
+    quick = [tl.fly(missions[1]), *tl.fly_many(missions)]
+    for count in (1, LANES):
+        optimised(missions[1], count)
+    best = [tl.fly(missions[1]), *tl.fly_many(missions)]
+    for a, b in zip(quick, best, strict=True):
+        assert different(a, b) == []
+
+
+def test_code_is_exchanged_in_the_middle_of_a_flight(empty):
+    mission = lanes("iris")[2]
+    whole = tl.fly(mission)
+    p = Prepared(mission)
+    memory = Memory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    assert memory.fly(700) == 700
+    optimised(mission, 1)
+    assert memory.fly(p.steps + 1) == p.steps
+    assert np.array_equal(memory.log[0][:, 1:], log_of(p))
+    assert whole.divergence is None
+
+
+def log_of(p):
+    """The log of a flight in one go, but for its first column."""
+    memory = Memory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    memory.fly(p.steps + 1)
+    return memory.log[0][:, 1:]
+
+
+def test_a_long_flight_has_its_code_optimised_and_the_next_process_finds_it(empty, monkeypatch):
+    monkeypatch.setattr(code, "PAYS", 0.0)
+    monkeypatch.setattr(simulate, "FIRST_STRETCH", 100)
+    mission = tl.load_mission("one-push", {"mission.duration": 1.0})
+    found = Prepared(mission).kernels.loop(1)
+    tl.fly(mission)
+    for thread in threading.enumerate():
+        if thread.name == "optimising":
+            thread.join(COMPILING)
+    assert found.is_best
+    assert sorted(f.name.split("-")[1] for f in store.folder().iterdir()) == ["best.o", "quick.o"]
+    prepared.KERNELS.clear()
+    assert Prepared(mission).kernels.loop(1).is_best
+
+
+def test_without_optimised_code_the_quick_one_flies_on(empty, monkeypatch):
+    mission = tl.load_mission("one-push", {"mission.duration": 0.5})
+    before = tl.fly(mission)
+    found = Prepared(mission).kernels.loop(1)
+    monkeypatch.setattr(code, "optimised_beside", lambda *given: None)
+    found.optimise().join(COMPILING)
+    assert not found.is_best
+    assert different(tl.fly(mission), before) == []
+    assert len(list(store.folder().iterdir())) == 1
+
+
+def test_eight_threads_that_ask_for_the_same_code_at_once_make_it_once(empty, monkeypatch):
+    made, compiled = [], code.machine.compiled
+    monkeypatch.setattr(code.machine, "compiled", lambda *given: made.append(given) or compiled(*given))
+    mission, flights = tl.load_mission("one-push", {"mission.duration": 0.5}), [None] * 8
+    threads = [threading.Thread(target=lambda i=i: flights.__setitem__(i, tl.fly(mission))) for i in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(COMPILING)
+    assert len(made) == 1
+    assert all(different(flight, flights[0]) == [] for flight in flights)

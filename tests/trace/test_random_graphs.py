@@ -1,0 +1,166 @@
+"""Random graphs of operations in machine code against exact rationals, each operation rounded once, to the last bit."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import operator
+import random
+import struct
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from exact import EXACT
+
+from tandemlift.ops import absolute, maximum, minimum, sqrt, where
+from tandemlift.trace import Function, Graph, Module, Symbol
+from tandemlift.trace.elementary import floor
+from tandemlift.trace.graph import fma
+from tandemlift.trace.machine import BEST, QUICK, Loaded, compiled
+
+LANES, INPUTS, SHARED, OPERATIONS, ROWS = 8, 5, 2, 60, 24
+TRACED: dict[str, Callable[..., Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "fma": fma,
+    "sqrt": sqrt,
+    "floor": floor,
+    "abs": absolute,
+    "negative": operator.neg,
+    "minimum": minimum,
+    "maximum": maximum,
+    "where": where,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+    "==": operator.eq,
+    "!=": operator.ne,
+    "&": operator.and_,
+    "|": operator.or_,
+    "^": operator.xor,
+    "~": lambda a: ~a if isinstance(a, Symbol) else not a,
+}
+NUMBERS = {"+": 2, "-": 2, "*": 2, "/": 2, "fma": 3, "sqrt": 1, "floor": 1, "abs": 1, "negative": 1}
+CHOICES = {"minimum": 2, "maximum": 2}
+COMPARED = ["<", "<=", ">", ">=", "==", "!="]
+TRUTHS = {"&": 2, "|": 2, "^": 2, "~": 1}
+ODD = [0.0, -0.0, 1.0, -1.0, 0.5, math.inf, -math.inf, math.nan, 5e-324, -2.2250738585072014e-308, 1.797e308]
+
+
+class Program:
+    """Random operations, one after the other, of what came before: (operation, places of its arguments).
+
+    Places 0 … INPUTS − 1 are inputs, of which the first SHARED are the same in all lanes, then come two constants.
+    """
+
+    def __init__(self, seed: int) -> None:
+        chance = random.Random(seed)
+        self.constants = [chance.choice([0.5, 3.0, -1.25, 1e-3, 1.0]), chance.uniform(-2.0, 2.0)]
+        numbers, truths, self.steps = (
+            list(range(INPUTS + len(self.constants))),
+            list[int](),
+            list[tuple[str, list[int]]](),
+        )
+        place = len(numbers)
+        for _ in range(OPERATIONS):
+            kind = chance.choice(["number"] * 6 + ["choice", "compared"] + ["where", "truth"] * bool(truths))
+            if kind == "number":
+                name = chance.choice(list(NUMBERS))
+                places = [chance.choice(numbers[-12:] + numbers[:INPUTS]) for _ in range(NUMBERS[name])]
+            elif kind == "truth":
+                name = chance.choice(list(TRUTHS))
+                places = [chance.choice(truths) for _ in range(TRUTHS[name])]
+            else:
+                name = {"choice": chance.choice(list(CHOICES)), "compared": chance.choice(COMPARED)}.get(kind, kind)
+                places = [chance.choice(truths) for _ in range(kind == "where")] + [
+                    chance.choice(numbers) for _ in range(2)
+                ]
+            self.steps.append((name, places))
+            (truths if kind in ("truth", "compared") else numbers).append(place)
+            place += 1
+
+    def run(self, inputs: list[Any], operations: dict[str, Callable[..., Any]]) -> list[Any]:
+        """What all operations give."""
+        values = [*inputs, *self.constants]
+        for name, places in self.steps:
+            values.append(operations[name](*[values[p] for p in places]))
+        return values[INPUTS + len(self.constants) :]
+
+
+def machine_code(program: Program, lanes: int, level: Any) -> Callable[[np.ndarray], np.ndarray]:
+    """Machine code of a program: (blocks, inputs, lanes) to (blocks, operations, lanes)."""
+    graph, module = Graph(), Module()
+    inputs = [graph.input("shared" if i < SHARED else "own", i) for i in range(INPUTS)]
+    found = [where(x, 1.0, 0.0) if x.type == "b" else x for x in map(symbol(graph), program.run(inputs, TRACED))]
+    f = Function(module, graph, lanes, "i64 @rows(ptr %x, ptr %y, i64 %count) #0", ("shared",))
+    with f.repeat("%count") as row:
+        x, y = f.at("%x", f.whole("mul", row, INPUTS)), f.at("%y", f.whole("mul", row, OPERATIONS))
+        f.read = {"shared": lambda i: f.load(x, i * lanes, "double"), "own": lambda i: f.load(x, i)}
+        for m, value in enumerate(f.values(found)):
+            f.store(value, y, m)
+    f.end("i64 0")
+    code = Loaded(compiled(module.text, level), ["rows"])
+    call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)(code.addresses["rows"])
+
+    def rows(table: np.ndarray) -> np.ndarray:
+        given, out = np.ascontiguousarray(table), np.zeros((len(table), OPERATIONS, lanes))
+        call(given.ctypes.data, out.ctypes.data, len(table))
+        assert code
+        return out
+
+    return rows
+
+
+def symbol(graph: Graph) -> Callable[[Any], Symbol]:
+    """A value as a symbol: what depends on constants alone is a number."""
+    return lambda x: (
+        x if isinstance(x, Symbol) else Symbol(graph, graph.constant(x), "b" if isinstance(x, bool) else "f")
+    )
+
+
+def any_number(chance: random.Random) -> float:
+    kind = chance.random()
+    if kind < 0.1:
+        return chance.choice(ODD)
+    if kind < 0.2:
+        return struct.unpack("<d", chance.randbytes(8))[0]
+    return chance.choice([-1.0, 1.0]) * chance.uniform(1.0, 2.0) * 2.0 ** chance.choice([-40, -2, -1, 0, 0, 1, 2, 30])
+
+
+def bits(values: np.ndarray) -> np.ndarray:
+    """Numbers as integers; all that are none alike."""
+    return np.where(np.isnan(values), np.nan, values).view(np.int64)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_a_random_graph_gives_exact_results_rounded_once(seed):
+    chance, program = random.Random(seed), Program(seed)
+    table = np.array(
+        [[[any_number(chance) for _ in range(LANES)] for _ in range(INPUTS)] for _ in range(ROWS // LANES)]
+    )
+    table[:, :SHARED] = table[:, :SHARED, :1]
+    alone = table.swapaxes(1, 2).reshape(ROWS, INPUTS)
+    wanted = np.array([[float(x) for x in program.run(list(map(float, row)), EXACT)] for row in alone])
+    for level in (QUICK, BEST):
+        single = machine_code(program, 1, level)(alone[:, :, None])[:, :, 0]
+        block = machine_code(program, LANES, level)(table).swapaxes(1, 2).reshape(ROWS, OPERATIONS)
+        assert np.array_equal(bits(single), bits(wanted))
+        assert np.array_equal(bits(block), bits(wanted))
+
+
+def test_random_graphs_have_everything_in_them():
+    """Also results that are zero, subnormal, infinite and no number at all."""
+    programs = [Program(seed) for seed in range(30)]
+    assert {name for p in programs for name, _ in p.steps} == set(EXACT) == set(TRACED)
+    chance = random.Random(1)
+    rows = [p.run([any_number(chance) for _ in range(INPUTS)], EXACT) for p in programs for _ in range(8)]
+    numbers = np.array([x for row in rows for x in row if not isinstance(x, bool)])
+    tiny = np.abs(numbers) < np.finfo(float).tiny
+    assert min(np.sum(numbers == 0.0), np.sum(np.isnan(numbers)), np.sum(np.isinf(numbers))) > 100
+    assert np.sum(tiny & (numbers != 0.0)) > 10
+    assert np.mean(np.isfinite(numbers)) > 0.4
