@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.delays import Ends
 from tandemlift.engines.compiled import Moved, Plant, advance
 from tandemlift.law import law
 from tandemlift.laws.body import State
@@ -101,50 +100,6 @@ class Acting(NamedTuple):
     thrusts: Any
     rotors: Any
     weather: Any
-
-
-@law
-def delayed(m: Moving, line: Ends) -> Moving:
-    """What moves, with what has come out of the delay lines."""
-    return Moving(
-        m.state,
-        m.memory,
-        m.wind,
-        m.grip,
-        m.near,
-        m.sensing,
-        m.estimator,
-        line.rotors,
-        line.readings,
-        line.partner,
-        m.tally,
-        m.lost,
-    )
-
-
-@law
-def located(m: Moving, near: Any, partner: Any) -> Moving:
-    """What moves, with the walls that are now nearest to it, and the leg of the path that a person is on."""
-    return Moving(
-        m.state,
-        m.memory,
-        m.wind,
-        m.grip,
-        near,
-        m.sensing,
-        m.estimator,
-        m.rotors,
-        m.readings,
-        partner,
-        m.tally,
-        m.lost,
-    )
-
-
-@law
-def continued(f: Flying, moving: Moving) -> Flying:
-    """A flight with what has changed."""
-    return Flying(moving, f.pilot, f.plant, f.rotors, f.weather, f.sensors, f.estimator, f.reads, f.partner, f.delays)
 
 
 @law

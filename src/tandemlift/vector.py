@@ -43,7 +43,7 @@ def componentwise(cls: C) -> C:
 def _by_fields(operation: Callable[[Any, Any], Any], a: Any, b: Any) -> Any:
     if type(a) is type(b):
         return type(a)(*map(operation, a, b))
-    if getattr(b, "rolled", 0):  # a set that is one symbol knows what to do with a set of numbers
+    if is_rolled(b):  # a set that is one symbol knows what to do with a set of numbers
         return NotImplemented
     raise TypeError(f"cannot combine {type(a).__name__} with {type(b).__name__}")
 
@@ -60,14 +60,14 @@ def minus(a: V, b: V) -> V:
 
 def times(a: V, k: Any) -> V:
     """a scaled by a number, or, for vectors of one kind, the product component by component."""
-    if isinstance(k, tuple) or (is_set(a) and getattr(k, "rolled", 0)):
+    if isinstance(k, tuple) or (is_set(a) and is_rolled(k)):
         return _by_fields(operator.mul, a, k)
     return type(a)(*[x * k for x in a])
 
 
 def over(a: V, k: Any) -> V:
     """a divided by a number, or component by component."""
-    if isinstance(k, tuple) or (is_set(a) and getattr(k, "rolled", 0)):
+    if isinstance(k, tuple) or (is_set(a) and is_rolled(k)):
         return _by_fields(operator.truediv, a, k)
     return type(a)(*[x / k for x in a])
 
@@ -198,7 +198,12 @@ def each(count: int) -> Any:
 
 def set_of(values: Any) -> Any:
     """A set of values; a set that is one symbol is one already."""
-    return values if getattr(values, "rolled", 0) else each(len(values))(*values)
+    return values if is_rolled(values) else each(len(values))(*values)
+
+
+def is_rolled(value: Any) -> bool:
+    """Whether a value is a set that is one symbol (`trace.graph`)."""
+    return bool(getattr(value, "rolled", 0))
 
 
 def is_set(value: Any) -> bool:

@@ -16,7 +16,7 @@ from tandemlift.assembly.company import legs_of, start_partner
 from tandemlift.engines.compiled import start_state
 from tandemlift.laws.body import State
 from tandemlift.laws.lowpass import Smoothed
-from tandemlift.laws.partner import Leg, Partnering, asks_to_land, lend, on_leg, sight
+from tandemlift.laws.partner import Leg, Partnering, asks_to_land, lend, sight
 from tandemlift.laws.push import Hand, PointPush, moment_of
 from tandemlift.laws.tremor import STILL, Twitch, shake, tremor
 from tandemlift.vector import ZERO, Quat, Vec3, mat3, vec3
@@ -138,7 +138,7 @@ def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
         t = k * DT
         place = vec3([min(t, 1.0), np.clip(t - 1.0, 0.0, 2.0), z]) if t < 5.0 else Vec3(3.0, 2.0, z)
         if k % 16 == 0:
-            memory = on_leg(memory, legs[int(memory.index)])
+            memory = memory._replace(leg=legs[int(memory.index)])
         memory = lend(partner, memory, NO_PUSH, at(place), CALM, t, DT).memory
         since.setdefault(memory.index, t)
     assert list(since) == [0.0, 1.0, 2.0]

@@ -6,6 +6,8 @@ next waits in memory. What does not change within a flight is computed before it
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from tandemlift.kernels.context import AT, POINTERS, Rooms
 from tandemlift.kernels.outside import GAUSSIAN, GUST, HALVES, SPAN
 from tandemlift.kernels.places import place, stretches_of
@@ -154,8 +156,8 @@ class Step:
             f.store(f.op(f"uitofp i1 {low} to double"), "%work", self.low * self.lanes, "double")
         if x.walled:
             at = place(x.flying, "moving", "near").at
-            for i, number in enumerate(flat(x.nowhere)):
-                f.store(f.spread(double(number)), "%flying", at + i)
+            for m, number in enumerate(flat(x.nowhere)):
+                f.store(f.spread(double(number)), "%flying", at + m)
             walls, count = self.word(f, "walls"), self.word(f, "wall_count")
             with f.repeat(count) as i:
                 row = f.at(walls, f.whole("mul", i, leaves(WALL)))
@@ -436,7 +438,10 @@ class Step:
     def find(self, f: Function, waiting: dict[int, int]) -> None:
         """Let a function find nodes where they wait."""
         for node, at in waiting.items():
-            f.kept[node] = lambda at=at: Place("%work", at)
+            f.kept[node] = self._waiting(at)
+
+    def _waiting(self, at: int) -> Callable[[], Place]:
+        return lambda: Place("%work", at)
 
     def steady(self, roots: Symbols) -> list[int]:
         """The nodes that steps need and that depend on what does not change within a flight."""

@@ -282,15 +282,3 @@ def _asks(memory):
 @operator_of.register(Partnering)
 def _asks_nothing_else(company):
     return NOBODY
-
-
-@law
-def seeing(m: Partnering, seen: Any) -> Partnering:
-    """A person's memory with what they see."""
-    return Partnering(seen, m.index, m.leg, m.place, m.couple, m.grasp, m.trim, m.waited, m.begun, m.landing, m.tremor)
-
-
-@law
-def on_leg(m: Partnering, leg: Leg) -> Partnering:
-    """A person's memory with the leg that they are on."""
-    return Partnering(m.seen, m.index, leg, m.place, m.couple, m.grasp, m.trim, m.waited, m.begun, m.landing, m.tremor)

@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.constants import GRAVITY
 from tandemlift.law import choice, elementwise, law
 from tandemlift.laws.body import State
 from tandemlift.laws.contact import Array, mobility, shortening, spring_damper, steady
@@ -237,13 +236,6 @@ def consider(w: Walls, wall: Wall, near: Near, frame: Frame, s: State) -> Near:
         runner_up(wall, near.first, near.second, p, p, p),
         consider_beam(w.beam, wall, near.beam, frame, s),
     )
-
-
-@law
-def may_reach(w: Walls, wall: Wall, s: State, time: Any) -> Any:
-    """Whether any part may come to touch a wall within `time` [s] of state `s`, however the vehicle turns."""
-    o, speed = offset(wall, s.position), sqrt(dot(s.velocity, s.velocity)) + 2.0 * GRAVITY * time
-    return sqrt(dot(o, o)) < w.reach + speed * time
 
 
 def nowhere(w: Walls) -> Near:

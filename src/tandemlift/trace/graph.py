@@ -393,9 +393,8 @@ def once_rounded(a: Any, b: Any, c: Any) -> Any:
     """a b + c of numbers or symbols, rounded once."""
     if any(isinstance(v, Symbol) for v in (a, b, c)):
         graph = _graph_of(a, b, c)
-        if not isinstance(a, Symbol) and not isinstance(b, Symbol):
-            exact = not isinstance(a, tuple) and not isinstance(b, tuple) and _is_exact(a, b)
-            return _made(graph, "fadd", a * b, c) if exact else _made(graph, "fma", a, b, c)
+        if not any(isinstance(v, (Symbol, tuple)) for v in (a, b)) and _is_exact(a, b):
+            return _made(graph, "fadd", a * b, c)
         return _made(graph, "fma", a, b, c)
     if all(isinstance(v, int) for v in (a, b, c)):
         return a * b + c

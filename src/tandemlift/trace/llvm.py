@@ -40,11 +40,11 @@ class Module:
 
 
 class Part(NamedTuple):
-    """A number that is written to memory as number `first`, or a set of `count` from there on."""
+    """A number that is written to memory as number `first`, or a set of `size` from there on."""
 
     first: int
     node: int
-    count: int
+    size: int
 
 
 class Function:
@@ -305,14 +305,14 @@ class Function:
             self._values[node] = self._had(self.kept[node]())
         elif op.startswith("get "):
             at = self.place(args[0])
-            self._values[node] = self.load(at.base, self.whole("add", at.index, int(op[4:]) * at.stride))
+            self._values[node] = self.load(at.base, self.whole("add", at.first, int(op[4:]) * at.stride))
         else:
             uniform = self.is_uniform(node)
             operands = [self._operand(a, not uniform) for a in args]
             self._values[node] = self.op(self._instruction(node, lambda t: self._kind(t, uniform), operands))
 
     def _had(self, given: str | Place) -> str:
-        return self.load(given.base, given.index) if isinstance(given, Place) else given
+        return self.load(given.base, given.first) if isinstance(given, Place) else given
 
     # sets of many numbers
 
@@ -371,12 +371,12 @@ class Function:
         elif op.startswith("take "):
             first, step = map(int, op.split()[1:])
             source = self.place(args[0])
-            at = self.whole("add", source.index, first * source.stride)
+            at = self.whole("add", source.first, first * source.stride)
             self._places[node] = Place(source.base, at, source.stride * step)
         elif op == "pack":
             self._places[node] = to = self.room(count)
             for i, argument in enumerate(args):
-                self.store(self.operand(argument), to.base, self.whole("add", to.index, i))
+                self.store(self.operand(argument), to.base, self.whole("add", to.first, i))
         else:
             return False
         return True
@@ -385,7 +385,7 @@ class Function:
         to = self.room(len(values))
         for i, value in enumerate(values):
             text = constant(value)
-            self.store(text if self.lanes == 1 else f"splat (double {text})", to.base, self.whole("add", to.index, i))
+            self.store(text if self.lanes == 1 else f"splat (double {text})", to.base, self.whole("add", to.first, i))
         return to
 
     def put(self, base: str, at: str | int, symbols: Sequence[Symbol], kind: str = "") -> None:
@@ -394,14 +394,14 @@ class Function:
         Everything is computed before anything is written. What is an input of `kind` is where it belongs already.
         """
         parts = [part for part in self._parts(symbols) if not self._stays(part, kind)]
-        values = self.values(Symbol(self.graph, part.node, "f") for part in parts if not part.count)
-        sources = [part.node for part in parts if part.count]
+        values = self.values(Symbol(self.graph, part.node, "f") for part in parts if not part.size)
+        sources = [part.node for part in parts if part.size]
         self._write(sources)
         moved = {node: self._aside(node, base) for node in sources}
         numbers = iter(values)
         for part in parts:
             place = self.whole("add", at, part.first)
-            if part.count:
+            if part.size:
                 self._copy(moved[part.node], self.graph.counts[part.node], Place(base, place))
             else:
                 self.store(next(numbers), base, place)

@@ -21,7 +21,7 @@ class Place(NamedTuple):
     """Values in memory: where the first stands, counted in numbers of all lanes, and how far on each next one."""
 
     base: str
-    index: str | int
+    first: str | int
     stride: int = 1
 
 
@@ -85,14 +85,14 @@ class Loop:
             return f.op(f"load {self.kind('f')}, ptr {self.address(at)}, align 8")
         value = "poison"
         for j in range(self.width):
-            one = f.load(at.base, f.whole("add", at.index, f.whole("mul", f.whole("add", self.i, j), at.stride)))
+            one = f.load(at.base, f.whole("add", at.first, f.whole("mul", f.whole("add", self.i, j), at.stride)))
             value = f.op(f"insertelement {self.kind('f')} {value}, double {one}, i64 {j}")
         return value
 
     def address(self, at: Place) -> str:
         """Where the first value of this turn stands."""
         f = self.f
-        return f.at(at.base, f.whole("add", at.index, f.whole("mul", self.i, at.stride)))
+        return f.at(at.base, f.whole("add", at.first, f.whole("mul", self.i, at.stride)))
 
     def truth(self, node: int, value: str) -> str:
         """A truth that waits as 1 or 0."""
