@@ -139,7 +139,7 @@ def process(
             said = output(p, until, more)
             wall = time.perf_counter() - began
         finally:
-            p.terminate()
+            os.kill(p.pid, signal.SIGTERM)  # also where it has ended: `wait4` alone may take its end away
             _, status, used = os.wait4(p.pid, 0)
             watch.cancel()
             p.returncode = os.waitstatus_to_exitcode(status)
