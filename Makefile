@@ -1,6 +1,8 @@
 # Every target sets up what it needs, in .venv; only test-gazebo needs root.
 PYTHON ?= python3
 BIN := .venv/bin
+# pip shows its progress on a terminal; elsewhere a line before each step is enough
+PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
 .PHONY: run live page test lint types imports tests test-gazebo bench validate bench-peers lock clean help
@@ -22,7 +24,8 @@ page: web/node_modules/.package-lock.json  ## build the live page from web/, che
 	npm --prefix web run --silent build
 
 web/node_modules/.package-lock.json: web/package-lock.json
-	npm --prefix web ci --silent
+	@echo 'Installing what the page is built with (once): some 10 s …'
+	@npm --prefix web ci --silent
 	touch $@
 
 lint: .venv/dev  ## format and lint
@@ -53,21 +56,26 @@ bench-peers: .venv-peers/ready  ## speed beside other simulators, printed
 	.venv-peers/bin/python benchmarks/peers.py
 
 .venv-peers/ready: benchmarks/requirements-peers.txt pyproject.toml
-	$(PYTHON) -m venv .venv-peers
-	.venv-peers/bin/pip install --quiet --disable-pip-version-check -r benchmarks/requirements-peers.txt
+	@echo 'Installing other simulators into .venv-peers (once); this may take minutes …'
+	@$(PYTHON) -m venv .venv-peers
+	@.venv-peers/bin/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet) -r benchmarks/requirements-peers.txt
 	.venv-peers/bin/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
 	touch $@
 
 .venv/run: lock/run.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; v = sys.version_info[:2]; sys.exit(0 if (3, 11) <= v <= (3, 13) else f"tandemlift needs Python 3.11 to 3.13; $(PYTHON) is {v[0]}.{v[1]} (try: make PYTHON=python3.12)")'
-	$(PYTHON) -m venv .venv
-	$(BIN)/pip install --quiet --disable-pip-version-check -r lock/run.txt
-	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
-	touch $@
+	@echo 'Making a Python environment in .venv: a few seconds …'
+	@$(PYTHON) -m venv .venv
+	@echo 'Installing what lock/run.txt names (once): 100 MB to fetch, then some 10 s …'
+	@$(PIP) -r lock/run.txt
+	@echo 'Installing tandemlift: a second …'
+	@$(PIP) --no-deps --no-build-isolation -e .
+	@touch $@
 
 .venv/dev: .venv/run lock/dev.txt
-	$(BIN)/pip install --quiet --disable-pip-version-check -r lock/dev.txt
-	touch $@
+	@echo 'Installing what tests and linters need (once): 450 MB to fetch, then some 30 s …'
+	@$(PIP) -r lock/dev.txt
+	@touch $@
 
 lock:            ## pin the newest versions of everything
 	tools/lock

@@ -17,11 +17,12 @@ def always() -> bool:
 
 
 class Compiled(NamedTuple):
-    """A loop that was compiled, or could not be: how long it took [s], whether it is on disk for the next process."""
+    """What was compiled, or could not be: how long it took [s], whether it is on disk for the next process."""
 
-    seconds: float
-    is_kept: bool
-    is_made: bool = True
+    what: str
+    seconds: float = 0.0
+    is_kept: bool = True
+    is_made: bool = False
 
 
 Watcher = Callable[[Compiled | None], None]

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import patient_server
 import pytest
+import slow_compiler
 from patience import PATIENCE, ended, joined, said, until
 from PIL import Image
 from scipy.spatial.transform import Rotation
@@ -52,9 +53,9 @@ MS = 1e3 * PATIENCE
 class Live:
     """`tandemlift live`, as a person starts it but for its patience, and what it shows to one who only watches."""
 
-    def __init__(self, out):
+    def __init__(self, out, program=patient_server.__file__):
         settings = [f"--set={key}={value}" for key, value in SETTINGS.items()]
-        command = [sys.executable, patient_server.__file__, "live", "hover", "--no-browser", "--port=0", f"--out={out}"]
+        command = [sys.executable, program, "live", "hover", "--no-browser", "--port=0", f"--out={out}"]
         environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
         self.process = subprocess.Popen([*command, *settings], stdout=subprocess.PIPE, text=True, env=environment)
         try:
@@ -495,3 +496,24 @@ def test_a_replay_opens_from_disk_with_the_network_off(browser, tmp_path):
     until(lambda: abs(float(page.locator("output b").text_content()) - 10.0) < 1.0, "the time of the slider")
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
     context.close()
+
+
+def test_while_it_is_compiled_the_page_shows_the_vehicle_and_what_is_waited_for(browser, tmp_path, monkeypatch):
+    goes_on = tmp_path / "goes on"
+    monkeypatch.setenv("COMPILES_UNTIL", str(goes_on))
+    monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
+    one = Live(tmp_path, slow_compiler.__file__)
+    try:
+        page = opened(browser, one.address)
+        until(lambda: page.text_content("#mode") == "being prepared", "its mode")
+        assert page.text_content("#hint") == "Preparing the flight: compiling the flight loop \u2026"
+        assert page.is_visible("#hint")
+        middle_of_the_beam(page)
+        assert not page.locator("#meters .speed .late").count()
+        goes_on.touch()
+        until(lambda: page.text_content("#mode") not in ("being prepared", "connecting"), "a flight")
+        until(lambda: "Preparing" not in page.text_content("#hint"), "an end of the hint")
+        assert page.wrong == []
+        page.context.close()
+    finally:
+        one.close()

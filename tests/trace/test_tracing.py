@@ -17,8 +17,8 @@ from tandemlift.ops import clip, maximum, minimum, where
 from tandemlift.trace import Graph, Symbol, elementary, symbols, traced
 from tandemlift.trace.functions import compiled, written
 from tandemlift.trace.fused import fused
-from tandemlift.trace.graph import once_rounded
 from tandemlift.trace.machine import BEST, QUICK
+from tandemlift.trace.symbol import once_rounded
 from tandemlift.vector import Vec3, dot
 
 FUSED = "llvm.fma"

@@ -22,7 +22,7 @@ class Teller:
     def __init__(self) -> None:
         self._lock, self._together = threading.RLock(), 0
         self._running, self._began = 0, 0.0
-        self._made, self._seconds, self._is_kept = 0, 0.0, True
+        self._made, self._seconds, self._is_kept = list[str](), 0.0, True
         self._timer: threading.Timer | None = None
 
     def __call__(self, what: Compiled | None) -> None:
@@ -36,13 +36,13 @@ class Teller:
     def _begin(self) -> None:
         if not self._running:
             self._began = time.perf_counter()
-            self._timer = threading.Timer(PATIENCE, _say, ["Compiling the flight loop for this machine …"])
+            self._timer = threading.Timer(PATIENCE, _say, ["Compiling for this machine …"])
             self._timer.daemon = True
             self._timer.start()
         self._running += 1
 
     def _end(self, what: Compiled) -> None:
-        self._running, self._made = self._running - 1, self._made + what.is_made
+        self._running, self._made = self._running - 1, self._made + [what.what] * what.is_made
         self._is_kept = self._is_kept and what.is_kept
         if not self._running:
             self._seconds += time.perf_counter() - self._began
@@ -56,9 +56,10 @@ class Teller:
         if self._running:
             return
         made, seconds, is_kept = self._made, self._seconds, self._is_kept
-        self._made, self._seconds, self._is_kept = 0, 0.0, True
+        self._made, self._seconds, self._is_kept = [], 0.0, True
         if made and seconds >= LEAST:
-            loops, they = ("the flight loop", "it is") if made == 1 else (f"{made} flight loops", "they are")
+            kind = made[0] if len(set(made)) == 1 else "loop"
+            loops, they = (f"the {kind}", "it is") if len(made) == 1 else (f"{len(made)} {kind}s", "they are")
             kept = f"{they} kept for next time" if is_kept else "the cache cannot be written (TANDEMLIFT_CACHE)"
             _say(f"Compiled {loops} in {seconds:.1f} s; {kept}.")
 

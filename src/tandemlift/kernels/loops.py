@@ -64,7 +64,7 @@ class Step:
         head = f"internal {result} @{name}({MEMORY}{more}) #1"
         f = Function(self.module, self.graph, lanes or self.lanes, head, UNIFORM)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
-        f.room = self.room
+        f.sets.room = self.room
         f.read = {"fly": lambda i: Place("%flying", i), "dt": lambda i: "%dt"}
         return f
 

@@ -42,7 +42,7 @@ class Pixels:
         f = Function(module, graph, LANES, f"i64 @{self.name}(ptr noalias %c) #0", self.uniform)
         self.write(graph, f, {word: f.load("%c", i, "i64") for i, word in enumerate(self.words)})
         f.end("i64 0")
-        return Written(module.text, {})
+        return Written(module.text, {"what": "drawing loop"})
 
     def __call__(self, *given: Any) -> None:
         """Run it: arrays, whose memory is in order, and whole numbers."""

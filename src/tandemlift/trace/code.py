@@ -18,6 +18,7 @@ from tandemlift.trace import machine, store
 from tandemlift.trace.optimising import optimised_beside
 
 PAYS = 2.0  # times what unoptimised code took to make: a third or so of what optimised code takes
+LOOP = "flight loop"  # what is compiled, unless the module says otherwise
 LOOK = 0.1  # s between looks at whether somebody interrupts
 ONE_AT_A_TIME = threading.Lock()  # as LLVM does anyway; who waits may still stop
 HELD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # keeps Python's lock: for calls of microseconds
@@ -97,13 +98,14 @@ class Code:
     def _quick(self, going: Callable[[], bool]) -> store.Entry:
         began = time.perf_counter()
         compiling(None)
-        came = Compiled(0.0, is_kept=False, is_made=False)
+        came = Compiled(LOOP)
         try:
             written = self._text()
             code = _interruptible(lambda: _compiled(written.text, going))
             seconds = time.perf_counter() - began
             entry = store.Entry({**written.about, "seconds": seconds}, code)
-            came = Compiled(seconds, store.write(f"{self._key}-quick", entry))
+            kept = store.write(f"{self._key}-quick", entry)
+            came = Compiled(entry.about.get("what", LOOP), seconds, kept, is_made=True)
         finally:
             compiling(came)
         return entry

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.law import LAWS
-from tandemlift.trace.graph import is_ours
 from tandemlift.trace.layout import is_value
+from tandemlift.trace.refusal import is_ours
 
 PACKAGE = Path(__file__).resolve().parent.parent
 FOLDERS = ("laws", "trace", "engines", "kernels", "pilot")
