@@ -93,6 +93,7 @@ def topics() -> dict[str, str]:
     from tandemlift.vehicle import Vehicle
 
     session, feed = Session(load_mission("zigzag")), Feed(1, lambda step: 0)
+    session.prepare()
     feed.note(session.flight)
     taken = feed.take(0.0)
     assert taken

@@ -65,7 +65,9 @@ class Stepper:
         leaves_body = self.body is not None
         self.by_parts = leaves_body or self.interpreted is not None
         self.code = p.kernels.parts(leaves_body=leaves_body) if self.by_parts else p.kernels.loop(1)
-        start = p.start() if before is None else p.start()._replace(ring=before.ring.reshape(p.start().ring.shape))
+        start = p.start()
+        if before is not None:
+            start = start._replace(ring=before.ring.reshape(start.ring.shape))
         self.memory = Memory(self.code, [start], p.grid(1, 1), leaves(p.sample))
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
         self.at_lost, self.hand = place(p.flying, "moving", "lost").at, hand_place(p)

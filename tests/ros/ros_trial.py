@@ -84,6 +84,7 @@ class Trial:
 
     def __init__(self, mission, folder, middleware=None):
         self.session, self.middleware = Session(mission, out=folder), middleware or Middleware()
+        self.session.prepare()
         self.session.start = lambda: None
         self.front = Front(self.session, self.middleware)
         self.front.start()

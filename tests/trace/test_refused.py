@@ -148,7 +148,7 @@ def ours():
     count = len(LAWS)
 
     def define(source):
-        scope = {"law": law, "Vec3": Vec3}
+        scope = {"__name__": "imagined", "law": law, "Vec3": Vec3}
         exec(compile(source, str(Path(tl.__file__).parent / "laws" / "imagined.py"), "exec"), scope)
         return scope
 

@@ -149,7 +149,7 @@ def test_dot_is_fused_from_the_second_product_on():
 
 def unread(source, name="f"):
     """A function whose source nobody can read."""
-    scope = {}
+    scope = {"__name__": "nowhere"}
     exec(compile(source, "<nowhere>", "exec"), scope)
     return scope[name]
 

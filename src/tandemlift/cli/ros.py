@@ -76,6 +76,7 @@ def ros(
     try:
         session = session_of(loaded, engine)
         session.prepare()
+        session.flight.optimise()
         end = _fly(session, middleware, rate, f"{mission} in ROS {version}", rviz=rviz)
     finally:
         middleware.shutdown()
