@@ -6,6 +6,7 @@ import shutil
 import hypothesis
 import pytest
 
+os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # hundreds of variants fly once each: what is tested is asked for
 SLOW = hypothesis.HealthCheck.too_slow
 hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)
 hypothesis.settings.load_profile("tandemlift")

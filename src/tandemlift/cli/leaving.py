@@ -14,9 +14,6 @@ AGAIN = 0.02  # s, until an interrupt that Python has swallowed comes again
 
 def leave(status: int) -> None:
     """End the process. A thread that compiles cannot be interrupted, and would be waited for."""
-    optimising = sys.modules.get("tandemlift.trace.optimising")
-    if optimising:
-        optimising.end()
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(OSError, ValueError):
             stream.flush()

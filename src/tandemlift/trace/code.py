@@ -1,14 +1,17 @@
 """Machine code in two tiers: unoptimised code is there in a moment, optimised code takes its place with the same bits.
 
 What was compiled before comes from disk. Optimised code is made beside, in a process of its own, once flights have
-spent so long in the other that it pays.
+spent so long in the other that it pays, or once a second process flies the same. TANDEMLIFT_OPTIMISE=0 leaves it out
+unless it is asked for.
 """
 
 from __future__ import annotations
 
 import ctypes
+import os
 import threading
 import time
+import zlib
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, wait
 from typing import Any, NamedTuple
@@ -86,7 +89,9 @@ class Code:
         self.held, self.free = dict[str, Any](), dict[str, Any]()
         found = store.read(f"{key}-best")
         self.is_best = found is not None
-        entry = found or store.read(f"{key}-quick") or self._quick(going)
+        entry = found or store.read(f"{key}-quick")
+        self._is_known = entry is not None
+        entry = entry or self._quick(going)
         self.about = entry.about
         self._take(entry.code)
 
@@ -105,6 +110,7 @@ class Code:
             seconds = time.perf_counter() - began
             entry = store.Entry({**written.about, "seconds": seconds}, code)
             kept = store.write(f"{self._key}-quick", entry)
+            store.write(f"{self._key}-text", store.Entry({}, zlib.compress(written.text.encode(), 1)))
             came = Compiled(entry.about.get("what", LOOP), seconds, kept, is_made=True)
         finally:
             compiling(came)
@@ -122,11 +128,11 @@ class Code:
 
     def spent(self, seconds: float) -> None:
         """Tell of time spent in this code: optimised code is made once it pays."""
-        if self.is_best:
+        if self.is_best or os.environ.get("TANDEMLIFT_OPTIMISE") == "0":
             return
         with self._lock:
             self._spent += seconds
-        if self._spent > PAYS * self.about["seconds"]:
+        if self._is_known or self._spent > PAYS * self.about["seconds"]:
             self.optimise()
 
     def optimise(self, *, trace_first: bool = False) -> threading.Thread | None:
@@ -135,7 +141,7 @@ class Code:
         Args:
             trace_first: whether the module is traced before this returns, if it was not yet; else beside as well.
         """
-        if trace_first and not self.is_best:
+        if trace_first and not self.is_best and not store.read(f"{self._key}-text"):
             self._text()
         with self._lock:
             if self.is_best or self._making:
@@ -147,12 +153,15 @@ class Code:
 
     def _improve(self) -> None:
         found = store.read(f"{self._key}-best")
-        code = found.code if found else optimised_beside(self._text().text, self._best)
+        code = found.code if found else optimised_beside(self._text_on_disk(), self._best, self._key)
         if code is None:
             return  # what there is flies on
         before = self._loaded  # a call may still be in it
         self._take(code)
         self._kept, self.is_best = before, True
         self._written = None
-        if found is None:
-            store.write(f"{self._key}-best", store.Entry(self.about, code))
+
+    def _text_on_disk(self) -> str:
+        """The module as text; from disk rather than traced once more."""
+        found = None if self._written else store.read(f"{self._key}-text")
+        return zlib.decompress(found.code).decode() if found else self._text().text

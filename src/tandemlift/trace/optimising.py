@@ -1,24 +1,27 @@
 """Optimised machine code, made in a process of its own: LLVM works on one module at a time in a process.
 
-`python -m tandemlift.trace.optimising LEVEL` reads a module as text, and writes its object code.
+`python -m tandemlift.trace.optimising LEVEL KEY` reads a module as text, keeps its object code on disk and writes it. Such
+a process ends by itself, a few seconds after the one that began it at the latest.
 """
 
 from __future__ import annotations
 
 import atexit
+import contextlib
 import os
 import subprocess
 import sys
 
+from tandemlift.trace import store
 from tandemlift.trace.machine import Level, compiled
 
 COURTESY = 10  # of the process: it leaves the processor to those that fly
 RUNNING: set[subprocess.Popen[bytes]] = set()
 
 
-def optimised_beside(text: str, level: Level) -> bytes | None:
-    """The object code of a module, optimised so far; None if it cannot be made."""
-    command = [sys.executable, "-m", "tandemlift.trace.optimising", *[str(int(part)) for part in level]]
+def optimised_beside(text: str, level: Level, key: str) -> bytes | None:
+    """The object code of a module, optimised so far, which is kept under a key; None if it cannot be made."""
+    command = [sys.executable, "-m", "tandemlift.trace.optimising", *[str(int(part)) for part in level], key]
     pipe = subprocess.PIPE
     try:
         process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, start_new_session=True)
@@ -31,19 +34,23 @@ def optimised_beside(text: str, level: Level) -> bytes | None:
 
 
 @atexit.register
-def end() -> None:
-    """Let no process outlive this one."""
+def leave() -> None:
+    """Let what is being made be finished for the next process, and wait for nothing."""
     for process in list(RUNNING):
-        process.kill()
-        process.wait()
+        process.returncode = 0
 
 
-def main(passes: str, code: str, vectors: str) -> None:
-    """Read a module from standard input, write object code to standard output."""
+def main(passes: str, code: str, vectors: str, key: str) -> None:
+    """Read a module from standard input; keep its object code, and write it to standard output."""
     if hasattr(os, "nice"):
         os.nice(COURTESY)
-    level = Level(int(passes), int(code), bool(int(vectors)))
-    sys.stdout.buffer.write(compiled(sys.stdin.buffer.read().decode(), level))
+    made = compiled(sys.stdin.buffer.read().decode(), Level(int(passes), int(code), bool(int(vectors))))
+    if quick := store.read(f"{key}-quick"):
+        store.write(f"{key}-best", store.Entry(quick.about, made))
+        store.remove(f"{key}-text")
+    with contextlib.suppress(BrokenPipeError):
+        sys.stdout.buffer.write(made)
+        sys.stdout.buffer.flush()
 
 
 if __name__ == "__main__":

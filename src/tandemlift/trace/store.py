@@ -107,6 +107,14 @@ def write(key: str, entry: Entry) -> bool:
     return True
 
 
+def remove(key: str) -> None:
+    """Remove an entry that is needed no more."""
+    path = path_of(key)
+    if path is not None:
+        with contextlib.suppress(OSError):
+            path.unlink()
+
+
 def _bound(home: Path) -> None:
     """Remove what was not used for longest, beyond `MOST_BYTES`."""
     with contextlib.suppress(OSError):
