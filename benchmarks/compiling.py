@@ -23,6 +23,7 @@ import json
 import math
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -122,28 +123,45 @@ class Job(NamedTuple):
     alone: bool = False
 
 
-def process(command: list[str], environment: dict[str, str], until: str = "") -> tuple[Spent, str]:
-    """What a process spends until its end, or until it prints a pattern, and its output; it is ended then."""
+def process(
+    command: list[str], environment: dict[str, str], until: str = "", more: Callable[[str], None] | None = None
+) -> tuple[Spent, str]:
+    """What a process spends until its end, and its output.
+
+    With a pattern, until it prints that, and until `more`, asked with it, returns; then it is ended.
+    """
     began = time.perf_counter()
     with tempfile.TemporaryFile("w+") as errors:
         p = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=errors, text=True)
         watch = threading.Timer(PATIENCE, p.kill)
         watch.start()
-        assert p.stdout
-        said, found = "", False
-        while not found and (line := p.stdout.readline()):
-            said, found = said + line, bool(until and re.search(until, line))
-        wall = time.perf_counter() - began
-        if found:
-            p.terminate()
-        _, status, used = os.wait4(p.pid, 0)
-        watch.cancel()
-        p.returncode = os.waitstatus_to_exitcode(status)
+        try:
+            said = output(p, until, more)
+            wall = time.perf_counter() - began
+        finally:
+            os.kill(p.pid, signal.SIGTERM)  # also where it has ended: `wait4` alone may take its end away
+            _, status, used = os.wait4(p.pid, 0)
+            watch.cancel()
+            p.returncode = os.waitstatus_to_exitcode(status)
         errors.seek(0)
-        if not found and (until or p.returncode):
+        if p.returncode and p.returncode != -signal.SIGTERM:
             raise Failed((errors.read().strip().splitlines() or [f"status {p.returncode}"])[-1])
-    wall = wall if found else time.perf_counter() - began
     return Spent(wall, used.ru_utime + used.ru_stime), said
+
+
+def output(p: subprocess.Popen[str], until: str, more: Callable[[str], None] | None) -> str:
+    """What a process prints until its end, or until a pattern and what `more` waits for."""
+    assert p.stdout
+    said = ""
+    for line in iter(p.stdout.readline, ""):
+        said += line
+        if until and (match := re.search(until, line)):
+            if more:
+                more(match[0])
+            return said
+    if not until:
+        os.waitid(os.P_PID, p.pid, os.WEXITED | os.WNOWAIT)  # it may print no more and still work
+    return said
 
 
 def script(code: str, mission: str, changes: dict[str, Any] | None = None) -> Callable[..., Spent]:
@@ -161,13 +179,30 @@ def again(mission: str) -> Callable[..., Spent]:
     return measure
 
 
-def command(*words: str, until: str = "") -> Callable[..., Spent]:
+def flown(address: str) -> None:
+    """Wait until the flight of a live page has begun."""
+    from websockets.sync.client import connect
+
+    from tandemlift.live.frames import read_frames
+
+    fields: tuple[tuple[str, int], ...] = ()
+    with connect(address.replace("http", "ws") + "ws", origin=address.rstrip("/"), ping_timeout=None) as socket:
+        while True:
+            told = socket.recv(PATIENCE)
+            if isinstance(told, bytes):
+                if fields and read_frames(fields, told)["time"][0] > 0.0:
+                    return
+            elif (text := json.loads(told))["type"] == "scene":
+                fields = tuple((name, count) for name, count in text["fields"])
+
+
+def command(*words: str, until: str = "", more: Callable[[str], None] | None = None) -> Callable[..., Spent]:
     """Run `tandemlift` with words, and a folder for what it writes."""
 
     def measure(checkout: Checkout, environment: dict[str, str]) -> Spent:
         with tempfile.TemporaryDirectory() as out:
             called = [checkout.python, "-m", "tandemlift", *words, f"--out={out}"]
-            return process(called, environment, until)[0]
+            return process(called, environment, until, more)[0]
 
     return measure
 
@@ -185,7 +220,8 @@ def with_quadrotors(count: int) -> dict[str, Any]:
 
 def jobs() -> list[Job]:
     """All rows."""
-    live = command("live", "zigzag", "--no-browser", "--port=0", until=r"http://\S+")
+    page, address = ("live", "zigzag", "--no-browser", "--port=0"), r"http://\S+"
+    live, flying = command(*page, until=address), command(*page, until=address, more=flown)
     runs = {name: command("run", name, "--no-figures") for name in ("paper", "iris")}
     firsts = {"paper": "20", "iris": "40", "zigzag": "40"}
     bests = {"paper": "8", "iris": "20", "zigzag": "20"}
@@ -194,6 +230,7 @@ def jobs() -> list[Job]:
         *[Job(f"`{name}`, empty cache, optimised", script(BEST, name), aim) for name, aim in bests.items()],
         Job("64 `iris` by `fly_many`, empty cache", script(BLOCK, "iris"), "20"),
         Job("`live zigzag`, empty cache, served", live),
+        Job("`live zigzag`, empty cache, first step", flying, "20"),
         Job("`live zigzag`, warm, served", live, "1.25", live),
         *[Job(f"`run {name} --no-figures`, warm", run, "1.25", run) for name, run in runs.items()],
         *[Job(f"one `tl.fly` of `{name}`, optimised, warm", again(name), "1.25", script(BEST, name)) for name in runs],

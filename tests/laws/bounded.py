@@ -17,7 +17,7 @@ from tandemlift.kernels.traced import Solver
 from tandemlift.laws.allocation import Mixer, Working
 from tandemlift.laws.body import Wrench
 from tandemlift.laws.limits import GAMMA, Bounded, weighted_rows, weights_of
-from tandemlift.trace import Function, Module, flat
+from tandemlift.trace import Function, Module, Place, flat
 from tandemlift.trace.machine import BEST, QUICK, Loaded
 from tandemlift.trace.machine import compiled as object_code
 from tandemlift.vector import each, vec3
@@ -107,11 +107,12 @@ def asked(c: Craft, p: Problem) -> Bounded:
 class Code:
     """The solver of so many rotors in machine code: as it flies, `solve`, for lanes of problems, and `search`, counted.
 
-    `search` takes at most so many steps, and gives their number; otherwise it is the same.
+    `search` takes at most so many steps, and gives their number; otherwise it is the same. Sets of `rolls_from` rotors
+    or more are loops, none if it is 0.
     """
 
-    def __init__(self, bounded: Bounded, lanes: int) -> None:
-        self.lanes, solver, module = lanes, Solver(bounded), Module()
+    def __init__(self, bounded: Bounded, lanes: int, rolls_from: int) -> None:
+        self.lanes, solver, module = lanes, Solver(bounded, rolls_from), Module()
         self.begin, self.end = solver.problem_size, solver.problem_size + 2 * solver.rotors + 3
         write_solver(module, solver, lanes)
         module.functions[-1] = module.functions[-1].replace("internal void", "void")
@@ -127,15 +128,14 @@ class Code:
 
     def _write_search(self, module: Module, solver: Solver) -> None:
         f = Function(module, solver.graph, 1, "i64 @search(ptr noalias %s, i64 %most) #0")
-        f.read = {"problem": lambda i: f.load("%s", i), "search": lambda i: f.load("%s", self.begin + i)}
+        f.read = {"problem": lambda i: Place("%s", i), "search": lambda i: Place("%s", self.begin + i)}
         for values in (solver.begun, solver.after):
             if values is solver.after:
                 f.label("first")
                 f.label("search")
                 f.lines.append("  %step = phi i64 [ 1, %first ], [ %next, %goes_on ]")
             with f.scope():
-                for m, value in enumerate(f.values(values)):
-                    f.store(value, "%s", self.begin + m)
+                f.put("%s", self.begin, values, "search")
         ended = f.op(f"fcmp one double {f.load('%s', self.end - 1)}, 0.0")
         last = f.op("icmp sge i64 %step, %most")
         f.do(f"br i1 {f.op(f'or i1 {ended}, {last}')}, label %done, label %goes_on")
@@ -147,13 +147,13 @@ class Code:
         return np.array([*flat(bounded), *flat(held), 0.0, 0.0, 0.0])
 
 
-CODES: dict[tuple[int, int], Code] = {}
+CODES: dict[tuple[int, int, int], Code] = {}
 
 
-def code_of(bounded: Bounded, lanes: int = 1) -> Code:
-    key = len(bounded.limits), lanes
+def code_of(bounded: Bounded, lanes: int = 1, rolls_from: int = 0) -> Code:
+    key = len(bounded.limits), lanes, rolls_from
     if key not in CODES:
-        CODES[key] = Code(bounded, lanes)
+        CODES[key] = Code(bounded, lanes, rolls_from)
     return CODES[key]
 
 

@@ -220,13 +220,14 @@ def test_machine_code_and_plain_python_find_the_same(count, layout):
 
 
 @EVERY
-def test_eight_different_problems_at_once_are_solved_as_each_alone(count, layout):
+@pytest.mark.parametrize("rolls_from", [0, 1], ids=["written out", "in loops"])
+def test_eight_different_problems_at_once_are_solved_as_each_alone(count, layout, rolls_from):
     """Some end before others, and one has ended before it begins: it is left as it is."""
     c, rng = craft(count, layout), np.random.default_rng(10)
     n = c.B.shape[1]
     for _ in range(20):
         eight = list(problems(c, 8, seed=int(rng.integers(1 << 30))))
-        alone, block = code_of(asked(c, eight[0])), code_of(asked(c, eight[0]), 8)
+        alone, block = (code_of(asked(c, eight[0]), lanes, rolls_from) for lanes in (1, 8))
         starts = [Working(set_of(rng.integers(-1, 2, n)), set_of(rng.uniform(-5.0, 15.0, n))) for _ in eight]
         rows = np.array([alone.numbers(asked(c, p), start) for p, start in zip(eight, starts, strict=True)])
         rows[3, -1] = 1.0

@@ -75,6 +75,25 @@ def test_an_edit_of_any_source_changes_the_key(monkeypatch):
     assert key_of(value) == before
 
 
+def test_the_key_is_of_the_sources_that_run_even_if_they_are_edited_meanwhile(tmp_path):
+    copy = tmp_path / "source"
+    shutil.copytree(PACKAGE, copy / "tandemlift", ignore=shutil.ignore_patterns("__pycache__"))
+    code = """
+import sys, tandemlift as tl
+from pathlib import Path
+from tandemlift.prepared import Prepared
+from tandemlift.trace.key import key_of
+flying = Prepared(tl.load_mission("one-push")).flying
+print(key_of(flying))
+with (Path(tl.__file__).parent / "laws" / "rotation.py").open("a") as law:
+    law.write("# an edit")
+print(key_of(flying))
+"""
+    first, second = python(code, PYTHONPATH=str(copy), PYTHONSAFEPATH="1")
+    third, _ = python(code, PYTHONPATH=str(copy), PYTHONSAFEPATH="1")
+    assert first == second != third
+
+
 def test_other_versions_another_processor_and_another_layout_have_other_keys(monkeypatch):
     changes = {"controller.switching": "saturation"}
     paper, other = (Prepared(tl.load_mission("paper", c)).flying for c in ({}, changes))

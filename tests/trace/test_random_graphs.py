@@ -14,11 +14,13 @@ import numpy as np
 import pytest
 from exact import EXACT
 
+from tandemlift.kernels.context import aligned
 from tandemlift.ops import absolute, maximum, minimum, sqrt, where
-from tandemlift.trace import Function, Graph, Module, Symbol
+from tandemlift.trace import Function, Graph, Module, Place, Symbol
 from tandemlift.trace.elementary import floor
-from tandemlift.trace.graph import fma
 from tandemlift.trace.machine import BEST, QUICK, Loaded, compiled
+from tandemlift.trace.symbol import fma
+from tandemlift.vector import each
 
 LANES, INPUTS, SHARED, OPERATIONS, ROWS = 8, 5, 2, 60, 24
 TRACED: dict[str, Callable[..., Any]] = {
@@ -116,6 +118,33 @@ def machine_code(program: Program, lanes: int, level: Any) -> Callable[[np.ndarr
     return rows
 
 
+def in_loops(program: Program, count: int, lanes: int, level: Any) -> tuple[list[int], Callable[..., np.ndarray]]:
+    """Which operations give sets, and machine code that gives them: (inputs, count, lanes) to (sets, count, lanes).
+
+    The shared inputs are numbers, which stand beside the sets.
+    """
+    graph, module, like = Graph(rolls_from=1), Module(), each(count)(*[0.0] * count)
+    inputs = [graph.inputs("own", 0.0 if i < SHARED else like, i * count) for i in range(INPUTS)]
+    all_of_it = program.run(inputs, TRACED)
+    sets = [m for m, x in enumerate(all_of_it) if isinstance(x, Symbol) and x.rolled]
+    found = [where(x, 1.0, 0.0) if x.type == "b" else x for x in (all_of_it[m] for m in sets)]
+    f = Function(module, graph, lanes, "i64 @all(ptr %x, ptr %y) #0")
+    f.read = {"own": lambda i: Place("%x", i)}
+    f.put("%y", 0, [Symbol(graph, graph.get(x.node, j), "f") for x in found for j in range(count)])
+    f.end("i64 0")
+    code = Loaded(compiled(module.text, level), ["all"])
+    call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)(code.addresses["all"])
+
+    def run(table: np.ndarray) -> np.ndarray:
+        given, out = aligned(table.size), aligned(len(found) * count * lanes)
+        given[:] = table.ravel()
+        call(given.ctypes.data, out.ctypes.data)
+        assert code
+        return out.reshape(len(found), count, lanes)
+
+    return sets, run
+
+
 def symbol(graph: Graph) -> Callable[[Any], Symbol]:
     """A value as a symbol: what depends on constants alone is a number."""
     return lambda x: (
@@ -164,3 +193,19 @@ def test_random_graphs_have_everything_in_them():
     assert min(np.sum(numbers == 0.0), np.sum(np.isnan(numbers)), np.sum(np.isinf(numbers))) > 100
     assert np.sum(tiny & (numbers != 0.0)) > 10
     assert np.mean(np.isfinite(numbers)) > 0.4
+
+
+@pytest.mark.parametrize("count", [3, 4, 8, 20])
+@pytest.mark.parametrize("seed", range(8))
+def test_a_random_graph_of_sets_in_loops_gives_the_same_bits(seed, count):
+    chance, program = random.Random(seed), Program(seed)
+    table = np.array([any_number(chance) for _ in range(INPUTS * count * LANES)]).reshape(INPUTS, count, LANES)
+    table[:SHARED] = table[:SHARED, :1]
+    wanted = np.array(
+        [[program.run(list(map(float, table[:, j, lane])), EXACT) for lane in range(LANES)] for j in range(count)]
+    ).transpose(2, 0, 1)
+    for level in (QUICK, BEST):
+        for lanes, chosen in ((LANES, list(range(LANES))), (1, [5])):
+            sets, code = in_loops(program, count, lanes, level)
+            assert len(sets) > OPERATIONS / 2
+            assert np.array_equal(bits(code(table[:, :, chosen])), bits(wanted[sets][:, :, chosen]))

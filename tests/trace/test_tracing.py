@@ -17,8 +17,8 @@ from tandemlift.ops import clip, maximum, minimum, where
 from tandemlift.trace import Graph, Symbol, elementary, symbols, traced
 from tandemlift.trace.functions import compiled, written
 from tandemlift.trace.fused import fused
-from tandemlift.trace.graph import once_rounded
 from tandemlift.trace.machine import BEST, QUICK
+from tandemlift.trace.symbol import once_rounded
 from tandemlift.vector import Vec3, dot
 
 FUSED = "llvm.fma"
@@ -149,7 +149,7 @@ def test_dot_is_fused_from_the_second_product_on():
 
 def unread(source, name="f"):
     """A function whose source nobody can read."""
-    scope = {}
+    scope = {"__name__": "nowhere"}
     exec(compile(source, "<nowhere>", "exec"), scope)
     return scope[name]
 

@@ -84,4 +84,5 @@ class Kernels:
         with self._lock:
             step = Step(self._traced, number if kind == "loop" else 1)
             text = step.write_loop() if kind == "loop" else step.write_parts(bool(number))
-            return Written(text, {"size": step.rooms.size, "rooms": step.rooms.at})
+            rooms = {name: room for name, room in step.rooms.at.items() if "_" not in name}
+            return Written(text, {"size": step.rooms.size, "rooms": rooms})

@@ -13,6 +13,7 @@ WORDS = (
 )
 AT = {name: i for i, name in enumerate(WORDS)}
 POINTERS = WORDS[:11]
+MEMORY = "ptr noalias %c, ptr noalias %flying, ptr noalias %work"  # what inner functions are handed
 
 
 class Rooms:

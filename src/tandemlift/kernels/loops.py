@@ -6,19 +6,15 @@ next waits in memory. What does not change within a flight is computed before it
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from tandemlift.kernels.context import AT, POINTERS, Rooms
-from tandemlift.kernels.outside import GAUSSIAN, GUST, HALVES, SPAN
+from tandemlift.kernels.ahead import write_draw, write_feel, write_gust, write_surroundings
+from tandemlift.kernels.context import AT, MEMORY, POINTERS, Rooms
+from tandemlift.kernels.outside import HALVES, SPAN
 from tandemlift.kernels.places import place, stretches_of
 from tandemlift.kernels.solving import write_limits, write_solver
 from tandemlift.kernels.traced import Symbols, Traced
-from tandemlift.laws.partner import LEG
-from tandemlift.laws.rectangle import WALL
-from tandemlift.trace import LEAVES, Function, Module, Place, Symbol, double, flat, leaves, symbols
+from tandemlift.kernels.waiting import Waiting, steady
+from tandemlift.trace import Function, Module, Place, Symbol, double, leaves
 
-NORMAL_LANES = 8  # of the loop that draws normal numbers for a flight alone
-MEMORY = "ptr noalias %c, ptr noalias %flying, ptr noalias %work"
 HANDED = "ptr %c, ptr %flying, ptr %work"
 UNIFORM = ("t", "dt", "when", "opens", "closes", "number")
 
@@ -59,12 +55,12 @@ class Step:
 
     # the functions
 
-    def function(self, name: str, more: str = "", result: str = "void", lanes: int = 0) -> Function:
+    def function(self, name: str, more: str = "", result: str = "void") -> Function:
         """An inner function: handed the context %c, the flight, the scratch memory, and more."""
         head = f"internal {result} @{name}({MEMORY}{more}) #1"
-        f = Function(self.module, self.graph, lanes or self.lanes, head, UNIFORM)
+        f = Function(self.module, self.graph, self.lanes, head, UNIFORM)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
-        f.room = self.room
+        f.sets.room = self.room
         f.read = {"fly": lambda i: Place("%flying", i), "dt": lambda i: "%dt"}
         return f
 
@@ -85,101 +81,6 @@ class Step:
     def word(self, f: Function, name: str) -> str:
         """A word of the context."""
         return f.load("%c", AT[name], "ptr" if name in POINTERS else "i64")
-
-    def write_feel(self) -> None:
-        """The sum of all pushes at the half steps of the span that holds step k."""
-        f, width = self.function("feel", ", i64 %k"), self.width
-        first = f.whole("and", "%k", -SPAN)
-        with f.repeat(HALVES * width) as i:
-            f.store(f.zero, "%work", f.whole("add", i, self.hands))
-        opens, closes = self.time(f, first), self.time(f, f.whole("add", first, SPAN))
-        half, twice = f.op(f"fmul double %dt, {double(0.5)}"), f.whole("mul", first, 2)
-        pushes, count = self.word(f, "pushes"), self.word(f, "push_count")
-        with f.repeat(count) as i:
-            row = f.at(pushes, f.whole("mul", i, leaves(GAUSSIAN)))
-            f.read |= {"push": lambda m: Place(row, m), "opens": lambda m: opens, "closes": lambda m: closes}
-            with f.when(f.any(f.value(self.traced.pressed))), f.repeat(HALVES) as j:
-                number = f.op(f"sitofp i64 {f.whole('add', twice, j)} to double")
-                when = f.op(f"fmul double {number}, {half}")
-                f.read["when"] = lambda m: when
-                self.add(f, f.whole("add", f.whole("mul", j, width), self.hands), self.traced.push)
-        f.end()
-
-    def write_gust(self) -> None:
-        """The velocity of all gusts at the time of a step."""
-        f = self.function("blow", ", double %t")
-        f.read["t"] = lambda m: "%t"
-        for m in range(3):
-            f.store(f.zero, "%work", self.gust + m)
-        gusts, count = self.word(f, "gusts"), self.word(f, "gust_count")
-        with f.repeat(count) as i:
-            row = f.at(gusts, f.whole("mul", i, leaves(GUST)))
-            f.read["gusts"] = lambda m: Place(row, m)
-            self.add(f, self.gust, self.traced.gust)
-        f.end()
-
-    def add(self, f: Function, at: str | int, more: Symbols) -> None:
-        """Add values to those in scratch memory."""
-        place = f.at("%work", at)
-        for m, value in enumerate(f.values(more)):
-            f.store(f.op(f"fadd {f.vector} {f.load(place, m)}, {value}"), place, m)
-
-    def write_draw(self) -> None:
-        """Standard normals of a step of every lane; of a flight alone, of the span that holds step k."""
-        lanes = self.lanes if self.lanes > 1 else NORMAL_LANES
-        uniform = ("number",) if self.lanes > 1 else ("key",)
-        f = Function(self.module, self.graph, lanes, f"internal void @draw({MEMORY}, i64 %k) #1", uniform)
-        keys = self.word(f, "keys")
-        if self.lanes > 1:
-            f.read = {"number": lambda m: "%k", "key": lambda m: f.load(keys, m)}
-            for m, value in enumerate(v for four in self.traced.normals for v in f.values(four)):
-                f.store(value, "%work", self.noise + m)
-            f.end()
-            return
-        first = f.whole("and", "%k", -SPAN)
-        ramp = "<" + ", ".join(f"i64 {j}" for j in range(lanes)) + ">"
-        f.read = {"key": lambda m: f.load(keys, m, "double")}
-        with f.repeat(SPAN // lanes) as j:
-            base = f.spread(f.whole("add", first, f.whole("mul", j, lanes)), "i64")
-            numbers = f.op(f"add <{lanes} x i64> {base}, {ramp}")
-            f.read["number"] = lambda m: numbers
-            for m, value in enumerate(v for four in self.traced.normals for v in f.values(four)):
-                at = f.whole("add", f.whole("mul", j, lanes), self.noise + m * SPAN)
-                f.store(value, f.at("%work", at, "double"))
-        f.end()
-
-    def write_surroundings(self) -> None:
-        """What is looked at once in a span: the floor, the nearest walls, the leg that a person is on."""
-        x, f = self.likes, self.function("look")
-        if x.grounded:
-            low = f.any(f.value(self.traced.touch))
-            f.store(f.op(f"uitofp i1 {low} to double"), "%work", self.low * self.lanes, "double")
-        if x.walled:
-            at = place(x.flying, "moving", "near").at
-            for m, number in enumerate(flat(x.nowhere)):
-                f.store(f.spread(double(number)), "%flying", at + m)
-            walls, count = self.word(f, "walls"), self.word(f, "wall_count")
-            with f.repeat(count) as i:
-                row = f.at(walls, f.whole("mul", i, leaves(WALL)))
-                f.read["wall"] = lambda m: Place(row, m)
-                with f.afresh():
-                    f.put("%flying", at, self.traced.nearest)
-        if x.accompanied:
-            self._find_legs(f)
-        f.end()
-
-    def _find_legs(self, f: Function) -> None:
-        flying, lanes = self.likes.flying, self.lanes
-        index, leg = place(flying, "moving", "partner", "index").at, place(flying, "moving", "partner", "leg").at
-        legs, last = self.word(f, "legs"), f.whole("sub", self.word(f, "leg_count"), 1)
-        for lane in range(lanes):
-            number = f.load("%flying", index * lanes + lane, "double")
-            i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
-            i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
-            i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
-            row = f.at(legs, f.whole("mul", i, leaves(LEG)))
-            for m in range(leaves(LEG)):
-                f.store(f.load(row, m * lanes + lane, "double"), "%flying", (leg + m) * lanes + lane, "double")
 
     def time(self, f: Function, k: str) -> str:
         """The time of step k."""
@@ -217,7 +118,7 @@ class Step:
             "noise": lambda i: Place(noise, i * pace, pace),
             "gust": lambda i: Place("%work", self.gust + i),
             "answer": lambda i: Place("%work", self.answer + i),
-            "external": lambda i: f.load("%work", self.external + i),
+            "external": lambda i: Place("%work", self.external + i),
             "moved": lambda i: Place("%work", self.moved + i),
             "solved": lambda i: Place("%work", self.solved + i),
         }
@@ -317,13 +218,13 @@ class Step:
 
     def write_outside(self) -> None:
         """The functions of what a step is given from outside."""
-        self.write_feel()
+        write_feel(self)
         if self.draws:
-            self.write_draw()
+            write_draw(self)
         if self.blows:
-            self.write_gust()
+            write_gust(self)
         if self.likes.grounded or self.likes.walled or self.likes.accompanied:
-            self.write_surroundings()
+            write_surroundings(self)
         if self.traced.limits:
             write_solver(self.module, self.traced.limits.solver, self.lanes)
 
@@ -368,7 +269,6 @@ class Step:
         if not leaves_body:
             ends, acts = [*ends, *acts], []
         later = {"ask": [*acts, *ends], "decide": ends, "complete": []}
-        waiting: dict[int, int] = {}
         for part in parts:
             f = self.function(f"{part}_", result="i64")
             k = self.word(f, "k")
@@ -376,7 +276,7 @@ class Step:
                 waiting = self.settle(f, k, [*x.asked, *acts, *ends])
                 self.begin(f, k)
             else:
-                self.find(f, waiting)
+                waiting.find(f)
                 self.reading(f, k)
             if part == "ask":
                 self.keep(f, self.asked, x.asked)
@@ -386,7 +286,7 @@ class Step:
                 self.keep(f, self.push, x.body.push)
             else:
                 self._complete(f, k, leaves_body)
-            waiting |= self._hand_on(f, later[part], waiting)
+            waiting.hand_on(f, later[part])
             f.end("i64 0")
             self.export(part)
         return self.module.text
@@ -399,14 +299,6 @@ class Step:
         with f.when(f.op(f"icmp ne i64 {k}, {self.word(f, 'steps')}")):
             self.go_on(f, k)
 
-    def _hand_on(self, f: Function, later: Symbols, waiting: dict[int, int]) -> dict[int, int]:
-        """Leave in memory what the later parts of a step need of what is known now: where each node waits."""
-        g, roots = self.graph, [s.node for s in later]
-        known = {n for n in f.known() if g.types[n] == "f" and g.ops[n] not in LEAVES} | waiting.keys()
-        wanted = {a for n in g.needed(roots, known) if g.ops[n] not in LEAVES for a in g.args[n]}
-        nodes = sorted((wanted.union(roots) & known) - waiting.keys())
-        return self.leave(f, nodes, f"handed_on_{len(waiting)}")
-
     def _swings(self) -> Symbols:
         return [*self.traced.near, *self.traced.apart, *self.traced.pressing]
 
@@ -414,45 +306,16 @@ class Step:
         needs = self.traced.limits
         return [needs.beyond, *needs.problem, *needs.plain, *needs.search] if needs else []
 
-    def settle(self, f: Function, k: str, roots: Symbols) -> dict[int, int]:
-        """Where a flight begins or has changed: the tables for step k, and what will not change. Where that waits."""
-        nodes = self.steady(roots)
+    def settle(self, f: Function, k: str, roots: Symbols) -> Waiting:
+        """Where a flight begins or has changed: the tables for step k, and what will not change, which waits."""
+        waiting = Waiting(self.graph, self.rooms)
+        nodes = steady(self.graph, roots, self.moving)
         f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))
-        fresh = f.op(f"icmp ne i64 {self.word(f, 'fresh')}, 0")
-        with f.when(fresh):
+        with f.when(f.op(f"icmp ne i64 {self.word(f, 'fresh')}, 0")):
             self.call(f, "feel", f"i64 {k}")
             if self.draws and self.lanes == 1:
                 self.call(f, "draw", f"i64 {k}")
             f.store(double(float(self.likes.grounded)), "%work", self.low * self.lanes, "double")
-            waiting = self.leave(f, [n for n in nodes if not f.is_uniform(n)], "steady")
-        self.find(f, waiting)
+            waiting.leave(f, [n for n in nodes if not f.is_uniform(n)])
+        waiting.find(f)
         return waiting
-
-    def leave(self, f: Function, nodes: list[int], name: str) -> dict[int, int]:
-        """Let nodes wait in scratch memory: where each does."""
-        sizes = [self.graph.counts[node] or 1 for node in nodes]
-        at = self.rooms.take(name, sum(sizes))
-        self.keep(f, at, [s for n in nodes for s in symbols(self.graph, Symbol(self.graph, n, "f"))])
-        return {node: at + sum(sizes[:m]) for m, node in enumerate(nodes)}
-
-    def find(self, f: Function, waiting: dict[int, int]) -> None:
-        """Let a function find nodes where they wait."""
-        for node, at in waiting.items():
-            f.kept[node] = self._waiting(at)
-
-    def _waiting(self, at: int) -> Callable[[], Place]:
-        return lambda: Place("%work", at)
-
-    def steady(self, roots: Symbols) -> list[int]:
-        """The nodes that steps need and that depend on what does not change within a flight."""
-        g, moving = self.graph, self.moving
-        steady, wanted = [False] * len(g.ops), set[int]()
-        for node in g.needed([s.node for s in roots]):
-            op, args = g.ops[node], g.args[node]
-            if op == "in":
-                steady[node] = args[0] == "dt" or (args[0] == "fly" and args[1] >= moving)
-            else:
-                steady[node] = op == "const" or all(steady[a] for a in args)
-            if not steady[node] and op not in LEAVES:
-                wanted.update(args)
-        return sorted(n for n in wanted if steady[n] and g.ops[n] not in LEAVES and g.types[n] == "f")

@@ -42,7 +42,7 @@ def graph_for(quadrotors: int) -> Graph:
 class Solver:
     """A step of the solver of limits, traced: inputs `problem`, and `search` as it goes on."""
 
-    def __init__(self, like: Bounded, rolls_from: int) -> None:
+    def __init__(self, like: Bounded, rolls_from: int = 0) -> None:
         self.graph, rotors = Graph(rolls_from), like.unlimited
         self.rotors, self.problem_size = len(rotors), leaves(like)
         problem = self.graph.inputs("problem", like)

@@ -7,10 +7,13 @@ functions that machine code has no instruction for, `layout` nested values in fl
 
 from tandemlift.trace import elementary  # which `ops` asks for where it meets a symbol
 from tandemlift.trace.fused import traced
-from tandemlift.trace.graph import LEAVES, Graph, Symbol, TraceError, refused, symbols, written_out
+from tandemlift.trace.graph import LEAVES, Graph, symbols, written_out
 from tandemlift.trace.layout import flat, is_value, leaves, rebuilt, unflat, zeroed
-from tandemlift.trace.llvm import Function, Module, double
+from tandemlift.trace.llvm import Function
+from tandemlift.trace.refusal import TraceError, refused
 from tandemlift.trace.rolled import Place
+from tandemlift.trace.symbol import Symbol
+from tandemlift.trace.text import Module, double
 
 __all__ = [
     "LEAVES",

@@ -17,7 +17,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tandemlift.trace.fused import fused
-from tandemlift.trace.graph import Symbol, converted, select, unary
+from tandemlift.trace.symbol import Symbol, converted, select, unary
 
 SHIFT = 6755399441055744.0  # 1.5 · 2⁵²: adding it rounds to an integer, which is left in the low bits
 PI = 3.141592653589793

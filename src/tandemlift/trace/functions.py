@@ -12,31 +12,36 @@ from numpy.typing import NDArray
 from tandemlift.trace import machine
 from tandemlift.trace.fused import traced
 from tandemlift.trace.graph import Graph, symbols
-from tandemlift.trace.layout import leaves, rebuilt
-from tandemlift.trace.llvm import Function, Module
+from tandemlift.trace.layout import leaves
+from tandemlift.trace.llvm import Function
+from tandemlift.trace.rolled import Place
+from tandemlift.trace.text import Module
 
 Array = NDArray[np.float64]
 
 
-def written(function: Callable[..., Any], *likes: Any, lanes: int = 1) -> tuple[str, int]:
+def written(function: Callable[..., Any], *likes: Any, lanes: int = 1, rolls_from: int = 0) -> tuple[str, int]:
     """A module whose `rows` evaluates a function as `compiled` does, as text, and how many numbers it gives."""
-    graph, inputs = Graph(), itertools.count()
-    arguments = [rebuilt((graph.input("x", i) for i in inputs), like) for like in likes]
+    graph, ends = Graph(rolls_from), list(itertools.accumulate(map(leaves, likes), initial=0))
+    arguments = [graph.inputs("x", like, first) for like, first in zip(likes, ends, strict=False)]
     found = symbols(graph, traced(function)(*arguments))
     module = Module()
     f = Function(module, graph, lanes, "i64 @rows(ptr %x, ptr %y, i64 %count) #0")
     with f.repeat("%count") as row:
-        x = f.at("%x", f.whole("mul", row, sum(map(leaves, likes))))
+        x = f.at("%x", f.whole("mul", row, ends[-1]))
         y = f.at("%y", f.whole("mul", row, len(found)))
-        f.read["x"] = lambda i: f.load(x, i)
-        for m, value in enumerate(f.values(found)):
-            f.store(value, y, m)
+        f.read["x"] = lambda i: Place(x, i)
+        f.put(y, 0, found)
     f.end("i64 0")
     return module.text, len(found)
 
 
 def compiled(
-    function: Callable[..., Any], *likes: Any, lanes: int = 1, level: machine.Level = machine.BEST
+    function: Callable[..., Any],
+    *likes: Any,
+    lanes: int = 1,
+    level: machine.Level = machine.BEST,
+    rolls_from: int = 0,
 ) -> Callable[[Array], Array]:
     """Machine code of a function of values.
 
@@ -45,6 +50,7 @@ def compiled(
         likes: a value laid out like each of its arguments (a number for a number).
         lanes: rows that one instruction serves, 1 or a power of two.
         level: how much is done for the speed of the code.
+        rolls_from: how many values a set must have to be served by a loop; 0 for never.
 
     Returns:
         A function from (rows, numbers of all arguments) to (rows, numbers of what it returns), depth first; a number of
@@ -53,7 +59,7 @@ def compiled(
     Raises:
         TraceError: the function cannot be traced.
     """
-    text, height = written(function, *likes, lanes=lanes)
+    text, height = written(function, *likes, lanes=lanes, rolls_from=rolls_from)
     width = sum(map(leaves, likes))
     code = machine.Loaded(machine.compiled(text, level), ["rows"])
 

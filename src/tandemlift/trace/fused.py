@@ -20,7 +20,8 @@ from typing import Any, TypeGuard
 from tandemlift.errors import InputError
 from tandemlift.law import LAWS, Choice, Elementwise
 from tandemlift.ops import PRIMITIVES
-from tandemlift.trace.graph import fma, is_ours, refused
+from tandemlift.trace.refusal import is_ours, refused
+from tandemlift.trace.symbol import fma
 
 FMA = "_fma_"
 ONE_AT_A_TIME = threading.RLock()

@@ -11,7 +11,9 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from tandemlift.law import LAWS
 from tandemlift.trace.layout import is_value
+from tandemlift.trace.refusal import is_ours
 
 PACKAGE = Path(__file__).resolve().parent.parent
 FOLDERS = ("laws", "trace", "engines", "kernels", "pilot")
@@ -32,6 +34,9 @@ def sources(value: Any) -> list[Path]:
     own = {p for folder in FOLDERS for p in (PACKAGE / folder).rglob("*.py")}
     own |= {PACKAGE / f"{name}.py" for name in (*FILES, *MORE)}
     theirs = {Path(inspect.getfile(c)) for c in classes(value) if not c.__module__.startswith("tandemlift.")}
+    if theirs:  # a user's own laws may call others, of other files
+        files = {Path(law.__code__.co_filename) for law in LAWS if not is_ours(law.__code__)}
+        theirs |= {path for path in files if path.is_file()}
     return sorted(own | theirs)
 
 
@@ -41,7 +46,9 @@ def _content(path: Path, changed: int, size: int) -> bytes:
 
 
 def content(path: Path) -> bytes:
-    """What a file holds; read again once it has changed."""
+    """What a file holds; one of this package as it was at first, for that is what runs, another as it is now."""
+    if path.is_relative_to(PACKAGE):
+        return _content(path, 0, 0)
     found = path.stat()
     return _content(path, found.st_mtime_ns, found.st_size)
 

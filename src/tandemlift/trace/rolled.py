@@ -7,9 +7,12 @@ bits are those of the same laws written out value by value.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
+
+from tandemlift.trace.symbol import Symbol
+from tandemlift.trace.text import BASE, constant, double
 
 if TYPE_CHECKING:
     from tandemlift.trace.llvm import Function
@@ -54,7 +57,7 @@ class Loop:
 
     def kind(self, type: str) -> str:
         """The type of a value in this loop."""
-        base = {"f": "double", "b": "i1", "i": "i64"}[type]
+        base = BASE[type]
         lanes = self.f.lanes * self.width
         return base if lanes == 1 else f"<{lanes} x {base}>"
 
@@ -63,7 +66,7 @@ class Loop:
         f, g = self.f, self.f.graph
         if g.counts[node]:
             if node not in self.values:
-                self.values[node] = self.truth(node, self.loaded(f.place(node)))
+                self.values[node] = self.truth(node, self.loaded(f.sets.places[node]))
             return self.values[node]
         value = f.operand(node)
         return value if self.width == 1 or value.startswith("splat") else self.repeated(node, value)
@@ -71,7 +74,7 @@ class Loop:
     def repeated(self, node: int, value: str) -> str:
         """A number beside all values of this turn."""
         f = self.f
-        base = {"f": "double", "b": "i1", "i": "i64"}[f.graph.types[node]]
+        base = BASE[f.graph.types[node]]
         if f.graph.ops[node] == "const":
             return f"splat ({base} {value})"
         kind = f"<{self.width} x {base}>"
@@ -102,8 +105,6 @@ class Loop:
 
     def constant(self, value: float) -> str:
         """A constant for all values of this turn."""
-        from tandemlift.trace.llvm import double
-
         text = double(value)
         return text if self.kind("f") == "double" else f"splat (double {text})"
 
@@ -122,3 +123,138 @@ def over(f: Function, count: int) -> Iterator[Loop]:
     width = width_of(f, count)
     with f.repeat(count // width) as turn:
         yield Loop(f, count, turn if width == 1 else f.whole("mul", turn, width))
+
+
+class Part(NamedTuple):
+    """A number that is written to memory as number `first`, or a set of `size` from there on."""
+
+    first: int
+    node: int
+    size: int
+
+
+class Sets:
+    """The sets of many numbers of a function.
+
+    Attributes:
+        places: where sets stand that are known here.
+        room: gives memory for a set of so many numbers.
+    """
+
+    def __init__(self, f: Function) -> None:
+        self.f, self.places = f, dict[int, Place]()
+        self.room: Callable[[int], Place] = lambda count: Place(f.own_memory(count), 0)
+
+    def write(self, nodes: list[int], roots: list[int]) -> None:
+        """Compute nodes, sets among them, stage by stage."""
+        f, g = self.f, self.f.graph
+        stage_of = stages(f, nodes)
+        awaited = set(roots)
+        for node in nodes:
+            for argument in () if f.is_leaf(node) else g.args[node]:
+                together = stage_of.get(argument), g.counts[argument]
+                if together != (stage_of[node], g.counts[node]):
+                    awaited.add(argument)
+        sets: dict[tuple[int, int], list[int]] = {}
+        numbers: dict[int, list[int]] = {}
+        for node in nodes:
+            if g.counts[node]:
+                sets.setdefault((stage_of[node], g.counts[node]), []).append(node)
+            else:
+                numbers.setdefault(stage_of[node], []).append(node)
+        for stage in range(1 + max(stage_of.values())):
+            for node in numbers.get(stage, ()):
+                f.write_number(node)
+            for count in sorted(count for s, count in sets if s == stage):
+                self._write_sets(sets[stage, count], count, awaited)
+
+    def _write_sets(self, nodes: list[int], count: int, awaited: set[int]) -> None:
+        """Sets of one size and one stage: those that are in memory, and a loop for those that are computed."""
+        f, g, computed = self.f, self.f.graph, []
+        for node in nodes:
+            if node not in self.places and not self._finds(node, count):
+                computed.append(node)
+        if not computed:
+            return
+        waits = {node: self.room(count) for node in computed if node in awaited}
+        with over(f, count) as loop:
+            for node in computed:
+                operands = [loop.operand(a) for a in g.args[node]]
+                loop.values[node] = f.op(f.instruction(node, loop.kind, operands))
+                if node in waits:
+                    loop.leave(node, waits[node])
+        self.places |= waits
+
+    def _finds(self, node: int, count: int) -> bool:
+        """Whether a set is in memory, or is put there number by number."""
+        f, g = self.f, self.f.graph
+        op, args = g.ops[node], g.args[node]
+        if op == "const":
+            self.places[node] = self._constant_set(args)
+        elif op == "in" or node in f.kept:
+            given = f.kept[node]() if node in f.kept else f.read[args[0]](args[1])
+            assert isinstance(given, Place), f"a set of inputs {args} that is not in memory"
+            self.places[node] = given
+        elif op.startswith("take "):
+            first, step = map(int, op.split()[1:])
+            source = self.places[args[0]]
+            at = f.whole("add", source.first, first * source.stride)
+            self.places[node] = Place(source.base, at, source.stride * step)
+        elif op == "pack":
+            self.places[node] = to = self.room(count)
+            for i, argument in enumerate(args):
+                f.store(f.operand(argument), to.base, f.whole("add", to.first, i))
+        else:
+            return False
+        return True
+
+    def _constant_set(self, values: tuple[bytes, ...]) -> Place:
+        f, to = self.f, self.room(len(values))
+        for i, value in enumerate(values):
+            text = constant(value)
+            f.store(text if f.lanes == 1 else f"splat (double {text})", to.base, f.whole("add", to.first, i))
+        return to
+
+    def put(self, base: str, at: str | int, symbols: Sequence[Symbol], kind: str = "") -> None:
+        """See `Function.put`."""
+        f = self.f
+        parts = [part for part in self._parts(symbols) if not self._stays(part, kind)]
+        values = f.values(Symbol(f.graph, part.node, "f") for part in parts if not part.size)
+        sources = [part.node for part in parts if part.size]
+        f.write(sources)
+        moved = {node: self._aside(node, base) for node in sources}
+        numbers = iter(values)
+        for part in parts:
+            place = f.whole("add", at, part.first)
+            if part.size:
+                self._copy(moved[part.node], f.graph.counts[part.node], Place(base, place))
+            else:
+                f.store(next(numbers), base, place)
+
+    def _parts(self, symbols: Sequence[Symbol]) -> Iterator[Part]:
+        g, i = self.f.graph, 0
+        while i < len(symbols):
+            node = symbols[i].node
+            source = g.args[node][0] if g.ops[node] == "get 0" else -1
+            count = g.counts[source] if source >= 0 else 0
+            whole = [s.node for s in symbols[i : i + count]] == [g.get(source, j) for j in range(count)]
+            yield Part(i, source, count) if count and whole else Part(i, node, 0)
+            i += max(count if whole else 0, 1)
+
+    def _stays(self, part: Part, kind: str) -> bool:
+        g = self.f.graph
+        return g.ops[part.node] == "in" and g.args[part.node] == (kind, part.first)
+
+    def _aside(self, node: int, base: str) -> Place:
+        """Where a set can be copied from while the memory at `base` is written."""
+        at, count = self.places[node], self.f.graph.counts[node]
+        if at.base != base:
+            return at
+        to = self.room(count)
+        self._copy(at, count, to)
+        return to
+
+    def _copy(self, source: Place, count: int, to: Place) -> None:
+        f = self.f
+        with over(f, count) as loop:
+            f.do(f"store {loop.kind('f')} {loop.loaded(source)}, ptr {loop.address(to)}, align 8")

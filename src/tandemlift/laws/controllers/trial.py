@@ -70,14 +70,15 @@ def _try(name: str, gains: Any, memory: Any, like: Any) -> None:
         return
     except Exception as error:
         raise InputError(f"controller {name!r}: {told(error, law.__code__.co_filename)}") from error
+    code = law.__code__
+    place = f"controller {name!r}: {Path(code.co_filename).name}, line {code.co_firstlineno}: {law.__name__}()"
     if type(answer) is not tuple or len(answer) != 2:
-        raise InputError(f"controller {name!r}: {law.__name__}() must return (Command, memory), not {form(answer)}")
+        raise InputError(f"{place} must return (Command, memory), not {form(answer)}")
     command, after = answer
     if layout(command) != layout(COMMAND):
-        given = f"{law.__name__}() must return {form(COMMAND)} and the memory, not {form(command)} and"
-        raise InputError(f"controller {name!r}: {given} the memory")
+        raise InputError(f"{place} must return {form(COMMAND)} and the memory, not {form(command)} and the memory")
     if layout(after) != like:
-        raise InputError(f"controller {name!r}: the memory starts as {form(memory)} and cannot become {form(after)}")
+        raise InputError(f"{place} must keep its memory: it starts as {form(memory)} and cannot become {form(after)}")
     _tried.add((law, like))
 
 

@@ -1,0 +1,39 @@
+"""Laws that cannot be traced are refused by name, file and line, with what is allowed."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import CodeType
+
+from tandemlift.errors import InputError
+
+HERE = str(Path(__file__).parent)
+OURS = str(Path(__file__).parent.parent)
+
+
+class TraceError(InputError):
+    """A law cannot be traced: it asks a symbol for what only a number has."""
+
+
+def is_ours(code: CodeType) -> bool:
+    """Whether a function is one of this package."""
+    return code.co_filename.startswith(OURS)
+
+
+def refused(what: str, code: CodeType, line: int) -> TraceError:
+    """That a law cannot be traced: its file, line and name, why, and what is allowed."""
+    way = "" if is_ours(code) else "; or register the controller with compiled=False"
+    return TraceError(f"{code.co_filename}, line {line}: {code.co_name}() {what}{way}")
+
+
+def refused_here(what: str) -> TraceError:
+    """That the innermost law that is being traced cannot be: of a user's own, the function that has it."""
+    frame = sys._getframe(1)
+    while frame.f_back and frame.f_code.co_filename.startswith(HERE):
+        frame = frame.f_back
+    innermost = frame
+    while frame.f_back and is_ours(frame.f_code) and not frame.f_back.f_code.co_filename.startswith(HERE):
+        frame = frame.f_back
+    frame = frame if frame.f_back else innermost
+    return refused(what, frame.f_code, frame.f_lineno)

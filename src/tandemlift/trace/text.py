@@ -1,0 +1,169 @@
+"""Text of LLVM's language: modules, and functions written from top to bottom, with loops and branches as contexts."""
+
+from __future__ import annotations
+
+import operator
+import struct
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from typing import Any
+
+BASE = {"f": "double", "b": "i1", "i": "i64"}  # LLVM's name for each type of the graph
+WIDE = '"prefer-vector-width"="512" "min-legal-vector-width"="512"'
+ATTRIBUTES = [f"attributes #0 = {{ nounwind {WIDE} }}", f"attributes #1 = {{ nounwind noinline {WIDE} }}"]
+WHOLE = {"add": operator.add, "mul": operator.mul}
+
+
+class Module:
+    """Functions, and what they declare."""
+
+    def __init__(self) -> None:
+        self.functions: list[str] = []
+        self.declared: set[str] = set()
+
+    @property
+    def text(self) -> str:
+        """All of it."""
+        return "\n".join([*sorted(self.declared), *self.functions, *ATTRIBUTES]) + "\n"
+
+
+class Text(ABC):
+    """The text of one function.
+
+    Args:
+        module: where it goes.
+        lanes: how many numbers a value holds, one for each flight.
+        head: its name and parameters, as in `i64 @fly(ptr %c)`.
+    """
+
+    def __init__(self, module: Module, lanes: int, head: str) -> None:
+        self.module, self.lanes, self.head = module, lanes, head
+        self.vector = "double" if lanes == 1 else f"<{lanes} x double>"
+        self.zero = "0.0" if lanes == 1 else "zeroinitializer"
+        self.lines: list[str] = ["entry:"]
+        self._rooms: list[str] = []
+        self._count = 0
+
+    def end(self, result: str = "void") -> None:
+        """Close the function and put it into its module."""
+        self.do(f"ret {result}")
+        begin, *lines = self.lines
+        self.module.functions.append("\n".join([f"define {self.head} {{", begin, *self._rooms, *lines, "}"]))
+
+    @abstractmethod
+    def scope(self) -> AbstractContextManager[None]:
+        """What is computed within is not known behind."""
+
+    def do(self, text: str) -> None:
+        """An instruction without a result."""
+        self.lines.append("  " + text)
+
+    def op(self, text: str) -> str:
+        """An instruction's result."""
+        self._count += 1
+        self.lines.append(f"  %v{self._count} = {text}")
+        return f"%v{self._count}"
+
+    def label(self, name: str) -> str:
+        """Begin a block, which what stands before runs into."""
+        self.do(f"br label %{name}")
+        self.lines.append(f"{name}:")
+        return name
+
+    def fresh(self, name: str) -> str:
+        """A name for a block that is used nowhere else."""
+        self._count += 1
+        return f"{name}{self._count}"
+
+    # control
+
+    @contextmanager
+    def repeat(self, count: str | int, first: str | int = 0) -> Iterator[str]:
+        """A loop from `first` to `count` − 1, whose body hands on nothing but what it writes to memory."""
+        head, body, done = self.fresh("head"), self.fresh("body"), self.fresh("done")
+        i = f"%i{self._count}"
+        before = self.label(self.fresh("before"))
+        self.label(head)
+        self.do(f"{i} = phi i64 [ {first}, %{before} ], [ {i}n, %{body}e ]")
+        goes_on = self.op(f"icmp slt i64 {i}, {count}")
+        self.do(f"br i1 {goes_on}, label %{body}, label %{done}")
+        self.lines.append(f"{body}:")
+        with self.scope():
+            yield i
+        self.label(f"{body}e")
+        self.do(f"{i}n = add i64 {i}, 1")
+        self.do(f"br label %{head}")
+        self.lines.append(f"{done}:")
+
+    @contextmanager
+    def when(self, condition: str) -> Iterator[None]:
+        """A branch that hands on nothing but what it writes to memory."""
+        yes, done = self.fresh("yes"), self.fresh("done")
+        self.do(f"br i1 {condition}, label %{yes}, label %{done}")
+        self.lines.append(f"{yes}:")
+        with self.scope():
+            yield
+        self.label(done)
+
+    def any(self, truth: str) -> str:
+        """Whether something holds in any lane."""
+        if self.lanes == 1:
+            return truth
+        name = f"@llvm.vector.reduce.or.v{self.lanes}i1"
+        self.module.declared.add(f"declare i1 {name}(<{self.lanes} x i1>)")
+        return self.op(f"call i1 {name}(<{self.lanes} x i1> {truth})")
+
+    # memory
+
+    def at(self, base: str, index: str | int, kind: str = "") -> str:
+        """The place of a value in memory."""
+        return self.op(f"getelementptr {kind or self.vector}, ptr {base}, i64 {index}")
+
+    def load(self, base: str, index: str | int = 0, kind: str = "") -> str:
+        """A value of all lanes from memory, or of another kind (`double`, `i64`, `ptr`)."""
+        return self.op(f"load {kind or self.vector}, ptr {self.at(base, index, kind)}, align 8")
+
+    def store(self, value: str, base: str, index: str | int = 0, kind: str = "") -> None:
+        """Write a value of all lanes, or of another kind."""
+        self.do(f"store {kind or self.vector} {value}, ptr {self.at(base, index, kind)}, align 8")
+
+    def whole(self, op: str, a: str | int, b: str | int) -> str:
+        """Arithmetic of 64-bit integers."""
+        if op == "add" and (a == 0 or b == 0):
+            return str(b if a == 0 else a)
+        if op in WHOLE and isinstance(a, int) and isinstance(b, int):
+            return str(WHOLE[op](a, b))
+        return self.op(f"{op} i64 {a}, {b}")
+
+    def call(self, result: str, name: str, *arguments: str, types: Iterable[str]) -> str:
+        """A call of one of LLVM's own functions."""
+        self.module.declared.add(f"declare {result} {name}({', '.join(types)})")
+        given = ", ".join(f"{t} {a}" for t, a in zip(types, arguments, strict=True))
+        return self.op(f"call {result} {name}({given})")
+
+    def own_memory(self, count: int) -> str:
+        """Memory of the function's own, for so many numbers of all lanes."""
+        name = f"%room{len(self._rooms)}"
+        self._rooms.append(f"  {name} = alloca {self.vector}, i64 {count}, align 64")
+        return name
+
+    def spread(self, value: str, base: str = "double") -> str:
+        """A scalar in all lanes."""
+        if self.lanes == 1:
+            return value
+        kind = f"<{self.lanes} x {base}>"
+        first = self.op(f"insertelement {kind} poison, {base} {value}, i64 0")
+        return self.op(f"shufflevector {kind} {first}, {kind} poison, <{self.lanes} x i32> zeroinitializer")
+
+
+def constant(value: Any) -> str:
+    """A constant of the graph as text."""
+    if isinstance(value, bytes):
+        return f"0x{struct.unpack('<Q', value)[0]:016X}"
+    return str(value).lower()
+
+
+def double(value: float) -> str:
+    """A number as text, to the last bit."""
+    return constant(struct.pack("<d", value))
