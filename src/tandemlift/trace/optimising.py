@@ -1,13 +1,14 @@
 """Optimised machine code, made in a process of its own: LLVM works on one module at a time in a process.
 
-`python -m tandemlift.trace.optimising LEVEL KEY` reads a module as text, keeps its object code on disk and writes it. Such
-a process ends by itself, a few seconds after the one that began it at the latest.
+`python -m tandemlift.trace.optimising LEVEL KEY CHECKSUM` reads a module as text, keeps its object code on disk and
+writes it. Such a process ends by itself, a few seconds after the one that began it at the latest.
 """
 
 from __future__ import annotations
 
 import atexit
 import contextlib
+import hashlib
 import os
 import subprocess
 import sys
@@ -21,14 +22,15 @@ RUNNING: set[subprocess.Popen[bytes]] = set()
 
 def optimised_beside(text: str, level: Level, key: str) -> bytes | None:
     """The object code of a module, optimised so far, which is kept under a key; None if it cannot be made."""
-    command = [sys.executable, "-m", "tandemlift.trace.optimising", *[str(int(part)) for part in level], key]
-    pipe = subprocess.PIPE
+    data, pipe = text.encode(), subprocess.PIPE
+    given = [*[str(int(part)) for part in level], key, hashlib.sha256(data).hexdigest()]
+    command = [sys.executable, "-m", "tandemlift.trace.optimising", *given]
     try:
         process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, start_new_session=True)
     except OSError:
         return None
     RUNNING.add(process)
-    code, _ = process.communicate(text.encode())
+    code, _ = process.communicate(data)
     RUNNING.discard(process)
     return code if process.returncode == 0 and code else None
 
@@ -40,11 +42,14 @@ def leave() -> None:
         process.returncode = 0
 
 
-def main(passes: str, code: str, vectors: str, key: str) -> None:
+def main(passes: str, code: str, vectors: str, key: str, checksum: str) -> None:
     """Read a module from standard input; keep its object code, and write it to standard output."""
     if hasattr(os, "nice"):
         os.nice(COURTESY)
-    made = compiled(sys.stdin.buffer.read().decode(), Level(int(passes), int(code), bool(int(vectors))))
+    data = sys.stdin.buffer.read()
+    if hashlib.sha256(data).hexdigest() != checksum:
+        sys.exit("the module is cut short: who wrote it has ended")
+    made = compiled(data.decode(), Level(int(passes), int(code), bool(int(vectors))))
     if quick := store.read(f"{key}-quick"):
         store.write(f"{key}-best", store.Entry(quick.about, made))
         store.remove(f"{key}-text")

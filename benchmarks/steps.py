@@ -1,0 +1,138 @@
+"""How long a step takes in every built-in mission: `python benchmarks/steps.py`.
+
+Prints Markdown: a flight alone, blocks of eight different flights on one core, and the pilot from Python; optimised
+code throughout. With `--base PATH` the same is measured in another checkout, turn by turn, and a ratio is the median
+over the pairs. How a base of Numba is set up is said in `compiling.py`.
+
+A block's eight flights differ in their seed and in what the body weighs; with real rotors two of them lose one, at
+different times.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from compiling import HERE, PACKAGES, Checkout
+from machine import NO_RESULT, describe, heading, number, save, table
+from waiting import PATIENCE
+
+MISSIONS = (
+    *("one-push", "paper", "flight-ready", "hover", "four", "off-centre-push", "heavy-payload"),
+    *("gusts", "iris", "rotor-loss", "doorway", "narrow", "narrow-zigzag", "zigzag"),
+)
+PILOTS = ("paper", "iris")
+MEASURE = """
+import importlib.util, json, sys, time, warnings
+from statistics import median
+warnings.simplefilter("ignore")
+import numpy as np
+import tandemlift as tl
+traced = importlib.util.find_spec("tandemlift.trace")
+
+def best(code):
+    thread = code.optimise()
+    thread and thread.join()
+    assert code.is_best
+
+def lane(name, i):
+    base = tl.load_mission(name)
+    changes = {"mission.seed": i, "plant.mass_scale": 1.0 + 0.002 * i}
+    fault = {"quadrotor": 1, "rotor": 1 + i % 4, "time": 10.0 + i if i in (2, 5) else 1e6, "efficiency": 0.0}
+    can_fail = base.actuators.model == "rotors" and not base.faults
+    return tl.load_mission(name, {**changes, **({"faults": [fault]} if can_fail else {})})
+
+def step(name, kind, repeats=5):
+    missions = [tl.load_mission(name)] if kind == "alone" else [lane(name, i) for i in range(8)]
+    if traced:
+        from tandemlift.prepared import Prepared
+        best(Prepared(missions[0]).kernels.loop(len(missions)))
+    found = []
+    for _ in range(repeats + 1):
+        flown = [tl.fly(missions[0]).metrics()] if kind == "alone" else tl.fly_many(missions, "metrics", threads=1)
+        found.append(sum(m["wall_s"] for m in flown) / flown[0]["steps"] * 1e9)
+    return median(found[1:])
+
+def pilot(name):
+    p, x = tl.Pilot(tl.load_mission(name)), np.zeros(16)
+    x[2], x[6] = 1.0, 1.0
+    p.step(x)
+    if traced:
+        best(p._code)
+    found = []
+    for _ in range(7):
+        began = time.perf_counter()
+        for _ in range(10_000):
+            p.step(x)
+        found.append((time.perf_counter() - began) / 10_000 * 1e9)
+    return median(found)
+
+name, kind = sys.argv[1:]
+print(json.dumps(pilot(name) if kind == "pilot" else step(name, kind)))
+"""
+
+
+def measured(checkout: Checkout, cache: str, name: str, kind: str) -> float:
+    """Nanoseconds a step, or a call of the pilot."""
+    done = subprocess.run(
+        [checkout.python, "-c", MEASURE, name, kind],
+        env=checkout.environment(cache),
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+    )
+    if done.returncode:
+        raise SystemExit(f"{name}, {kind}: {done.stderr.strip().splitlines()[-1]}")
+    return float(json.loads(done.stdout))
+
+
+def row(what: str, turns: list[list[float]], flights: int) -> list[str]:
+    """Cells of a row: ns a step of all lanes, million steps a second, the same of the base, the ratio of the pairs."""
+    columns = [median(column) for column in zip(*turns, strict=True)]
+    cells = [text for ns in columns for text in (number(ns), number(1e3 * flights / ns))]
+    ratio = number(median(turn[0] / turn[1] for turn in turns)) if len(columns) == 2 else NO_RESULT
+    return [what, *cells, *[NO_RESULT] * (4 - len(cells)), ratio]
+
+
+HEADER = ("", "ns a step", "M steps/s", "base: ns a step", "M steps/s", "ratio of ns")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--base", type=Path, metavar="PATH", help="another checkout to measure in pairs with this one")
+    parser.add_argument("--cache", metavar="PATH", help="where the base keeps what it compiles, from run to run")
+    parser.add_argument("--rounds", type=int, default=3, help="turns that a median is taken over")
+    parser.add_argument("--missions", nargs="*", default=MISSIONS, metavar="NAME")
+    parser.add_argument("--json", metavar="FILE", help="write the results to this file too")
+    options = parser.parse_args()
+    checkouts = [Checkout.at(HERE)._replace(python=sys.executable)]
+    checkouts += [Checkout.at(options.base)] if options.base else []
+    about, results, rows = describe(PACKAGES), dict[str, Any](), []
+    chosen = [(name, kind) for kind in ("alone", "block") for name in options.missions]
+    chosen += [(name, "pilot") for name in PILOTS]
+    with tempfile.TemporaryDirectory() as root:
+        caches = [f"{root}/own", options.cache or f"{root}/base"]
+        for name, kind in chosen:
+            print(f"{name}, {kind} …", file=sys.stderr, flush=True)
+            turns = [
+                [measured(c, caches[i], name, kind) for i, c in enumerate(checkouts)] for _ in range(options.rounds)
+            ]
+            results[f"{name}, {kind}"] = turns
+            what = {"alone": f"`{name}`", "block": f"`{name}`, eight at once", "pilot": f"`Pilot.step` of `{name}`"}
+            rows.append(row(what[kind], turns, 8 if kind == "block" else 1))
+    print(heading(about), *[c.about for c in checkouts], sep="\n\n", end="\n\n")
+    print(table(HEADER, rows))
+    load = f"{os.getloadavg()[0]:.2f}" if hasattr(os, "getloadavg") else "unknown"
+    print(f"\nMedians of {options.rounds}; load at the end {load}.")
+    save(options.json, {"machine": about, "rows": results})
+
+
+if __name__ == "__main__":
+    main()
