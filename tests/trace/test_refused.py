@@ -52,6 +52,7 @@ def own(tmp_path, monkeypatch):
     """Write the guide's controller with a line more; it is forgotten afterwards."""
     monkeypatch.chdir(tmp_path)
     before = dict(CONTROLLERS)
+    CONTROLLERS.pop("my-pd", None)  # of another test
 
     def write(line: str, text: str = LAW) -> Path:
         path = tmp_path / "my_pd.py"
