@@ -11,7 +11,12 @@ from typing import Any
 
 BASE = {"f": "double", "b": "i1", "i": "i64"}  # LLVM's name for each type of the graph
 WIDE = '"prefer-vector-width"="512" "min-legal-vector-width"="512"'
-ATTRIBUTES = [f"attributes #0 = {{ nounwind {WIDE} }}", f"attributes #1 = {{ nounwind noinline {WIDE} }}"]
+LONG = 8_000  # lines: such a function waits for its instructions, and is faster if it is shorter
+ATTRIBUTES = [
+    f"attributes #0 = {{ nounwind {WIDE} }}",
+    f"attributes #1 = {{ nounwind noinline {WIDE} }}",
+    f"attributes #2 = {{ nounwind noinline optsize minsize {WIDE} }}",
+]
 WHOLE = {"add": operator.add, "mul": operator.mul}
 
 
@@ -49,7 +54,8 @@ class Text(ABC):
         """Close the function and put it into its module."""
         self.do(f"ret {result}")
         begin, *lines = self.lines
-        self.module.functions.append("\n".join([f"define {self.head} {{", begin, *self._rooms, *lines, "}"]))
+        head = self.head if len(lines) < LONG else self.head.replace(" #1", " #2")
+        self.module.functions.append("\n".join([f"define {head} {{", begin, *self._rooms, *lines, "}"]))
 
     @abstractmethod
     def scope(self) -> AbstractContextManager[None]:
