@@ -74,7 +74,7 @@ def test_a_second_process_finds_the_compiled_law_until_the_file_changes(own, tmp
         return int(completed(command, capture_output=True, text=True, env=environment, check=True).stdout)
 
     assert [made(), made()] == [1, 0]
-    assert len(list((tmp_path / "cache").rglob("*.o"))) == 1
+    assert len(list((tmp_path / "cache").rglob("*-quick.o"))) == 1
     own(LAW + "\n# edited\n")
     assert [made(), made()] == [1, 0]
 
