@@ -187,9 +187,11 @@ def fly_stepwise(
     stepper, columns = Stepper(p, body), leaves(p.sample)
     log, last = np.zeros((rows, columns)), np.full(columns, math.nan)
     began, early, k = time.perf_counter(), EMPTY, 0
-    while k <= p.steps and not stepper.lost:
+    while k <= p.steps:
         if k == p.late_step < p.steps:
             (early,) = take_tallies(stepper.a, stepper.p.flying, 1)
+        if stepper.lost:
+            break
         stepper.step(k, final=k == p.steps)
         if k % every == 0:
             log[k // every] = stepper.row

@@ -18,7 +18,7 @@ class Level(NamedTuple):
     vectors: bool = False
 
 
-QUICK, BEST, BEST_OF_VECTORS = Level(0, 0), Level(3, 3, vectors=True), Level(0, 2)
+QUICK, BEST, BEST_OF_VECTORS = Level(0, 0), Level(1, 2, vectors=True), Level(0, 2)
 LIBRARIES = iter(range(1 << 62))
 
 
