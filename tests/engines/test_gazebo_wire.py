@@ -222,7 +222,9 @@ def test_a_pilot_killed_in_flight_leaves_a_plugin_that_flies_the_next(vehicle, w
         flown = len(plugin.taken)
         assert flown >= 10
         fly_by(wire_to(plugin), 4)
-        assert plugin.taken[flown:] == [1, 2, 3, 4]
+        later = plugin.taken[flown:]
+        assert later[-4:] == [1, 2, 3, 4]
+        assert len(later) <= 5, "a step of the killed pilot may have been on its way"
 
 
 def test_without_gazebo_the_error_says_how_to_get_it(mission, monkeypatch, tmp_path):
