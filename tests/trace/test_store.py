@@ -29,7 +29,7 @@ import sys, tandemlift as tl
 flight = tl.fly(tl.load_mission("one-push", {"mission.duration": 0.5}))
 print(flight["thrust"].tobytes().hex()[-4000:])
 """
-ENTRY = store.Entry({"size": 3, "rooms": {"hands": [0, 3]}}, b"\0code\nmore\xff")
+ENTRY = store.StoredCode({"size": 3, "rooms": {"hands": [0, 3]}}, b"\0code\nmore\xff")
 
 
 @pytest.fixture
@@ -161,7 +161,7 @@ def test_the_folder_keeps_the_newest_within_its_bound(cache, monkeypatch):
 
 def test_a_reader_sees_whole_entries_alone_while_others_write(cache):
     """Two threads write, each its own entry under one key; every read gives one of the two."""
-    long = [store.Entry({"writer": i}, bytes([i]) * 300_000) for i in (1, 2)]
+    long = [store.StoredCode({"writer": i}, bytes([i]) * 300_000) for i in (1, 2)]
     done = threading.Event()
     writers = [threading.Thread(target=lambda e=e: [store.write("key", e) for _ in range(40)]) for e in long]
     store.write("key", long[0])

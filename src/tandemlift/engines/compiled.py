@@ -62,7 +62,7 @@ class Above(NamedTuple):
     floor: Floor
 
 
-class Apart(NamedTuple):
+class DistantWalls(NamedTuple):
     """Walls out of reach for a step: the same numbers, and no force."""
 
     walls: Walls
@@ -72,40 +72,13 @@ class Clear(NamedTuple):
     """The load of what is out of reach: zero, and added like any other, so that no bit of a flight depends on it."""
 
 
-@choice
-def above(floor: Any) -> Any:
-    """A floor, or `Nothing`, out of reach."""
-
-
-@above.register(Nothing)
-def _above_nothing(floor):
-    return floor
-
-
-@above.register(Floor)
-def _above_floor(floor):
-    return Above(floor)
-
-
-@choice
-def apart(walls: Any) -> Any:
-    """Walls, or `Nothing`, out of reach."""
-
-
-@apart.register(Nothing)
-def _apart_from_nothing(walls):
-    return walls
-
-
-@apart.register(Walls)
-def _apart_from_walls(walls):
-    return Apart(walls)
-
-
-@law
 def untouched(plant: Plant) -> Plant:
     """The same body where nothing can touch floor or walls."""
-    return Plant(plant.effect, plant.body, plant.frame, above(plant.floor), apart(plant.walls))
+    floor, walls = plant.floor, plant.walls
+    return plant._replace(
+        floor=floor if isinstance(floor, Nothing) else Above(floor),
+        walls=walls if isinstance(walls, Nothing) else DistantWalls(walls),
+    )
 
 
 @choice
@@ -138,7 +111,7 @@ def _no_walls(walls, b, s):
     return walls
 
 
-@of_walls.register(Apart)
+@of_walls.register(DistantWalls)
 def _walls_out_of_reach(walls, b, s):
     return Clear()
 

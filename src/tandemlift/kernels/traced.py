@@ -67,7 +67,7 @@ class Limits(NamedTuple):
     solver: Solver
 
 
-class Body(NamedTuple):
+class BodyInputs(NamedTuple):
     """What another engine's body is given: thrusts and the air's loads stand among the values of `acting`."""
 
     acting: Symbols
@@ -124,12 +124,12 @@ class Traced:
         self.limits: Limits | None = None
         if likes.constrained:
             thought = self._limited(thought)
-        self.thought = thought = traced(overruled)(thought, self.given.external)
+        thought = traced(overruled)(thought, self.given.external)
         acting = traced(act)(self.flying, thought.decision.thrusts, self.given, self.t)
-        self.body = Body(self.all(acting), self._mean_push())
+        self.body = BodyInputs(self.all(acting), self._mean_push())
         self.near, self.apart = self.all(self._swung(self.flying.plant, acting)), list[Symbol]()
         if likes.grounded or likes.walled:
-            self.apart = self.all(self._swung(traced(untouched)(self.flying.plant), acting))
+            self.apart = self.all(self._swung(untouched(self.flying.plant), acting))
         self.pressing = [self._pressing(acting)] if likes.walled else []
         moved = self.given_by("moved", likes.moved)
         moving, sample = traced(observe)(self.flying, thought, acting, moved, self.given)
@@ -164,7 +164,7 @@ class Traced:
     def _pressing(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""
         before, plant, dt = self.flying.moving, self.flying.plant, self.dt
-        free, air = traced(untouched)(plant), acting.weather.loads
+        free, air = untouched(plant), acting.weather.loads
         args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
         rate = traced(first_motion)(free, *args)
         room = traced(clearance)(plant.walls, before.near, plant.frame, before.state)

@@ -48,7 +48,7 @@ def free(x: Any, blur: Any, cell: Any) -> Any:
     return (1.0 - covered(x + 0.5 * thin, blur, cell, thin)) * (1.0 - covered(x + 0.5 * thick, blur, 5.0 * cell, thick))
 
 
-class Floor(NamedTuple):
+class PaintedFloor(NamedTuple):
     """The floor as the eye sees it.
 
     Its `height` [m], the `cell` of its grid [m], the distance `hazy` at which the haze hides half of it [m], and of the
@@ -63,7 +63,7 @@ class Floor(NamedTuple):
     texel: Any
 
 
-class Eye(NamedTuple):
+class Viewpoint(NamedTuple):
     """What a `View` is, in numbers."""
 
     place: Vec3
@@ -75,7 +75,7 @@ class Eye(NamedTuple):
     middle: Any
 
     @classmethod
-    def of(cls, view: View) -> Eye:
+    def of(cls, view: View) -> Viewpoint:
         """The eye of a view."""
         place, right, up, ahead = (Vec3(*map(float, v)) for v in (view.eye, *view.axes))
         return cls(place, right, up, ahead, view.focal, view.width, view.middle)
@@ -86,7 +86,7 @@ class Eye(NamedTuple):
         return Vec3(*(right * r + up * u + a for r, u, a in zip(self.right, self.up, self.ahead, strict=True)))
 
 
-def lines_at(floor: Floor, eye: Eye, ray: Vec3, x: Any, y: Any) -> Any:
+def lines_at(floor: PaintedFloor, eye: Viewpoint, ray: Vec3, x: Any, y: Any) -> Any:
     """Share of the pixel that looks along a ray, at (x, y) on the floor [m], that lines of the grid cover."""
     right, up = eye.right, eye.up
     # how the place on the floor changes from one pixel to the next, right and up
@@ -96,7 +96,7 @@ def lines_at(floor: Floor, eye: Eye, ray: Vec3, x: Any, y: Any) -> Any:
     return 1.0 - free(x, blur_x, floor.cell) * free(y, blur_y, floor.cell)
 
 
-def place_in(floor: Floor, x: Any, y: Any, rows: Any, columns: Any) -> Any:
+def place_in(floor: PaintedFloor, x: Any, y: Any, rows: Any, columns: Any) -> Any:
     """Whether a place on the floor is in the shadow's table, the entry of its cell, and how far it is in that cell."""
     row, column = (y - floor.south) / floor.texel - 0.5, (x - floor.west) / floor.texel - 0.5
     known = (row >= 0.0) & (row < rows - 1.0) & (column >= 0.0) & (column < columns - 1.0)
@@ -112,7 +112,7 @@ def shade_at(known: Any, corners: Any, y: Any, x: Any) -> Any:
     return where(known, upper * (1.0 - y) + lower * y, 0.0)
 
 
-def floor_light(floor: Floor, ray: Vec3, reach: Any, line: Any, shade: Any) -> list[Any]:
+def floor_light(floor: PaintedFloor, ray: Vec3, reach: Any, line: Any, shade: Any) -> list[Any]:
     """Light (3) of the floor where a ray meets it."""
     way = reach * sqrt(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z) / floor.hazy
     haze = 1.0 - exp(-way * way * LOG_2)
@@ -134,8 +134,8 @@ def sky_light(ray: Vec3) -> list[Any]:
 def _traced(g: Graph) -> tuple[list[Any], Any]:
     """The light (3) of a pixel, of inputs `shade` 0 to 3 among others; the entry of the first of these in the table."""
     numbers = (g.input("number", i) for i in itertools.count())
-    floor = rebuilt(numbers, Floor(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    eye = rebuilt(numbers, Eye(ZERO, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0))
+    floor = rebuilt(numbers, PaintedFloor(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    eye = rebuilt(numbers, Viewpoint(ZERO, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0))
     ray = eye.ray(g.input("row", type="i"), g.input("column", type="i"))
     down = ray.z <= -LEVEL
     below = ray._replace(z=where(down, ray.z, -1.0))
@@ -192,7 +192,7 @@ def background(view: View, height: float, distance: float, shadow: Shadow, cell:
         cell: of the grid [m].
     """
     west, south = shadow.low
-    floor = Floor(height, cell, FAR * distance, west, south, shadow.texel)
+    floor = PaintedFloor(height, cell, FAR * distance, west, south, shadow.texel)
     light = np.empty((view.height, view.width, 3))
-    paint(*light.shape[:2], *shadow.shade.shape, np.array(flat(floor) + flat(Eye.of(view))), shadow.shade, light)
+    paint(*light.shape[:2], *shadow.shade.shape, np.array(flat(floor) + flat(Viewpoint.of(view))), shadow.shade, light)
     return light

@@ -100,7 +100,7 @@ class Code:
             self._written = self._write()
         return self._written
 
-    def _quick(self, going: Callable[[], bool]) -> store.Entry:
+    def _quick(self, going: Callable[[], bool]) -> store.StoredCode:
         began = time.perf_counter()
         compiling(None)
         came = Compiled(LOOP)
@@ -108,9 +108,9 @@ class Code:
             written = self._text()
             code = _interruptible(lambda: _compiled(written.text, going))
             seconds = time.perf_counter() - began
-            entry = store.Entry({**written.about, "seconds": seconds}, code)
+            entry = store.StoredCode({**written.about, "seconds": seconds}, code)
             kept = store.write(f"{self._key}-quick", entry)
-            store.write(f"{self._key}-text", store.Entry({}, zlib.compress(written.text.encode(), 1)))
+            store.write(f"{self._key}-text", store.StoredCode({}, zlib.compress(written.text.encode(), 1)))
             came = Compiled(entry.about.get("what", LOOP), seconds, kept, is_made=True)
         finally:
             compiling(came)

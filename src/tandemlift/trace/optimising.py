@@ -51,7 +51,7 @@ def main(passes: str, code: str, vectors: str, key: str, checksum: str) -> None:
         sys.exit("the module is cut short: who wrote it has ended")
     made = compiled(data.decode(), Level(int(passes), int(code), bool(int(vectors))))
     if quick := store.read(f"{key}-quick"):
-        store.write(f"{key}-best", store.Entry(quick.about, made))
+        store.write(f"{key}-best", store.StoredCode(quick.about, made))
         store.remove(f"{key}-text")
     with contextlib.suppress(BrokenPipeError):
         sys.stdout.buffer.write(made)

@@ -52,7 +52,7 @@ class Loop:
     """The loop over the values of sets of one size, at `i`, `width` of them at a time."""
 
     def __init__(self, f: Function, count: int, i: str) -> None:
-        self.f, self.count, self.i, self.width = f, count, i, width_of(f, count)
+        self.f, self.i, self.width = f, i, width_of(f, count)
         self.values: dict[int, str] = {}
 
     def kind(self, type: str) -> str:

@@ -21,7 +21,7 @@ MOST_BYTES = 256 * 2**20
 CHECKSUM = 32  # bytes
 
 
-class Entry(NamedTuple):
+class StoredCode(NamedTuple):
     """Object code, and what must be known to call it."""
 
     about: dict[str, Any]
@@ -61,7 +61,7 @@ def path_of(key: str) -> Path | None:
     return home and home / f"{key}.o"
 
 
-def read(key: str) -> Entry | None:
+def read(key: str) -> StoredCode | None:
     """The entry of a key, or None if there is none that can be trusted; one that cannot is removed."""
     path = path_of(key)
     if path is None:
@@ -76,16 +76,16 @@ def read(key: str) -> Entry | None:
         return None
 
 
-def _entry(data: bytes) -> Entry | None:
+def _entry(data: bytes) -> StoredCode | None:
     """What a file holds, if it is whole."""
     body = data[len(MAGIC) + CHECKSUM :]
     if not data.startswith(MAGIC) or hashlib.sha256(body).digest() != data[len(MAGIC) :][:CHECKSUM]:
         return None
     about, newline, code = body.partition(b"\n")
-    return Entry(json.loads(about), code) if newline else None
+    return StoredCode(json.loads(about), code) if newline else None
 
 
-def write(key: str, entry: Entry) -> bool:
+def write(key: str, entry: StoredCode) -> bool:
     """Keep an entry; whether that was possible."""
     path = path_of(key)
     if path is None:
