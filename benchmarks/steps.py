@@ -29,6 +29,7 @@ MISSIONS = (
     *("gusts", "iris", "rotor-loss", "doorway", "narrow", "narrow-zigzag", "zigzag"),
 )
 PILOTS = ("paper", "iris")
+KINDS = ("alone", "block", "pilot")
 MEASURE = """
 import importlib.util, json, sys, time, warnings
 from statistics import median
@@ -110,13 +111,14 @@ def main() -> None:
     parser.add_argument("--cache", metavar="PATH", help="where the base keeps what it compiles, from run to run")
     parser.add_argument("--rounds", type=int, default=3, help="turns that a median is taken over")
     parser.add_argument("--missions", nargs="*", default=MISSIONS, metavar="NAME")
+    parser.add_argument("--kinds", nargs="*", default=KINDS, choices=KINDS)
     parser.add_argument("--json", metavar="FILE", help="write the results to this file too")
     options = parser.parse_args()
     checkouts = [Checkout.at(HERE)._replace(python=sys.executable)]
     checkouts += [Checkout.at(options.base)] if options.base else []
     about, results, rows = describe(PACKAGES), dict[str, Any](), []
-    chosen = [(name, kind) for kind in ("alone", "block") for name in options.missions]
-    chosen += [(name, "pilot") for name in PILOTS]
+    chosen = [(name, kind) for kind in options.kinds if kind != "pilot" for name in options.missions]
+    chosen += [(name, "pilot") for name in PILOTS if "pilot" in options.kinds]
     with tempfile.TemporaryDirectory() as root:
         caches = [f"{root}/own", options.cache or f"{root}/base"]
         for name, kind in chosen:
