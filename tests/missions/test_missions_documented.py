@@ -75,7 +75,7 @@ def test_the_template_is_a_mission_with_all_that_it_keeps_out_as_well():
     tables |= {"actuators": {"model": "rotors"}, "ground": tables["ground"] | {"model": "floor"}}
     tables["wind"]["model"], tables["allocation"]["method"] = "air", "constrained"
     tables["initial"]["euler"] = 0.0
-    del tables["partner"]["recording"]  # no such file
+    del tables["person"]["recording"]  # no such file
     tables["pilot"]["guidance"], tables["sensors"]["model"] = "hand", "simulated"
     with warnings.catch_warnings():
         warnings.simplefilter("error")

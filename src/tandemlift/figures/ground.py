@@ -10,7 +10,7 @@ from tandemlift.figures.vehicle import mass_of, vehicle_of
 from tandemlift.flight import Flight
 from tandemlift.laws.contact import floor, soles_below, standing_height
 from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.settings.world import Ground
+from tandemlift.settings.surroundings import Ground
 from tandemlift.vector import Quat
 from tandemlift.vehicle import Vehicle
 

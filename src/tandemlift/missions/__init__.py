@@ -131,10 +131,10 @@ def _layers(path: Path, seen: tuple[Path, ...] = ()) -> Iterator[Layer]:
 
 def _anchored(tables: Tables, folder: Path) -> Tables:
     """Tables of a file whose recording, if it names one, is found from the file's own folder."""
-    recording = value_at(tables, ("partner", "recording"))
+    recording = value_at(tables, ("person", "recording"))
     if not isinstance(recording, str):
         return tables
-    return merge(tables, {"partner": {"recording": str((folder / recording).resolve())}})
+    return merge(tables, {"person": {"recording": str((folder / recording).resolve())}})
 
 
 def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:

@@ -72,7 +72,7 @@ def _check_delays(m: Mission) -> None:
         "actuators.delay": m.actuators.delay,
         "sensors.delay": m.sensors.delay,
         "sensors.motion.delay": m.sensors.motion.delay,
-        "partner.delay": m.partner.delay,
+        "person.delay": m.person.delay,
     }
     for key, delay in delays.items():
         if delay / m.mission.step > MAX_DELAY:

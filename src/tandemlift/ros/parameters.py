@@ -22,7 +22,7 @@ from tandemlift.ros.telling import Tell
 from tandemlift.settings import Mission
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
-SPRING = ("partner.stiffness", "partner.damping")  # of a page's hand; here pushes are forces
+SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces
 LAST = (DAMPING, RATIO)  # are set after mass and stiffness, of which they are formed
 
 

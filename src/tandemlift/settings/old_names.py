@@ -1,4 +1,4 @@
-"""Names that changed after version 0.1.0 of e5ecfdc: mission keys, choices and channels, each old name with its new one.
+"""Names that changed after e5ecfdc: mission keys, choices and channels, each old name with its new one.
 
 This is the only place that knows an old name. Whatever reads a file of the old version (a mission, the mission in
 `flight.npz`, `--set`) translates it here, and warns of what was renamed.
