@@ -15,7 +15,7 @@ from tandemlift.errors import InputError, suggestion
 from tandemlift.flight import CHANNELS, DERIVED, TIME, Channel, Divergence, Flight
 from tandemlift.flown import Flown, channels_of, divergence_of, flight_of, take_tallies
 from tandemlift.kernels import place
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
 from tandemlift.prepared import Prepared
 from tandemlift.recording import engine_of
 from tandemlift.settings import Mission

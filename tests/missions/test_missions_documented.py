@@ -11,8 +11,8 @@ from schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
 from tandemlift.missions import built_in, check, load_mission, tables_of
-from tandemlift.missions.explain import value_at
-from tandemlift.missions.surroundings import standing_of
+from tandemlift.missions.surroundings_checks import standing_of
+from tandemlift.missions.values import value_at
 from tandemlift.settings import Mission
 
 LEVEL = {"initial.euler": 0.0, "ground.model": "floor"}

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.laws.controllers import CONTROLLERS
 from tandemlift.missions import tables_of
-from tandemlift.missions.explain import MISSING, value_at
+from tandemlift.missions.values import MISSING, value_at
 from tandemlift.settings import Mission
 
 EVERY = "vehicle.quadrotors.each."  # begins the key of a control that all quadrotors have together

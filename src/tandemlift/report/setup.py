@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from tandemlift.figures.ground import floor_height
 from tandemlift.flight import Flight
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
 from tandemlift.settings import (
     ChangeTable,
     ComplianceTable,

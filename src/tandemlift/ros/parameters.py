@@ -16,7 +16,7 @@ from tandemlift.errors import InputError, unknown
 from tandemlift.live.controls import controls_of
 from tandemlift.live.messages import Set
 from tandemlift.live.session import Session
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
 from tandemlift.ros.middleware import Middleware
 from tandemlift.ros.telling import Tell
 from tandemlift.settings import Mission

@@ -1,14 +1,14 @@
 """Names that changed after e5ecfdc: mission keys, choices and channels, each old name with its new one.
 
-This is the only place that knows an old name. Whatever reads a file of the old version (a mission, the mission in
-`flight.npz`, `--set`) translates it here, and warns of what was renamed.
+This is the only place that knows an old name. Whatever takes names from outside (a mission file, the mission in
+`flight.npz`, `--set`) has them translated here, and warns of what was renamed.
 """
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
 
 from tandemlift.errors import FlightWarning, InputError
 
@@ -86,42 +86,68 @@ VALUES: dict[str, dict[str, str]] = {"sensor_faults.sensor": {"unit": "imu"}}
 CHANNELS: dict[str, str] = {}
 """A channel's old name and its new one."""
 
-_BY_TABLE = {(new.rpartition(".")[0], old.rpartition(".")[2]): new.rpartition(".")[2] for old, new in KEYS.items()}
+_IN_TABLE = {(new.rpartition(".")[0], old.rpartition(".")[2]): new.rpartition(".")[2] for old, new in KEYS.items()}
+
+
+class _At(NamedTuple):
+    """A place in a mission, as it was given and by its new name; numbers of list entries are left out."""
+
+    given: tuple[str, ...] = ()
+    now: tuple[str, ...] = ()
+
+    def key(self, name: str) -> _At:
+        """A key of the table at this place."""
+        return _At((*self.given, name), (*self.now, _IN_TABLE.get((".".join(self.now), name), name)))
+
+
+def _at(key: str) -> _At:
+    at = _At()
+    for part in key.split("."):
+        at = at if part.isdigit() else at.key(part)
+    return at
 
 
 def renamed_key(key: str) -> str:
-    """A dotted key of a mission under its new name; numbers in it, which pick entries of lists, stay."""
-    new, place = list[str](), ""
-    for part in key.split("."):
-        new.append(part if part.isdigit() else _BY_TABLE.get((place, part), part))
-        place = place if part.isdigit() else _joined(place, new[-1])
-    return ".".join(new)
+    """A dotted key of a mission by its new name; numbers in it, which pick entries of lists, stay."""
+    names = iter(_at(key).now)
+    return ".".join(part if part.isdigit() else next(names) for part in key.split("."))
 
 
 def renamed_tables(tables: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    """A mission's nested tables under their new names, and a sentence for each old name.
+    """A mission's nested tables by their new names, and a sentence for each old name.
 
     Raises:
         InputError: a table has a key by its old and its new name at once.
     """
     notices = list[str]()
-    new = {key: _renamed(value, key, notices) for key, value in _items(tables, "", notices)}
-    for i, change in enumerate(new.get("changes") or ()):
-        if isinstance(change, dict) and isinstance(change.get("key"), str):
-            new["changes"][i] = _renamed_change(change, notices)
+    new = _renamed(tables, _At(), notices)
+    if isinstance(new.get("changes"), list):
+        new["changes"] = [_renamed_change(change, notices) for change in new["changes"]]
     return new, list(dict.fromkeys(notices))
 
 
 def renamed_setting(key: str, value: Any) -> tuple[str, Any, list[str]]:
-    """A dotted key and its value under their new names, and a sentence for each old name.
+    """A dotted key and its value by their new names, and a sentence for each old name.
 
     Raises:
         InputError: the value is a table that has a key by its old and its new name at once.
     """
     new = renamed_key(key)
     notices = [] if new == key else [_notice(key, new)]
-    place = ".".join(part for part in new.split(".") if not part.isdigit())
-    return new, _renamed(value, place, notices), notices
+    return new, _renamed(value, _at(key), notices), notices
+
+
+def check_said_once(changes: Iterable[str]) -> None:
+    """Refuse dotted keys that are given by their old and their new name at once.
+
+    Raises:
+        InputError: with both names.
+    """
+    given = {key for key in changes if isinstance(key, str)}
+    for key in given:
+        new = renamed_key(key)
+        if new != key and new in given:
+            raise _both(key, new)
 
 
 def warn_of_old_names(source: str, notices: list[str]) -> None:
@@ -130,40 +156,45 @@ def warn_of_old_names(source: str, notices: list[str]) -> None:
         warnings.warn(f"{source}: {', '.join(notices)}", FlightWarning, stacklevel=3)
 
 
-def _joined(place: str, name: str) -> str:
-    return f"{place}.{name}" if place else name
-
-
 def _notice(old: str, new: str) -> str:
     return f"{old} was renamed to {new}"
 
 
-def _items(table: Mapping[str, Any], place: str, notices: list[str]) -> Iterator[tuple[str, Any]]:
-    """The items of the table at `place` (its new name) under their new names."""
-    for key, value in table.items():
-        new = _BY_TABLE.get((place, key))
-        if new is not None:
-            old, now = _joined(place, key), _joined(place, new)
-            if new in table:
-                raise InputError(f"{old} and {now}: only one of them may be given, {_notice(old, now)}")
-            notices.append(_notice(old, now))
-        yield new or key, value
+def _both(old: str, new: str) -> InputError:
+    return InputError(f"{old} and {new}: must not both be given: {_notice(old, new)}")
 
 
-def _renamed(value: Any, place: str, notices: list[str]) -> Any:
-    """What stands at `place` (its new name), under its new names."""
+def _renamed(value: Any, at: _At, notices: list[str]) -> Any:
+    """What stands at a place, by its new names."""
     if isinstance(value, Mapping):
-        return {key: _renamed(v, _joined(place, key), notices) for key, v in _items(value, place, notices)}
+        return dict(_items(value, at, notices))
     if isinstance(value, list):
-        return [_renamed(entry, place, notices) for entry in value]
-    new = VALUES.get(place, {}).get(value) if isinstance(value, str) else None
+        return [_renamed(entry, at, notices) for entry in value]
+    new = VALUES.get(".".join(at.now), {}).get(value) if isinstance(value, str) else None
     if new is not None:
-        notices.append(_notice(f'{place} = "{value}"', f'"{new}"'))
-    return new or value
+        notices.append(_notice(f'{".".join(at.given)} = "{value}"', f'"{new}"'))
+    return value if new is None else new
 
 
-def _renamed_change(change: dict[str, Any], notices: list[str]) -> dict[str, Any]:
+def _items(table: Mapping[str, Any], at: _At, notices: list[str]) -> Iterator[tuple[str, Any]]:
+    """The items of the table at a place, by their new names."""
+    for key, value in table.items():
+        if not isinstance(key, str):
+            yield key, value
+            continue
+        inner = at.key(key)
+        old, new = ".".join(inner.given), ".".join(inner.now)
+        if inner.now[-1] != key:
+            if inner.now[-1] in table:
+                raise _both(old, new)
+            notices.append(_notice(old, new))
+        yield inner.now[-1], _renamed(value, inner, notices)
+
+
+def _renamed_change(change: Any, notices: list[str]) -> Any:
     """One of `[[changes]]`, whose key and value are those of a mission."""
+    if not isinstance(change, dict) or not isinstance(change.get("key"), str):
+        return change  # which the key's own rules explain
     key, value, more = renamed_setting(change["key"], change.get("value"))
     notices.extend(more)
     return {**change, "key": key} | ({"value": value} if "value" in change else {})

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tandemlift.errors import InputError
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 
 DEVICES = ("imu", "motion")
 
 
-def check_supervised(m: Mission) -> None:
+def check_supervision(m: Mission) -> None:
     """Refuse a supervision and requests without a guidance by hand, limits that exclude each other, and odd faults.
 
     Raises:

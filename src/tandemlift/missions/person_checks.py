@@ -9,7 +9,7 @@ from tandemlift.recording import read_recording
 from tandemlift.settings import Mission
 
 
-def check_company(m: Mission) -> None:
+def check_person(m: Mission) -> None:
     """Refuse a person without a way to go, or who holds on where there is nothing.
 
     Raises:
@@ -31,7 +31,7 @@ def check_company(m: Mission) -> None:
         raise InputError(f"person.grip = {p.grip}: must be on the payload, within ±{half:g} m of its centre")
 
 
-def doubts_of_company(m: Mission) -> Iterator[str]:
+def person_warnings(m: Mission) -> Iterator[str]:
     """What may go badly, with the numbers."""
     p, e = m.person, m.estimator
     if p.model in ("none", "grab"):

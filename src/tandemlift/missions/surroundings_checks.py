@@ -15,7 +15,7 @@ from tandemlift.laws.contact import Floor, floor, sinkage_of, soles_below, stand
 from tandemlift.laws.rectangle import offset, wall
 from tandemlift.laws.rotation import rotation_from_euler
 from tandemlift.laws.wind import FOOT, HIGHEST, LOWEST
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.settings.corridor import SHORTEST
 from tandemlift.vector import vec3
@@ -94,7 +94,7 @@ def standing_of(m: Mission) -> Standing:
     return Standing(built._replace(height=height), height + stands, sinkage, height - lowest - sinkage)
 
 
-def doubts_of_surroundings(m: Mission) -> Iterator[str]:
+def surroundings_warnings(m: Mission) -> Iterator[str]:
     """What may fly badly, with the numbers."""
     if m.ground.model == "floor":
         standing = standing_of(m)
