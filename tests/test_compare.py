@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.cli import main
-from tandemlift.comparison import Entrant, Entry, compare, entrants, scores
-from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.cli.main import main
+from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions import to_toml
-from tandemlift.report.comparison import COLUMNS, write_comparison
+from tandemlift.report.controller_comparison import COLUMNS, write_comparison
+from tandemlift.studies.controller_comparison import Entrant, Entry, compare, entrants, scores
 
 SHORT = ("--set", "mission.duration=0.6")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")  # of nftsmc
@@ -133,7 +133,7 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp
 
 def test_a_folder_that_is_in_the_way_is_refused_before_the_flight(run, tmp_path, monkeypatch):
     (tmp_path / "taken" / "compare.html").mkdir(parents=True)
-    monkeypatch.setattr("tandemlift.comparison.fly_many", lambda *_, **__: pytest.fail("flown"))
+    monkeypatch.setattr("tandemlift.studies.controller_comparison.fly_many", lambda *_, **__: pytest.fail("flown"))
     code, _, err = run("compare", "hover", "--out", "taken")
     assert code == 2
     assert "taken/compare.html is in the way" in err
@@ -185,7 +185,7 @@ def test_another_engine_flies_them_one_by_one(tmp_path):
 FAILING = '''
 """Fails in flight."""
 from typing import NamedTuple
-from tandemlift.laws.controllers import NoMemory, control, register
+from tandemlift.controllers import NoMemory, control, register
 from tandemlift.settings import ControllerTable
 class Gains(NamedTuple):
     """None."""

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.cli.notices import teller
 from tandemlift.cli.results import bar, results_in
 from tandemlift.cli.run import DIVERGED, chosen_controller, load, parse_setting, say
-from tandemlift.cli.telling import teller
 from tandemlift.errors import InputError
 from tandemlift.files import whole
 
 if TYPE_CHECKING:
-    from tandemlift.comparison import Entrant, Entry
-    from tandemlift.laws.controllers import Controller
+    from tandemlift.controllers import Controller
+    from tandemlift.studies.controller_comparison import Entrant, Entry
 
 FILES = ("compare.html", "compare.json")
 OF_ENGINES = ("engines.html", "engines.json")
@@ -69,8 +69,8 @@ def compare(
             raise InputError("--engines, --controllers: give one of them")
         _compare_engines(mission, _names("--engines", engines, "compiled,mujoco"), settings, out)
         return
-    from tandemlift.comparison import entrants
-    from tandemlift.engines import engine_named
+    from tandemlift.engines.registry import engine_named
+    from tandemlift.studies.controller_comparison import entrants
 
     engine_named(engine)
     changes = dict(map(parse_setting, settings))
@@ -112,7 +112,7 @@ def _names(option: str, given: str, example: str) -> list[str]:
 
 
 def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
-    from tandemlift.comparison import compare
+    from tandemlift.studies.controller_comparison import compare
 
     count = sum(e.mission is not None for e in entered)
     with teller.together(), bar("Flying", count, shown=sys.stderr.isatty()) as progress:
@@ -120,7 +120,7 @@ def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
 
 
 def _cells(entry: Entry) -> list[str]:
-    from tandemlift.comparison import scores
+    from tandemlift.studies.controller_comparison import scores
 
     if entry.flight is None:
         return [entry.name, *[""] * 7, f"not flown: {entry.refusal}"]
@@ -143,7 +143,7 @@ def _printed(value: float | None, scale: float, digits: int) -> str:
 
 def _print_table(name: str, entries: Sequence[Entry]) -> None:
     """Print a row for each controller, and under it why it diverged or did not fly."""
-    from tandemlift.comparison import scores
+    from tandemlift.studies.controller_comparison import scores
 
     late = any(scores(e.flight)["after_s"] for e in entries if e.flight)
     say(f"{name}: position errors {'after 10 s' if late else 'of the whole flight'}")
@@ -159,8 +159,8 @@ def _print_table(name: str, entries: Sequence[Entry]) -> None:
 
 
 def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> None:
-    from tandemlift.comparison import summary_of
-    from tandemlift.report.comparison import write_comparison
+    from tandemlift.report.controller_comparison import write_comparison
+    from tandemlift.studies.controller_comparison import summary_of
 
     found: dict[str, Any] = {"mission": name, "engine": engine, "controllers": summary_of(entries)}
     _write_json(found, folder / "compare.json")
@@ -174,8 +174,8 @@ def _write_json(found: Any, path: Path) -> None:
 
 def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], out: str | None) -> None:
     """Fly a mission in several engines, print how far they are apart, and write the page."""
-    from tandemlift.apart import fly_in, summary_of
-    from tandemlift.report.engines import write_engines
+    from tandemlift.report.engine_comparison import write_engines
+    from tandemlift.studies.engine_comparison import fly_in, summary_of
 
     loaded = load(mission, settings)
     with results_in(out, Path("out") / loaded.mission.name, OF_ENGINES) as folder:
@@ -194,7 +194,7 @@ def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], 
 
 def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:
     """Print a row for each engine: how far it is from the first at most, and how fast it was."""
-    from tandemlift.apart import QUANTITIES
+    from tandemlift.studies.engine_comparison import QUANTITIES
 
     shown = [q for q in QUANTITIES if q in found[0]["apart"]]
     heads = [f"{q.replace('_', ' ')} ({QUANTITIES[q]})" for q in shown] + ["steps/s"]

@@ -59,9 +59,9 @@ def ros(
       2   bad input: one message, nothing is flown
       3   the vehicle was lost
     """
-    from tandemlift.engines import engine_named
-    from tandemlift.ros.feed import every_of
+    from tandemlift.engines.registry import engine_named
     from tandemlift.ros.package import folder as package
+    from tandemlift.ros.sample_queue import every_of
 
     if folder:
         say(str(package()))
@@ -107,7 +107,7 @@ def _middleware(version: str, arguments: list[str]) -> Middleware:
 
 def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
     """Fly until it ends; the phase that it ends in."""
-    from tandemlift.ros.front import Front
+    from tandemlift.ros.node import Front
     from tandemlift.ros.package import start_rviz
 
     beside = start_rviz() if rviz else None
