@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import os
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from tandemlift.controllers import CONTROLLERS
+from tandemlift.controllers.registry import CONTROLLERS
 from tandemlift.figures.captions import Caption
 from tandemlift.files import whole
 from tandemlift.flight.record import Flight
@@ -17,75 +18,105 @@ from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import DASH, figure_of, number, table_of
 from tandemlift.report.page import COMPARISON, STYLE
 from tandemlift.report.setup import setup_of
-from tandemlift.studies.controller_comparison import Entry, scores
+from tandemlift.studies.controller_comparison import LEAST, Entry, Part, best_of, moving_axes, parts_of, run_of, scores
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Column = tuple[str, str, Callable[[dict[str, Any]], Any]]
+
+class Column(NamedTuple):
+    """A column of a table.
+
+    Attributes:
+        heading: what it is.
+        unit: in which it is shown.
+        name: of the score; its difference that is physical is in `comparison.LEAST`, and without one nobody wins.
+        scale: shown units for each SI unit.
+        axis: the place of the value in a score of three numbers.
+    """
+
+    heading: str
+    unit: str
+    name: str
+    scale: float = 1.0
+    axis: int | None = None
+
+    def value(self, found: Mapping[str, Any]) -> float | None:
+        """The score in SI units."""
+        value = found[self.name]
+        return value if value is None or self.axis is None else value[self.axis]
+
+    def shown(self, value: float | None) -> str:
+        """A value as HTML, in the shown unit."""
+        least = LEAST.get(self.name, 0.0)
+        if value is not None and 0.0 < value < least:
+            return f"&lt; {self.scale * least:g}"
+        return number(None if value is None else self.scale * value)
 
 
-def _of_axis(i: int) -> Callable[[dict[str, Any]], Any]:
-    return lambda s: 1e3 * s["position_rmse_m"][i] if s["position_rmse_m"] else None
-
-
-def _scaled(name: str, factor: float) -> Callable[[dict[str, Any]], Any]:
-    return lambda s: None if s[name] is None else factor * s[name]
-
-
-COLUMNS: tuple[Column, ...] = (  # heading, unit, value; the least of each is the best
-    *((f"RMSE {axis}", "mm", _of_axis(i)) for i, axis in enumerate("xyz")),
-    ("Largest error", "mm", _scaled("position_max_error_m", 1e3)),
-    ("Effort", "N m", _scaled("effort_n_m", 1.0)),
-    ("Saturated", "%", _scaled("rotor_saturated_share", 1e2)),
-    ("Time a step", "ns", _scaled("step_ns", 1.0)),
+OF_A_PART = (
+    *(Column(f"RMSE {axis}", "mm", "position_rmse_m", 1e3, i) for i, axis in enumerate("xyz")),
+    Column("Largest error", "mm", "position_max_error_m", 1e3),
+    Column("Effort", "N m", "effort_n_m"),
 )
-NOTE = """Errors are desired minus actual position, {when}; the effort is the mean norm of the commanded moments
-over the same time; saturated is the share of all steps in which a rotor is at a limit. Bold: the least of those that
-did not diverge."""
+OF_A_FLIGHT = (Column("Saturated", "%", "rotor_saturated_share", 1e2), Column("Time a step", "ns", "step_ns"))
+COLUMNS = (*OF_A_PART, *OF_A_FLIGHT)
+NOTE = """Errors are desired minus actual position in the air, {when}. The effort is the mean norm of the commanded
+moments over the same time. Saturated is the share of all steps in which a rotor is at a limit. Bold: the least value
+of those that did not diverge, with all that are within 1 µm, 1 mN m or 0.01 % of it; nothing, where all are."""
+STILL = "<p>{when} every position error is below 1 µm.</p>"
 CAPTIONS = {
     "errors": Caption(
         "Errors",
-        "Errors of position, desired minus actual, along x, y and z, of all controllers. The first 10 s, in which a "
-        "disturbed start is left behind, have a scale of their own. A controller that diverges does not set the scale.",
-        "Panels over time for x, y and z: the error of position of every controller, the first ten seconds apart.",
+        "Errors of position in the air, desired minus actual, of all controllers. The time before the first push, with "
+        "take-off or a disturbed start, has a scale of its own. Axes along which no error reaches 1 µm are left out. A "
+        "controller that diverges does not set the scale.",
+        "Panels over time for each axis: the error of position of every controller, before the first push and after.",
     ),
     "thrusts": Caption(
         "Thrusts",
-        "What the rotors give: the mean thrust of all rotors as a line, over the least to the greatest of any of them; "
-        "scaled to what follows the first second.",
+        "What the rotors give: the mean thrust of all rotors as a line, over the least to the greatest of any of them. "
+        "Each panel has a scale of its own, that of what follows the first second; its range is above it.",
         "A panel over time for each controller: mean thrust of the rotors, and the band of the least to the greatest.",
     ),
 }
 
 
-def _row(entry: Entry, best: Sequence[float | None]) -> str:
-    """A controller's row of the table; what is the best of its column is set in bold."""
-    head = f'<th scope="row">{escape(entry.name)}</th>'
-    if entry.flight is None:
-        return f'<tr>{head}<td class="one" colspan="{len(COLUMNS)}">{DASH}</td><td>{escape(entry.refusal)}</td></tr>'
-    found = scores(entry.flight)
-    values = [value(found) for _, _, value in COLUMNS]
-    cells = "".join(
-        f"<td><b>{number(v)}</b></td>"
-        if v is not None and v == least and not found["diverged"]
-        else f"<td>{number(v)}</td>"
-        for v, least in zip(values, best, strict=True)
-    )
-    return f"<tr>{head}{cells}<td>{escape(found['diverged'] or 'flown to the end')}</td></tr>"
+def _cells(column: Column, found: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
+    """A column's cells by controller; the best of those that did not diverge are bold."""
+    values = {name: column.value(of) for name, of in found.items()}
+    fair = [None if found[name]["diverged"] else value for name, value in values.items()]
+    best = best_of(fair, LEAST.get(column.name, math.inf))
+    texts = zip(values.items(), best, strict=True)
+    return {n: f"<td><b>{column.shown(v)}</b></td>" if won else f"<td>{column.shown(v)}</td>" for (n, v), won in texts}
 
 
-def _least(entries: Sequence[Entry], value: Callable[[dict[str, Any]], Any]) -> float | None:
-    """The least of a column, of those that did not diverge; None if they are all alike."""
-    found = {value(scores(e.flight)) for e in entries if e.flight and not e.flight.divergence} - {None}
-    return min(found) if len(found) > 1 else None
+def _of_flights(entries: Sequence[Entry], part: Part) -> str:
+    """The table of the part that counts, with how each flight ended, or why there was none."""
+    found = {e.name: scores(e.flight, part) | run_of(e.flight) for e in entries if e.flight}
+    cells, rows = [_cells(column, found) for column in COLUMNS], []
+    for name, flight, refusal in entries:
+        filled, outcome = f'<td class="one" colspan="{len(COLUMNS)}">{DASH}</td>', refusal
+        if flight:
+            filled, outcome = "".join(of[name] for of in cells), found[name]["diverged"] or "flown to the end"
+        rows.append(f'<tr><th scope="row">{escape(name)}</th>{filled}<td>{escape(outcome)}</td></tr>')
+    head = f'<tr><th scope="col">Controller</th>{_heads(COLUMNS)}<th scope="col">Outcome</th></tr>'
+    return table_of(head, rows, "compared")
 
 
-def _table(entries: Sequence[Entry]) -> str:
-    best = [_least(entries, value) for _, _, value in COLUMNS]
-    heads = "".join(f'<th scope="col">{head}<br><small>{unit}</small></th>' for head, unit, _ in COLUMNS)
-    head = f'<tr><th scope="col">Controller</th>{heads}<th scope="col">Outcome</th></tr>'
-    return table_of(head, (_row(entry, best) for entry in entries), "compared")
+def _of_part(flights: Mapping[str, Flight], part: Part) -> str:
+    """The table of another part; a sentence if nothing moves in it."""
+    if not any(moving_axes(flights.values(), part)):
+        return STILL.format(when=part.words.capitalize())
+    found = {name: scores(flight, part) | run_of(flight) for name, flight in flights.items()}
+    cells = [_cells(column, found) for column in OF_A_PART]
+    rows = [f'<tr><th scope="row">{escape(n)}</th>{"".join(of[n] for of in cells)}</tr>' for n in found]
+    table = table_of(f'<tr><th scope="col">Controller</th>{_heads(OF_A_PART)}</tr>', rows, "compared part")
+    return f"<h3>{part.words.capitalize()}</h3>\n{table}"
+
+
+def _heads(columns: Sequence[Column]) -> str:
+    return "".join(f'<th scope="col">{c.heading}<br><small>{c.unit}</small></th>' for c in columns)
 
 
 def figures_as_html(drawn: Mapping[str, Figure], captions: Mapping[str, Caption]) -> str:
@@ -127,6 +158,16 @@ def _settings(flights: Mapping[str, Flight]) -> str:
     return f"<section>\n<h2>Settings</h2>\n{chr(10).join(shown)}\n</section>"
 
 
+def _figures(flights: Mapping[str, Flight]) -> str:
+    """The figures in which something moves."""
+    from tandemlift.figures.controller_comparison import draw_errors, draw_thrusts
+
+    drawn = {"thrusts": draw_thrusts(flights)}
+    if any(any(moving_axes(flights.values(), part)) for part in parts_of(flights.values())):
+        drawn = {"errors": draw_errors(flights)} | drawn
+    return figures_as_html(drawn, CAPTIONS)
+
+
 def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> Path:
     """Write a comparison of controllers as one HTML file without references; it appears whole or not at all.
 
@@ -137,20 +178,19 @@ def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> 
     Returns:
         The path.
     """
-    from tandemlift.figures.controller_comparison import draw_errors, draw_thrusts
-
     path, flights = Path(path), {e.name: e.flight for e in entries if e.flight}
     first = next(iter(flights.values()))
-    late = any(scores(flight)["after_s"] for flight in flights.values())
+    counts, *others = parts_of(flights.values())
+    tables = [_of_flights(entries, counts), *(_of_part(flights, part) for part in others)]
     text = COMPARISON.format(
         name=escape(first.name),
         style=STYLE,
         what="controllers",
         kind="Controllers",
         where=f"engine <b>{escape(first.version.get('engine', ''))}</b>",
-        note=NOTE.format(when="after 10 s" if late else "of the whole flight"),
-        table=_table(entries),
-        figures=figures_as_html({"errors": draw_errors(flights), "thrusts": draw_thrusts(flights)}, CAPTIONS),
+        note=NOTE.format(when=counts.words),
+        table="\n".join(tables),
+        figures=_figures(flights),
         setup=setup_as_html(first, without=["Pilot"]),
         settings=_settings(flights),
         versions=versions_as_html(first),

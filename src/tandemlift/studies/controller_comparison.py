@@ -1,23 +1,47 @@
-"""One mission flown with several controllers, and what tells them apart."""
+"""One mission flown with several controllers, and what tells them apart: docs/controllers.md says how it is scored."""
 
 from __future__ import annotations
 
+import math
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.controllers import CONTROLLERS, Controller, controller, file_of, told
 from tandemlift.engines.registry import engine_named
 from tandemlift.errors import InputError
 from tandemlift.flight.record import Flight
-from tandemlift.loop.running_metrics import LATE
 from tandemlift.missions import load_mission
 from tandemlift.settings import Mission
 from tandemlift.simulation.fly import fly, fly_many
 
 Progress = Callable[[int, int], None]
+Mask = NDArray[np.bool_]
+
+PUSHED = 1e-6  # N: a person who gives less does not push yet
+LEAST = {  # what is physical: a smaller value is as good as zero, a smaller difference is a tie
+    "position_rmse_m": 1e-6,
+    "position_max_error_m": 1e-6,
+    "effort_n_m": 1e-3,
+    "rotor_saturated_share": 1e-4,
+}
+
+
+class Part(NamedTuple):
+    """A part of a mission that is scored on its own: what it is called, and its times first <= t < last [s]."""
+
+    name: str
+    first: float
+    last: float
+
+    @property
+    def words(self) -> str:
+        """What it is called, with the time of the first push where there is one."""
+        times = [time for time in (self.first, self.last) if 0.0 < time < math.inf]
+        return f"{self.name} ({times[0]:.4g} s)" if times else self.name
 
 
 class Entrant(NamedTuple):
@@ -109,35 +133,103 @@ def _explained(error: Exception, entered: Sequence[Entrant]) -> Exception:
     return error
 
 
-def scores(flight: Flight) -> dict[str, Any]:
-    """What a flight is compared by: flat, SI, the unit at the end of each name; None where it could not be formed.
+def airborne(flight: Flight) -> Mask:
+    """Which samples (T,) lie in the air: from the first to the last in which the floor carries nothing."""
+    if "contact_force" not in flight:
+        return np.ones(len(flight.time), np.bool_)
+    free = np.flatnonzero(flight["contact_force"][:, 2] == 0.0)
+    mask = np.zeros(len(flight.time), np.bool_)
+    if len(free):
+        mask[free[0] : free[-1] + 1] = True
+    return mask
 
-    Errors and effort are after 10 s, or of the whole flight if it is shorter: `after_s`. The effort is the mean of the
-    norm of the commanded moments, from the log.
+
+def parts_of(flights: Iterable[Flight]) -> tuple[Part, ...]:
+    """The parts in which flights of one mission are scored, the one that counts first.
+
+    Where a person pushes, they are the time from the first push on, and the time before it: take-off, or a disturbed
+    start. Where nobody pushes, the whole flight is the only part. The first push is the earliest sample of any flight,
+    in the air, in which the norm of the person's force exceeds `PUSHED`.
     """
+    pushed = [f.time[airborne(f) & (np.linalg.norm(f["push_force"], axis=1) > PUSHED)] for f in flights]
+    first = min((float(times[0]) for times in pushed if len(times)), default=0.0)
+    if not first:
+        return (Part("over the whole flight", 0.0, math.inf),)
+    return (Part("from the first push on", first, math.inf), Part("before the first push", 0.0, first))
+
+
+def scored(flight: Flight, part: Part) -> Mask:
+    """Which samples (T,) of a flight count in a part: those in the air, as the floor holds what stands on it."""
+    return airborne(flight) & (flight.time >= part.first) & (flight.time < part.last)
+
+
+def moving_axes(flights: Iterable[Flight], part: Part) -> list[bool]:
+    """Along which of x, y, z the position error of any flight is physical somewhere in a part."""
+    errors = [np.abs(f["position_error"][scored(f, part)]) for f in flights]
+    return [any(np.any(error[:, i] >= LEAST["position_max_error_m"]) for error in errors) for i in range(3)]
+
+
+def scores(flight: Flight, part: Part) -> dict[str, Any]:
+    """What a part of a flight is compared by, from the logged samples: flat, SI, the unit at the end of each name.
+
+    Returns:
+        position_rmse_m: root mean square of desired minus actual position, along x, y, z.
+        position_max_error_m: the largest absolute value of any of them.
+        effort_n_m: mean norm of the commanded moments.
+
+        None where there is no sample, or a number that is not finite.
+    """
+    mask = scored(flight, part)
+    if not mask.any():
+        return {"position_rmse_m": None, "position_max_error_m": None, "effort_n_m": None}
+    error, moment = flight["position_error"][mask], flight["moment"][mask]
+    with np.errstate(invalid="ignore", over="ignore"):  # a flight that diverged may hold anything
+        return {
+            "position_rmse_m": _finite(np.sqrt(np.mean(error**2, axis=0))),
+            "position_max_error_m": _finite(np.abs(error).max()),
+            "effort_n_m": _finite(np.linalg.norm(moment, axis=1).mean()),
+        }
+
+
+def _finite(value: Any) -> Any:
+    """A number or a list of them; None if one is not finite."""
+    return value.tolist() if np.all(np.isfinite(value)) else None
+
+
+def run_of(flight: Flight) -> dict[str, Any]:
+    """What a whole flight is compared by: how much its rotors saturate, how long a step takes, and how it ended."""
     metrics = flight.metrics()
-    late = "_after_10s" if metrics["position_rmse_after_10s_m"] else ""
-    largest = metrics[f"position_max_error{late}_m"]
-    moments = np.linalg.norm(flight["moment"][flight.time >= (LATE if late else 0.0)], axis=1)
-    effort = float(moments.mean()) if len(moments) else np.nan
     return {
-        "after_s": LATE if late else 0.0,
-        "position_rmse_m": metrics[f"position_rmse{late}_m"],
-        "position_max_error_m": max(largest) if largest else None,
-        "effort_n_m": effort if np.isfinite(effort) else None,
         "rotor_saturated_share": metrics["rotor_saturated_share"],
         "step_ns": metrics["wall_s"] / metrics["steps"] * 1e9 if metrics["steps"] else None,
         "diverged": str(flight.divergence) if flight.divergence else None,
     }
 
 
+def best_of(values: Sequence[float | None], least: float) -> list[bool]:
+    """Which values win: those by less than `least` above the lowest; none if all that are known do.
+
+    Args:
+        values: one for each controller, None for one that does not take part.
+        least: difference that is physical, in the unit of the values.
+    """
+    known = [value for value in values if value is not None]
+    wins = [value is not None and value - min(known) < least for value in values]
+    return wins if 0 < sum(wins) < len(known) else [False] * len(values)
+
+
 def summary_of(entries: Sequence[Entry]) -> list[dict[str, Any]]:
-    """The comparison for a strict JSON text, an object for each controller."""
+    """The comparison for a strict JSON text, an object for each controller.
+
+    Its scores are of the part that counts, from `from_s` on; those of the other part are in `before_first_push`.
+    """
+    parts = parts_of(e.flight for e in entries if e.flight)
     rows = []
     for entry in entries:
         row: dict[str, Any] = {"controller": entry.name, "flown": entry.flight is not None, "refused": entry.refusal}
         if entry.flight:
-            row |= scores(entry.flight)
+            row |= {"from_s": parts[0].first, **scores(entry.flight, parts[0]), **run_of(entry.flight)}
+            row |= {"before_first_push": scores(entry.flight, parts[1])} if len(parts) > 1 else {}
             row |= {"settings": entry.flight.mission["controller"], "metrics": entry.flight.metrics()}
         rows.append(row)
     return rows

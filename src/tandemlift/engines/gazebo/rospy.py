@@ -20,6 +20,15 @@ from tandemlift.errors import InputError
 FOLDERS = ("/usr/lib/python3/dist-packages", "/opt/ros/noetic/lib/python3/dist-packages")  # Debian, Ubuntu 20.04
 
 
+def has_rospy() -> bool:
+    """Whether this machine has rospy, of whichever version; nothing is imported."""
+    return importlib.util.find_spec("rospy") is not None or bool(_system_folders())
+
+
+def _system_folders() -> list[str]:
+    return [folder for folder in FOLDERS if (Path(folder) / "rospy").is_dir()]
+
+
 def import_rospy() -> ModuleType:
     """The package rospy, of whichever version; its messages can be imported from then on.
 
@@ -29,7 +38,7 @@ def import_rospy() -> ModuleType:
     _mend_threads()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of ROS's own age
-        rospy = _import("rospy", [folder for folder in FOLDERS if (Path(folder) / "rospy").is_dir()])
+        rospy = _import("rospy", _system_folders())
         _mend_logging()
     return rospy
 

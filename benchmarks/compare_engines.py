@@ -1,8 +1,8 @@
-"""How far the engines are apart, beside what is tolerated: `python benchmarks/validate.py [mujoco] [gazebo]`.
+"""How closely the engines agree, beside what is tolerated: `python benchmarks/compare_engines.py [mujoco] [gazebo]`.
 
 Prints Markdown: the same vehicle under the same thrusts, then under the same pilot, one body compiled and one in
-MuJoCo, unless other engines are named; they share no equation of motion. Ends with status 1 if a difference is beyond
-its tolerance.
+MuJoCo, unless other engines are named; they share no equation of motion. Differences are those of
+`tandemlift compare --engines`. Ends with status 1 if one is beyond its tolerance.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from tandemlift.algebra.vector import ZERO, Nothing, each
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.registry import engine_named
 from tandemlift.laws.mechanics.push import CentralPush, Hand
-from tandemlift.studies.engine_comparison import turned
+from tandemlift.studies.engine_comparison import apart, fly_in, turned
 from tandemlift.trace import flat, traced, unflat
 from tandemlift.trace.functions import compiled
 from tandemlift.vehicle import Vehicle
@@ -60,10 +60,10 @@ class Row(NamedTuple):
         return [f"{self.tolerance:.0e}", f"{self.difference:.1e}"]
 
 
-def rows_of(flight: str, apart: dict[str, float], tolerances: dict[str, float]) -> Iterator[Row]:
-    """The lines of a flight; `apart`: the largest difference of each quantity."""
+def rows_of(flight: str, largest: dict[str, float], tolerances: dict[str, float]) -> Iterator[Row]:
+    """The lines of a flight, from the largest difference of each quantity."""
     for name, unit in QUANTITIES.items():
-        yield Row(flight, f"{name.replace('_', ' ')} [{unit}]", apart[name], tolerances[name])
+        yield Row(flight, f"{name.replace('_', ' ')} [{unit}]", largest[name], tolerances[name])
 
 
 def unlike(count: int) -> tl.Mission:
@@ -101,7 +101,7 @@ def open_loop(engine: str, count: int) -> dict[str, float]:
 
     like = advance(plant, state, NONE, NONE, rotors(*thrusts_at(0.0, state)), NONE, hand, h)
     stepped = compiled(step, state, rotors(*[0.0] * vehicle.rotor_count))
-    apart, joints = dict.fromkeys(QUANTITIES, 0.0), {"joint_force": slice(3, 3 + 3 * count)}
+    largest, joints = dict.fromkeys(QUANTITIES, 0.0), {"joint_force": slice(3, 3 + 3 * count)}
     joints["joint_torque"] = slice(3 + 3 * count, 3 + 6 * count)
     for k in range(round(ALONE[engine] / h)):
         thrusts = thrusts_at(k * h, state)
@@ -109,10 +109,10 @@ def open_loop(engine: str, count: int) -> dict[str, float]:
         body.advance(thrusts, NO_AIR, NO_PUSH, NO_PUSH)
         state, felt = moved.state, np.abs(np.array(flat(moved.felt)) - body.felt)
         found = {name: felt[part].max() * looked_at(engine, k * h) for name, part in joints.items()}
-        found["position"] = np.abs(np.array(state.position) - body.state[:3]).max()
+        found["position"] = np.linalg.norm(np.array(state.position) - body.state[:3])
         found["attitude"] = turned(np.array([state.attitude]), body.state[None, 6:10])[0]
-        apart = {name: max(apart[name], float(found[name])) for name in apart}
-    return apart
+        largest = {name: max(largest[name], float(found[name])) for name in largest}
+    return largest
 
 
 def looked_at(engine: str, t: Any) -> Any:
@@ -122,17 +122,15 @@ def looked_at(engine: str, t: Any) -> Any:
 
 def both(engine: str, name: str, changes: dict[str, Any]) -> tuple[tl.Flight, tl.Flight]:
     """A mission flown in the compiled engine and in another."""
-    mission = tl.load_mission(name, changes)
-    return tl.fly(mission), tl.fly(mission, engine)
+    a, b = fly_in(tl.load_mission(name, changes), ["compiled", engine]).values()
+    return a, b
 
 
 def differences(a: tl.Flight, b: tl.Flight, part: Any = slice(None)) -> dict[str, float]:
     """The largest difference of each quantity between two flights, over some samples."""
-    apart = {name: np.abs(a[name][part] - b[name][part]) for name in QUANTITIES}
-    for name in ("joint_force", "joint_torque"):
-        apart[name] = apart[name][looked_at(b.version["engine"], a.time[part])]
-    found = {name: float(x.max()) for name, x in apart.items()}
-    return {**found, "attitude": float(turned(a["attitude"][part], b["attitude"][part]).max())}
+    found, joints = apart(b, a), looked_at(b.version["engine"], a.time[part])
+    parts = {name: found[name][part] for name in QUANTITIES}
+    return {name: float((x[joints] if name.startswith("joint") else x).max()) for name, x in parts.items()}
 
 
 def changes_of_floor(flight: tl.Flight) -> tuple[float, float]:
