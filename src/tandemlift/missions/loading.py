@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from tandemlift.controllers import CONTROLLERS, Controller
 from tandemlift.errors import InputError
-from tandemlift.laws.controllers import CONTROLLERS, Controller
 from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.checking import check
 from tandemlift.missions.files import layers_of, overlay, path_of

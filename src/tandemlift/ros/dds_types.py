@@ -13,10 +13,16 @@ from typing import Any
 from tandemlift.errors import InputError
 from tandemlift.export.messages import modern
 
+PACKAGES = ("cyclonedds", "rosbags")
 NUMBERS = {"byte": "uint8", "char": "uint8"}  # what IDL calls otherwise
 PYTHON = {"bool": bool, "string": str}
 SINGLE, NESTED, ARRAY, SEQUENCE = 1, 2, 3, 4  # kinds of fields, as `rosbags.interfaces.Nodetype` numbers them
 Default = Callable[[], Any]
+
+
+def missing_packages() -> list[str]:
+    """Which packages of the extra `ros2` are not installed; nothing is imported."""
+    return [name for name in PACKAGES if importlib.util.find_spec(name) is None]
 
 
 def check_installed() -> None:
@@ -25,9 +31,8 @@ def check_installed() -> None:
     Raises:
         InputError: a package is missing.
     """
-    for name in ("cyclonedds", "rosbags"):
-        if importlib.util.find_spec(name) is None:
-            raise InputError(f"ROS 2 needs the package {name}: pip install 'tandemlift[ros2]'")
+    for name in missing_packages():
+        raise InputError(f"ROS 2 needs the package {name}: pip install 'tandemlift[ros2]'")
 
 
 class Classes:

@@ -114,7 +114,7 @@ class AllocationTable(Table):
     method: Literal["pseudo-inverse", "constrained"] = key(
         "pseudo-inverse",
         None,
-        "the method",
+        "how the wrench is distributed over the rotors",
         choices={
             "pseudo-inverse": "the paper's weighted pseudo-inverse",
             "constrained": "beyond a rotor's limits, the thrusts within them that come closest to the wrench",
@@ -267,6 +267,6 @@ class Estimator(Table):
     wind_bandwidth: Bandwidth = key(
         25.0,
         "rad/s",
-        "bandwidth of the second-order low-pass filter on it; lower for noisy joints, higher for gusts",
+        "bandwidth of the second-order low-pass filter on the estimated wind force; lower for noisy joints, higher for gusts",
         source="chosen",
     )

@@ -11,9 +11,9 @@ HEAD = """\
 # All mission keys
 
 This page is made by `tandemlift explain --markdown > docs/keys.md`; [missions.md](missions.md) says how a mission is
-written. SI units, angles in rad. World axes have z up; body axes are fixed to the vehicle. Six-vectors run x, y, z, roll,
-pitch, yaw. In dotted keys a number picks an entry of a list, 0 the first. All numbers are finite. A key with a default
-may be left out, and so may a table with nothing but such keys.
+written. SI units, angles in rad. World axes have z up; body axes are fixed to the vehicle. Six-vectors run x, y, z,
+roll, pitch, yaw. In dotted keys a number picks an entry of a list, 0 the first. All numbers are finite. A key that is not
+required may be left out, and so may a table with nothing but such keys.
 """
 COLUMNS = "| key | unit | default | allowed | meaning | source of the default |\n|---|---|---|---|---|---|"
 
@@ -39,7 +39,9 @@ def _row(key: Key) -> str:
 
 def _default(key: Key) -> str:
     words = default_words(key)
-    return f"`{words}`" if key.default is not None else words
+    if key.field.is_required():
+        return words
+    return f"if left out, {words}" if key.default is None else f"`{words}`"
 
 
 def _allowed(key: Key) -> str:

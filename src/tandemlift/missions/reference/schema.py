@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions.bounds import Model, bounds, table_in
 from tandemlift.missions.reference.sections import EXTENDS, Section, compact
 from tandemlift.settings import AdmittanceTable, ControllerTable, Mission, facts_of

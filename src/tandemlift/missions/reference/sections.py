@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, get_origin
 
 from pydantic.fields import FieldInfo
 
-from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions.bounds import Model, allowed, table_in
 from tandemlift.missions.values import written
 from tandemlift.settings import ControllerTable, Facts, Mission, facts_of
