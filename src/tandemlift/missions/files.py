@@ -47,9 +47,12 @@ def path_of(name: str | os.PathLike[str], folder: Path) -> Path:
 
 
 @functools.lru_cache(maxsize=32)
-def _parsed(text: str) -> Tables:
-    """The tables of a text, kept for sweeps that load one mission many times; nobody changes them."""
-    return tomllib.loads(text)
+def _parsed(text: str) -> tuple[Tables, list[str]]:
+    """The tables of a text by their new names, and which old names it uses.
+
+    They are kept for sweeps that load one mission many times; nobody changes them.
+    """
+    return renamed_tables(tomllib.loads(text))
 
 
 def _read(path: Path) -> Tables:
@@ -58,13 +61,17 @@ def _read(path: Path) -> Tables:
     if len(content) > MAX_FILE:
         raise InputError(f"{path} is larger than {MAX_FILE} bytes, the most that a mission file may have")
     try:
-        return dict(_parsed(content.decode("utf-8-sig").replace("\r\n", "\n")))
+        tables, notices = _parsed(content.decode("utf-8-sig").replace("\r\n", "\n"))
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
     except UnicodeDecodeError as error:
         raise InputError(f"{path} is not text in UTF-8: byte {error.start} is {content[error.start]:#04x}") from None
     except RecursionError:
         raise InputError(f"{path} is not a mission: nested too deeply") from None
     except ValueError as error:  # TOMLDecodeError, or a whole number of thousands of digits
         raise InputError(f"{path} is not valid TOML: {error}") from None
+    warn_of_old_names(str(path), notices)
+    return dict(tables)
 
 
 def overlay(base: Tables, changes: Tables) -> Tables:
@@ -77,7 +84,7 @@ def overlay(base: Tables, changes: Tables) -> Tables:
 
 def layers_of(path: Path, seen: tuple[Path, ...] = ()) -> Iterator[Layer]:
     """What the file says, after what the missions say that it extends."""
-    tables = _by_new_names(_read(path), str(path))
+    tables = _read(path)
     parent = tables.pop("extends", None)
     if parent is not None:
         try:
@@ -90,16 +97,6 @@ def layers_of(path: Path, seen: tuple[Path, ...] = ()) -> Iterator[Layer]:
             raise InputError(f"{path}: extends = {shown(parent)}: {error}") from None
         yield from layers_of(above, (*seen, path.resolve()))
     yield Layer(path.stem if path.parent == DATA / "missions" else str(path), _anchored(tables, path.parent))
-
-
-def _by_new_names(tables: Tables, source: str) -> Tables:
-    """Tables of a file that may have been written before keys were renamed."""
-    try:
-        renamed, notices = renamed_tables(tables)
-    except InputError as error:
-        raise InputError(f"{source}: {error}") from None
-    warn_of_old_names(source, notices)
-    return renamed
 
 
 def _anchored(tables: Tables, folder: Path) -> Tables:

@@ -38,11 +38,12 @@ def dotted(place: Iterable[str | int]) -> str:
 
 def shown(value: Any) -> str:
     """A value as one would write it in TOML, on one line of bounded length."""
-    text = _written(value, 0)
+    text = written(value)
     return text if len(text) <= 70 else f"{text[:69]}…"
 
 
-def _written(value: Any, depth: int) -> str:
+def written(value: Any, depth: int = 0) -> str:
+    """A value as one would write it in TOML, on one line."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
@@ -50,9 +51,9 @@ def _written(value: Any, depth: int) -> str:
     if isinstance(value, int):
         return str(value) if value.bit_length() < 14_000 else f"{value:#x}"[:80]  # Python writes no more digits
     if isinstance(value, (list, tuple)):
-        return f"[{_joined(value, depth, lambda item: _written(item, depth + 1))}]"
+        return f"[{_joined(value, depth, lambda item: written(item, depth + 1))}]"
     if isinstance(value, Mapping):
-        return f"{{{_joined(value, depth, lambda key: f'{dotted([key])} = {_written(value[key], depth + 1)}')}}}"
+        return f"{{{_joined(value, depth, lambda key: f'{dotted([key])} = {written(value[key], depth + 1)}')}}}"
     return str(value)
 
 

@@ -58,7 +58,7 @@ class PartnerTable(Table):
         rule='"pull" to "hold" need [[person.path]] or a corridor',
         choices={
             "none": "nobody",
-            "pull": "one hand leads the grip; the vehicle follows like a trailer",
+            "pull": "one hand leads the grip, and the vehicle follows like a trailer",
             "steer": "one hand at the grip leads the centre of mass",
             "two-hands": "two hands lead the payload's centre and turn the vehicle to each leg's heading",
             "hold": "the hand goes to the waypoints and stays there, whatever is seen: for tests of passivity",

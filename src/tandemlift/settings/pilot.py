@@ -37,9 +37,11 @@ class ControllerTable(Table):
 class FeelTable(Table):
     """`[admittance.feel]`: the response to a push, in place of mass and damping: a force, a speed and a time."""
 
-    force: Positive = key(1.0, "N", "this force", rule="above the threshold with a soft gate", source="chosen")
-    speed: Positive = key(0.6, "m/s", "gives this speed", source="chosen")
-    time: Positive = key(0.5, "s", "95 % of it after this time", source="chosen")
+    force: Positive = key(
+        1.0, "N", "a push of this force", rule="above the threshold with a soft gate", source="chosen"
+    )
+    speed: Positive = key(0.6, "m/s", "speed that the push leads to", source="chosen")
+    time: Positive = key(0.5, "s", "time in which 95 % of that speed is reached", source="chosen")
 
 
 class AdmittanceTable(Table):
@@ -170,7 +172,7 @@ class PilotTable(Table):
         None,
         "what guides the vehicle",
         choices={
-            "clock": "lift and landing at set times, `[admittance]` between them",
+            "clock": "lift and landing at set times, and the admittance between them",
             "hand": "phases and requests, and `[compliance]` around the admittance",
         },
     )
