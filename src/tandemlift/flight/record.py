@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from tandemlift.errors import InputError, suggestion
 from tandemlift.files import whole
+from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.flight.tables import to_pandas, to_xarray
-from tandemlift.settings.old_names import renamed_tables, warn_of_old_names
 
 if TYPE_CHECKING:
     import pandas

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from tandemlift.errors import InputError
+from tandemlift.flight.old_names import renamed_setting, warn_of_old_names
 from tandemlift.missions.values import Tables, merge, shown, value_at
-from tandemlift.settings.old_names import renamed_setting, warn_of_old_names
 
 
 def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:

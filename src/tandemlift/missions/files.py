@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from tandemlift.errors import InputError, suggestion, unknown
+from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.missions.values import MISSING, Tables, merge, shown, value_at
-from tandemlift.settings.old_names import renamed_tables, warn_of_old_names
 
 DATA = Path(__file__).resolve().parent.parent / "data"
 MAX_FILE = 1_000_000  # bytes

@@ -10,12 +10,12 @@ from typing import Any
 
 from tandemlift.controllers import CONTROLLERS, Controller
 from tandemlift.errors import InputError
+from tandemlift.flight.old_names import check_said_once
 from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.checking import check
 from tandemlift.missions.files import layers_of, overlay, path_of
 from tandemlift.missions.values import Tables, value_at
 from tandemlift.settings import Mission
-from tandemlift.settings.old_names import check_said_once
 
 
 def _last_said_of(controller: str, folded: Sequence[Tables]) -> Any:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TypeVar
 
 from tandemlift.figures.drawing.ground import floor_height
-from tandemlift.flight.record import Flight
+from tandemlift.flight import Flight
 from tandemlift.missions.values import shown
 from tandemlift.settings import (
     ChangeTable,

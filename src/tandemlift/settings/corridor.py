@@ -31,9 +31,7 @@ class WallTable(Table):
     """
 
     start: Point2 = key(..., "m", "one end of the wall, x and y", example=[2.0, -3.0])
-    end: Point2 = key(
-        ..., "m", "the other end of the wall, x and y", rule="1 mm or more from the start", example=[2.0, 3.0]
-    )
+    end: Point2 = key(..., "m", "the wall's other end, x and y", rule="1 mm or more from the start", example=[2.0, 3.0])
     top: float = key(2.5, "m", "height z of the wall's top", source="chosen")
 
 

@@ -212,9 +212,7 @@ class DetectionTable(Table):
         "largest fraction of the residual's square that the failed rotor may leave unexplained",
         source=CHOSEN,
     )
-    dwell: NonNegative = key(
-        0.012, "s", "time for which threshold, isolation margin and unexplained fraction must hold", source=CHOSEN
-    )
+    dwell: NonNegative = key(0.012, "s", "time for which all these criteria must hold", source=CHOSEN)
     retest_time: NonNegative = key(
         0.2,
         "s",

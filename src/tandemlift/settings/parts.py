@@ -158,7 +158,7 @@ class Quadrotor(Table):
         0.375,
         "m",
         "radius of the sphere about the quadrotor that touches walls",
-        source="chosen: an arm of 0.25 m and a rotor",
+        source="chosen: arm and rotor",
     )
     feet_spread: Length = key(
         0.12, "m", "distance of each of four feet from the quadrotor's centre, along x and along y", source="chosen"
@@ -167,7 +167,7 @@ class Quadrotor(Table):
         0.18,
         "m",
         "distance of the soles below the quadrotor's centre",
-        source="chosen, so that the beam stays off the floor",
+        source="chosen: the beam stays off the floor",
     )
     drag_area: Areas = key(
         (0.02, 0.02, 0.05),

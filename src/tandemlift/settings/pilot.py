@@ -267,6 +267,6 @@ class Estimator(Table):
     wind_bandwidth: Bandwidth = key(
         25.0,
         "rad/s",
-        "bandwidth of the second-order low-pass filter on the estimated wind force; lower for noisy joints, higher for gusts",
+        "bandwidth of the low-pass filter on the estimated wind force; lower for noisy joints, higher for gusts",
         source="chosen",
     )

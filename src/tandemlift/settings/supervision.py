@@ -114,9 +114,7 @@ class LimitsTable(Table):
     rates: Positive = key(8.0, "rad/s", "largest angular speed", source=CHOSEN)
     rates_time: NonNegative = key(0.2, "s", "time for which the angular speed may exceed its limit", source=CHOSEN)
     tracking_error: Positive = key(0.5, "m", "largest distance from the reference", source=CHOSEN)
-    tracking_error_time: NonNegative = key(
-        1.0, "s", "time for which the tracking error may exceed its limit", source=CHOSEN
-    )
+    tracking_error_time: NonNegative = key(1.0, "s", "time for which it may exceed its limit", source=CHOSEN)
 
 
 class ReactionsTable(Table):
