@@ -149,7 +149,7 @@ class SupervisionTable(Table):
         "none",
         None,
         "model of the supervision",
-        choices={"none": "no supervision", "watch": 'all of it; needs `pilot.guidance = "hand"`'},
+        choices={"none": "no supervision", "watch": 'all of it (needs `pilot.guidance = "hand"`)'},
     )
     hold_timeout: Positive = key(5.0, "s", "time for which a fault may hold the vehicle before it lands", source=CHOSEN)
     recovery_time: Positive = key(1.0, "s", "time without a fault after which a hold ends", source=CHOSEN)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tandemlift.missions.reference.sections import EXTENDS, Key, Section, default_words, sections
+from tandemlift.missions.reference.sections import EXTENDS, Key, Section, default_words, is_of_the_package, sections
 from tandemlift.missions.values import shown
 
 HEAD = """\
@@ -21,7 +21,8 @@ COLUMNS = "| key | unit | default | allowed | meaning | source of the default |\
 def keys_page() -> str:
     """The page: a table of keys for each table of a mission."""
     extends = f"\n`extends` (before all tables): {EXTENDS.meaning}.\n"
-    return HEAD + extends + "".join(_section(section) for section in sections())
+    ours = (section for section in sections() if is_of_the_package(section.controller))
+    return HEAD + extends + "".join(_section(section) for section in ours)
 
 
 def _section(section: Section) -> str:
