@@ -18,7 +18,7 @@ import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing, each
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.registry import engine_named
-from tandemlift.laws.mechanics.push import CentralPush, Hand
+from tandemlift.laws.mechanics.push import CentralPush, PushSamples
 from tandemlift.studies.engine_comparison import apart, fly_in, turned
 from tandemlift.trace import flat, traced, unflat
 from tandemlift.trace.functions import compiled
@@ -94,7 +94,11 @@ def open_loop(engine: str, count: int) -> dict[str, float]:
     vehicle, h = Vehicle.from_settings(mission.vehicle), mission.mission.step
     state, plant = start_state(mission), start_plant(mission, vehicle, NONE, NONE)
     body = engine_named(engine).start(mission, vehicle, NONE, NONE)
-    hand, rotors, thrusts_at = Hand(*[CentralPush(ZERO)] * 3), each(vehicle.rotor_count), excited(mission, vehicle)
+    hand, rotors, thrusts_at = (
+        PushSamples(*[CentralPush(ZERO)] * 3),
+        each(vehicle.rotor_count),
+        excited(mission, vehicle),
+    )
 
     def step(state: Any, thrusts: Any) -> Any:
         return traced(advance)(plant, state, NONE, NONE, thrusts, NONE, hand, h)

@@ -13,7 +13,7 @@ import pytest
 from patience import PATIENCE, ended, said
 
 import tandemlift as tl
-from tandemlift.engines.gazebo.gazebo import GazeboBody, start_of, world_of
+from tandemlift.engines.gazebo.gazebo import GazeboBody, start_state_of, world_of
 from tandemlift.engines.gazebo.server import free_port
 from tandemlift.engines.gazebo.wire import Wire
 from tandemlift.models.sdf import rotors_of
@@ -75,7 +75,7 @@ def wire_to(wire_at):
 
     def dial(plugin, patience=PATIENCE):
         wire = wire_at(plugin.port, plugin.body.N, patience)
-        wire.hello(DT, rotors_of(plugin.body.vehicle), start_of(tl.load_mission("hover")))
+        wire.hello(DT, rotors_of(plugin.body.vehicle), start_state_of(tl.load_mission("hover")))
         return wire
 
     return dial

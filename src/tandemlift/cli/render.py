@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.results import bar, flight_file
-from tandemlift.cli.run import parse_setting, say
+from tandemlift.cli.run import echo, parse_setting
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
@@ -120,4 +120,4 @@ def _draw(flight: Flight, path: Path, shot: Shot) -> None:
         count = len(rendering.Animation(flight, shot))
         with bar("Drawing", count, shown=sys.stderr.isatty()) as progress:
             rendering.render(flight, path, shot, progress)
-    say(f"{flight.name}: {path}")
+    echo(f"{flight.name}: {path}")

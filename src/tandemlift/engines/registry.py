@@ -20,7 +20,7 @@ from tandemlift.vehicle import Vehicle
 Array = NDArray[np.float64]
 
 
-class Body(Protocol):
+class EngineBody(Protocol):
     """A body in an engine of its own.
 
     Attributes:
@@ -46,14 +46,14 @@ class Body(Protocol):
 
 
 @runtime_checkable
-class Waiting(Protocol):
+class WaitingBody(Protocol):
     """A body that waits for its pilot, and gives it up when it is silent."""
 
     def rest(self) -> None:
         """Take no step for now, and stay the pilot; to be called ten times a second."""
 
 
-Make = Callable[[Mission, Vehicle, Any, Any], Body]
+Make = Callable[[Mission, Vehicle, Any, Any], EngineBody]
 
 
 def _mujoco() -> Make:
@@ -81,7 +81,7 @@ class Engine(NamedTuple):
     summary: str
     load: Callable[[], Make] | None = None
 
-    def start(self, mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Body:
+    def start(self, mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> EngineBody:
         """The body of a mission at t = 0; `floor`: a `Floor`, `walls`: a `Walls` (laws.mechanics), or `Nothing`.
 
         Raises:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from tandemlift.figures.drawing.clearances import clearances, grips
 from tandemlift.figures.drawing.panels import extent, line, value_ticks
-from tandemlift.figures.drawing.series import drawable, telling
+from tandemlift.figures.drawing.series import decimate, drawable
 from tandemlift.figures.drawing.skeleton import skeleton
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, VERMILLION, journal
 from tandemlift.figures.drawing.vehicle import vehicle_of
@@ -108,7 +108,7 @@ def _from_above(ax: Any, flight: Flight, shown: list[int], found: list[tuple[Arr
     for k in shown:
         _vehicle(ax, flight, k, BLACK if k in (shown[0], shown[-1]) else FAINT)
     path = flight["position"]
-    thin = path[np.unique(np.concatenate([telling(coordinate) for coordinate in path[:, :2].T]))]
+    thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path[:, :2].T]))]
     ax.plot(*thin[:, :2].T, color=BLUE, lw=1.2, zorder=5, gid="path")
     _pushes(ax, found)
     ax.set_aspect("equal")

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.errors import InputError, suggestion
-from tandemlift.files import whole
+from tandemlift.files import atomic_write
 from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.flight.tables import to_pandas, to_xarray
 
@@ -220,7 +220,7 @@ class Flight(Mapping[str, Array]):
             "channels": {name: self.info(name)._asdict() for name in self.channels},
         }
         text = np.array(json.dumps(header, allow_nan=False))
-        with whole(path) as partial, partial.open("wb") as file:
+        with atomic_write(path) as partial, partial.open("wb") as file:
             np.savez(file, header=text, time=self.time, **self.channels)  # type: ignore
         return path
 

@@ -21,7 +21,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.live.frames import RATE, fields_of, frames_of
 from tandemlift.live.scene import scene_of_tables
 from tandemlift.live.values import values_of
-from tandemlift.rendering.stage import Stage
+from tandemlift.rendering.stage import FlightStage
 from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle
 
@@ -42,7 +42,7 @@ def scene_and_frames(flight: Flight) -> tuple[dict[str, Any], NDArray[np.float32
     Raises:
         InputError: nothing of the flight can be shown.
     """
-    stage = Stage(flight)
+    stage = FlightStage(flight)
     vehicle = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
     shown = np.flatnonzero(np.isin(flight.time, stage.time))
     shown = shown[:: _every(flight.time[shown])]

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from tandemlift.errors import InputError
-from tandemlift.files import whole
+from tandemlift.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.rendering.camera import CAMERAS, Camera, View, look_at
-from tandemlift.rendering.stage import Stage
+from tandemlift.rendering.stage import FlightStage
 from tandemlift.rendering.studio import shown
 
 Array = NDArray[np.float64]
@@ -68,7 +68,7 @@ class Film:
     def __init__(self, flight: Flight, camera: Camera, size: tuple[int, int], samples: int) -> None:
         if not (min(size) >= 16 and size[0] * size[1] <= LARGEST):
             raise InputError(f"size {size[0]}x{size[1]} must be at least 16x16 and of at most 3840x2160 pixels")
-        self.stage, self._camera = Stage(flight), camera
+        self.stage, self._camera = FlightStage(flight), camera
         self._size, self._samples = size, samples
         self._smooth = _smoothed(self.stage.time, self.stage.path)
 
@@ -219,7 +219,7 @@ def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progr
     if kind not in SAMPLES:
         raise InputError(f"{path}: a picture's name ends in .png, an animation's in .gif")
     drawn = picture(flight, shot) if kind == ".png" else Animation(flight, shot)
-    with whole(path) as partial:
+    with atomic_write(path) as partial:
         if isinstance(drawn, Animation):
             drawn.save(partial, progress)
         else:

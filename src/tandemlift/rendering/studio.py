@@ -24,7 +24,7 @@ AT_ONCE = 1_500_000  # samples: a large picture is drawn in strips, which take l
 CLOSER = 1.002  # lines are drawn as if nearer by so much, or they would sink into what they lie on
 
 
-class Line(NamedTuple):
+class SceneLine(NamedTuple):
     """A line through points (n, 3) [m], of a width [pixels of a picture of 720 rows] and colours (n, 3)."""
 
     points: Array
@@ -43,7 +43,7 @@ class Scene(NamedTuple):
     """What is in a picture: solid parts, lines, panes, the floor's height [m], and the cell of its grid [m]."""
 
     solid: Mesh
-    lines: list[Line]
+    lines: list[SceneLine]
     panes: list[Pane]
     floor: float
     cell: float
@@ -110,7 +110,7 @@ def _lay_panes(panes: list[Pane], view: View, depth: Array, picture: Array) -> N
         glaze(view.seen(corners[i]), colors, depth, picture)
 
 
-def _ribbon(line: Line, view: View) -> Mesh:
+def _ribbon(line: SceneLine, view: View) -> Mesh:
     """A line as triangles in pixels, of one width wherever it is; its corners are as from `View.seen`."""
     seen, width = view.seen(line.points), line.width * view.focal / FOCAL
     seen[:, 2] *= CLOSER

@@ -21,7 +21,7 @@ PATIENCE, NAP = 1.0, 0.02  # s, for the pilot to do it, and between looks
 What = Literal["lift", "land", "stop"]
 
 
-class Requests:
+class RequestServices:
     """Asks a session's pilot.
 
     Args:

@@ -69,7 +69,7 @@ def free_port(kind: socket.SocketKind) -> int:
         return int(s.getsockname()[1])
 
 
-class Server:
+class GazeboServer:
     """A gzserver.
 
     Args:

@@ -36,7 +36,7 @@ def on_paper(points: Any) -> Array:
     return np.asarray(points) @ np.column_stack([RIGHT, UP])
 
 
-class Scene:
+class Scene3D:
     """A figure with a box of space in it, wide enough for points (n, 3) [m, world axes].
 
     Args:

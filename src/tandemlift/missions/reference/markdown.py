@@ -12,8 +12,8 @@ HEAD = """\
 
 This page is made by `tandemlift explain --markdown > docs/keys.md`; [missions.md](missions.md) says how a mission is
 written. SI units, angles in rad. World axes have z up; body axes are fixed to the vehicle. Six-vectors run x, y, z,
-roll, pitch, yaw. In dotted keys a number picks an entry of a list, 0 the first. All numbers are finite. A key with a default
-may be left out, and so may a table with nothing but such keys.
+roll, pitch, yaw. In dotted keys a number picks an entry of a list, 0 the first. All numbers are finite. A key with a
+default may be left out, and so may a table with nothing but such keys.
 """
 COLUMNS = "| key | unit | default | allowed | meaning | source of the default |\n|---|---|---|---|---|---|"
 
