@@ -9,7 +9,7 @@ import time
 from machine import describe, heading, number, table
 
 import tandemlift as tl
-from tandemlift.engines.gazebo.gazebo import REAL_TIME
+from tandemlift.engines.gazebo import REAL_TIME
 from tandemlift.engines.registry import engine_named
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.engines.gazebo.gazebo import world_of
-from tandemlift.engines.gazebo.ros_master import RosMaster, joined
+from tandemlift.engines.gazebo import world_of
+from tandemlift.engines.ros_master import RosMaster, joined
 from tandemlift.export.write import export
 from tandemlift.models.sdf import rotors_of
 

@@ -10,7 +10,7 @@ from scipy.linalg import null_space
 from scipy.optimize import minimize
 
 from tandemlift.algebra.vector import each, vec3
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.rotors.allocation import (
     ConstrainedAllocation,

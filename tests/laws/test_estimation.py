@@ -13,7 +13,7 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import Vec3, vec3
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.laws.estimation.push_estimate import (
     PushEstimator,
     estimate,

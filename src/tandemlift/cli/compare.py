@@ -13,8 +13,8 @@ import click
 from tandemlift.cli.notices import compile_notices
 from tandemlift.cli.results import bar, results_in
 from tandemlift.cli.run import DIVERGED, chosen_controller, echo, load, parse_setting
-from tandemlift.errors import InputError
-from tandemlift.files import atomic_write
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller

@@ -9,7 +9,7 @@ import click
 
 from tandemlift.cli.results import flight_file
 from tandemlift.cli.run import echo, parse_setting
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight

@@ -15,7 +15,7 @@ import click
 from tandemlift.cli.live import DEFAULT
 from tandemlift.cli.results import bar, keep_recording, results_in, write_results
 from tandemlift.cli.run import DIVERGED, echo, load, say_report, summarise
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -67,7 +67,7 @@ def gazebo(
         raise InputError(
             f"--by-hand: is in real time and has no pictures; leave {'--fast' if fast else '--pictures'} out"
         )
-    from tandemlift.engines.gazebo.server import root
+    from tandemlift.engines.gazebo_server import root
 
     loaded = load(mission, settings)
     root()  # complains if there is no Gazebo, before anything is compiled
@@ -150,7 +150,7 @@ def _until_stopped() -> Iterator[Callable[[], bool]]:
 
 
 def _tell_how_to_push(mission: Mission, gazebo: GazeboSession) -> None:
-    from tandemlift.engines.gazebo.server import by_yourself
+    from tandemlift.engines.gazebo_server import by_yourself
 
     push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
     echo(f"{mission.mission.name}, in Gazebo; to push it, in another terminal:")

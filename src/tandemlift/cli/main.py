@@ -25,7 +25,7 @@ from tandemlift.cli.ros import ros
 from tandemlift.cli.run import echo, run
 from tandemlift.cli.schema import schema
 from tandemlift.cli.validate import validate
-from tandemlift.errors import FlightWarning, InputError, suggestion
+from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.trace.compile_events import watching
 
 BAD_INPUT = 2

@@ -10,8 +10,8 @@ import click
 from tandemlift.cli.results import flight_file
 from tandemlift.cli.run import echo
 from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
-from tandemlift.errors import InputError
-from tandemlift.files import atomic_write
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight

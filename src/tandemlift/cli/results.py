@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.notices import compile_notices
-from tandemlift.errors import InputError
-from tandemlift.files import atomic_write
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -12,7 +12,7 @@ import click
 
 from tandemlift.cli.live import DEFAULT, session_of
 from tandemlift.cli.run import DIVERGED, echo, load
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.ros.sample_queue import every_of
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rv
 
 
 def _save(session: Session, save: str | None) -> None:
-    from tandemlift.errors import FlightWarning
+    from tandemlift.common.errors import FlightWarning
 
     if save:
         with warnings.catch_warnings():  # of what may go badly with rotors that may fail

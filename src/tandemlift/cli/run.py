@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.cli.results import bar, keep_recording, results_in, write_results
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller

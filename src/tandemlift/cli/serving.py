@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.run import echo
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.live.server import Server

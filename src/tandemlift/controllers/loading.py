@@ -12,9 +12,9 @@ from types import FunctionType, ModuleType
 
 from tandemlift.algebra.law import LAWS
 from tandemlift.algebra.vector import dot
+from tandemlift.common.errors import InputError
 from tandemlift.controllers.registry import CONTROLLERS, Controller
 from tandemlift.controllers.trial import error_text
-from tandemlift.errors import InputError
 
 _loaded: dict[Path, tuple[bytes, Controller]] = {}
 

@@ -18,6 +18,7 @@ from pydantic import Field
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.common.errors import FlightWarning
 from tandemlift.controllers.attitude_reference import (
     AttitudeReference,
     CommandFilterState,
@@ -29,7 +30,6 @@ from tandemlift.controllers.attitude_reference import (
 from tandemlift.controllers.interface import Command, NoMemory, control
 from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration
-from tandemlift.errors import FlightWarning
 from tandemlift.laws.mechanics.body import UP, Wrench
 from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
 from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from tandemlift.common.errors import InputError, unknown
 from tandemlift.controllers.trial import check_started, error_text, form
-from tandemlift.errors import InputError, unknown
 from tandemlift.settings import ControllerTable
 from tandemlift.vehicle import Vehicle
 

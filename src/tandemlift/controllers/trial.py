@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, layout
+from tandemlift.common.errors import InputError
 from tandemlift.controllers.interface import Command, Disturbance, Measured, control
-from tandemlift.errors import InputError
 from tandemlift.laws.mechanics.body import State, Wrench
 from tandemlift.laws.signals.trajectories import Reference, Trajectory
 

@@ -10,14 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
-import numpy as np
-from numpy.typing import NDArray
-
-from tandemlift.errors import unknown
+from tandemlift.common.errors import unknown
+from tandemlift.common.types import Array
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 
 class EngineBody(Protocol):
@@ -63,13 +59,13 @@ def _mujoco() -> Make:
 
 
 def _gazebo() -> Make:
-    from tandemlift.engines.gazebo.gazebo import GazeboBody
+    from tandemlift.engines.gazebo import GazeboBody
 
     return GazeboBody
 
 
 def _gazebo_over_ros() -> Make:
-    from tandemlift.engines.gazebo.ros import over_ros
+    from tandemlift.engines.gazebo_ros import over_ros
 
     return over_ros
 

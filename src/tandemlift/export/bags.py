@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.export.frames import fixed, vehicle_of
 from tandemlift.export.messages import SECOND, MessageTypes, Transforms, diagnostics_of, maker_of, modern
 from tandemlift.export.topics import ROOT, topics_of

@@ -9,7 +9,8 @@ import itertools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array
+from tandemlift.common.types import Array
+from tandemlift.export.frames import ALIGNED, BASE, WORLD
 from tandemlift.export.recipes import IMU, ODOMETRY, POINT, POSE, ROTORS, VECTOR, WRENCH, Recipe, Topic
 
 About = Topic | Recipe  # of which a maker reads frame and labels

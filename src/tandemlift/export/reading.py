@@ -15,9 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.export.bags import rosbags
-from tandemlift.export.frames import Array, eulers, vehicle_of
+from tandemlift.export.frames import eulers, vehicle_of
 from tandemlift.export.messages import NUMBERS, SECOND
 from tandemlift.export.recipes import MeasuredPose, Recipe
 from tandemlift.export.topics import ALWAYS, PILOT, ROOT, SOMETIMES, all_recipes, topics_of

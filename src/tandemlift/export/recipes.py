@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.errors import InputError
-from tandemlift.export.frames import ALIGNED, BASE, PAYLOAD, WORLD, Array, eulers, joint, quaternions, to_body, to_world
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.export.frames import ALIGNED, BASE, PAYLOAD, WORLD, eulers, joint, quaternions, to_body, to_world
 from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle
 

@@ -11,10 +11,10 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 from tandemlift.export.bags import write_bag, write_mcap
 from tandemlift.export.table import write_csv
-from tandemlift.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.missions import check
 from tandemlift.settings import Mission

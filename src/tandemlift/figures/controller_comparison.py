@@ -13,16 +13,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.panels import extent, fit, line, time_axis
 from tandemlift.figures.drawing.series import drawable
 from tandemlift.figures.drawing.start import LONG, START
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, GREY, LIGHT_BLUE, PAGE, VERMILLION, styled
 from tandemlift.flight.record import Flight
 from tandemlift.studies.controller_comparison import LEAST, ScoredPart, airborne, moving_axes, parts_of, scored
-
-Array = NDArray[np.float64]
 
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 COLOURS = (BLUE, VERMILLION, GREEN, BLACK, "#E69F00", "#CC79A7", "#56B4E9", GREY)  # Okabe and Ito

@@ -14,8 +14,8 @@ from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.clearances import clearances, grips
 from tandemlift.figures.drawing.panels import extent, line, value_ticks
 from tandemlift.figures.drawing.series import decimate, drawable
@@ -25,8 +25,6 @@ from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.figures.path import pushes
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
-
-Array = NDArray[np.float64]
 
 ROUND = 1.2  # m, shown around the way and the vehicle
 SPACING = 1.1  # vehicle spans of way from one vehicle drawn to the next

@@ -15,9 +15,9 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Quat
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.ground import floor_height
 from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.figures.drawing.series import decimate, drawable
@@ -27,8 +27,6 @@ from tandemlift.figures.drawing.walls import EDGE, GLASS, WallOutline, draw_wall
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings import wall_tables
-
-Array = NDArray[np.float64]
 
 MOST = 6  # vehicles drawn
 SPACING = 1.2  # vehicle spans of path from one vehicle drawn to the next, at least

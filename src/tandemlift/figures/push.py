@@ -11,17 +11,15 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Quat, Vec3, apply_transposed
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.panels import fit, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
 from tandemlift.figures.drawing.vehicle import payload_mass_of, vehicle_of
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings.pilot import EstimatorTable
-
-Array = NDArray[np.float64]
 
 TRUE: dict[str, Any] = {"color": BLUE, "lw": 1.2}
 ESTIMATE: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (4, 1.6))}

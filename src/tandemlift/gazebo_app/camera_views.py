@@ -9,14 +9,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.flight.record import Flight
 from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.models.cameras import FixedCamera
-
-Array = NDArray[np.float64]
 
 FAR = 5.0  # reaches of the vehicle, from it to a camera
 HEIGHT, ASIDE = np.radians([34.0, 24.0])  # rad, of a camera over the horizon and beside the way

@@ -12,9 +12,9 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
-from tandemlift.engines.gazebo.gazebo import PORT, REAL_TIME, world_of
-from tandemlift.engines.gazebo.server import GazeboServer, command, free_port, in_gazebo, root
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.engines.gazebo import PORT, REAL_TIME, world_of
+from tandemlift.engines.gazebo_server import GazeboServer, command, free_port, in_gazebo, root
 from tandemlift.gazebo_app.camera_views import ViewRequest
 from tandemlift.models.cameras import PICTURES, add_cameras
 from tandemlift.settings import Mission

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.kernels.context import AT, WORDS, aligned
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
 from tandemlift.laws.mechanics.rectangle import WALL
@@ -15,7 +16,6 @@ from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.trace import flat
 from tandemlift.trace.code import Code
 
-Array = NDArray[np.float64]
 IDLE = InputTables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL, PATH_LEG)  # rows without effect
 COUNTS = ("push_count", "gust_count", "wall_count", "leg_count")
 

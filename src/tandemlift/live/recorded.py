@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Array
 from tandemlift.engines.registry import EngineBody, engine_named
-from tandemlift.errors import FlightWarning, InputError
-from tandemlift.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, VirtualHandInput
@@ -31,7 +31,6 @@ from tandemlift.simulation.stepping import Stepper
 from tandemlift.trace import flat, leaves, unflat
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
 MISSION, HAND, FLIGHT = "recorded.toml", "hand.npz", "flight.npz"
 
 

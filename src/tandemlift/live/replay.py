@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.live.frames import RATE, fields_of, frames_of
 from tandemlift.live.scene import scene_of_tables
@@ -24,8 +25,6 @@ from tandemlift.live.values import values_of
 from tandemlift.rendering.stage import FlightStage
 from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 MOST_FRAMES = 36_000  # ten minutes of them; a longer flight has fewer a second
 OFFLINE = (

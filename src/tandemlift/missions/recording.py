@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.errors import InputError
-from tandemlift.files import atomic_write
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 from tandemlift.settings import Mission
 
 WIDTH = 14  # numbers of a `Held`

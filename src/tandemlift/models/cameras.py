@@ -11,12 +11,11 @@ from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.models.sdf import numbers
 from tandemlift.rendering.camera import ANGLE, NEAR
 
-Array = NDArray[np.float64]
 FAR = 300.0  # m, of what is drawn
 PICTURES = "pictures"  # folder of pictures, where the server runs
 

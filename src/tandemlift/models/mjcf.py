@@ -11,10 +11,10 @@ from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import vec3
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.models.mujoco_bodies import mujoco, press, specification
 from tandemlift.models.sensor_frames import Link, links_of
@@ -24,8 +24,6 @@ from tandemlift.rendering.light import SUN
 from tandemlift.rendering.stage import GLASS, WALL
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 GROUND, SKY, ZENITH = "#b9bdc3", "#dbe6f2", "#8fb0d3"
 CONTACT_GROUP = 3  # of shapes: MuJoCo's viewer hides it at first

@@ -16,10 +16,11 @@ from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.contact import Floor
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import Beam, Walls
@@ -32,7 +33,6 @@ from tandemlift.rendering.stage import GLASS, WALL
 from tandemlift.settings import Mission, WallTable
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
 Element = ElementTree.Element
 
 MODEL = "tandemlift"

@@ -9,14 +9,13 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from tandemlift.common.types import Array
 from tandemlift.rendering.aircraft import CARBON, FRONT, GUARD, JOINT, METAL, REAR, SHAPELESS, SHELL, WOOD, spread
 from tandemlift.rendering.mesh import frame_along
 from tandemlift.rendering.stage import BLUR
 from tandemlift.settings import Payload, Quadrotor
-
-Array = NDArray[np.float64]
 
 SEGMENTS = 16  # straight pieces of a guard ring
 ALONG_Y = frame_along([0.0, 1.0, 0.0])  # axes (3 × 3) of a cylinder along y

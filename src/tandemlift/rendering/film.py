@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -12,18 +12,15 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from tandemlift.errors import InputError
-from tandemlift.files import atomic_write
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Array, Progress
 from tandemlift.flight.record import Flight
 from tandemlift.rendering.camera import CAMERAS, Camera, View, look_at
 from tandemlift.rendering.stage import FlightStage
 from tandemlift.rendering.studio import shown
-
-Array = NDArray[np.float64]
-Progress = Callable[[int, int], None]
 
 PICTURE, FILM = (1280, 720), (640, 360)  # pixels
 SAMPLES = {".png": 3, ".gif": 2}  # each way, of a pixel

@@ -6,10 +6,10 @@ import itertools
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Quat
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.rendering.aircraft import aircraft
@@ -17,8 +17,6 @@ from tandemlift.rendering.mesh import Mesh, linear, panel, rod, together
 from tandemlift.rendering.studio import Pane, Scene, SceneLine
 from tandemlift.settings import VehicleTable, wall_tables
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 PUSH, PATH, AHEAD, GROUND = "#d5281b", "#1f5fbf", "#9db7d6", "#8a9097"
 WALL, FRAME = "#7f8fa3", "#4d5a6b"

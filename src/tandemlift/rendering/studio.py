@@ -11,13 +11,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.rendering.camera import ANGLE, View
 from tandemlift.rendering.ground import background
 from tandemlift.rendering.light import Shadow, coded, lit
 from tandemlift.rendering.mesh import NOTHING, Mesh
 from tandemlift.rendering.raster import glaze, nearest
-
-Array = NDArray[np.float64]
 
 FOCAL = 360.0 / np.tan(ANGLE / 2.0)  # length [pixels] in a picture of 720 rows
 AT_ONCE = 1_500_000  # samples: a large picture is drawn in strips, which take less memory

@@ -10,9 +10,9 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from tandemlift.common.files import atomic_write
 from tandemlift.controllers.registry import CONTROLLERS
 from tandemlift.figures.captions import Caption
-from tandemlift.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import DASH, figure_of, number, table_of

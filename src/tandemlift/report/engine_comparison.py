@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 
+from tandemlift.common.files import atomic_write
 from tandemlift.engines.registry import ENGINES
 from tandemlift.figures.captions import Caption
-from tandemlift.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.report.controller_comparison import figures_as_html, setup_as_html, versions_as_html
 from tandemlift.report.flight_report import DASH, number, table_of

@@ -10,7 +10,7 @@ import importlib.util
 from collections.abc import Callable
 from typing import Any
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.export.messages import modern
 
 PACKAGES = ("cyclonedds", "rosbags")

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.export.frames import Array
+from tandemlift.common.types import Array
 from tandemlift.export.messages import MessageTypes
 from tandemlift.models.visuals import LEVEL, VisualShape
 

@@ -6,8 +6,8 @@ import contextlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from tandemlift.engines.gazebo.rospy import import_rospy, message_type
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.engines.rospy import import_rospy, message_type
 from tandemlift.export.messages import MessageTypes
 from tandemlift.ros.middleware import Answer, TopicPublisher
 

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from tandemlift.errors import InputError, unknown
+from tandemlift.common.errors import InputError, unknown
 from tandemlift.export.messages import MessageTypes
 from tandemlift.export.topics import ROOT
 from tandemlift.ros.dds_types import DdsTypes, check_installed

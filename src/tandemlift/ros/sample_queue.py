@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.simulation.results import channels_of
-from tandemlift.vehicle import Array
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first
 

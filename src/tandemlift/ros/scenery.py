@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.vector import Vec3
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array, to_world
+from tandemlift.common.types import Array
+from tandemlift.export.frames import ALIGNED, BASE, WORLD, to_world
 from tandemlift.export.messages import MessageTypes
 from tandemlift.laws.mechanics.rotation import rotation_from_euler
 from tandemlift.live.values import points_of

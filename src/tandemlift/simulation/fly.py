@@ -10,8 +10,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Literal
 
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Progress
 from tandemlift.engines.registry import engine_named
-from tandemlift.errors import InputError
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import LANES, FlightMemory
 from tandemlift.loop.running_metrics import EMPTY
@@ -24,7 +25,6 @@ from tandemlift.simulation.stepping import body_in, fly_stepwise
 from tandemlift.trace import leaves, unflat
 from tandemlift.trace.compile_events import Stopped, always
 
-Progress = Callable[[int, int], None]
 STRETCH = 0.1  # s between looks at the keyboard and at the progress bar
 FIRST_STRETCH = 5_000  # steps
 

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Nothing, layout
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.kernels import leaf_offset
 from tandemlift.missions import in_turn
 from tandemlift.missions.recording import read_recording
@@ -22,7 +23,6 @@ from tandemlift.settings import Mission
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import flat, leaves
 
-Array = NDArray[np.float64]
 STEADY = {"changes": ()}
 LATER = "is chosen before a flight begins, and cannot be changed in flight"
 

@@ -6,11 +6,11 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.controllers import control
-from tandemlift.errors import InputError
 from tandemlift.kernels.context import aligned
 from tandemlift.kernels.pilot_sampling import PilotData, PilotSampler
 from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
@@ -23,7 +23,6 @@ from tandemlift.trace.code import Code
 from tandemlift.trace.key import key_of
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
 HEARD = PilotInput(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
 SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
 

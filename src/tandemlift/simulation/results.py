@@ -10,9 +10,9 @@ from importlib import metadata
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
+from tandemlift.common.types import Array
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
@@ -27,8 +27,6 @@ from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import flat, leaves, unflat
-
-Array = NDArray[np.float64]
 
 
 @dataclass

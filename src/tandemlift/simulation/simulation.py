@@ -9,9 +9,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from tandemlift.errors import InputError, suggestion
+from tandemlift.common.errors import InputError, suggestion
+from tandemlift.common.types import Array
 from tandemlift.flight.record import CHANNELS, DERIVED, TIME, Channel, Divergence, Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
@@ -23,7 +24,6 @@ from tandemlift.simulation.results import RawResult, channels_of, divergence_of,
 from tandemlift.simulation.stepping import Stepper, body_in
 from tandemlift.trace import leaves, unflat
 
-Array = NDArray[np.float64]
 FORCE, POINT, THRUSTS = (
     slice(0, 3),
     slice(3, 6),

@@ -10,9 +10,9 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import layout
+from tandemlift.common.types import Array, Progress
 from tandemlift.controllers import control
 from tandemlift.engines.registry import EngineBody, WaitingBody, engine_named
 from tandemlift.kernels import GIVEN, FlightMemory, leaf_offset
@@ -24,8 +24,6 @@ from tandemlift.trace import flat, leaves, unflat
 from tandemlift.trace.compile_events import Stopped, always
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
-Progress = Callable[[int, int], None]
 PROGRESS_EVERY = 1000  # steps
 STATE = 13  # numbers of a state
 NEVER = -1  # the number of no step

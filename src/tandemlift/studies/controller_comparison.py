@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 import traceback
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Progress
 from tandemlift.controllers import CONTROLLERS, Controller, controller, error_text, file_of
 from tandemlift.engines.registry import engine_named
-from tandemlift.errors import InputError
 from tandemlift.flight.record import Flight
 from tandemlift.missions import load_mission
 from tandemlift.settings import Mission
 from tandemlift.simulation.fly import fly, fly_many
 
-Progress = Callable[[int, int], None]
 Mask = NDArray[np.bool_]
 
 PUSHED = 1e-6  # N: a person who gives less does not push yet

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Quat, Vec3, vec3
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.body import State
@@ -16,8 +16,6 @@ from tandemlift.laws.mechanics.rectangle import edges_of, offset, offset_from_to
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import beam_axis, on_beam, point_by_edge, point_by_top
 from tandemlift.settings import wall_tables
-
-Array = NDArray[np.float64]
 
 
 class Clearances(NamedTuple):

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Quat
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.vehicle import mass_of, vehicle_of
 from tandemlift.flight import Flight
 from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings.surroundings import GroundTable
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 
 def _soles(vehicle: Vehicle) -> Array:

@@ -9,11 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.series import decimate, drawable, intervals
 from tandemlift.figures.drawing.style import COMPONENTS, PALE
 from tandemlift.flight.record import Flight
-
-Array = NDArray[np.float64]
 
 RELATIVE = 2e-3  # of the largest value: the least span of its axis, so that tick labels stay short
 

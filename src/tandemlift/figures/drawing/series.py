@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from tandemlift.common.types import Array
+
 Mask = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 

@@ -15,7 +15,7 @@ import matplotlib.style
 import numpy as np
 from matplotlib.figure import Figure
 
-from tandemlift.files import atomic_write
+from tandemlift.common.files import atomic_write
 from tandemlift.flight.record import Flight
 
 COLUMN = 3.5  # in, one column of a two-column journal

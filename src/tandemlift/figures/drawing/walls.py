@@ -8,12 +8,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.collections import LineCollection
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.settings import WallTable
-
-Array = NDArray[np.float64]
 
 BEYOND = 0.15  # of the longest side of what is shown: how far around it walls are drawn
 TOUCHING = 1e-6  # m: a wall on the box's edge is in it

@@ -24,7 +24,7 @@ import numpy as np
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.laws.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
 from tandemlift.laws.mechanics.air_drag import blown, start_payload_drag
 from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by

@@ -16,17 +16,16 @@ A step is `touch` in every stage with the memory held, then `slip`. Nothing but 
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, raised
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-
-Array = NDArray[np.float64]
 
 FASTEST_TURN = 1000.0  # rad/s², more than rotors make
 

@@ -20,8 +20,9 @@ from numpy.typing import ArrayLike
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.contact import Array, mobility, shortening, spring_damper, steady
+from tandemlift.laws.mechanics.contact import mobility, shortening, spring_damper, steady
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, raised, total_of_each
 from tandemlift.laws.mechanics.rectangle import WALL, Wall, edges_of, nearer, offset, offset_from_top, pick, runner_up
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion

@@ -26,15 +26,13 @@ import operator
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, sqrt, where
 from tandemlift.algebra.vector import Vec3, dot, each
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.rotors.allocation import AllocationState, Mixer, wrench
-
-Array = NDArray[np.float64]
 
 ACCURACY = 1e-9  # N, of every thrust, where the rounding of the given numbers allows it
 ROUNDING = 2.220446049250313e-16  # of a double

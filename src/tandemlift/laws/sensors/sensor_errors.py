@@ -2,7 +2,7 @@
 
 A sample is clip(A x + bias + drift + σ n) rounded to whole steps; A turns body axes into the sensor's, the drift is a
 random walk. One standard normal n a sample and axis serves both: the drift advances by w n *after* the reading. With
-the σ that `sensor_model` takes, the increments of such readings have the variance 2σ₀² + w² and the covariance −σ₀² with
+the σ of `sensor_model`, the increments of such readings have the variance 2σ₀² + w² and the covariance −σ₀² with
 the one before, as those of white noise of σ₀ and an independent walk of w have; both are Gaussian, so they are the same
 process, its walk begun σ/w samples earlier (J. F. Muth, J. Am. Stat. Assoc. 55, 1960), for half the random numbers.
 Error terms: IEEE Std 952, annex C.

@@ -17,11 +17,9 @@ from collections.abc import Callable
 from enum import IntEnum, IntFlag
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from tandemlift.errors import InputError
-
-Array = NDArray[np.float64]
+from tandemlift.common.errors import InputError
 
 MAGIC, VERSION = 0x5A474C54, 1
 HEADER = struct.Struct("<IHHIIQ")

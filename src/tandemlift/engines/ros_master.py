@@ -21,9 +21,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
-from tandemlift.engines.gazebo.rospy import import_rospy
-from tandemlift.engines.gazebo.server import command, exported, free_port, root
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.engines.gazebo_server import command, exported, free_port, root
+from tandemlift.engines.rospy import import_rospy
 
 JOIN = "TANDEMLIFT_GAZEBO_ROS"
 URI, IP, HOST = "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME"

@@ -19,18 +19,16 @@ from typing import Any, Protocol
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Nothing, vec3
-from tandemlift.engines.gazebo.server import GazeboServer, free_port
-from tandemlift.engines.gazebo.wire import STATE, PluginAnswer, Wire
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.engines.gazebo_server import GazeboServer, free_port
+from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.models import sdf
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none

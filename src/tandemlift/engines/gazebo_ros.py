@@ -14,18 +14,18 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from tandemlift.engines.gazebo.gazebo import NONE, STEPPING, GazeboBody, world_of
-from tandemlift.engines.gazebo.ros_master import environment, joined, node
-from tandemlift.engines.gazebo.rospy import message_type
-from tandemlift.engines.gazebo.server import GazeboServer
-from tandemlift.engines.gazebo.wire import PluginAnswer
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.engines.gazebo import NONE, STEPPING, GazeboBody, world_of
+from tandemlift.engines.gazebo_server import GazeboServer
+from tandemlift.engines.gazebo_wire import PluginAnswer
+from tandemlift.engines.ros_master import environment, joined, node
+from tandemlift.engines.rospy import message_type
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
 Stamp = tuple[int, int]  # s, ns
 ROOT = "/tandemlift/gazebo"
 PLACES = (ROOT, *(f"{ROOT}_{k}" for k in range(2, 100)))  # of servers of this process, one beside the other
