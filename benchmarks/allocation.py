@@ -18,16 +18,16 @@ import numpy as np
 from machine import describe, heading, number, pin, save, table
 
 import tandemlift as tl
-from tandemlift.kernels.solving import write_solver
-from tandemlift.kernels.traced import Solver
-from tandemlift.laws.allocation import Mixer, Working
-from tandemlift.laws.body import Wrench
-from tandemlift.laws.limits import Bounded, Search, begun, searched, weighted_rows, weights_of
+from tandemlift.algebra.vector import Vec3, each
+from tandemlift.kernels.limit_solver import write_solver
+from tandemlift.kernels.traced_step import Solver
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.allocation import Mixer, Working
+from tandemlift.laws.rotors.thrust_limits import Bounded, Search, begun, searched, weighted_rows, weights_of
 from tandemlift.trace import Function, Module, double, flat, leaves
 from tandemlift.trace.functions import compiled
 from tandemlift.trace.machine import BEST, Loaded
 from tandemlift.trace.machine import compiled as machine_code
-from tandemlift.vector import Vec3, each
 from tandemlift.vehicle import Vehicle
 
 PLACES = {

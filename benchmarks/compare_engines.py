@@ -15,13 +15,13 @@ import numpy as np
 from machine import describe, heading, table
 
 import tandemlift as tl
-from tandemlift.apart import apart, fly_in, turned
-from tandemlift.engines import engine_named
+from tandemlift.algebra.vector import ZERO, Nothing, each
 from tandemlift.engines.compiled import advance, start_plant, start_state
-from tandemlift.laws.push import CentralPush, Hand
+from tandemlift.engines.registry import engine_named
+from tandemlift.laws.mechanics.push import CentralPush, Hand
+from tandemlift.studies.engine_comparison import apart, fly_in, turned
 from tandemlift.trace import flat, traced, unflat
 from tandemlift.trace.functions import compiled
-from tandemlift.vector import ZERO, Nothing, each
 from tandemlift.vehicle import Vehicle
 
 NONE, NO_AIR, NO_PUSH = Nothing(), np.zeros(0), np.zeros(3)

@@ -9,10 +9,10 @@ import time
 from machine import describe, heading, number, table
 
 import tandemlift as tl
-from tandemlift.engines import engine_named
-from tandemlift.engines.gazebo import REAL_TIME
-from tandemlift.prepared import Prepared
-from tandemlift.stepwise import Stepper
+from tandemlift.engines.gazebo.gazebo import REAL_TIME
+from tandemlift.engines.registry import engine_named
+from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.stepping import Stepper
 from tandemlift.vehicle import Vehicle
 
 ROUNDS, ENGINES = 3, ("gazebo", "gazebo-ros")

@@ -89,7 +89,7 @@ def topics() -> dict[str, str]:
     from tandemlift.export.topics import recipes_of
     from tandemlift.live.session import Session
     from tandemlift.missions import load_mission
-    from tandemlift.ros.feed import Feed, as_flight
+    from tandemlift.ros.sample_queue import Feed, as_flight
     from tandemlift.vehicle import Vehicle
 
     session, feed = Session(load_mission("zigzag")), Feed(1, lambda step: 0)

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.flight import CHANNELS, DERIVED
-from tandemlift.flown import Flown, flight_of
-from tandemlift.laws.guidance import GuidedChannels
-from tandemlift.laws.supervision import SupervisedChannels
-from tandemlift.prepared import Prepared
-from tandemlift.readout import EstimatedChannels, MeasuredChannels
-from tandemlift.sample import Actuated, Air, Contact, Disturbed, Sample, Watched
-from tandemlift.tally import EMPTY
+from tandemlift.flight.record import CHANNELS, DERIVED
+from tandemlift.laws.guidance.guidance import GuidedChannels
+from tandemlift.laws.guidance.supervision import SupervisedChannels
+from tandemlift.loop.estimate_channels import EstimatedChannels, MeasuredChannels
+from tandemlift.loop.log_sample import Actuated, Air, Contact, Disturbed, Sample, Watched
+from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.results import Flown, flight_of
 from tandemlift.trace import leaves
 
 GROUPS = {

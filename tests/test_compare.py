@@ -10,12 +10,21 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.cli import main
-from tandemlift.comparison import Entrant, Entry, best_of, compare, entrants, moving_axes, parts_of, scores
-from tandemlift.figures.comparison import draw_errors, draw_thrusts
-from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.cli.main import main
+from tandemlift.controllers import CONTROLLERS
+from tandemlift.figures.controller_comparison import draw_errors, draw_thrusts
 from tandemlift.missions import built_in, tables_of, to_toml
-from tandemlift.report.comparison import COLUMNS, write_comparison
+from tandemlift.report.controller_comparison import COLUMNS, write_comparison
+from tandemlift.studies.controller_comparison import (
+    Entrant,
+    Entry,
+    best_of,
+    compare,
+    entrants,
+    moving_axes,
+    parts_of,
+    scores,
+)
 
 SHORT = ("--set", "mission.duration=0.6")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")  # of nftsmc
@@ -135,7 +144,7 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp
 
 def test_a_folder_that_is_in_the_way_is_refused_before_the_flight(run, tmp_path, monkeypatch):
     (tmp_path / "taken" / "compare.html").mkdir(parents=True)
-    monkeypatch.setattr("tandemlift.comparison.fly_many", lambda *_, **__: pytest.fail("flown"))
+    monkeypatch.setattr("tandemlift.studies.controller_comparison.fly_many", lambda *_, **__: pytest.fail("flown"))
     code, _, err = run("compare", "hover", "--out", "taken")
     assert code == 2
     assert "taken/compare.html is in the way" in err
@@ -187,7 +196,7 @@ def test_another_engine_flies_them_one_by_one(tmp_path):
 FAILING = '''
 """Fails in flight."""
 from typing import NamedTuple
-from tandemlift.laws.controllers import NoMemory, control, register
+from tandemlift.controllers import NoMemory, control, register
 from tandemlift.settings import ControllerTable
 class Gains(NamedTuple):
     """None."""

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.figures import FIGURES, figures_of
-from tandemlift.figures.clearances import clearances, grips
 from tandemlift.figures.corridor import NEWTON, arrows, instants
-from tandemlift.flight import Divergence
+from tandemlift.figures.drawing.clearances import clearances, grips
+from tandemlift.figures.registry import FIGURES, figures_of
+from tandemlift.flight.record import Divergence
 from tandemlift.missions import tables_of
 from tandemlift.settings import wall_tables
 

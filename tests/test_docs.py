@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import tandemlift as tl
-from tandemlift.cli import cli
-from tandemlift.flight import CHANNELS, DERIVED
+from tandemlift.cli.main import cli
+from tandemlift.flight.record import CHANNELS, DERIVED
 
 ROOT = Path(__file__).parent.parent
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

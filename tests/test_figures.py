@@ -15,13 +15,13 @@ from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.figures import FIGURES, VIEWS, figures_of, save_figures
-from tandemlift.figures import style as figure_style
 from tandemlift.figures.captions import CAPTIONS
-from tandemlift.figures.series import intervals, normalised, telling
-from tandemlift.figures.skeleton import skeleton
-from tandemlift.figures.vehicle import weight_of
-from tandemlift.flight import Divergence
+from tandemlift.figures.drawing import style as figure_style
+from tandemlift.figures.drawing.series import intervals, normalised, telling
+from tandemlift.figures.drawing.skeleton import skeleton
+from tandemlift.figures.drawing.vehicle import weight_of
+from tandemlift.figures.registry import FIGURES, VIEWS, figures_of, save_figures
+from tandemlift.flight.record import Divergence
 
 RUNAWAY = {
     "controller.gains.lambda_1": 0.0,
@@ -107,10 +107,10 @@ def test_the_figures_are_those_that_were_promised_in_that_order():
 def test_the_drawing_library_is_loaded_only_to_draw_and_never_with_a_window_system(paper, tmp_path):
     flight = paper.save(tmp_path / "flight.npz")
     code = f"""
-import sys, tandemlift.figures
-from tandemlift.flight import Flight
+import sys, tandemlift.figures.registry
+from tandemlift.flight.record import Flight
 assert "matplotlib" not in sys.modules
-tandemlift.figures.FIGURES["reference"](Flight.load({str(flight)!r}))
+tandemlift.figures.registry.FIGURES["reference"](Flight.load({str(flight)!r}))
 assert "matplotlib.figure" in sys.modules and "matplotlib.pyplot" not in sys.modules
 """
     completed([sys.executable, "-W", "error", "-c", code], check=True)

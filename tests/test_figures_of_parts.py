@@ -9,13 +9,13 @@ from matplotlib.colors import to_hex
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.assembly.surroundings import floor_of
-from tandemlift.figures import FIGURES, figures_of, save_figures
-from tandemlift.figures.ground import clearance, floor_height
-from tandemlift.figures.scene import NEAR, on_paper
-from tandemlift.figures.style import COMPONENTS, LIGHT_BLUE, PALE
-from tandemlift.figures.vehicle import payload_mass_of
-from tandemlift.flight import Divergence
+from tandemlift.figures.drawing.ground import clearance, floor_height
+from tandemlift.figures.drawing.scene import NEAR, on_paper
+from tandemlift.figures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
+from tandemlift.figures.drawing.vehicle import payload_mass_of
+from tandemlift.figures.registry import FIGURES, figures_of, save_figures
+from tandemlift.flight.record import Divergence
+from tandemlift.models.surroundings import floor_of
 from tandemlift.vehicle import Vehicle
 
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}

@@ -13,9 +13,9 @@ from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.assembly.surroundings import floor_of, walls_of
-from tandemlift.cli import main
-from tandemlift.export import export
+from tandemlift.cli.main import main
+from tandemlift.export.write import export
+from tandemlift.models.surroundings import floor_of, walls_of
 from tandemlift.vehicle import Vehicle
 
 PLACES = [[0.1, 1.0, 0.2], [-0.2, -1.1, 0.15], [0.9, 0.1, 0.1], [-0.8, 0.2, -0.1]]
@@ -360,7 +360,7 @@ def test_a_hovering_vehicle_carries_half_the_beam_at_each_joint(mujoco, model_of
 @pytest.mark.parametrize("name", ["unlike", "walls"])
 def test_numbers_of_a_mujoco_model_are_the_engines_to_the_last_digits(name, mujoco, model_of):
     mission, vehicle = loaded(name)
-    ours, engine = model_of(mission), importlib.import_module("tandemlift.engines.mujoco_model")
+    ours, engine = model_of(mission), importlib.import_module("tandemlift.models.mujoco_bodies")
     theirs = engine.model_of(mission, vehicle, floor_of(mission, vehicle), walls_of(mission, vehicle))
     for array in (
         "body_mass",
@@ -424,7 +424,7 @@ def test_endings_and_ports_that_do_not_fit_are_refused(tmp_path):
 
 def test_without_mujoco_its_model_is_refused_and_a_world_is_not(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    for name in ("tandemlift.engines.mujoco_model", "tandemlift.export.mjcf"):
+    for name in ("tandemlift.models.mujoco_bodies", "tandemlift.models.mjcf"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     mission = tl.load_mission("paper")
     assert "pip install 'tandemlift[mujoco]'" in refusal(mission, tmp_path / "paper.xml")

@@ -6,13 +6,13 @@ from click.testing import CliRunner
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.cli import cli
-from tandemlift.flight import Flight
+from tandemlift.cli.main import cli
+from tandemlift.flight.record import Flight
 from tandemlift.missions import tables_of
-from tandemlift.validation import CHAPTERS, Row, chosen, table
-from tandemlift.validation.persons import random_persons
-from tandemlift.validation.rows import below, true_yielding
-from tandemlift.validation.scenarios import WINDY, drawn, mission
+from tandemlift.studies.persons import random_persons
+from tandemlift.studies.rows import below, true_yielding
+from tandemlift.studies.scenarios import WINDY, drawn, mission
+from tandemlift.studies.validation import CHAPTERS, Row, chosen, table
 
 
 def test_a_row_is_met_if_no_number_exceeds_its_limit():

@@ -10,16 +10,16 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.cli import main
-from tandemlift.export.eyes import Eye, add_eyes
-from tandemlift.export.sdf import world
-from tandemlift.figures import save_figures
-from tandemlift.figures.style import save
-from tandemlift.figures.views import draw_views
-from tandemlift.gazebo.views import shots_of
-from tandemlift.laws.phases import NAMES
+from tandemlift.cli.main import main
+from tandemlift.figures.drawing.style import save
+from tandemlift.figures.registry import save_figures
+from tandemlift.gazebo_app.camera_views import shots_of
+from tandemlift.gazebo_app.photographs import draw_views
+from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.missions import tables_of
-from tandemlift.report import write_report
+from tandemlift.models.cameras import Eye, add_eyes
+from tandemlift.models.sdf import world
+from tandemlift.report.flight_report import write_report
 
 STANDS, FLIES, LANDS = 5.0, 25.0, 30.0  # s
 

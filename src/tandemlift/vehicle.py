@@ -14,7 +14,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.constants import GRAVITY
+from tandemlift.algebra.constants import GRAVITY
 from tandemlift.errors import InputError
 from tandemlift.settings import Drag, Payload, Quadrotor, VehicleTable
 

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.constants import GRAVITY
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
-from tandemlift.laws.body import State
-from tandemlift.laws.contact import floor, soles_below, standing_height, start_grip
-from tandemlift.laws.loads import Felt, Load, Loads, frame_of, resultant
-from tandemlift.laws.push import CentralPush, Hand, PointPush
-from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.laws.walls import walls
-from tandemlift.vector import Nothing, Quat, Vec3, each, mat3, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height, start_grip
+from tandemlift.laws.mechanics.loads import Felt, Load, Loads, frame_of, resultant
+from tandemlift.laws.mechanics.push import CentralPush, Hand, PointPush
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.mechanics.walls import walls
 from tandemlift.vehicle import Vehicle
 
 mujoco = pytest.importorskip("mujoco")
@@ -291,6 +291,6 @@ def test_felt_has_the_layout_of_the_law():
 
 def test_without_mujoco_one_sentence_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    monkeypatch.delitem(sys.modules, "tandemlift.engines.mujoco_model")
+    monkeypatch.delitem(sys.modules, "tandemlift.models.mujoco_bodies")
     with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs the package mujoco: pip install 'tandemlift\["):
-        importlib.import_module("tandemlift.engines.mujoco_model")
+        importlib.import_module("tandemlift.models.mujoco_bodies")

@@ -9,11 +9,12 @@ import pytest
 from patience import PATIENCE, completed
 
 import tandemlift as tl
-from tandemlift.engines.gazebo import rotors_of, start_of, world_of
-from tandemlift.engines.gazebo_master import environment, node
-from tandemlift.engines.gazebo_ros import RosWire
-from tandemlift.engines.gazebo_server import Server, command, exported, free_port, in_gazebo, root
-from tandemlift.engines.gazebo_wire import Wire
+from tandemlift.engines.gazebo.gazebo import start_of, world_of
+from tandemlift.engines.gazebo.ros import RosWire
+from tandemlift.engines.gazebo.ros_master import environment, node
+from tandemlift.engines.gazebo.server import Server, command, exported, free_port, in_gazebo, root
+from tandemlift.engines.gazebo.wire import Wire
+from tandemlift.models.sdf import rotors_of
 
 SILENT, SILENT_OVER_ROS = 1.5, 3.0  # s, after which a pilot is given up
 

@@ -12,15 +12,15 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from tandemlift.kernels.solving import write_solver
-from tandemlift.kernels.traced import Solver
-from tandemlift.laws.allocation import Mixer, Working
-from tandemlift.laws.body import Wrench
-from tandemlift.laws.limits import GAMMA, Bounded, weighted_rows, weights_of
+from tandemlift.algebra.vector import each, vec3
+from tandemlift.kernels.limit_solver import write_solver
+from tandemlift.kernels.traced_step import Solver
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.allocation import Mixer, Working
+from tandemlift.laws.rotors.thrust_limits import GAMMA, Bounded, weighted_rows, weights_of
 from tandemlift.trace import Function, Module, Place, flat
 from tandemlift.trace.machine import BEST, QUICK, Loaded
 from tandemlift.trace.machine import compiled as object_code
-from tandemlift.vector import each, vec3
 from tandemlift.vehicle import Vehicle
 
 from .helpers import BEAM, quadrotor

@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from hypothesis import strategies as st
 
-from tandemlift.laws.body import Body, State
-from tandemlift.laws.inertia import inertia_value
+from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, vec3
+from tandemlift.laws.mechanics.body import Body, State
+from tandemlift.laws.mechanics.inertia import inertia_value
 from tandemlift.settings import Payload, Quadrotor
-from tandemlift.vector import ZERO, Mat3, Quat, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
 IRIS = {

@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.body import State
-from tandemlift.laws.loads import Felt
-from tandemlift.laws.sensing import Unit
-from tandemlift.vector import ZERO, Quat, spread, vec3
+from tandemlift.algebra.vector import ZERO, Quat, spread, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import Felt
+from tandemlift.laws.sensors.readings import Unit
 
 from .helpers import flat
 

@@ -7,13 +7,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.laws.body import State
-from tandemlift.laws.estimation import Push, PushEstimator, estimate, push_estimator, start_push
-from tandemlift.laws.loads import Felt
-from tandemlift.laws.navigation import Navigation, Navigator, navigate, navigator, start_navigation
-from tandemlift.laws.sensing import Hiss, Readings, Sensors, sense, sensors, start_sensing
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.estimation.navigation import Navigation, Navigator, navigate, navigator, start_navigation
+from tandemlift.laws.estimation.push_estimate import Push, PushEstimator, estimate, push_estimator, start_push
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import Felt
+from tandemlift.laws.sensors.readings import Hiss, Readings, Sensors, sense, sensors, start_sensing
 from tandemlift.trace import leaves, unflat
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each
 
 from .machine_code import Loop
 

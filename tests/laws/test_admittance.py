@@ -10,18 +10,10 @@ from hypothesis import given
 from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
-from tandemlift.laws.admittance import (
-    Admittance,
-    HardGate,
-    SoftGate,
-    Trajectory,
-    Yielding,
-    gate,
-    hold,
-    yield_to,
-)
-from tandemlift.laws.push import Gaussian, gaussian_force
-from tandemlift.vector import ZERO, Vec3
+from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.laws.guidance.admittance import Admittance, HardGate, SoftGate, Yielding, gate, hold, yield_to
+from tandemlift.laws.mechanics.push import Gaussian, gaussian_force
+from tandemlift.laws.signals.trajectories import Trajectory
 
 from .helpers import array, numbers, order_of, vectors
 

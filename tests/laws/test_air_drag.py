@@ -11,16 +11,16 @@ from scipy.integrate import solve_ivp
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.body import State
-from tandemlift.laws.loads import frame_of, resultant
-from tandemlift.laws.wind import (
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import frame_of, resultant
+from tandemlift.laws.mechanics.wind import (
     AirDrag,
     air_drag_of,
     air_loads,
 )
 from tandemlift.settings import Payload
-from tandemlift.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
 from .helpers import array, paper_vehicle, quadrotor, random_state, random_vec3, rebuilt, seeds

@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 from scipy.linalg import null_space
 from scipy.optimize import minimize
 
+from tandemlift.algebra.vector import each, vec3
 from tandemlift.errors import InputError
-from tandemlift.laws.allocation import Constrained, allocate, beyond, commanded, limits_at, wrench
-from tandemlift.laws.body import Wrench
-from tandemlift.laws.rotors import Faults
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.allocation import Constrained, allocate, beyond, commanded, limits_at, mixer_value, wrench
+from tandemlift.laws.rotors.dynamics import Faults
 from tandemlift.missions import load_mission
-from tandemlift.pilot.start import mixer_value, start_pilot
-from tandemlift.vector import each, vec3
+from tandemlift.pilot.assemble import start_pilot
 from tandemlift.vehicle import Vehicle
 
 from .helpers import paper_vehicle, random_vehicle, seeds

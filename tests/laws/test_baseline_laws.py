@@ -9,19 +9,19 @@ from scipy import signal
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.controllers.geometric import (
+from tandemlift.algebra.vector import ZERO, Mat3, Quat, vec3
+from tandemlift.controllers.geometric import (
     Moved,
     attitude_along,
     attitude_error,
     heading,
     zxy_angles,
 )
-from tandemlift.laws.controllers.pid import Stage, Staged, drawn_back, pid_of
-from tandemlift.laws.controllers.smc import layer_reaching_time, linear, switched_acceleration
-from tandemlift.laws.controllers.super_twisting import twist, twisting
-from tandemlift.laws.lowpass import Smoothed, low_pass
-from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.vector import ZERO, Mat3, Quat, vec3
+from tandemlift.controllers.pid import Stage, Staged, drawn_back, pid_of
+from tandemlift.controllers.smc import layer_reaching_time, linear, switched_acceleration
+from tandemlift.controllers.super_twisting import twist, twisting
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.signals.low_pass import Smoothed, low_pass
 
 from .helpers import array, random_attitude, seeds
 

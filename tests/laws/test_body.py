@@ -8,11 +8,11 @@ from hypothesis import given
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.body import Body, State, Wrench, motion, rk4
-from tandemlift.laws.inertia import gyroscopic, inertia_value, turn_by
-from tandemlift.laws.push import CentralPush, Gaussian, Hand, PointPush, push_of
-from tandemlift.vector import ZERO, Mat3, Quat, Vec3, mat3, vec3
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, mat3, vec3
+from tandemlift.laws.mechanics.body import Body, State, Wrench, motion, rk4
+from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
+from tandemlift.laws.mechanics.push import CentralPush, Gaussian, Hand, PointPush, push_of
 
 from .helpers import array, free_body, order_of, random_state, random_vec3, seeds, tensor
 

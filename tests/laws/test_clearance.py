@@ -5,11 +5,11 @@ from hypothesis import assume, given
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.clearance import clearance, nearer_of
-from tandemlift.laws.loads import frame_of
-from tandemlift.laws.rectangle import wall
-from tandemlift.laws.walls import consider, nowhere, walls
-from tandemlift.vector import Nothing
+from tandemlift.algebra.vector import Nothing
+from tandemlift.laws.mechanics.clearance import clearance, nearer_of
+from tandemlift.laws.mechanics.loads import frame_of
+from tandemlift.laws.mechanics.rectangle import wall
+from tandemlift.laws.mechanics.walls import consider, nowhere, walls
 
 from .helpers import array, paper_vehicle, random_state, seeds
 

@@ -5,15 +5,15 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.laws.compliance import DeadBand, Hearing, comply, hear
-from tandemlift.laws.phases import GUIDED, Orders
-from tandemlift.laws.reference import Ramp
-from tandemlift.laws.rotors import Sound
-from tandemlift.laws.tank import Filled, Tank, damp
-from tandemlift.laws.turning import turn
-from tandemlift.pilot.guided import start_guided
-from tandemlift.pilot.start import admittance_of
-from tandemlift.vector import ZERO, Vec3, vec3
+from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.laws.guidance.compliance import DeadBand, Hearing, comply, hear
+from tandemlift.laws.guidance.energy_tank import Filled, Tank, damp
+from tandemlift.laws.guidance.phases import GUIDED, Orders
+from tandemlift.laws.guidance.yaw_compliance import turn
+from tandemlift.laws.rotors.dynamics import Sound
+from tandemlift.laws.signals.trajectories import Ramp
+from tandemlift.pilot.assemble import admittance_of
+from tandemlift.pilot.guidance import start_guided
 from tandemlift.vehicle import Vehicle
 
 H = 1e-3

@@ -10,10 +10,12 @@ from hypothesis import given
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from tandemlift.constants import GRAVITY
-from tandemlift.law import law
-from tandemlift.laws.body import Body, State, Wrench, rigid_body_motion
-from tandemlift.laws.contact import (
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import sqrt
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
+from tandemlift.laws.mechanics.body import Body, State, Wrench, rigid_body_motion
+from tandemlift.laws.mechanics.contact import (
     Floor,
     floor,
     may_touch,
@@ -25,11 +27,9 @@ from tandemlift.laws.contact import (
     start_grip,
     touch,
 )
-from tandemlift.laws.loads import Frame, Load, Loads, frame_of, resultant
-from tandemlift.laws.push import CentralPush
-from tandemlift.ops import sqrt
+from tandemlift.laws.mechanics.loads import Frame, Load, Loads, frame_of, resultant
+from tandemlift.laws.mechanics.push import CentralPush
 from tandemlift.trace import flat, unflat
-from tandemlift.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.vehicle import Vehicle
 
 from .helpers import BEAM, array, free_body, paper_vehicle, quadrotor, random_state, random_vehicle, seeds

@@ -8,20 +8,10 @@ from hypothesis import given
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.admittance import Trajectory
-from tandemlift.laws.body import State
-from tandemlift.laws.controllers import Measured, Reference, control
-from tandemlift.laws.controllers.nftsmc import (
-    NFTSMC,
-    BodyRates,
-    ExactRates,
-    attitude_law,
-    euler_rates,
-    position_law,
-)
-from tandemlift.laws.controllers.shaping import (
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Quat, Vec3
+from tandemlift.controllers import Measured, Reference, control
+from tandemlift.controllers.attitude_reference import (
     AttitudeReference,
     CommandFilter,
     Filtered,
@@ -29,15 +19,25 @@ from tandemlift.laws.controllers.shaping import (
     command_filter,
     shape,
 )
-from tandemlift.laws.expanded import Axes, euler_dynamics, expanded_dynamics
-from tandemlift.laws.rotation import (
+from tandemlift.controllers.equations_of_motion import Axes, euler_dynamics, expanded_dynamics
+from tandemlift.controllers.nftsmc import (
+    NFTSMC,
+    BodyRates,
+    ExactRates,
+    attitude_law,
+    euler_rates,
+    position_law,
+)
+from tandemlift.controllers.sliding_surface import Saturation, sliding_surface, switching, wanted_acceleration
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation import (
     euler_from_quaternion,
     euler_rates_from_rates,
     quaternion_from_euler,
     turned_least,
 )
-from tandemlift.laws.sliding import Saturation, sliding_surface, switching, wanted_acceleration
-from tandemlift.vector import ZERO, Quat, Vec3
+from tandemlift.laws.signals.trajectories import Trajectory
+from tandemlift.simulation.assemble import assemble
 
 from .helpers import IRIS, array, free_body, random_state, random_vec3, seeds
 

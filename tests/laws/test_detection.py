@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from scipy.signal import StateSpace, lsim
 
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.body import State
-from tandemlift.laws.detection import confirmed, left_of, watch, with_trials
-from tandemlift.laws.guidance import Heard
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, vec3
+from tandemlift.laws.estimation.rotor_loss_detection import confirmed, left_of, watch, with_trials
+from tandemlift.laws.guidance.guidance import Heard
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.rotors.allocation import mixer_value
 from tandemlift.missions import load_mission
-from tandemlift.pilot.start import mixer_value
-from tandemlift.pilot.watching import start_detection
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each, vec3
+from tandemlift.pilot.rotor_loss_detection import start_detection
 from tandemlift.vehicle import Vehicle
 
 MISSION = load_mission("iris", {"detection.model": "residual", "actuators.start": "hover"})

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
+from tandemlift.algebra.vector import Vec3, vec3
 from tandemlift.errors import InputError
-from tandemlift.laws.estimation import (
+from tandemlift.laws.estimation.push_estimate import (
     PushEstimator,
     estimate,
     moment_on_payload,
@@ -22,9 +23,8 @@ from tandemlift.laws.estimation import (
     sides,
     start_push,
 )
-from tandemlift.laws.meters import Grade
-from tandemlift.laws.sensing import sensors
-from tandemlift.vector import Vec3, vec3
+from tandemlift.laws.sensors.readings import sensors
+from tandemlift.laws.sensors.sensor_errors import Grade
 
 from .helpers import array, random_attitude, seeds
 from .newton_euler import Flight, Given, Parts, flown, paper_parts, random_parts, solved, unit

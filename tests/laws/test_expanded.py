@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.body import State, Wrench, motion
-from tandemlift.laws.expanded import Axes, drift, euler_dynamics, expanded_dynamics, response
-from tandemlift.laws.push import CentralPush
-from tandemlift.laws.rotation import euler_from_quaternion, euler_rates_from_rates, quaternion_from_euler
-from tandemlift.vector import ZERO, Vec3, vec3
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.controllers.equations_of_motion import Axes, drift, euler_dynamics, expanded_dynamics, response
+from tandemlift.laws.mechanics.body import State, Wrench, motion
+from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, quaternion_from_euler
 
 from .helpers import array, attitudes, free_body, order_of, random_vec3, seeds, vectors
 

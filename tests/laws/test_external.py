@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.laws.external import External, pushed, thrusts_of
-from tandemlift.laws.push import CentralPush, Hand, PointPush, moment_of
-from tandemlift.loop import move
-from tandemlift.prepared import Prepared
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, mat3, vec3
+from tandemlift.laws.mechanics.push import CentralPush, Hand, PointPush, moment_of
+from tandemlift.laws.person.caller_inputs import External, pushed, thrusts_of
+from tandemlift.loop.step import move
+from tandemlift.simulation.plan import Prepared
 from tandemlift.trace import flat
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each, mat3, vec3
 
 FORCE, POINT = Vec3(1.0, -2.0, 0.5), Vec3(0.1, 0.8, -0.06)
 TILTED = Quat(0.8, 0.36, -0.48, 0.0)

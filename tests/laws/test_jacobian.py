@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.loop import move
-from tandemlift.vector import Quat, Vec3
+from tandemlift.algebra.vector import Quat, Vec3
+from tandemlift.loop.step import move
+from tandemlift.simulation.assemble import assemble
 
 from .helpers import flat, rebuilt
 

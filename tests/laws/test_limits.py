@@ -7,8 +7,8 @@ import pytest
 from scipy.optimize import linprog
 
 from tandemlift.kernels.context import aligned
-from tandemlift.laws.allocation import Working
-from tandemlift.laws.limits import limited, weighted_rows, weights_of
+from tandemlift.laws.rotors.allocation import Working
+from tandemlift.laws.rotors.thrust_limits import limited, weighted_rows, weights_of
 
 from .bounded import (
     EVERY,

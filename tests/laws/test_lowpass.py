@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from tandemlift.laws.lowpass import Smoothed, low_pass, smooth
-from tandemlift.vector import ZERO, Vec3, each
+from tandemlift.algebra.vector import ZERO, Vec3, each
+from tandemlift.laws.signals.low_pass import Smoothed, low_pass, smooth
 
 
 def response(bandwidth: float, step: float, inputs: np.ndarray) -> np.ndarray:

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.meters import Grade, displayed, meter, no_drift, read
-from tandemlift.vector import ZERO, Vec3, spread, vec3
+from tandemlift.algebra.vector import ZERO, Vec3, spread, vec3
+from tandemlift.laws.sensors.sensor_errors import Grade, displayed, meter, no_drift, read
 
 from .helpers import array, numbers, random_vec3, seeds, vectors
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.body import State
-from tandemlift.laws.meters import Grade
-from tandemlift.laws.navigation import Navigator, navigator
-from tandemlift.laws.sensing import Sensors, sensors
-from tandemlift.laws.turns import turned
-from tandemlift.vector import Vec3, vec3
+from tandemlift.algebra.vector import Vec3, vec3
+from tandemlift.laws.estimation.navigation import Navigator, navigator
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.sensors.readings import Sensors, sensors
+from tandemlift.laws.sensors.sensor_errors import Grade
 
 from .helpers import array
 from .perceived import STEP, happening, onboard, perceived, rows

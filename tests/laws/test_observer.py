@@ -7,11 +7,11 @@ import pytest
 from scipy.signal import StateSpace, lsim
 
 import tandemlift as tl
-from tandemlift.laws.body import State
-from tandemlift.laws.observer import correction, growth, observe
-from tandemlift.pilot.observing import start_observer
-from tandemlift.pilot.start import mixer_value
-from tandemlift.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.laws.estimation.disturbance_observer import correction, growth, observe
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.rotors.allocation import mixer_value
+from tandemlift.pilot.disturbance_observer import start_observer
 from tandemlift.vehicle import Vehicle
 
 H = 1e-3

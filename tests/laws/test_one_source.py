@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.loop import Flying, Inputs, move
+from tandemlift.loop.step import Flying, Inputs, move
+from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import leaves
 
 from .helpers import flat, rebuilt
@@ -114,7 +114,7 @@ def case(request):
 
 def test_variants_differ_in_type():
     """So that the tests below fly different loops."""
-    from tandemlift.prepared import Prepared
+    from tandemlift.simulation.plan import Prepared
 
     assert len({Prepared(tl.load_mission(*variant)).variant for variant in VARIANTS.values()}) == len(VARIANTS)
 

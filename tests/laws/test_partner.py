@@ -11,15 +11,15 @@ from scipy.signal import lsim, lti, welch
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.assembly.company import legs_of, start_partner
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, mat3, vec3
 from tandemlift.engines.compiled import start_state
-from tandemlift.laws.body import State
-from tandemlift.laws.lowpass import Smoothed
-from tandemlift.laws.partner import Leg, Partnering, asks_to_land, lend, sight
-from tandemlift.laws.push import Hand, PointPush, moment_of
-from tandemlift.laws.tremor import STILL, Twitch, shake, tremor
-from tandemlift.vector import ZERO, Quat, Vec3, mat3, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.push import Hand, PointPush, moment_of
+from tandemlift.laws.person.person import Leg, Partnering, asks_to_land, lend, sight
+from tandemlift.laws.person.tremor import STILL, Twitch, shake, tremor
+from tandemlift.laws.signals.low_pass import Smoothed
+from tandemlift.simulation.assemble import assemble
+from tandemlift.simulation.persons import legs_of, start_partner
 from tandemlift.vehicle import Vehicle
 
 from .helpers import array, random_state, seeds

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tandemlift.laws.estimation import push_estimator
-from tandemlift.laws.loads import Felt
-from tandemlift.laws.meters import Grade
-from tandemlift.laws.navigation import navigator
-from tandemlift.laws.sensing import sensors
+from tandemlift.algebra.vector import ZERO, spread
+from tandemlift.laws.estimation.navigation import navigator
+from tandemlift.laws.estimation.push_estimate import push_estimator
+from tandemlift.laws.mechanics.loads import Felt
+from tandemlift.laws.sensors.readings import sensors
+from tandemlift.laws.sensors.sensor_errors import Grade
 from tandemlift.trace import flat as floats
-from tandemlift.vector import ZERO, spread
 
 from .helpers import flat, random_state, random_vec3, rebuilt
 from .newton_euler import paper_parts

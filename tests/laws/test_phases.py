@@ -2,8 +2,8 @@
 
 import pytest
 
-from tandemlift.laws.body import State
-from tandemlift.laws.phases import (
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.guidance.phases import (
     GUIDED,
     HOLD,
     IDLE,
@@ -21,8 +21,8 @@ from tandemlift.laws.phases import (
     orders_of,
     wants_lift,
 )
-from tandemlift.laws.requests import NOBODY, Asked, Operator, Requests, also, asked_until
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.guidance.requests import NOBODY, Asked, Operator, Requests, also, asked_until
+from tandemlift.laws.mechanics.body import State
 
 FREE = Bounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEVEL, DT, NEVER = Quat(1.0, 0.0, 0.0, 0.0), 0.05, 1e18

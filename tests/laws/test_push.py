@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.body import State, Wrench, motion
-from tandemlift.laws.push import SUPPORT, CentralPush, Gaussian, PointPush, gaussian_force, moment_of, push_of
-from tandemlift.vector import ZERO, Vec3, mat3
+from tandemlift.algebra.vector import ZERO, Vec3, mat3
+from tandemlift.laws.mechanics.body import State, Wrench, motion
+from tandemlift.laws.mechanics.push import SUPPORT, CentralPush, Gaussian, PointPush, gaussian_force, moment_of, push_of
 
 from .helpers import array, free_body, numbers, random_attitude, random_vec3, seeds
 

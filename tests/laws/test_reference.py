@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tandemlift.laws.admittance import Trajectory
-from tandemlift.laws.reference import Phases, reference, smoothstep
-from tandemlift.vector import ZERO, Vec3
+from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.laws.signals.trajectories import Phases, Trajectory, reference, smoothstep
 
 from .helpers import array, vectors
 

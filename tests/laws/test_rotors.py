@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tandemlift.laws.body import State
-from tandemlift.laws.limits import share_scale
-from tandemlift.laws.rotors import (
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.rotors.dynamics import (
     Faults,
     FreeAir,
     IdealRotors,
@@ -19,8 +19,8 @@ from tandemlift.laws.rotors import (
     near_ground,
     rotors_of,
 )
+from tandemlift.laws.rotors.thrust_limits import share_scale
 from tandemlift.missions import load_mission
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.vehicle import Vehicle
 
 VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)

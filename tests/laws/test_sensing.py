@@ -10,11 +10,11 @@ from hypothesis import given
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.body import State
-from tandemlift.laws.loads import Felt
-from tandemlift.laws.meters import Grade
-from tandemlift.laws.sensing import Hiss, Readings, Sensors, sense, sensors, start_sensing
-from tandemlift.vector import ZERO, Quat, Vec3, each, spread, vec3
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, spread, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import Felt
+from tandemlift.laws.sensors.readings import Hiss, Readings, Sensors, sense, sensors, start_sensing
+from tandemlift.laws.sensors.sensor_errors import Grade
 
 from .helpers import array, flat, random_attitude, random_state, random_vec3, rebuilt, seeds
 

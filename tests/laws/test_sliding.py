@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tandemlift.laws.body import Body
-from tandemlift.laws.expanded import Axes, drift, expanded_dynamics, response
-from tandemlift.laws.sliding import (
+from tandemlift.algebra.vector import Vec3, vec3
+from tandemlift.controllers.equations_of_motion import Axes, drift, expanded_dynamics, response
+from tandemlift.controllers.sliding_surface import (
     Cubic,
     Power,
     Saturation,
@@ -30,7 +30,7 @@ from tandemlift.laws.sliding import (
     terminal_slope,
     wanted_acceleration,
 )
-from tandemlift.vector import Vec3, vec3
+from tandemlift.laws.mechanics.body import Body
 
 from .helpers import array, free_body, numbers, random_vec3, seeds, vectors
 

@@ -12,15 +12,15 @@ from hypothesis import given
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
-from tandemlift.law import law
-from tandemlift.laws.body import Body, State, Wrench, rigid_body_motion
-from tandemlift.laws.clearance import clearance, may_press
-from tandemlift.laws.loads import Frame, Loads, frame_of, resultant
-from tandemlift.laws.push import CentralPush
-from tandemlift.laws.rectangle import WALL, Wall, offset, wall
-from tandemlift.laws.walls import Walls, consider, nowhere, press, walls
-from tandemlift.ops import sqrt, where
-from tandemlift.vector import ZERO, Quat, Vec3, dot, vec3
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import sqrt, where
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
+from tandemlift.laws.mechanics.body import Body, State, Wrench, rigid_body_motion
+from tandemlift.laws.mechanics.clearance import clearance, may_press
+from tandemlift.laws.mechanics.loads import Frame, Loads, frame_of, resultant
+from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.mechanics.rectangle import WALL, Wall, offset, wall
+from tandemlift.laws.mechanics.walls import Walls, consider, nowhere, press, walls
 from tandemlift.vehicle import Vehicle
 
 from .helpers import (

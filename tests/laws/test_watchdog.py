@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from tandemlift.laws.body import State
-from tandemlift.laws.health import FROZEN, NO_NUMBER, OUT_OF_RANGE, Alike, Health, Ranges, judged
-from tandemlift.laws.sensing import Motion, Readings, Unit
-from tandemlift.laws.sensor_faults import SOUND, SensorFaults, Silence, Spoiling, sensor_fault, spoil, together
-from tandemlift.laws.turns import turned
-from tandemlift.laws.watchdog import Predicted, Watchdog, start_watching, watch
-from tandemlift.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.sensors.health import FROZEN, NO_NUMBER, OUT_OF_RANGE, Alike, Health, Ranges, judged
+from tandemlift.laws.sensors.readings import Motion, Readings, Unit
+from tandemlift.laws.sensors.sensor_faults import SOUND, SensorFaults, Silence, Spoiling, sensor_fault, spoil, together
+from tandemlift.laws.sensors.watchdog import Predicted, Watchdog, start_watching, watch
 
 DT, NEVER = 0.005, 1e18
 LEVEL, TWO = Quat(1.0, 0.0, 0.0, 0.0), each(2)

@@ -18,10 +18,10 @@ from scipy.linalg import expm, solve_continuous_lyapunov
 from scipy.signal import welch
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.body import State
-from tandemlift.laws.loads import frame_of
-from tandemlift.laws.random import keys_of, normals
-from tandemlift.laws.wind import (
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import frame_of
+from tandemlift.laws.mechanics.wind import (
     AirDrag,
     Calm,
     Dryden,
@@ -38,7 +38,7 @@ from tandemlift.laws.wind import (
     pass_by,
     swirl,
 )
-from tandemlift.vector import ZERO, Nothing, Vec3
+from tandemlift.laws.signals.random_numbers import keys_of, normals
 
 from .helpers import flat, numbers, paper_vehicle, random_state, random_vec3, rebuilt
 from .machine_code import Loop, answers

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.estimation import estimate, push_estimator, start_push
-from tandemlift.laws.windage import bias_of, blown, start_blown, windage
+from tandemlift.algebra.vector import ZERO, Nothing, each
+from tandemlift.laws.estimation.push_estimate import estimate, push_estimator, start_push
+from tandemlift.laws.mechanics.air_drag import bias_of, blown, start_blown, windage
 from tandemlift.missions import load_mission
-from tandemlift.vector import ZERO, Nothing, each
 from tandemlift.vehicle import Vehicle
 
 from .helpers import array

@@ -5,12 +5,12 @@ import pytest
 from click.testing import CliRunner
 
 import tandemlift as tl
-from tandemlift.cli import cli
-from tandemlift.laws.grab import NOBODY_HOLDS
+from tandemlift.algebra.vector import Vec3
+from tandemlift.cli.main import cli
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
 from tandemlift.live.by_hand import by_hand
 from tandemlift.live.recorded import FLIGHT, HAND, MISSION, RecordedFlight
 from tandemlift.live.saving import save_aside
-from tandemlift.vector import Vec3
 
 GUIDED = {
     "pilot.guidance": "hand",

@@ -385,7 +385,7 @@ def test_a_session_that_still_compiles_is_stopped_at_once(tmp_path, monkeypatch)
 
 def test_optimised_code_takes_over_while_it_flies(tmp_path, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr("tandemlift.prepared.KERNELS", {})
+    monkeypatch.setattr("tandemlift.simulation.plan.KERNELS", {})
     one = unprepared(tmp_path)
     one.start()
     until(lambda: one.is_ready and one.flight._stepper.code.is_best, patience=4 * PATIENCE)

@@ -1,6 +1,6 @@
 """All keys of a mission, by walking its tables."""
 
-from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions.explain import keys_of, table_in
 from tandemlift.settings import Mission
 

@@ -8,11 +8,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.laws.partner import LEG
+from tandemlift.laws.person.person import LEG
 from tandemlift.missions import check, tables_of
 from tandemlift.settings import wall_tables
 from tandemlift.settings.corridor import CorridorTable
+from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import unflat
 
 LINE = ((0.0, 0.0), (5.0, 0.0), (10.0, 3.0), (15.0, 0.0))

@@ -8,13 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.laws.contact import sinkage_of, standing_height
+from tandemlift.laws.mechanics.contact import sinkage_of, standing_height
 from tandemlift.missions import load_mission
 from tandemlift.missions.equipment import lift_of, weight_of
 from tandemlift.missions.flyable import row_of
 from tandemlift.missions.surroundings import standing_of
-from tandemlift.prepared import Prepared
+from tandemlift.simulation.assemble import assemble
+from tandemlift.simulation.plan import Prepared
 from tandemlift.trace import leaves
 
 WEAK = [{"quadrotor": 1, "rotor": r, "time": 1.0, "efficiency": 0.1, "known_after": 0.0} for r in (1, 2, 3)]

@@ -3,9 +3,9 @@
 import pytest
 
 import tandemlift as tl
-from tandemlift.laws.alarms import CHECKS, FAULTS, Faults, alarm_name
+from tandemlift.laws.guidance.fault_reactions import CHECKS, FAULTS, Faults, alarm_name
 from tandemlift.missions import load_mission
-from tandemlift.pilot.supervised import start_requests
+from tandemlift.pilot.supervision import start_requests
 from tandemlift.settings.supervision import ReactionsTable
 
 BY_HAND = {"pilot.guidance": "hand"}

@@ -7,7 +7,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from tandemlift.export.messages import Types, modern
 from tandemlift.live.session import Session
-from tandemlift.ros.front import Front
+from tandemlift.ros.node import Front
 
 STORE = get_typestore(Stores.ROS2_HUMBLE)
 

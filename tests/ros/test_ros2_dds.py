@@ -12,7 +12,7 @@ from processes import node
 from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
 
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed")
 

@@ -129,7 +129,7 @@ def test_a_push_is_cut_to_what_the_hand_has_and_that_is_told(up):
 def test_the_same_words_are_told_once_a_second_at_most(up, monkeypatch):
     now = [1000.0]
     clocks = SimpleNamespace(monotonic=lambda: now[0], time_ns=time.time_ns)
-    monkeypatch.setattr("tandemlift.ros.telling.time", clocks)
+    monkeypatch.setattr("tandemlift.ros.diagnostics.time", clocks)
     for times in (1, 2):
         for _ in range(50):
             up.heed(wrench("mars"))

@@ -5,8 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.laws.grab import NOBODY_HOLDS
-from tandemlift.recording import WIDTH, Recording, read_recording, write_recording
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
+from tandemlift.missions.recording import WIDTH, Recording, read_recording, write_recording
 from tandemlift.trace import flat
 
 LONG_PUSH = [{"force": [2.0, 0.0, 0.0], "time": 10.0, "sigma": 1e6}]

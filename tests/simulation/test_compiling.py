@@ -12,10 +12,10 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
+from tandemlift.algebra.law import LAWS
 from tandemlift.kernels import LANES
-from tandemlift.law import LAWS
 from tandemlift.missions import built_in
-from tandemlift.prepared import Prepared
+from tandemlift.simulation.plan import Prepared
 from tandemlift.trace import key, machine
 from tandemlift.trace.key import key_of, sources
 
@@ -58,7 +58,7 @@ print(len(made), flight["thrust"].sum().hex(), tl.__file__)
     assert [first[0], second[0]] == ["1", "0"]
     assert first[1:] == second[1:]
     assert first[2].startswith(str(copy))
-    with (copy / "tandemlift" / "laws" / "rotation.py").open("a") as law:
+    with (copy / "tandemlift" / "laws" / "mechanics" / "rotation.py").open("a") as law:
         law.write("# an edit\n")
     assert python(code, **environment) == ["1", *first[1:]]
 
@@ -81,11 +81,11 @@ def test_the_key_is_of_the_sources_that_run_even_if_they_are_edited_meanwhile(tm
     code = """
 import sys, tandemlift as tl
 from pathlib import Path
-from tandemlift.prepared import Prepared
+from tandemlift.simulation.plan import Prepared
 from tandemlift.trace.key import key_of
 flying = Prepared(tl.load_mission("one-push")).flying
 print(key_of(flying))
-with (Path(tl.__file__).parent / "laws" / "rotation.py").open("a") as law:
+with (Path(tl.__file__).parent / "laws" / "mechanics" / "rotation.py").open("a") as law:
     law.write("# an edit")
 print(key_of(flying))
 """

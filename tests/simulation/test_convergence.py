@@ -5,12 +5,12 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.laws.allocation import wrench
-from tandemlift.laws.body import State, motion
-from tandemlift.laws.push import CentralPush
-from tandemlift.pilot import Heard, decide
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, hamilton
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, hamilton
+from tandemlift.laws.mechanics.body import State, motion
+from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.rotors.allocation import wrench
+from tandemlift.pilot.pilot import Heard, decide
+from tandemlift.simulation.assemble import assemble
 
 DURATION = 6.0  # s: the lift of `paper`, from 2 to 8 s
 

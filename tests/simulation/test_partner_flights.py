@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.figures.clearances import clearances
+from tandemlift.algebra.vector import vec3
+from tandemlift.figures.drawing.clearances import clearances
 from tandemlift.kernels import place
-from tandemlift.laws.partner import Sight
-from tandemlift.prepared import Prepared
-from tandemlift.stepwise import Stepper, fly_stepwise
-from tandemlift.vector import vec3
+from tandemlift.laws.person.person import Sight
+from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.stepping import Stepper, fly_stepwise
 
 LEAST = {"zigzag": 0.4, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m
 SHORT = {"mission.duration": 9.5, "partner.start": 4.0, "estimator.tare_start": 3.0, "estimator.tare_duration": 0.9}

@@ -7,19 +7,19 @@ import pytest
 from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
+from tandemlift.algebra.vector import ZERO
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN
-from tandemlift.laws.allocation import Working
-from tandemlift.laws.push import Hand, push_of
-from tandemlift.laws.random import normals
-from tandemlift.laws.rectangle import WALL
-from tandemlift.laws.sensing import Readings
-from tandemlift.laws.walls import consider
-from tandemlift.laws.wind import gust_velocity
-from tandemlift.loop import Inputs, finish, joined, think
-from tandemlift.pilot import with_allocation
+from tandemlift.laws.mechanics.push import Hand, push_of
+from tandemlift.laws.mechanics.rectangle import WALL
+from tandemlift.laws.mechanics.walls import consider
+from tandemlift.laws.mechanics.wind import gust_velocity
+from tandemlift.laws.rotors.allocation import Working
+from tandemlift.laws.sensors.readings import Readings
+from tandemlift.laws.signals.random_numbers import normals
+from tandemlift.loop.step import Inputs, finish, joined, think
+from tandemlift.pilot.pilot import with_allocation
+from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import leaves, unflat
-from tandemlift.vector import ZERO
 
 
 def different(a: tl.Flight, b: tl.Flight) -> list[str]:
@@ -152,7 +152,7 @@ def test_its_first_steps_are_those_of_plain_python():
     samples = in_plain_python(storm(changes), 120)
     commands = flight["rotor_commands"]
     assert commands.min() > 0.0
-    assert commands.max() < 7.06  # N: no limit is met, so laws.limits has nothing to do
+    assert commands.max() < 7.06  # N: no limit is met, so laws.rotors.thrust_limits has nothing to do
     assert flight["contact_force"][:, 0].min() < -0.1
     assert flight["contact_force"][:, 2].max() > 0.1
     for name in flight:

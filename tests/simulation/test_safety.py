@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.laws.alarms import CHECKS, FAULTS, REACTIONS, alarm_name
-from tandemlift.laws.guidance import Heard, attend, guide
-from tandemlift.laws.observer import NONE
-from tandemlift.laws.phases import NAMES
-from tandemlift.laws.requests import NOBODY, UNAWARE
+from tandemlift.algebra.vector import ZERO, Nothing
+from tandemlift.laws.estimation.disturbance_observer import NONE
+from tandemlift.laws.guidance.fault_reactions import CHECKS, FAULTS, REACTIONS, alarm_name
+from tandemlift.laws.guidance.guidance import Heard, attend, guide
+from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
 from tandemlift.settings.supervision import SupervisionTable
-from tandemlift.vector import ZERO, Nothing
+from tandemlift.simulation.assemble import assemble
 
 TEXT = (Path(__file__).parents[2] / "docs" / "safety.md").read_text("utf-8")
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle

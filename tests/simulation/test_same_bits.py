@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.flown import flight_of
 from tandemlift.kernels import LANES
 from tandemlift.missions import built_in
-from tandemlift.prepared import Prepared
-from tandemlift.simulate import _jobs
-from tandemlift.stepwise import fly_stepwise
+from tandemlift.simulation.fly import _jobs
+from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.results import flight_of
+from tandemlift.simulation.stepping import fly_stepwise
 
 LOST = {5: 60.0, 7: -90.0}  # lanes, and what throws them over [N m]
 IDEAL = 1000.0  # times as much is needed, where thrusts have no limit

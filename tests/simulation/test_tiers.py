@@ -8,9 +8,9 @@ from patience import COMPILING
 from test_same_bits import different, lanes
 
 import tandemlift as tl
-from tandemlift import prepared, simulate
 from tandemlift.kernels import LANES, Memory
-from tandemlift.prepared import Prepared
+from tandemlift.simulation import fly, plan
+from tandemlift.simulation.plan import Prepared
 from tandemlift.trace import code, leaves, store
 
 
@@ -18,7 +18,7 @@ from tandemlift.trace import code, leaves, store
 def empty(tmp_path, monkeypatch):
     """No code on disk and none in this process; none is optimised unless it is asked for."""
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(prepared, "KERNELS", {})
+    monkeypatch.setattr(plan, "KERNELS", {})
     monkeypatch.setenv("TANDEMLIFT_OPTIMISE", "0")
 
 
@@ -67,7 +67,7 @@ def log_of(p):
 def test_a_long_flight_has_its_code_optimised_and_the_next_process_finds_it(empty, monkeypatch):
     monkeypatch.delenv("TANDEMLIFT_OPTIMISE")
     monkeypatch.setattr(code, "PAYS", 0.0)
-    monkeypatch.setattr(simulate, "FIRST_STRETCH", 100)
+    monkeypatch.setattr(fly, "FIRST_STRETCH", 100)
     mission = tl.load_mission("one-push", {"mission.duration": 1.0})
     found = Prepared(mission).kernels.loop(1)
     tl.fly(mission)
@@ -76,7 +76,7 @@ def test_a_long_flight_has_its_code_optimised_and_the_next_process_finds_it(empt
             thread.join(COMPILING)
     assert found.is_best
     assert sorted(f.name.split("-")[1] for f in store.folder().iterdir()) == ["best.o", "quick.o"]
-    prepared.KERNELS.clear()
+    plan.KERNELS.clear()
     assert Prepared(mission).kernels.loop(1).is_best
 
 

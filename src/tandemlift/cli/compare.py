@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.cli.notices import teller
 from tandemlift.cli.results import bar, results_in
 from tandemlift.cli.run import DIVERGED, chosen_controller, load, parse_setting, say
-from tandemlift.cli.telling import teller
 from tandemlift.errors import InputError
 from tandemlift.files import whole
 
 if TYPE_CHECKING:
-    from tandemlift.comparison import Entrant, Entry, Part
-    from tandemlift.flight import Flight
-    from tandemlift.laws.controllers import Controller
+    from tandemlift.controllers import Controller
+    from tandemlift.flight.record import Flight
+    from tandemlift.studies.controller_comparison import Entrant, Entry, Part
 
 FILES = ("compare.html", "compare.json")
 OF_ENGINES = ("engines.html", "engines.json")
@@ -70,8 +70,8 @@ def compare(
             raise InputError("--engines, --controllers: give one of them")
         _compare_engines(mission, _names("--engines", engines, "compiled,mujoco"), settings, out)
         return
-    from tandemlift.comparison import entrants
-    from tandemlift.engines import engine_named
+    from tandemlift.engines.registry import engine_named
+    from tandemlift.studies.controller_comparison import entrants
 
     engine_named(engine)
     changes = dict(map(parse_setting, settings))
@@ -113,7 +113,7 @@ def _names(option: str, given: str, example: str) -> list[str]:
 
 
 def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
-    from tandemlift.comparison import compare
+    from tandemlift.studies.controller_comparison import compare
 
     count = sum(e.mission is not None for e in entered)
     with teller.together(), bar("Flying", count, shown=sys.stderr.isatty()) as progress:
@@ -130,7 +130,7 @@ def _printed(value: float | None, scale: float, digits: int) -> str:
 
 def _scores(flight: Flight, part: Part) -> list[str]:
     """The cells of `HEADS`."""
-    from tandemlift.comparison import scores
+    from tandemlift.studies.controller_comparison import scores
 
     s = scores(flight, part)
     errors = [_printed(value, 1e3, 3) for value in s["position_rmse_m"] or (None, None, None)]
@@ -139,7 +139,7 @@ def _scores(flight: Flight, part: Part) -> list[str]:
 
 def _run(flight: Flight) -> list[str]:
     """The cells of `OF_A_FLIGHT`."""
-    from tandemlift.comparison import run_of
+    from tandemlift.studies.controller_comparison import run_of
 
     found = run_of(flight)
     return [_printed(found["rotor_saturated_share"], 1e2, 2), _printed(found["step_ns"], 1.0, 0)]
@@ -158,7 +158,7 @@ def _print_rows(heads: Sequence[str], rows: Sequence[tuple[str, list[str], str]]
 
 def _print_tables(name: str, entries: Sequence[Entry]) -> None:
     """Print a table for each part of the mission; in the first also how each flight ended, or why there was none."""
-    from tandemlift.comparison import moving_axes, parts_of
+    from tandemlift.studies.controller_comparison import moving_axes, parts_of
 
     flights = {e.name: e.flight for e in entries if e.flight}
     counts, *others = parts_of(flights.values())
@@ -180,8 +180,8 @@ def _print_tables(name: str, entries: Sequence[Entry]) -> None:
 
 
 def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> None:
-    from tandemlift.comparison import summary_of
-    from tandemlift.report.comparison import write_comparison
+    from tandemlift.report.controller_comparison import write_comparison
+    from tandemlift.studies.controller_comparison import summary_of
 
     found: dict[str, Any] = {"mission": name, "engine": engine, "controllers": summary_of(entries)}
     _write_json(found, folder / "compare.json")
@@ -195,8 +195,8 @@ def _write_json(found: Any, path: Path) -> None:
 
 def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], out: str | None) -> None:
     """Fly a mission in several engines, print how far they are apart, and write the page."""
-    from tandemlift.apart import fly_in, summary_of
-    from tandemlift.report.engines import write_engines
+    from tandemlift.report.engine_comparison import write_engines
+    from tandemlift.studies.engine_comparison import fly_in, summary_of
 
     loaded = load(mission, settings)
     with results_in(out, Path("out") / loaded.mission.name, OF_ENGINES) as folder:
@@ -215,7 +215,7 @@ def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], 
 
 def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:
     """Print a row for each engine: how far it is from the first at most, and how fast it was."""
-    from tandemlift.apart import QUANTITIES
+    from tandemlift.studies.engine_comparison import QUANTITIES
 
     shown = [q for q in QUANTITIES if q in found[0]["apart"]]
     heads = [f"{q.replace('_', ' ')} ({QUANTITIES[q]})" for q in shown] + ["steps/s"]

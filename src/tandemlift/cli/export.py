@@ -12,7 +12,7 @@ from tandemlift.cli.run import parse_setting, say
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
     from tandemlift.settings import Mission
 
 
@@ -38,7 +38,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
       tandemlift export zigzag --out zigzag.sdf
       tandemlift export four --set initial.euler=0.0 --out four.xml
     """
-    from tandemlift import export as exporting
+    from tandemlift.export import write as exporting
 
     path = Path(out)
     model = exporting.is_model(path)
@@ -56,7 +56,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
 
 
 def _flight(saved: Path) -> Flight:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
     return Flight.load(saved)
 

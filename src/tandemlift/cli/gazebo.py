@@ -20,8 +20,8 @@ from tandemlift.errors import InputError
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tandemlift.flight import Flight
-    from tandemlift.gazebo.flying import Gazebo, Photo
+    from tandemlift.flight.record import Flight
+    from tandemlift.gazebo_app.flying import Gazebo, Photo
     from tandemlift.settings import Mission
 
 
@@ -67,7 +67,7 @@ def gazebo(
         raise InputError(
             f"--by-hand: is in real time and has no pictures; leave {'--fast' if fast else '--pictures'} out"
         )
-    from tandemlift.engines.gazebo_server import root
+    from tandemlift.engines.gazebo.server import root
 
     loaded = load(mission, settings)
     root()  # complains if there is no Gazebo, before anything is compiled
@@ -86,7 +86,7 @@ def gazebo(
 
 
 def _has_display() -> bool:
-    from tandemlift.gazebo.flying import has_display
+    from tandemlift.gazebo_app.flying import has_display
 
     if not has_display():
         click.echo("No window: DISPLAY is not set", err=True)
@@ -95,9 +95,9 @@ def _has_display() -> bool:
 
 def _as_it_is(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Figure | None]:
     """Fly a mission to its end; the flight, and its pictures if they are wanted."""
-    from tandemlift.gazebo.flying import opened
-    from tandemlift.gazebo.views import shots_of
-    from tandemlift.simulate import fly
+    from tandemlift.gazebo_app.camera_views import shots_of
+    from tandemlift.gazebo_app.flying import opened
+    from tandemlift.simulation.fly import fly
 
     shots, step = shots_of(fly(mission)) if pictures else [], mission.mission.step
     with opened(mission, shots, window=window, real_time=real_time) as gazebo:
@@ -114,7 +114,7 @@ def _as_it_is(mission: Mission, window: bool, real_time: bool, pictures: bool) -
 
 
 def _views(photos: Sequence[Photo]) -> Figure | None:
-    from tandemlift.figures.views import draw_views
+    from tandemlift.gazebo_app.photographs import draw_views
 
     if not photos:
         return None
@@ -123,7 +123,7 @@ def _views(photos: Sequence[Photo]) -> Figure | None:
 
 def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
     """Fly a mission that nobody but Gazebo's topic pushes, until Ctrl-C."""
-    from tandemlift.gazebo.flying import opened
+    from tandemlift.gazebo_app.flying import opened
     from tandemlift.live.by_hand import by_hand
     from tandemlift.live.recorded import RecordedFlight
 
@@ -150,7 +150,7 @@ def _until_stopped() -> Iterator[Callable[[], bool]]:
 
 
 def _tell_how_to_push(mission: Mission, gazebo: Gazebo) -> None:
-    from tandemlift.engines.gazebo_server import by_yourself
+    from tandemlift.engines.gazebo.server import by_yourself
 
     push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
     say(f"{mission.mission.name}, in Gazebo; to push it, in another terminal:")

@@ -14,7 +14,7 @@ from tandemlift.cli.run import parse_setting, say
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
     from tandemlift.rendering import Shot
 
 CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres"
@@ -95,15 +95,15 @@ def _size(text: str | None) -> tuple[int, int] | None:
 
 
 def _load(path: Path) -> Flight:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
     return Flight.load(path)
 
 
 def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
-    from tandemlift.engines import engine_named
+    from tandemlift.engines.registry import engine_named
     from tandemlift.missions import load_mission
-    from tandemlift.simulate import fly
+    from tandemlift.simulation.fly import fly
 
     engine_named(engine)
     loaded = load_mission(mission, dict(map(parse_setting, settings)))

@@ -14,7 +14,7 @@ from tandemlift.errors import InputError
 from tandemlift.files import whole
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
 
 @click.command()
@@ -37,7 +37,7 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
       0   ended by Ctrl-C, or the page is written
       2   bad input: one message, nothing is written
     """
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
     _, saved = flight_file(flight)
     if saved is None:

@@ -12,7 +12,7 @@ from tandemlift.cli.run import say
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
 BAGS = (".bag", ".mcap")
 
@@ -55,7 +55,7 @@ def _load(given: str) -> tuple[Flight, Path]:
         InputError: there is none.
     """
     from tandemlift.export.reading import read_bag
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
     path = Path(given)
     if path.suffix.lower() in BAGS or (path / "metadata.yaml").exists():

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.telling import teller
+from tandemlift.cli.notices import teller
 from tandemlift.errors import InputError
 from tandemlift.files import whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
     from tandemlift.settings import Mission
 
 FILES = ("mission.toml", "flight.npz", "metrics.json", "report.html")
@@ -72,10 +72,10 @@ def _check_room(folder: Path, files: Sequence[str]) -> None:
 
 def write_results(flight: Flight, folder: Path, *, figures: bool, views: Figure | None = None) -> None:
     """Write all that `tandemlift run` leaves behind, and photographs if given, replacing what an earlier run left."""
-    from tandemlift.figures import FIGURES, VIEWS, figures_of, save_figures
-    from tandemlift.figures.style import save
+    from tandemlift.figures.drawing.style import save
+    from tandemlift.figures.registry import FIGURES, VIEWS, figures_of, save_figures
     from tandemlift.missions import format_toml
-    from tandemlift.report import write_report
+    from tandemlift.report.flight_report import write_report
 
     with whole(folder / "mission.toml") as partial:
         partial.write_text(format_toml(flight.mission), "utf-8")

@@ -13,6 +13,7 @@ import click
 from tandemlift.cli.live import DEFAULT, session_of
 from tandemlift.cli.run import DIVERGED, load, say
 from tandemlift.errors import InputError
+from tandemlift.ros.sample_queue import every_of
 
 if TYPE_CHECKING:
     from tandemlift.live.session import Session
@@ -60,8 +61,7 @@ def ros(
       2   bad input: one message, nothing is flown
       3   the vehicle was lost
     """
-    from tandemlift.engines import engine_named
-    from tandemlift.ros.feed import every_of
+    from tandemlift.engines.registry import engine_named
     from tandemlift.ros.package import folder as package
     from tandemlift.ros.selection import middleware_of, version_for
 
@@ -100,7 +100,7 @@ def _words(words: tuple[str, ...]) -> tuple[str, list[str]]:
 
 def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
     """Fly until it ends; the phase that it ends in."""
-    from tandemlift.ros.front import Front
+    from tandemlift.ros.node import Front
     from tandemlift.ros.package import start_rviz
 
     beside = start_rviz() if rviz else None

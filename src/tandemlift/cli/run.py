@@ -16,8 +16,8 @@ from tandemlift.cli.results import bar, keep_recording, results_in, write_result
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
-    from tandemlift.laws.controllers import Controller
+    from tandemlift.controllers import Controller
+    from tandemlift.flight.record import Flight
     from tandemlift.settings import Mission
 
 DIVERGED = 3
@@ -73,7 +73,7 @@ def run(
       2   bad input: one message, nothing is written
       3   diverged: the flight until then is written
     """
-    from tandemlift.engines import engine_named
+    from tandemlift.engines.registry import engine_named
 
     began = time.perf_counter()
     if engine is not None:
@@ -97,7 +97,7 @@ def chosen_controller(given: str) -> Controller:
     Raises:
         InputError: there is none, or the file has none.
     """
-    from tandemlift.laws.controllers import controller, load_controller
+    from tandemlift.controllers import controller, load_controller
 
     return load_controller(given) if given.endswith(".py") or "/" in given else controller(given)
 
@@ -136,9 +136,9 @@ def parse_setting(text: str) -> tuple[str, Any]:
 
 
 def _fly(mission: Mission, engine: str | None, controller: Controller | None) -> Flight:
-    from tandemlift.laws.controllers import file_of, told
-    from tandemlift.prepared import takes_long
-    from tandemlift.simulate import fly
+    from tandemlift.controllers import file_of, told
+    from tandemlift.simulation.fly import fly
+    from tandemlift.simulation.plan import takes_long
 
     try:
         with bar("Flying", mission.mission.steps, shown=takes_long(mission)) as progress:

@@ -27,10 +27,10 @@ def validate(engine: str, draws: int | None, chapters: tuple[str, ...], out: str
       tandemlift validate
       tandemlift validate --chapter tracking --engine mujoco
     """
+    from tandemlift.cli.notices import teller
     from tandemlift.cli.run import say
-    from tandemlift.cli.telling import teller
-    from tandemlift.engines import engine_named
-    from tandemlift.validation import Bench, chosen, rows_of, table
+    from tandemlift.engines.registry import engine_named
+    from tandemlift.studies.validation import Bench, chosen, rows_of, table
 
     engine_named(engine)
     names = chosen(list(chapters))

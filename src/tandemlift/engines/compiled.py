@@ -11,19 +11,29 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.law import choice, law
-from tandemlift.laws.allocation import Mixer, wrench
-from tandemlift.laws.body import Body, State, motion, rigid_body_motion, rk4
-from tandemlift.laws.contact import Floor, slip, touch
-from tandemlift.laws.inertia import inertia_value, turn_by
-from tandemlift.laws.loads import Felt, Frame, Load, Loads, feel, frame_of, of_quadrotors, plus_zero, resultant, under
-from tandemlift.laws.parts import Acceleration
-from tandemlift.laws.push import Hand
-from tandemlift.laws.rotation import quaternion_from_euler
-from tandemlift.laws.walls import Walls, press
-from tandemlift.pilot.start import mixer_value
+from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.vector import ZERO, Nothing, vec3
+from tandemlift.laws.mechanics.body import Body, State, motion, rigid_body_motion, rk4
+from tandemlift.laws.mechanics.contact import Floor, slip, touch
+from tandemlift.laws.mechanics.inertia import inertia_value, turn_by
+from tandemlift.laws.mechanics.loads import (
+    Felt,
+    Frame,
+    Load,
+    Loads,
+    feel,
+    frame_of,
+    of_quadrotors,
+    plus_zero,
+    resultant,
+    under,
+)
+from tandemlift.laws.mechanics.parts import Acceleration
+from tandemlift.laws.mechanics.push import Hand
+from tandemlift.laws.mechanics.rotation import quaternion_from_euler
+from tandemlift.laws.mechanics.walls import Walls, press
+from tandemlift.laws.rotors.allocation import Mixer, mixer_value, wrench
 from tandemlift.settings import Mission, VehicleTable
-from tandemlift.vector import ZERO, Nothing, vec3
 from tandemlift.vehicle import Vehicle
 
 NO_LOAD = Load(ZERO, ZERO)

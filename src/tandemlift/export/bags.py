@@ -20,8 +20,8 @@ from tandemlift.errors import InputError
 from tandemlift.export.frames import fixed, vehicle_of
 from tandemlift.export.messages import SECOND, Transforms, Types, diagnostics_of, maker_of, modern
 from tandemlift.export.topics import ROOT, topics_of
-from tandemlift.flight import Flight
-from tandemlift.laws.phases import NAMES
+from tandemlift.flight.record import Flight
+from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.missions import format_toml
 
 if TYPE_CHECKING:

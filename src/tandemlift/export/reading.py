@@ -21,8 +21,8 @@ from tandemlift.export.frames import Array, eulers, vehicle_of
 from tandemlift.export.messages import NUMBERS, SECOND
 from tandemlift.export.recipes import Recipe, Seen
 from tandemlift.export.topics import ALWAYS, PILOT, ROOT, SOMETIMES, all_recipes, topics_of
-from tandemlift.flight import CHANNELS, Flight
-from tandemlift.tally import LATE
+from tandemlift.flight.record import CHANNELS, Flight
+from tandemlift.loop.running_metrics import LATE
 from tandemlift.vehicle import Vehicle
 
 BASE, MISSION, EVENTS = f"{ROOT}/odometry", f"{ROOT}/mission", "/diagnostics"

@@ -9,7 +9,7 @@ import numpy as np
 
 from tandemlift.errors import InputError
 from tandemlift.export.frames import ALIGNED, BASE, PAYLOAD, WORLD, Array, eulers, joint, quaternions, to_body, to_world
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle
 
 ODOMETRY, POSE, IMU = "nav_msgs/Odometry", "geometry_msgs/PoseStamped", "sensor_msgs/Imu"

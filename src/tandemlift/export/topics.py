@@ -27,7 +27,7 @@ from tandemlift.export.recipes import (
     values,
     wrench,
 )
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle
 
 ROOT = "/tandemlift"

@@ -16,14 +16,14 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch
 from numpy.typing import NDArray
 
-from tandemlift.figures.clearances import clearances, grips
-from tandemlift.figures.panels import extent, line, value_ticks
+from tandemlift.figures.drawing.clearances import clearances, grips
+from tandemlift.figures.drawing.panels import extent, line, value_ticks
+from tandemlift.figures.drawing.series import drawable, telling
+from tandemlift.figures.drawing.skeleton import skeleton
+from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, VERMILLION, journal
+from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.figures.path import pushes
-from tandemlift.figures.series import drawable, telling
-from tandemlift.figures.skeleton import skeleton
-from tandemlift.figures.style import BLACK, BLUE, GREY, PAGE, VERMILLION, journal
-from tandemlift.figures.vehicle import vehicle_of
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
 
 Array = NDArray[np.float64]

@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from tandemlift.figures.panels import components, fit, line, shade, time_axis
-from tandemlift.figures.style import BLACK, COLUMN, COMPONENTS, GREY, journal
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
+from tandemlift.figures.drawing.style import BLACK, COLUMN, COMPONENTS, GREY, journal
+from tandemlift.flight.record import Flight
 
 Array = NDArray[np.float64]
 

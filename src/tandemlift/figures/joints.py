@@ -13,11 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from tandemlift.figures.fleet import fleet_figure
-from tandemlift.figures.panels import components, fit, line, time_axis
-from tandemlift.figures.start import START, is_disturbed
-from tandemlift.figures.style import COMPONENTS, GREY, journal
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.fleet import fleet_figure
+from tandemlift.figures.drawing.panels import components, fit, line, time_axis
+from tandemlift.figures.drawing.start import START, is_disturbed
+from tandemlift.figures.drawing.style import COMPONENTS, GREY, journal
+from tandemlift.flight.record import Flight
 
 Array = NDArray[np.float64]
 

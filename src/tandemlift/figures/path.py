@@ -17,16 +17,16 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch
 from numpy.typing import NDArray
 
-from tandemlift.figures.ground import floor_height
-from tandemlift.figures.scene import NEAR, Scene, on_paper
-from tandemlift.figures.series import drawable, telling
-from tandemlift.figures.skeleton import Skeleton, skeleton
-from tandemlift.figures.style import BLACK, BLUE, GREY, VERMILLION, journal
-from tandemlift.figures.walls import EDGE, GLASS, Wall, draw_walls, walls_near
-from tandemlift.flight import Flight
-from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.algebra.vector import Quat
+from tandemlift.figures.drawing.ground import floor_height
+from tandemlift.figures.drawing.scene import NEAR, Scene, on_paper
+from tandemlift.figures.drawing.series import drawable, telling
+from tandemlift.figures.drawing.skeleton import Skeleton, skeleton
+from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, VERMILLION, journal
+from tandemlift.figures.drawing.walls import EDGE, GLASS, Wall, draw_walls, walls_near
+from tandemlift.flight.record import Flight
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings import wall_tables
-from tandemlift.vector import Quat
 
 Array = NDArray[np.float64]
 

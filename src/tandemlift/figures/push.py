@@ -13,13 +13,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from tandemlift.figures.panels import fit, line, shade, time_axis
-from tandemlift.figures.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
-from tandemlift.figures.vehicle import payload_mass_of, vehicle_of
-from tandemlift.flight import Flight
-from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.algebra.vector import Quat, Vec3, apply_transposed
+from tandemlift.figures.drawing.panels import fit, line, shade, time_axis
+from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
+from tandemlift.figures.drawing.vehicle import payload_mass_of, vehicle_of
+from tandemlift.flight.record import Flight
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings.pilot import Estimator
-from tandemlift.vector import Quat, Vec3, apply_transposed
 
 Array = NDArray[np.float64]
 

@@ -13,10 +13,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter
 
-from tandemlift.figures.panels import fit, line, time_axis
-from tandemlift.figures.series import drawable, normalised
-from tandemlift.figures.style import ACTUAL, COMPONENTS, DESIRED, GREY, PAGE, journal
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.panels import fit, line, time_axis
+from tandemlift.figures.drawing.series import drawable, normalised
+from tandemlift.figures.drawing.style import ACTUAL, COMPONENTS, DESIRED, GREY, PAGE, journal
+from tandemlift.flight.record import Flight
 
 
 class Column(NamedTuple):

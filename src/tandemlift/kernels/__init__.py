@@ -10,16 +10,16 @@ import threading
 from collections.abc import Callable
 from functools import cached_property
 
-from tandemlift.events import always
-from tandemlift.kernels.likes import COMMAND, GIVEN, Aside, Likes, likes_of
+from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, HALVES, LANES, SPAN, Tables
 from tandemlift.kernels.loops import Step
 from tandemlift.kernels.memory import Grid, Memory, Start
-from tandemlift.kernels.outside import GAUSSIAN, GUST, HALVES, LANES, SPAN, Tables
-from tandemlift.kernels.places import place, stretches_of
-from tandemlift.kernels.traced import Traced
-from tandemlift.loop import Flying, Inputs
+from tandemlift.kernels.offsets import place, stretches_of
+from tandemlift.kernels.templates import COMMAND, GIVEN, Aside, Likes, likes_of
+from tandemlift.kernels.traced_step import Traced
+from tandemlift.loop.step import Flying, Inputs
 from tandemlift.trace import machine
 from tandemlift.trace.code import Code, Written
+from tandemlift.trace.compile_events import always
 from tandemlift.trace.key import key_of
 
 __all__ = [

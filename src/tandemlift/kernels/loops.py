@@ -6,13 +6,13 @@ next waits in memory. What does not change within a flight is computed before it
 
 from __future__ import annotations
 
-from tandemlift.kernels.ahead import write_draw, write_feel, write_gust, write_surroundings
 from tandemlift.kernels.context import AT, MEMORY, POINTERS, Rooms
-from tandemlift.kernels.outside import HALVES, SPAN
-from tandemlift.kernels.places import place, stretches_of
-from tandemlift.kernels.solving import write_limits, write_solver
-from tandemlift.kernels.traced import Symbols, Traced
-from tandemlift.kernels.waiting import Waiting, steady
+from tandemlift.kernels.external_inputs import HALVES, SPAN
+from tandemlift.kernels.limit_solver import write_limits, write_solver
+from tandemlift.kernels.offsets import place, stretches_of
+from tandemlift.kernels.precompute import write_draw, write_feel, write_gust, write_surroundings
+from tandemlift.kernels.scratch import Waiting, steady
+from tandemlift.kernels.traced_step import Symbols, Traced
 from tandemlift.trace import Function, Module, Place, Symbol, double, leaves
 
 HANDED = "ptr %c, ptr %flying, ptr %work"

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.kernels.context import AT, WORDS, aligned
-from tandemlift.kernels.outside import GAUSSIAN, GUST, Tables
-from tandemlift.laws.partner import LEG
-from tandemlift.laws.rectangle import WALL
+from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, Tables
+from tandemlift.laws.mechanics.rectangle import WALL
+from tandemlift.laws.person.person import LEG
 from tandemlift.trace import flat
 from tandemlift.trace.code import Code
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions import tables_of
 from tandemlift.missions.explain import MISSING, value_at
 from tandemlift.settings import Mission

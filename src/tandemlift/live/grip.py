@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from tandemlift.vector import ZERO, Vec3
+from tandemlift.algebra.vector import ZERO, Vec3
 
 
 @dataclass

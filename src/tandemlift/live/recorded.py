@@ -14,20 +14,20 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.changing import Due, due_of
-from tandemlift.engines import Body, engine_named
+from tandemlift.engines.registry import Body, engine_named
 from tandemlift.errors import FlightWarning, InputError
 from tandemlift.files import whole
-from tandemlift.flight import Flight
-from tandemlift.flown import Flown, flight_of, take_tallies
+from tandemlift.flight.record import Flight
 from tandemlift.kernels import place
-from tandemlift.laws.grab import NOBODY_HOLDS, Held
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, Held
+from tandemlift.loop.running_metrics import EMPTY, Tally
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
-from tandemlift.prepared import Prepared
-from tandemlift.recording import WIDTH, Recording, write_recording
+from tandemlift.missions.recording import WIDTH, Recording, write_recording
 from tandemlift.settings import Mission
-from tandemlift.stepwise import Stepper
-from tandemlift.tally import EMPTY, Tally
+from tandemlift.simulation.parameter_changes import Due, due_of
+from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.results import Flown, flight_of, take_tallies
+from tandemlift.simulation.stepping import Stepper
 from tandemlift.trace import flat, leaves, unflat
 from tandemlift.vehicle import Vehicle
 
@@ -51,7 +51,7 @@ def ready_of(mission: Mission, engine: str = "compiled") -> Ready:
     chosen, p = engine_named(engine), Prepared(mission)
     plant = p.flying.plant
     vehicle = Vehicle.from_settings(mission.vehicle)
-    body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.module else None
+    body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.load else None
     return Ready(p, body)
 
 

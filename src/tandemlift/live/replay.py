@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.errors import InputError
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.live.frames import RATE, fields_of, frames_of
 from tandemlift.live.scene import scene_of_tables
 from tandemlift.live.values import values_of

@@ -13,15 +13,15 @@ from typing import Any
 import numpy as np
 
 from tandemlift import __version__
-from tandemlift.assembly.surroundings import floor_of
-from tandemlift.laws.alarms import FAULTS, alarm_name
-from tandemlift.laws.contact import soles_below
-from tandemlift.laws.health import KINDS
-from tandemlift.laws.phases import NAMES
+from tandemlift.algebra.vector import Nothing
+from tandemlift.laws.guidance.fault_reactions import FAULTS, alarm_name
+from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.laws.mechanics.contact import soles_below
+from tandemlift.laws.sensors.health import KINDS
 from tandemlift.live.frames import RATE, fields_of
 from tandemlift.missions import tables_of
+from tandemlift.models.surroundings import floor_of
 from tandemlift.settings import Mission, Quadrotor, wall_tables
-from tandemlift.vector import Nothing
 from tandemlift.vehicle import Array, Vehicle
 
 SPRING = {"stiffness": 8.0, "damping": 2.0, "max_force": 8.0}  # N/m, N s/m, N: of a page's hand unless told otherwise

@@ -15,11 +15,11 @@ from functools import singledispatchmethod
 from pathlib import Path
 from typing import Any
 
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply
 from tandemlift.errors import InputError
-from tandemlift.flown import channels_of
-from tandemlift.laws.grab import NOBODY_HOLDS
-from tandemlift.laws.phases import NAMES
-from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
 from tandemlift.live import messages
 from tandemlift.live.by_hand import by_hand, renewed
 from tandemlift.live.controls import CHOICES, controls_of
@@ -34,7 +34,7 @@ from tandemlift.live.scene import alarm_names
 from tandemlift.live.states import check_listens, check_touch, dead_rotors
 from tandemlift.live.taring import check_may_tare
 from tandemlift.settings import Mission
-from tandemlift.vector import ZERO, Quat, Vec3, apply
+from tandemlift.simulation.results import channels_of
 
 WISH = 0.2  # s, for which a wish to lift or to land is said
 

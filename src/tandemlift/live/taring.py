@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tandemlift.errors import InputError
-from tandemlift.laws.phases import GUIDED, HOLD, NAMES
+from tandemlift.laws.guidance.phases import GUIDED, HOLD, NAMES
 from tandemlift.live.recorded import RecordedFlight
 
 TARE = "estimator.tare_start"

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.flown import channels_of
-from tandemlift.laws.phases import GUIDED, LAND, LIFT
+from tandemlift.laws.guidance.phases import GUIDED, LAND, LIFT
+from tandemlift.simulation.results import channels_of
 from tandemlift.trace import leaves
 
 Array = NDArray[np.float64]

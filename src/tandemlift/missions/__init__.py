@@ -22,8 +22,8 @@ import numpy as np
 import tomli_w
 from pydantic import BaseModel, ValidationError
 
+from tandemlift.controllers import CONTROLLERS, Controller
 from tandemlift.errors import FlightWarning, InputError, suggestion, unknown
-from tandemlift.laws.controllers import CONTROLLERS, Controller
 from tandemlift.missions.explain import MISSING, Place, Problem, explain, shown, value_at
 from tandemlift.missions.flyable import check_flyable, warn
 from tandemlift.settings import ControllerTable, Mission

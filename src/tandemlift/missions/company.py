@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tandemlift.errors import InputError
-from tandemlift.recording import read_recording
+from tandemlift.missions.recording import read_recording
 from tandemlift.settings import Mission
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.constants import GRAVITY
+from tandemlift.algebra.constants import GRAVITY
 from tandemlift.errors import InputError
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle

@@ -9,16 +9,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.constants import GRAVITY
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import vec3
 from tandemlift.errors import InputError
-from tandemlift.laws.contact import Floor, floor, sinkage_of, soles_below, standing_height
-from tandemlift.laws.rectangle import offset, wall
-from tandemlift.laws.rotation import rotation_from_euler
-from tandemlift.laws.wind import FOOT, HIGHEST, LOWEST
+from tandemlift.laws.mechanics.contact import Floor, floor, sinkage_of, soles_below, standing_height
+from tandemlift.laws.mechanics.rectangle import offset, wall
+from tandemlift.laws.mechanics.rotation import rotation_from_euler
+from tandemlift.laws.mechanics.wind import FOOT, HIGHEST, LOWEST
 from tandemlift.missions.explain import shown
 from tandemlift.settings import Mission
 from tandemlift.settings.corridor import SHORTEST
-from tandemlift.vector import vec3
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]

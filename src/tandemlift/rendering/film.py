@@ -17,7 +17,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from tandemlift.errors import InputError
 from tandemlift.files import whole
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.rendering.camera import CAMERAS, Camera, View, look_at
 from tandemlift.rendering.stage import Stage
 from tandemlift.rendering.studio import shown

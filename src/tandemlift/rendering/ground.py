@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.rendering.camera import View
 from tandemlift.rendering.light import HAZE, SKYLIGHT, SUN, SUNLIGHT, ZENITH, Shadow
 from tandemlift.rendering.mesh import linear
@@ -19,7 +20,6 @@ from tandemlift.rendering.pixels import LANES, Pixels, array, columns, store_whe
 from tandemlift.trace import Function, Graph, flat, rebuilt
 from tandemlift.trace.elementary import exp, maximum, minimum, sqrt, where, whole
 from tandemlift.trace.elementary import floor as rounded_down
-from tandemlift.vector import ZERO, Vec3
 
 Array = NDArray[np.float64]
 

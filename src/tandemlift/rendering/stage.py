@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.algebra.vector import Quat
 from tandemlift.errors import InputError
-from tandemlift.flight import Flight
-from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.flight.record import Flight
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.rendering.aircraft import aircraft
 from tandemlift.rendering.mesh import Mesh, linear, panel, rod, together
 from tandemlift.rendering.studio import Line, Pane, Scene
 from tandemlift.settings import VehicleTable, wall_tables
-from tandemlift.vector import Quat
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]

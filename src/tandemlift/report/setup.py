@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TypeVar
 
-from tandemlift.figures.ground import floor_height
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.ground import floor_height
+from tandemlift.flight.record import Flight
 from tandemlift.missions.explain import shown
 from tandemlift.settings import (
     ChangeTable,

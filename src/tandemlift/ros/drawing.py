@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from tandemlift.export.frames import Array
-from tandemlift.export.looks import LEVEL, Shape
 from tandemlift.export.messages import Types
+from tandemlift.models.visuals import LEVEL, Shape
 
 MARKER, MARKERS = "visualization_msgs/Marker", "visualization_msgs/MarkerArray"
 ARROW, CUBE, SPHERE, CYLINDER, LINES, TEXT = 0, 1, 2, 3, 5, 9

@@ -17,8 +17,8 @@ from tandemlift.live.controls import controls_of
 from tandemlift.live.messages import Set
 from tandemlift.live.session import Session
 from tandemlift.missions.explain import shown
+from tandemlift.ros.diagnostics import Tell
 from tandemlift.ros.middleware import Middleware
-from tandemlift.ros.telling import Tell
 from tandemlift.settings import Mission
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"

@@ -17,7 +17,7 @@ from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array, fixed, to_body
 from tandemlift.live.messages import Force
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.live.session import Session
-from tandemlift.ros.telling import Tell
+from tandemlift.ros.diagnostics import Tell
 from tandemlift.vehicle import Vehicle
 
 HELD = 0.5  # s of the flight, for which a push acts without another message

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Literal
 
 from tandemlift.errors import InputError
-from tandemlift.laws.alarms import CHECKS, alarm_name
-from tandemlift.laws.phases import NAMES
+from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
+from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.live.messages import Ask, Tare
 from tandemlift.live.session import Session
 from tandemlift.ros.middleware import Answer

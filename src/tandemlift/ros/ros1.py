@@ -6,9 +6,9 @@ import contextlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
+from tandemlift.engines.gazebo.rospy import import_rospy, message_type
 from tandemlift.errors import InputError
 from tandemlift.export.messages import Types
-from tandemlift.noetic import import_rospy, message_type
 from tandemlift.ros.middleware import Answer, Channel
 
 NAME = "tandemlift"

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.algebra.vector import Vec3
 from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array, to_world
-from tandemlift.export.looks import Shape, payload_shapes, quadrotor_shapes
 from tandemlift.export.messages import Types
-from tandemlift.laws.rotation import rotation_from_euler
+from tandemlift.laws.mechanics.rotation import rotation_from_euler
 from tandemlift.live.values import points_of
+from tandemlift.models.visuals import Shape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.stage import GLASS, PUSH, WALL
 from tandemlift.ros.drawing import MARKERS, Pencil
-from tandemlift.vector import Vec3
 from tandemlift.vehicle import Vehicle
 
 GROUND, LINE = "#ffffff", "#c3c9d1"

@@ -12,7 +12,7 @@ from tandemlift.export.frames import WORLD, fixed, quaternions
 from tandemlift.export.messages import Maker, Transforms, Types, maker_of
 from tandemlift.export.recipes import POSE, Recipe, Source, Topic
 from tandemlift.export.topics import ROOT, recipes_of
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.ros import scenery
 from tandemlift.ros.drawing import MARKERS

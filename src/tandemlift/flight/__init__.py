@@ -1,0 +1,1 @@
+"""The record of a flight, and the record as a table."""

@@ -1,0 +1,120 @@
+"""What can go wrong in flight, the number of each, and how the worst of it is found: fault → reaction.
+
+An alarm is ten times the number of a fault in `FAULTS`, plus what is wrong with a sensor (`health.KINDS`, from 1).
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import where
+from tandemlift.laws.sensors.health import KINDS
+
+HOLDS, LANDS, STOPS = 1.0, 2.0, 3.0
+REACTIONS = ("none", "hold", "land", "stop")
+FAULTS = (
+    "unit stale",
+    "joints",
+    "accelerometer",
+    "gyroscope",
+    "motion stale",
+    "position",
+    "velocity",
+    "attitude",
+    "joints disagree",
+    "attitude disagrees with gyroscope",
+    "velocity disagrees with position",
+    "state not a number",
+    "attitude and gyroscope lost",
+    "outside the fence",
+    "too little thrust left",
+    "tilted too far",
+    "turning too fast",
+    "too far from the reference",
+    "rotor lost",
+    "accelerometer disagrees with velocity",
+)
+CHECKS = (
+    "unit not heard",
+    "motion not heard",
+    "a sensor is not well",
+    "hover not feasible",
+    "not level",
+    "not at rest",
+    "a rotor is lost",
+    "no tare yet",
+    "payload mass not plausible",
+    "joints disagree",
+)
+
+
+class Faults(NamedTuple):
+    """By fault, in the order of `FAULTS`: what is wrong (of a sensor, `KINDS` from 1), 1 for a fault, 0 for none."""
+
+    unit: Any
+    joints: Any
+    accelerometer: Any
+    gyroscope: Any
+    motion: Any
+    position: Any
+    velocity: Any
+    attitude: Any
+    joints_apart: Any
+    attitude_apart: Any
+    velocity_apart: Any
+    state: Any
+    orientation: Any
+    fence: Any
+    thrust: Any
+    tilt: Any
+    rates: Any
+    error: Any
+    rotor: Any
+    speed_apart: Any
+
+
+class Worst(NamedTuple):
+    """The strongest reaction that is called for, and the alarm of the first fault that calls for it; or zeros."""
+
+    reaction: Any
+    alarm: Any
+
+
+NO_ALARM = Worst(0.0, 0.0)
+
+
+@law
+def worse(w: Worst, fault: Any, reaction: Any, alarm: Any) -> Worst:
+    """The worst with one more fault, if it is there (above 0) and calls for more."""
+    more = where(fault > 0.0, where(reaction > w.reaction, 1.0, 0.0), 0.0)
+    return Worst(where(more > 0.0, reaction, w.reaction), where(more > 0.0, alarm, w.alarm))
+
+
+@law
+def worst_of(f: Faults, r: Faults) -> Worst:
+    """The worst of faults `f`, with the reactions `r` to each."""
+    w = worse(NO_ALARM, f.orientation, r.orientation, 130.0)
+    w = worse(w, f.state, r.state, 120.0)
+    w = worse(w, f.unit, r.unit, 10.0)
+    w = worse(w, f.motion, r.motion, 50.0)
+    w = worse(w, f.joints, r.joints, 20.0 + f.joints)
+    w = worse(w, f.accelerometer, r.accelerometer, 30.0 + f.accelerometer)
+    w = worse(w, f.gyroscope, r.gyroscope, 40.0 + f.gyroscope)
+    w = worse(w, f.position, r.position, 60.0 + f.position)
+    w = worse(w, f.velocity, r.velocity, 70.0 + f.velocity)
+    w = worse(w, f.attitude, r.attitude, 80.0 + f.attitude)
+    w = worse(w, f.joints_apart, r.joints_apart, 90.0)
+    w = worse(w, f.attitude_apart, r.attitude_apart, 100.0)
+    w = worse(w, f.velocity_apart, r.velocity_apart, 110.0)
+    w = worse(w, f.speed_apart, r.speed_apart, 200.0)
+    w = worse(w, f.rotor, r.rotor, 190.0)
+    w = worse(w, f.tilt, r.tilt, 160.0)
+    w = worse(w, f.rates, r.rates, 170.0)
+    w = worse(w, f.fence, r.fence, 140.0)
+    w = worse(w, f.thrust, r.thrust, 150.0)
+    return worse(w, f.error, r.error, 180.0)
+
+
+def alarm_name(alarm: float) -> str:
+    """An alarm in words, such as "gyroscope frozen"."""
+    fault, kind = divmod(round(alarm), 10)
+    return FAULTS[fault - 1] + (f" {KINDS[kind - 1]}" if kind else "")

@@ -1,0 +1,98 @@
+"""The supervision of a mission, and an operator's requests by the clock."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from tandemlift.algebra.vector import Nothing, Vec3, each, vec3
+from tandemlift.laws.guidance.fault_reactions import REACTIONS, Faults
+from tandemlift.laws.guidance.requests import Requests
+from tandemlift.laws.guidance.supervision import Checks, Events, Fence, Limits, Supervising, Supervision, Timers
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation import quaternion_from_euler
+from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+SLOTS = 16  # events that are kept
+PADDED = 4  # requests: their number, rounded up, is the variant
+NEVER = 1e18  # s
+
+
+def start_requests(mission: Mission) -> Any:
+    """The requests of a mission, in the order of time, or `Nothing`."""
+    asked = sorted(mission.requests, key=lambda r: r.time)
+    if not asked:
+        return Nothing()
+    enabling = [r.action == "enable" for r in asked if r.action in ("enable", "disable")]
+    first = before = 0.0 if enabling[:1] == [True] else 1.0
+    changes = []
+    for r in asked:
+        after = {"enable": 1.0, "disable": 0.0}.get(r.action, before)
+        changes.append(after - before)
+        before = after
+    spare = -len(asked) % PADDED
+    cls = each(len(asked) + spare)
+
+    def column(values: list[float], rest: float = 0.0) -> Any:
+        return cls(*values, *[rest] * spare)
+
+    lift, land, stop = ([float(r.action == what) for r in asked] for what in ("lift", "land", "stop"))
+    times = column([r.time for r in asked], NEVER)
+    return Requests(times, column(lift), column(land), column(stop), column(changes), first)
+
+
+def _checks(mission: Mission, vehicle: Vehicle) -> Checks:
+    c, payload = mission.supervision.checks, vehicle.payload.mass
+    least, most = payload * c.payload_least, payload * c.payload_most
+    return Checks(c.thrust_share, math.cos(c.tilt), c.speed, c.rates, least, most)
+
+
+def _limits(mission: Mission) -> Limits:
+    b, w = mission.supervision.limits, mission.supervision.watch
+    return Limits(
+        thrust=b.thrust_share,
+        upright=math.cos(b.tilt),
+        rates=b.rates,
+        error=b.error,
+        thrust_time=b.thrust_time,
+        tilt_time=b.tilt_time,
+        rates_time=b.rates_time,
+        error_time=b.error_time,
+        apart_time=w.joints_time,
+        blank_time=w.invalid,
+    )
+
+
+def start_supervision(mission: Mission, vehicle: Vehicle, known: Any) -> tuple[Any, Any]:
+    """The supervision of a mission before its first sample, and its memory; or `Nothing`.
+
+    Args:
+        mission: the mission.
+        vehicle: as it is believed to be.
+        known: the faults of rotors that the pilot knows of.
+    """
+    s, i = mission.supervision, mission.initial
+    if s.model == "none":
+        return Nothing(), Nothing()
+    slots, rotors = each(SLOTS), each(vehicle.rotor_count)
+    supervision = Supervision(
+        mass=vehicle.mass,
+        payload=vehicle.payload.mass,
+        limits=rotors(*[q.max_thrust for q in vehicle.quadrotors for _ in range(4)]),
+        known=known,
+        checks=_checks(mission, vehicle),
+        fence=Fence(vec3(s.fence.low), vec3(s.fence.high), s.fence.margin, s.fence.slowing),
+        bounds=_limits(mission),
+        reactions=Faults(**{name: float(REACTIONS.index(r)) for name, r in s.reactions}),
+        patience=s.patience,
+        calm=s.calm,
+        deeper=s.deeper,
+        sinking=s.sinking,
+        touch=s.touch,
+        slots=slots(*map(float, range(SLOTS))),
+    )
+    at, empty = Vec3(*i.position), slots(*(0.0,) * SLOTS)
+    state = State(at, vec3(i.velocity), quaternion_from_euler(vec3(i.euler)), vec3(i.rates))
+    timers, events = Timers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Events(empty, empty, 0.0, 0.0, 0.0)
+    return supervision, Supervising(0.0, 0.0, 0.0, 0.0, timers, state, at, 0.0, 0.0, events)

@@ -1,0 +1,99 @@
+"""The watchdogs of a mission, and the faults that its sensors will have."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.laws.sensors.health import Alike, Ranges
+from tandemlift.laws.sensors.readings import Sensing
+from tandemlift.laws.sensors.sensor_faults import (
+    NEVER,
+    SOUND,
+    SensorFault,
+    SensorFaults,
+    Silence,
+    Spoiling,
+    sensor_fault,
+    together,
+)
+from tandemlift.laws.sensors.watchdog import Watchdog, start_watching
+from tandemlift.loop.fault_tolerant_perception import Failing, FailingMemory, Watched, WatchedMemory
+from tandemlift.settings import Mission, SensorFaultTable
+from tandemlift.simulation.sensors import steps_of
+
+ON = {"unit": ("joints", "accelerometer", "gyroscope"), "motion": ("position", "velocity", "attitude")}
+
+
+def _steps(f: SensorFaultTable, step: float) -> tuple[float, float]:
+    """The steps from which on and before which a fault is there."""
+
+    def steps(time: float) -> float:
+        return float(round(min(time / step, NEVER)))
+
+    return steps(f.time), NEVER if f.until is None else steps(f.until)
+
+
+def _fault(f: SensorFaultTable, step: float) -> SensorFault:
+    return sensor_fault(f.kind, *_steps(f, step), vec3(f.size))
+
+
+def with_faults(mission: Mission, devices: Any, sensing: Any) -> tuple[Any, Any]:
+    """Sensors and their memory, with the faults that a mission gives them."""
+    if not mission.sensor_faults or not isinstance(sensing, Sensing):
+        return devices, sensing
+    step, count = mission.mission.step, len(mission.vehicle.quadrotors)
+    silence: dict[str, Any] = {name: Silence(NEVER, NEVER) for name in ON}
+    faults: dict[str, Any] = dict.fromkeys((*ON["unit"], *ON["motion"]), SOUND)
+    joints = [SOUND] * count
+    for f in mission.sensor_faults:
+        if f.kind == "stale":
+            silence[f.sensor] = Silence(*_steps(f, step))
+            continue
+        for name in ON.get(f.sensor, (f.sensor,)):
+            faults[name] = _fault(f, step)
+            if name == "joints":
+                joints = [faults[name] if f.quadrotor in (None, i) else old for i, old in enumerate(joints, 1)]
+    faults["joints"] = together(joints)
+    memory = FailingMemory(sensing, Spoiling(sensing.readings, 0.0))
+    return Failing(devices, SensorFaults(**faults, **silence)), memory
+
+
+def _alike(mission: Mission) -> Alike:
+    """How many samples alike make a sensor frozen: never where no noise is expected."""
+    s, most = mission.sensors, float(mission.supervision.watch.frozen)
+
+    def after(noise: float) -> float:
+        return most if noise > 0.0 else math.inf
+
+    return Alike(
+        joints=after(s.joints.force_noise),
+        accelerometer=after(s.accelerometer.noise),
+        gyroscope=after(s.gyroscope.noise),
+        position=after(s.motion.position_noise),
+        velocity=after(s.motion.velocity_noise),
+        attitude=after(s.motion.attitude_noise),
+    )
+
+
+def watched(mission: Mission, estimators: Any, memory: Any, readings: Any) -> tuple[Any, Any]:
+    """Estimators and their memory, behind the watchdogs of a mission if it has any."""
+    if mission.supervision.model == "none" or isinstance(estimators, Nothing):
+        return estimators, memory
+    w, step = mission.supervision.watch, mission.mission.step
+    interval = step * steps_of(mission.sensors.motion.interval, step)
+    watchdog = Watchdog(
+        stale=w.stale,
+        invalid=w.invalid,
+        ranges=Ranges(w.force, w.torque, w.specific_force, w.rates, w.position, w.velocity),
+        alike=_alike(mission),
+        forgets=min(interval / w.window, 1.0),
+        attitude=w.attitude_gap,
+        way=w.position_gap,
+        speed=w.speed_gap,
+        turn_share=1.0 - math.exp(-w.turn_bandwidth * interval),
+        way_share=1.0 - math.exp(-w.way_bandwidth * interval),
+        per_interval=1.0 / interval,
+    )
+    return Watched(watchdog, estimators), WatchedMemory(start_watching(readings), memory)
