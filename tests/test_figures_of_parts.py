@@ -177,7 +177,7 @@ def test_where_a_push_acts_is_told_from_the_payload_and_only_while_it_is_large_e
     panel = FIGURES["push"](flight).axes[3]
     across, along, estimate = lines(panel)
     seen = across[np.isfinite(across[:, 1])]
-    half = 0.6 * np.sqrt(2.0 * np.log(3.0 / windy.mission["estimator"]["least_force"]))
+    half = 0.6 * np.sqrt(2.0 * np.log(3.0 / windy.mission["estimator"]["min_force"]))
     assert seen[[0, -1], 0] == pytest.approx([22.0 - half, 22.0 + half], abs=0.05)
     assert seen[:, 1] == pytest.approx(0.5 + (3.0 * 1.0 - 1.5 * 1.0) / 5.0)  # and the centre of mass of all
     assert not np.isfinite(along[:, 1]).any(), "a push along the beam has no place on it"

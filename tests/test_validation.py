@@ -59,7 +59,7 @@ def test_what_is_drawn_is_the_same_again_and_differs_from_draw_to_draw():
     one, again = (drawn(np.random.default_rng(1), 0) for _ in range(2))
     assert one == again
     assert drawn(np.random.default_rng(2), 0) != one
-    assert len({p.partner.delay for p in random_persons("zigzag", 20)}) > 3
+    assert len({p.person.delay for p in random_persons("zigzag", 20)}) > 3
 
 
 def test_the_wind_of_the_table_is_three_newtons_along_x_and_y():

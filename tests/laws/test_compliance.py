@@ -119,8 +119,8 @@ def test_acceleration_keeps_within_what_the_rotors_can_still_give():
 
 
 def test_a_feel_is_what_the_trajectory_does():
-    changes = {"admittance.feel": {"force": 1.3, "speed": 0.6, "time": 0.5}, "compliance.easing": 2000.0}
-    _, velocity, *_ = motion(lambda t: (1.3, 0.0, 0.0), 4.0, changes | {"compliance.hearing": 2000.0})
+    changes = {"admittance.feel": {"force": 1.3, "speed": 0.6, "time": 0.5}, "compliance.output_bandwidth": 2000.0}
+    _, velocity, *_ = motion(lambda t: (1.3, 0.0, 0.0), 4.0, changes | {"compliance.input_bandwidth": 2000.0})
     assert velocity[-1, 0] == pytest.approx(0.6, rel=1e-3)
     after = np.flatnonzero(velocity[:, 0] > 0.95 * 0.6)[0] * H
     assert after == pytest.approx(0.5, abs=0.15)  # the dwell, and the jerk that is allowed
@@ -150,7 +150,7 @@ def test_beyond_the_yaw_authority_it_yields_and_brakes_with_no_more_than_that():
 
 
 def test_a_heading_waits_for_a_vehicle_that_cannot_turn():
-    g, m = guided({"compliance.yaw.model": "yielding", "compliance.yaw.leash": 0.3})
+    g, m = guided({"compliance.yaw.model": "yielding", "compliance.yaw.max_lead_angle": 0.3})
     heading = m.heading
     for _ in range(5000):
         _, heading = turn(g.heading, heading, 1.0, 0.0, STEERED, 0.0, H)

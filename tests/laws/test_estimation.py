@@ -73,14 +73,14 @@ def test_a_push_on_the_beam_is_found_where_it_acts(seed, y):
     R, w, x = moment(rng, 2)
     x = x._replace(at=np.array([0.0, y, 0.0]))
     answer = solved(p, R, w, x)
-    k, said = estimator(p, length=2.0, least_force=0.01), unit(R, w, answer)
+    k, said = estimator(p, length=2.0, min_force=0.01), unit(R, w, answer)
     push = R.inv().apply(x.push)
     at = point_of_application(k, vec3(push), moment_on_payload(k, said, vec3(answer.angular)))
     assert at == pytest.approx(y, abs=1e-9 / np.hypot(push[0], push[2]) ** 2)
 
 
 def test_a_point_is_held_on_the_beam_and_not_given_for_small_forces():
-    k = estimator(paper_parts(), length=2.0, least_force=0.5)
+    k = estimator(paper_parts(), length=2.0, min_force=0.5)
     assert point_of_application(k, Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, -7.0)) == 1.0
     assert point_of_application(k, Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 7.0)) == -1.0
     assert point_of_application(k, Vec3(0.3, 5.0, -0.39), Vec3(0.2, 0.0, 0.3)) == 0.0

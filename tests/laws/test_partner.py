@@ -35,7 +35,7 @@ MODELS = pytest.mark.parametrize("model", ["pull", "steer", "two-hands", "hold"]
 def company(model: str, path: Any = ((5.0, 0.0),), **changes: Any) -> tuple[Any, Partnering, list[Leg]]:
     """A person, their memory and the legs of their path, beside a vehicle that stands at 0."""
     points = [p if isinstance(p, dict) else {"point": list(p)} for p in path]
-    keys = {f"partner.{k}": v for k, v in {"model": model, "path": points, "height_share": 0.0, **changes}.items()}
+    keys = {f"person.{k}": v for k, v in {"model": model, "path": points, "height_fraction": 0.0, **changes}.items()}
     mission = tl.load_mission("hover", keys)
     vehicle, state = Vehicle.from_settings(mission.vehicle), start_state(mission)
     partner, memory, _ = start_partner(mission, vehicle, state)
@@ -54,7 +54,7 @@ def shaken(rng: np.random.Generator) -> Twitch:
 @given(seed=seeds)
 def test_force_and_couple_never_exceed_their_bounds(model, seed):
     rng = np.random.default_rng(seed)
-    partner, memory, _ = company(model, max_force=3.0, max_couple=0.5, tremor=2.0, grip=0.3, start=0.0)
+    partner, memory, _ = company(model, max_force=3.0, max_couple=0.5, tremor=2.0, grip=0.3, start_time=0.0)
     for k in range(30):
         state = random_state(rng)
         memory = memory._replace(seen=sight(partner.grip, random_state(rng)))
@@ -108,7 +108,7 @@ def test_a_hand_that_holds_still_is_a_spring_and_a_damper_whatever_is_seen():
 
 
 def test_a_hand_moves_with_the_grip_until_the_vehicle_is_up_and_lets_go_at_the_end():
-    partner, memory, _ = company("steer", ((1.0, 0.0),), start=0.5, tremor=0.0, height_share=0.9)
+    partner, memory, _ = company("steer", ((1.0, 0.0),), start_time=0.5, tremor=0.0, height_fraction=0.9)
     lent = lend(partner, memory, NO_PUSH, at((0.0, 0.0, 0.0)), CALM, 1.0, DT)
     assert array(lent.hand.start.force) == pytest.approx([0.0] * 3, abs=0.0)  # not up
     up = at((0.0, 0.0, 1.0))
@@ -155,7 +155,7 @@ def test_two_hands_turn_the_vehicle_towards_its_heading_and_hold_it_at_the_centr
     for k in range(2000):
         lent = lend(partner, memory, NO_PUSH, at((0.0, 0.0, memory.leg.end.z)), CALM, k * DT, DT)
         memory = lent.memory
-    assert moment_of(lent.hand.start, LEVEL).z == pytest.approx(0.3 * partner.manner.turn_gain, abs=0.01)
+    assert moment_of(lent.hand.start, LEVEL).z == pytest.approx(0.3 * partner.manner.yaw_gain, abs=0.01)
 
 
 def test_what_is_seen_late_is_reckoned_ahead():

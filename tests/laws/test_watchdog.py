@@ -108,7 +108,7 @@ def test_each_fault_of_each_sensor_is_found_in_time_and_no_other_and_never_gets_
     assert biggest < 15.0
 
 
-@pytest.mark.parametrize("device", ["unit", "motion"])
+@pytest.mark.parametrize("device", ["imu", "motion"])
 def test_a_device_that_sends_nothing_is_stale_after_its_time(device):
     faults = NO_FAULTS._replace(**{device: Silence(200.0, 300.0)})
     reports = [r for _, r in watched(stream(2.0), faults)]
@@ -131,17 +131,17 @@ def test_the_count_of_samples_alike_is_that_of_numpy():
 @pytest.mark.parametrize(
     ("sensor", "size", "name", "late"),
     [
-        ("gyroscope", 0.4, "attitude_apart", True),
-        ("attitude", 0.15, "attitude_apart", False),
-        ("velocity", 0.4, "velocity_apart", True),
-        ("position", 0.3, "velocity_apart", False),
-        ("accelerometer", 1.0, "speed_apart", True),
+        ("gyroscope", 0.4, "attitude_inconsistent", True),
+        ("attitude", 0.15, "attitude_inconsistent", False),
+        ("velocity", 0.4, "velocity_inconsistent", True),
+        ("position", 0.3, "velocity_inconsistent", False),
+        ("accelerometer", 1.0, "speed_inconsistent", True),
     ],
 )
 def test_measurements_that_disagree_are_found_as_the_window_has_it(sensor, size, name, late):
     """A jump at once; a constant error b after −τ ln(1 − d / b τ)."""
     reports = [r for _, r in watched(stream(3.0), failing(sensor, "bias", size / math.sqrt(3.0)))]
-    limit = {"attitude_apart": 0.1, "velocity_apart": 0.1, "speed_apart": 0.3}[name]
+    limit = {"attitude_inconsistent": 0.1, "velocity_inconsistent": 0.1, "speed_inconsistent": 0.3}[name]
     wait = 0.0
     if late:
         wait = -0.5 * math.log(1.0 - limit / (size * 0.5))
@@ -151,7 +151,7 @@ def test_measurements_that_disagree_are_found_as_the_window_has_it(sensor, size,
 def test_measurements_agree_while_the_vehicle_turns_and_moves():
     still = Vec3(0.0, 0.0, 0.8)  # about the vertical, so that the accelerometer's reading stays
     reports = [r for _, r in watched(stream(6.0, rates=still, velocity=Vec3(1.0, -0.5, 0.2)))]
-    assert not any(r.attitude_apart + r.velocity_apart + r.speed_apart for r in reports)
+    assert not any(r.attitude_inconsistent + r.velocity_inconsistent + r.speed_inconsistent for r in reports)
 
 
 def test_the_attitude_stands_in_for_a_lost_gyroscope():

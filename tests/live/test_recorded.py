@@ -132,7 +132,7 @@ def test_the_files_stand_beside_each_other_and_may_be_moved(tmp_path):
     flight.snapshot().save(tmp_path / "here")
     (tmp_path / "here").rename(tmp_path / "there")
     assert sorted(p.name for p in (tmp_path / "there").iterdir()) == sorted([MISSION, HAND, FLIGHT])
-    assert tl.load_mission(tmp_path / "there" / MISSION).partner.recording == str(tmp_path / "there" / HAND)
+    assert tl.load_mission(tmp_path / "there" / MISSION).person.recording == str(tmp_path / "there" / HAND)
 
 
 def test_what_is_saved_and_what_is_flown_again_name_no_folder_of_the_machine(tmp_path):
@@ -146,9 +146,9 @@ def test_what_is_saved_and_what_is_flown_again_name_no_folder_of_the_machine(tmp
     for folder in ("here", "there"):
         for file in (tmp_path / folder).iterdir():
             assert str(tmp_path).encode() not in file.read_bytes(), file
-        assert tl.Flight.load(tmp_path / folder / FLIGHT).mission["partner"]["recording"] == HAND
+        assert tl.Flight.load(tmp_path / folder / FLIGHT).mission["person"]["recording"] == HAND
     again = tl.load_mission(tmp_path / "here" / "mission.toml")
-    assert again.partner.recording == str(tmp_path / "here" / HAND)
+    assert again.person.recording == str(tmp_path / "here" / HAND)
 
 
 def test_saved_aside_it_is_the_same_flight(tmp_path):

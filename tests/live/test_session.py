@@ -59,7 +59,7 @@ def up(session):
 def test_a_scene_tells_of_the_hand_and_of_what_may_be_changed(session):
     assert session.scene["spring"]["stiffness"] == STIFFNESS
     keys = {control["key"] for control in session.scene["controls"]}
-    assert {"admittance.mass", "controller.name", "partner.stiffness", "wind.velocity"} <= keys
+    assert {"admittance.mass", "controller.name", "person.stiffness", "wind.velocity"} <= keys
     assert not {k for k in keys if k.startswith("sensors")}, "it has none"
 
 
@@ -277,7 +277,7 @@ def test_a_recorded_mission_is_flown_by_who_watches_and_not_by_the_recording(tmp
     fly(session, 0.5)
     say(session, "save", name="first")
     again = by_hand(tl.load_mission(tmp_path / "first" / "recorded.toml"))
-    assert (again.partner.model, again.partner.recording, again.changes) == ("grab", None, ())
+    assert (again.person.model, again.person.recording, again.changes) == ("grab", None, ())
 
 
 def test_a_rotor_that_cannot_fail_is_not_killed(session):

@@ -15,7 +15,7 @@ from schema import EVERYTHING, SCHEMA
 import tandemlift as tl
 from tandemlift.cli.run import parse_setting
 from tandemlift.missions import check, load_mission, to_toml
-from tandemlift.missions.explain import allowed
+from tandemlift.missions.bounds import allowed
 from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import flat
 

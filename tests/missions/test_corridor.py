@@ -73,7 +73,7 @@ def test_the_file_keeps_the_centreline_and_the_loop_gets_walls_and_legs():
     changes = {
         **WALKED,
         "corridor.centreline": LINE,
-        "partner.model": "steer",
+        "person.model": "steer",
         "walls": [{"start": [0, 9], "end": [9, 9]}],
     }
     mission = tl.load_mission("hover", changes)
@@ -96,11 +96,11 @@ def test_the_file_keeps_the_centreline_and_the_loop_gets_walls_and_legs():
         ({"corridor.centreline": [[0.0, 0.0], [5.0, 0.0], [1.0, 0.1]]}, "150°"),
         ({"corridor.centreline": [[0.0, 0.0], [5.0, 0.0], [5.0, 1.0], [0.0, 1.0]]}, "farther apart"),
         ({"corridor.centreline": LINE, "ground.model": "none"}, "ground.model"),
-        ({"partner.model": "steer"}, "[[partner.path]]"),
-        ({"partner.model": "pull", "partner.grip": 1.2, "corridor.centreline": LINE}, "within ±1 m"),
-        ({"partner.delay": 1.5}, "partner.delay"),
-        ({"partner.model": "push"}, '"two-hands"'),
-        ({"mission.step": 1e-5, "partner.delay": 0.9, "mission.duration": 1.0}, "10000 steps"),
+        ({"person.model": "steer"}, "[[person.path]]"),
+        ({"person.model": "pull", "person.grip": 1.2, "corridor.centreline": LINE}, "within ±1 m"),
+        ({"person.delay": 1.5}, "person.delay"),
+        ({"person.model": "push"}, '"two-hands"'),
+        ({"mission.step": 1e-5, "person.delay": 0.9, "mission.duration": 1.0}, "10000 steps"),
     ],
 )
 def test_what_cannot_be_is_refused_with_the_key_and_what_is_allowed(changes, said):
@@ -109,9 +109,9 @@ def test_what_cannot_be_is_refused_with_the_key_and_what_is_allowed(changes, sai
 
 
 def test_a_person_who_pushes_during_the_tare_or_asks_in_vain_is_warned_of():
-    partner = {"partner.model": "steer", "partner.path": [{"point": [1.0, 0.0]}], "partner.start": 2.0}
+    partner = {"person.model": "steer", "person.path": [{"point": [1.0, 0.0]}], "person.start_time": 2.0}
     with pytest.warns(tl.FlightWarning) as told:
         tl.load_mission("iris", {**partner, "pilot.guidance": "clock"})
     said = " ".join(str(w.message) for w in told)
-    assert "partner.start = 2.0 is before the tare ends at 12 s" in said
+    assert "person.start_time = 2.0 is before the tare ends at 12 s" in said
     assert "asks to land in vain" in said

@@ -9,6 +9,7 @@ from tandemlift.pilot.supervision import start_requests
 from tandemlift.settings.supervision import ReactionsTable
 
 BY_HAND = {"pilot.guidance": "hand"}
+WATCHED = {**BY_HAND, "supervision.model": "watch"}
 BY_CLOCK = {"pilot.guidance": "clock"}
 FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
 
@@ -25,15 +26,15 @@ FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
             "sensors.model",
         ),
         ({"sensor_faults": [FROZEN, FROZEN]}, "fails already in sensor_faults.0"),
-        ({"sensor_faults": [FROZEN, {**FROZEN, "sensor": "unit", "kind": "nan"}]}, "fails already in sensor_faults.0"),
+        ({"sensor_faults": [FROZEN, {**FROZEN, "sensor": "imu", "kind": "nan"}]}, "fails already in sensor_faults.0"),
         ({"sensor_faults": [{**FROZEN, "kind": "stale"}]}, "must be of a device"),
-        ({"sensor_faults": [{**FROZEN, "sensor": "unit", "kind": "bias"}]}, "must be of a sensor"),
+        ({"sensor_faults": [{**FROZEN, "sensor": "imu", "kind": "bias"}]}, "must be of a sensor"),
         ({"sensor_faults": [{**FROZEN, "quadrotor": 1}]}, 'unless the sensor is "joints"'),
         ({"sensor_faults": [{**FROZEN, "sensor": "joints", "quadrotor": 3}]}, "must be from 1 to 2"),
         ({"sensor_faults": [{**FROZEN, "until": 5.0}]}, "must be after sensor_faults.0.time"),
         ({**BY_HAND, "supervision": {"model": "watch", "fence": {"low": 2.0, "high": 1.0}}}, "supervision.fence.low"),
-        ({**BY_HAND, "supervision": {"model": "watch", "watch": {"stale": 0.004}}}, "supervision.watch.stale = 0.004"),
-        ({**BY_HAND, "supervision": {"model": "watch", "checks": {"payload_least": 3.0}}}, "payload_least = 3.0"),
+        ({**WATCHED, "supervision.watchdog.stale_time": 0.004}, "supervision.watchdog.stale_time = 0.004"),
+        ({**WATCHED, "supervision.checks.min_payload_ratio": 3.0}, "min_payload_ratio = 3.0"),
     ],
 )
 def test_what_cannot_be_is_refused(changes, message):
@@ -47,7 +48,7 @@ def test_two_joints_may_fail_each_on_its_own_and_a_device_be_silent_besides():
     faults = [
         {**joint, "quadrotor": 1},
         {**joint, "quadrotor": 2, "time": 6.0},
-        {**FROZEN, "sensor": "unit", "kind": "stale"},
+        {**FROZEN, "sensor": "imu", "kind": "stale"},
     ]
     assert len(load_mission("iris", {"sensor_faults": faults}).sensor_faults) == 3
 

@@ -72,7 +72,7 @@ def test_parameters_begin_as_the_mission_has_them(trial):
     assert kept["admittance.mass"] == mission["admittance"]["mass"]
     assert kept["controller.name"] == "nftsmc"
     assert kept[RATIO] == [0.0, 0.0, 0.0]
-    assert not {"partner.stiffness", "partner.damping"} & set(kept)
+    assert not {"person.stiffness", "person.damping"} & set(kept)
 
 
 def test_what_is_set_before_the_start_is_flown_from_the_start(tmp_path):

@@ -128,7 +128,7 @@ def test_its_first_steps_are_those_of_plain_python():
         "phases.lift_start": 0.0,
         "phases.lift_duration": 0.02,
         "phases.height": 0.0,
-        "compliance.spool": 0.02,  # s: then it observes, and from 0.04 s it listens
+        "compliance.spin_up_time": 0.02,  # s: then it observes, and from 0.04 s it listens
         "phases.rotors": "flight",
         "initial.euler": [0.01, -0.01, 0.02],
         "initial.velocity": [0.1, 0.0, -0.05],

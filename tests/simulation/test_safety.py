@@ -134,12 +134,12 @@ def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
 @pytest.mark.parametrize(
     ("changes", "check"),
     [
-        ({"sensor_faults": [{"sensor": "unit", "kind": "stale", "time": 0.0}]}, 1),
+        ({"sensor_faults": [{"sensor": "imu", "kind": "stale", "time": 0.0}]}, 1),
         ({"sensor_faults": [{"sensor": "accelerometer", "kind": "frozen", "time": 0.1}]}, 3),
-        ({"supervision.checks.thrust_share": 0.5}, 4),
+        ({"supervision.checks.thrust_fraction": 0.5}, 4),
         ({"supervision.checks.tilt": 1e-7}, 5),
         ({"supervision.checks.rates": 1e-5}, 6),
-        ({"supervision.checks.payload_least": 1.5}, 9),
+        ({"supervision.checks.min_payload_ratio": 1.5}, 9),
     ],
 )
 def test_a_check_that_fails_refuses(changes, check, fly):
@@ -153,7 +153,7 @@ def test_a_check_that_fails_refuses(changes, check, fly):
 
 def in_plain_python(seconds, heard_at):
     """Names of the phases of a guidance by hand that is told a state at rest, and what `heard_at` makes of it."""
-    changes = {**FLOWN, "supervision.limits.error": 100.0}  # the state at rest does not follow the lift
+    changes = {**FLOWN, "supervision.limits.tracking_error": 100.0}  # the state at rest does not follow the lift
     flying = assemble(tl.load_mission("iris", changes)).flying
     guidance, memory, dt, names = flying.pilot.guidance, flying.moving.memory.guidance, 0.01, []
     for i in range(round(seconds / dt)):

@@ -28,7 +28,7 @@ def lanes(name, **changes):
         own = {**short, **changes, "mission.seed": i, "plant.mass_scale": 1.0 + 0.01 * i}
         if mission.ground.model != "floor":
             own["initial.position"] = [0.05 * i, -0.3, 0.01 * i]
-        if mission.partner.model == "none":
+        if mission.person.model == "none":
             own["pushes"] = [{"force": [1.0 + 0.2 * j, 0.0, 0.5], "time": 0.5 + j, "sigma": 0.2} for j in range(i % 4)]
         if mission.actuators.model == "rotors":
             own["faults"] = [{"quadrotor": 1, "rotor": i % 4 + 1, "time": 0.4 + 0.25 * i if i != 1 else 50.0}]

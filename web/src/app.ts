@@ -18,7 +18,7 @@ import { type Outgoing, perAxis, type Scene, type Setting, type Status, THRESHOL
 import type { Recorded } from "./wire/recorded.ts";
 import type { Listener, Source } from "./wire/source.ts";
 
-const STIFFNESS = "partner.stiffness"; // of the hand's spring
+const STIFFNESS = "person.stiffness"; // of the hand's spring
 const STALE = 100; // ms, after which the same moment is drawn again: overlays may have been switched
 const LET_GO = 3; // statuses of a grab that the server knows nothing of
 

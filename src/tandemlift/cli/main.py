@@ -12,6 +12,7 @@ import click
 
 from tandemlift import __version__
 from tandemlift.cli.compare import compare
+from tandemlift.cli.explain import explain
 from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.interrupts import heed_interrupts, leave
@@ -22,6 +23,7 @@ from tandemlift.cli.replay import replay
 from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run, say
+from tandemlift.cli.schema import schema
 from tandemlift.cli.validate import validate
 from tandemlift.errors import FlightWarning, InputError, suggestion
 from tandemlift.trace.compile_events import watching
@@ -56,6 +58,7 @@ def cli() -> None:
     Change it:      tandemlift run paper --set controller.switching=saturation
     Your mission:   tandemlift template > mine.toml
                     tandemlift run mine.toml
+    What a key is:  tandemlift explain admittance.damping
     Your law:       tandemlift run mine.toml --controller my_pd.py
     """
 
@@ -88,15 +91,19 @@ def missions() -> None:
 
 @cli.command()
 def template() -> None:
-    """Print a commented mission file with every key.
+    """Print a commented mission file with every key, its unit and its meaning.
 
     \b
     tandemlift template > mine.toml
     tandemlift run mine.toml
     """
-    from tandemlift.missions import template_text
+    from tandemlift.missions.reference.template import template_text
 
     say(template_text(), nl=False)
+
+
+cli.add_command(explain)
+cli.add_command(schema)
 
 
 @cli.command()

@@ -96,9 +96,9 @@ def write_results(flight: Flight, folder: Path, *, figures: bool, views: Figure 
 
 def keep_recording(mission: Mission, folder: Path) -> None:
     """Put the recording of a mission, if it has one, beside its file, so that the folder flies again wherever it is."""
-    if mission.partner.recording is None:
+    if mission.person.recording is None:
         return
-    source = Path(mission.partner.recording)
+    source = Path(mission.person.recording)
     with whole(folder / source.name) as partial:
         shutil.copyfile(source, partial)
 

@@ -20,18 +20,22 @@ from tandemlift.laws.mechanics.body import UP, Wrench
 from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
 from tandemlift.laws.mechanics.rotation import Euler
 from tandemlift.laws.mechanics.tilt import TiltZXY, desired_orientation, most_tilt, total_thrust
-from tandemlift.settings import ControllerTable, Tilt
+from tandemlift.settings import ControllerTable, Tilt, key
 from tandemlift.vehicle import Vehicle
 
 Bandwidth = Annotated[float, Field(gt=0.0, le=1e4)]  # rad/s
+TUNED = "found by benchmarks/tune.py"
+ATTITUDE_FILTER = "bandwidth of the command filter of the attitude reference"
 
 
 class CascadeTable(ControllerTable):
-    """`[controller]`: the keys that the baselines share."""
+    """`[controller]`: the keys that the baseline controllers share."""
 
-    filter_bandwidth: Bandwidth = 15.0  # rad/s, of the filter of the attitude reference
-    max_tilt: Tilt = 0.5  # rad, of the force wanted
-    human_force_feedforward: bool = True
+    filter_bandwidth: Bandwidth = key(15.0, "rad/s", ATTITUDE_FILTER, source="chosen")
+    max_tilt: Tilt = key(
+        0.5, "rad", "largest angle of the wanted force from the vertical", source="chosen: as compliance.max_tilt"
+    )
+    human_force_feedforward: bool = key(True, None, "true: the position law counters the measured push")
 
 
 class Believed(NamedTuple):

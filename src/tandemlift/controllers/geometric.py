@@ -24,27 +24,37 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import atan2, atan_ratio, cos, maximum, sin, sqrt
 from tandemlift.algebra.vector import ZERO, Mat3, Vec3, apply_transposed, cross, dot, vec3
-from tandemlift.controllers.cascade import Bandwidth, Believed, CascadeTable, believed, wanted_force, wanted_moment
+from tandemlift.controllers.cascade import (
+    TUNED,
+    Bandwidth,
+    Believed,
+    CascadeTable,
+    believed,
+    wanted_force,
+    wanted_moment,
+)
 from tandemlift.controllers.interface import Command, control
 from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.tilt import within_tilt
 from tandemlift.laws.signals.low_pass import LowPass, Smoothed, low_pass, smooth
-from tandemlift.settings import Positive3
+from tandemlift.settings import Positive3, key
 from tandemlift.vehicle import Vehicle
 
 LEAST = 0.1  # of the weight: the force that R_d points along never has less upwards
 
 
 class GeometricSettings(CascadeTable):
-    """`[controller]` of geometric tracking control: position in world axes, attitude in body axes."""
+    """`[controller]`: settings of geometric tracking control: position in world axes, attitude in body axes."""
 
-    filter_bandwidth: Bandwidth = 14.0  # rad/s
-    position_stiffness: Positive3 = (5.35, 2.83, 40.0)  # 1/s²: k_x/m
-    position_damping: Positive3 = (3.34, 2.75, 20.5)  # 1/s: k_v/m
-    attitude_stiffness: Positive3 = (24.9, 26.8, 5.41)  # 1/s²: k_R/J
-    attitude_damping: Positive3 = (14.3, 19.6, 2.57)  # 1/s: k_Ω/J
+    filter_bandwidth: Bandwidth = key(
+        14.0, "rad/s", "bandwidth of the command filter of the wanted force", source=TUNED
+    )
+    position_stiffness: Positive3 = key((5.35, 2.83, 40.0), "1/s²", "k_x/m, along x, y, z", source=TUNED)
+    position_damping: Positive3 = key((3.34, 2.75, 20.5), "1/s", "k_v/m, along x, y, z", source=TUNED)
+    attitude_stiffness: Positive3 = key((24.9, 26.8, 5.41), "1/s²", "k_R/J, about body x, y, z", source=TUNED)
+    attitude_damping: Positive3 = key((14.3, 19.6, 2.57), "1/s", "k_Ω/J, about body x, y, z", source=TUNED)
 
 
 class Geometric(NamedTuple):

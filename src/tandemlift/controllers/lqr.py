@@ -32,6 +32,7 @@ from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.controllers.attitude_reference import Filtered
 from tandemlift.controllers.cascade import (
     LEVEL,
+    TUNED,
     Believed,
     CascadeTable,
     believed,
@@ -44,20 +45,35 @@ from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.body import UP
 from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.mechanics.tilt import within_tilt
-from tandemlift.settings import NonNegative3, Positive, Positive3
+from tandemlift.settings import NonNegative3, Positive, Positive3, key
 from tandemlift.vehicle import Vehicle
 
 
 class LQRSettings(CascadeTable):
-    """`[controller]` of the linear-quadratic regulator: x, y, z; roll, pitch, yaw. Only ratios of weights count."""
+    """`[controller]`: settings of the linear-quadratic regulator; only the ratios of weights count."""
 
-    position_weight: Positive3 = (59.4, 22.3, 3100.0)  # 1/m²
-    velocity_weight: NonNegative3 = (0.0126, 0.0909, 519.0)  # (s/m)²
-    attitude_weight: Positive3 = (0.116, 3.58, 16.9)  # 1/rad²
-    rates_weight: NonNegative3 = (0.0139, 0.0421, 0.171)  # (s/rad)²
-    thrust_weight: Positive = 0.184  # (s²/m)²
-    moment_weight: Positive3 = (0.00654, 0.0039, 0.998)  # (s²/rad)²
-    lag: Positive = 0.08  # s: τ
+    position_weight: Positive3 = key(
+        (59.4, 22.3, 3100.0), "1/m²", "weight of the position error along x, y, z", source=TUNED
+    )
+    velocity_weight: NonNegative3 = key(
+        (0.0126, 0.0909, 519.0), "s²/m²", "weight of the velocity error along x, y, z", source=TUNED
+    )
+    attitude_weight: Positive3 = key(
+        (0.116, 3.58, 16.9), "1/rad²", "weight of the attitude error in roll, pitch, yaw", source=TUNED
+    )
+    rates_weight: NonNegative3 = key(
+        (0.0139, 0.0421, 0.171), "s²/rad²", "weight of the rates in roll, pitch, yaw", source=TUNED
+    )
+    thrust_weight: Positive = key(0.184, "s⁴/m²", "weight of the commanded vertical acceleration", source=TUNED)
+    moment_weight: Positive3 = key(
+        (0.00654, 0.0039, 0.998),
+        "s⁴/rad²",
+        "weight of the commanded angular acceleration in roll, pitch, yaw",
+        source=TUNED,
+    )
+    lag: Positive = key(
+        0.08, "s", "time constant τ of the lag that stands for the rotors and their delay", source=TUNED
+    )
 
 
 class LQR(NamedTuple):

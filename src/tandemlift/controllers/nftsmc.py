@@ -41,33 +41,67 @@ from tandemlift.laws.mechanics.tilt import (
     total_thrust,
     within_tilt,
 )
-from tandemlift.settings import AtLeastOne6, ControllerTable, NonNegative6, Positive6, Table, Tilt
+from tandemlift.settings import AtLeastOne6, ControllerTable, NonNegative6, Positive6, Table, Tilt, key
 from tandemlift.vehicle import Vehicle
 
 
 class Gains(Table):
-    """`[controller.gains]`, per axis x, y, z, φ, θ, ψ; paper Table III."""
+    """`[controller.gains]`: gains of nftsmc for x, y, z, roll, pitch, yaw; paper Table III."""
 
-    xi: Positive6  # 1/s
-    eta: NonNegative6  # 1/(s mᵃ⁻¹), 1/(s radᵃ⁻¹)
-    lambda_1: NonNegative6  # 1/s
-    lambda_2: NonNegative6  # m/s², rad/s²
-    a: AtLeastOne6
+    xi: Positive6 = key(..., "1/s", "ξ, linear part of the sliding surface", example=[4.0, 2.0, 11.0, 25.0, 80.0, 25.0])
+    eta: NonNegative6 = key(
+        ...,
+        "1/(s mᵃ⁻¹), 1/(s radᵃ⁻¹)",
+        "η, terminal part of the sliding surface",
+        example=[0.2, 0.1, 0.2, 0.2, 0.2, 0.2],
+    )
+    lambda_1: NonNegative6 = key(..., "1/s", "λ₁, proportional reaching", example=[0.2, 0.1, 200.0, 40.0, 40.0, 40.0])
+    lambda_2: NonNegative6 = key(..., "m/s², rad/s²", "λ₂, switching gain", example=[2.0, 1.0, 100.0, 30.0, 30.0, 30.0])
+    a: AtLeastOne6 = key(..., "1", "exponent of the terminal part", example=3.0)
 
 
 class NFTSMCSettings(ControllerTable):
-    """`[controller]` of the paper's controller."""
+    """`[controller]`: settings of nftsmc, the paper's controller."""
 
     name: Literal["nftsmc"] = "nftsmc"
     gains: Gains
-    switching: Literal["sign", "saturation", "tanh"] = "tanh"
-    boundary_layer: Positive6 = (0.1, 0.1, 0.1, 0.1, 0.1, 0.1)  # m/s, rad/s: Φ
-    attitude_reference_derivatives: Literal["zero", "filtered"] = "zero"
-    filter_bandwidth: Annotated[float, Field(gt=0.0, le=1e4)] = 60.0  # rad/s
-    euler_rates: Literal["exact", "body"] = "exact"
-    tilt_inverse: Literal["zxy", "printed"] = "zxy"
-    human_force_feedforward: bool = False
-    max_tilt: Tilt | None = None  # rad, of the force wanted; no limit if not given
+    switching: Literal["sign", "saturation", "tanh"] = key(
+        "tanh",
+        None,
+        "the switching function, in place of sgn(S)",
+        choices={"sign": "sgn(S)", "saturation": "sat(S/Φ)", "tanh": "tanh(S/Φ)"},
+    )
+    boundary_layer: Positive6 = key(
+        (0.1, 0.1, 0.1, 0.1, 0.1, 0.1),
+        "m/s, rad/s",
+        "boundary layer Φ; where (λ₁ + λ₂/Φ) · step ≥ 2, it chatters, and a warning says so",
+        source="chosen; the paper leaves 0 < Φ < 1 open",
+    )
+    attitude_reference_derivatives: Literal["zero", "filtered"] = key(
+        "zero",
+        None,
+        "derivatives of the attitude reference",
+        choices={"zero": "taken to be zero", "filtered": "of a second-order command filter, which the law then tracks"},
+    )
+    filter_bandwidth: Annotated[float, Field(gt=0.0, le=1e4)] = key(
+        60.0, "rad/s", "bandwidth of that command filter", source="chosen"
+    )
+    euler_rates: Literal["exact", "body"] = key(
+        "exact",
+        None,
+        "the Euler rates of the attitude law",
+        choices={"exact": "from body rates by the exact relation", "body": "body rates (the paper's Assumption 4)"},
+    )
+    tilt_inverse: Literal["zxy", "printed"] = key(
+        "zxy",
+        None,
+        "how a wanted force becomes roll and pitch",
+        choices={"zxy": "exactly, for Z-X-Y angles", "printed": "as the paper prints it"},
+    )
+    human_force_feedforward: bool = key(False, None, "true: the position law counters the measured push")
+    max_tilt: Tilt | None = key(
+        None, "rad", "largest angle of the wanted force from the vertical", unset="there is no limit", example=0.5
+    )
 
 
 class ExactRates(NamedTuple):

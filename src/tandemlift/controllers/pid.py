@@ -20,7 +20,9 @@ from tandemlift.algebra.ops import clip
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
 from tandemlift.controllers.attitude_reference import Filtered
 from tandemlift.controllers.cascade import (
+    ATTITUDE_FILTER,
     LEVEL,
+    TUNED,
     Bandwidth,
     Believed,
     CascadeTable,
@@ -34,26 +36,39 @@ from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rates_from_euler_rates, turned_least
 from tandemlift.laws.mechanics.tilt import within_tilt
 from tandemlift.laws.signals.low_pass import LowPass, Smoothed, low_pass, smooth
-from tandemlift.settings import NonNegative3, Positive3
+from tandemlift.settings import NonNegative3, Positive3, key
 from tandemlift.vehicle import Vehicle
 
 
 class PIDSettings(CascadeTable):
-    """`[controller]` of the cascaded PID: x, y, z in world axes; roll, pitch, yaw; rates in body axes."""
+    """`[controller]`: settings of the cascaded PID: x, y, z in world axes; roll, pitch, yaw; rates in body axes."""
 
-    filter_bandwidth: Bandwidth = 13.5  # rad/s
-    position_p: Positive3 = (4.36, 0.765, 2.26)  # 1/s
-    velocity_p: Positive3 = (3.09, 3.11, 18.1)  # 1/s
-    velocity_i: NonNegative3 = (0.414, 0.279, 2.04)  # 1/s²
-    velocity_d: NonNegative3 = (0.0628, 0.039, 0.0138)
-    velocity_i_limit: NonNegative3 = (2.0, 2.0, 2.0)  # m/s²
-    attitude_p: Positive3 = (3.45, 0.173, 2.43)  # 1/s
-    rate_p: Positive3 = (7.94, 20.5, 3.87)  # 1/s
-    rate_i: NonNegative3 = (0.904, 1.93, 0.0707)  # 1/s²
-    rate_d: NonNegative3 = (0.0191, 0.178, 0.0439)
-    rate_i_limit: NonNegative3 = (2.0, 2.0, 0.3)  # rad/s²
-    derivative_bandwidth: Bandwidth = 254.0  # rad/s, of the low-pass in both derivatives
-    tracking: Bandwidth = 2.0  # 1/s, of the back-calculation
+    filter_bandwidth: Bandwidth = key(13.5, "rad/s", ATTITUDE_FILTER, source=TUNED)
+    position_p: Positive3 = key((4.36, 0.765, 2.26), "1/s", "wanted velocity over the position error", source=TUNED)
+    velocity_p: Positive3 = key((3.09, 3.11, 18.1), "1/s", "wanted acceleration over the velocity error", source=TUNED)
+    velocity_i: NonNegative3 = key((0.414, 0.279, 2.04), "1/s²", "its integral gain", source=TUNED)
+    velocity_d: NonNegative3 = key((0.0628, 0.039, 0.0138), "1", "its derivative gain", source=TUNED)
+    velocity_i_limit: NonNegative3 = key(
+        (2.0, 2.0, 2.0), "m/s²", "largest acceleration from the integral", source="chosen"
+    )
+    attitude_p: Positive3 = key((3.45, 0.173, 2.43), "1/s", "wanted rates over the attitude error", source=TUNED)
+    rate_p: Positive3 = key(
+        (7.94, 20.5, 3.87), "1/s", "wanted angular acceleration over the error of the rates", source=TUNED
+    )
+    rate_i: NonNegative3 = key((0.904, 1.93, 0.0707), "1/s²", "its integral gain", source=TUNED)
+    rate_d: NonNegative3 = key((0.0191, 0.178, 0.0439), "1", "its derivative gain", source=TUNED)
+    rate_i_limit: NonNegative3 = key(
+        (2.0, 2.0, 0.3), "rad/s²", "largest angular acceleration from the integral", source="chosen"
+    )
+    derivative_bandwidth: Bandwidth = key(
+        254.0, "rad/s", "bandwidth of the low-pass filter in both derivatives", source=TUNED
+    )
+    tracking: Bandwidth = key(
+        2.0,
+        "1/s",
+        "anti-windup: rate at which the velocity integral follows what the tilt limit takes off (back-calculation)",
+        source="chosen",
+    )
 
 
 class Stage(NamedTuple):

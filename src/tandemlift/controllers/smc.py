@@ -17,7 +17,9 @@ from tandemlift.algebra.ops import absolute, maximum
 from tandemlift.algebra.vector import Vec3, vec3
 from tandemlift.controllers.attitude_reference import Filtered
 from tandemlift.controllers.cascade import (
+    ATTITUDE_FILTER,
     LEVEL,
+    TUNED,
     Bandwidth,
     Believed,
     CascadeTable,
@@ -32,17 +34,19 @@ from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import saturate
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.mechanics.tilt import within_tilt
-from tandemlift.settings import Positive6
+from tandemlift.settings import Positive6, key
 from tandemlift.vehicle import Vehicle
 
 
 class SMCSettings(CascadeTable):
-    """`[controller]` of conventional sliding mode control, per axis x, y, z, φ, θ, ψ."""
+    """`[controller]`: settings of conventional sliding mode control, per axis x, y, z, φ, θ, ψ."""
 
-    filter_bandwidth: Bandwidth = 13.6  # rad/s
-    slope: Positive6 = (1.57, 3.2, 1.61, 2.09, 4.93, 0.225)  # 1/s: λ
-    gain: Positive6 = (2.02, 1.31, 9.67, 5.4, 2.24, 1.42)  # m/s², rad/s²: K
-    boundary_layer: Positive6 = (1.07, 1.87, 0.465, 1.27, 0.649, 0.122)  # m/s, rad/s: Φ
+    filter_bandwidth: Bandwidth = key(13.6, "rad/s", ATTITUDE_FILTER, source=TUNED)
+    slope: Positive6 = key((1.57, 3.2, 1.61, 2.09, 4.93, 0.225), "1/s", "slope λ of the sliding surface", source=TUNED)
+    gain: Positive6 = key((2.02, 1.31, 9.67, 5.4, 2.24, 1.42), "m/s², rad/s²", "switching gain K", source=TUNED)
+    boundary_layer: Positive6 = key(
+        (1.07, 1.87, 0.465, 1.27, 0.649, 0.122), "m/s, rad/s", "boundary layer Φ", source=TUNED
+    )
 
 
 class Linear(NamedTuple):

@@ -21,7 +21,9 @@ from tandemlift.algebra.ops import absolute, clip, maximum, sqrt
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
 from tandemlift.controllers.attitude_reference import Filtered
 from tandemlift.controllers.cascade import (
+    ATTITUDE_FILTER,
     LEVEL,
+    TUNED,
     Bandwidth,
     Believed,
     CascadeTable,
@@ -36,20 +38,29 @@ from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import saturate
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.mechanics.tilt import within_tilt
-from tandemlift.settings import Positive6
+from tandemlift.settings import Positive6, key
 from tandemlift.vehicle import Vehicle
 
 ROOT, SIGN = 1.5, 1.1  # of √L and of L: Levant, 1998
 
 
 class SuperTwistingSettings(CascadeTable):
-    """`[controller]` of super-twisting control, per axis x, y, z, φ, θ, ψ."""
+    """`[controller]`: settings of super-twisting control, per axis x, y, z, φ, θ, ψ."""
 
-    filter_bandwidth: Bandwidth = 8.54  # rad/s
-    slope: Positive6 = (5.48, 0.657, 2.5, 3.38, 12.9, 0.249)  # 1/s: λ
-    disturbance_slope: Positive6 = (1.09, 6.97, 36.1, 2.3, 6.3, 2.78)  # m/s³, rad/s³: L
-    boundary_layer: Positive6 = (0.932, 1.68, 1.13, 0.303, 0.516, 0.363)  # m/s, rad/s: Φ
-    integral_limit: Positive6 = (2.0, 2.0, 2.0, 2.0, 2.0, 0.5)  # m/s², rad/s²: of v
+    filter_bandwidth: Bandwidth = key(8.54, "rad/s", ATTITUDE_FILTER, source=TUNED)
+    slope: Positive6 = key((5.48, 0.657, 2.5, 3.38, 12.9, 0.249), "1/s", "slope λ of the sliding surface", source=TUNED)
+    disturbance_slope: Positive6 = key(
+        (1.09, 6.97, 36.1, 2.3, 6.3, 2.78),
+        "m/s³, rad/s³",
+        "largest slope L of the disturbance, which gives the gains 1.5 √L and 1.1 L",
+        source=TUNED,
+    )
+    boundary_layer: Positive6 = key(
+        (0.932, 1.68, 1.13, 0.303, 0.516, 0.363), "m/s, rad/s", "boundary layer Φ", source=TUNED
+    )
+    integral_limit: Positive6 = key(
+        (2.0, 2.0, 2.0, 2.0, 2.0, 0.5), "m/s², rad/s²", "largest magnitude of the integral v", source="chosen"
+    )
 
 
 class Twisting(NamedTuple):

@@ -34,7 +34,7 @@ BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to ea
 
 def places(flight: Flight) -> list[Array]:
     """Where on body y each push acts (T) [m from the payload's centre of mass], NaN while it is too small to tell."""
-    least = Estimator.model_validate(flight.mission.get("estimator", {})).least_force
+    least = Estimator.model_validate(flight.mission.get("estimator", {})).min_force
     R = rotation_from_quaternion(Quat(*flight["attitude"].T))
     center = vehicle_of(flight).center_of_mass[1]
     found = []

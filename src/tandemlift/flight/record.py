@@ -9,7 +9,7 @@ import json
 import os
 import zipfile
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from tandemlift.errors import InputError, suggestion
 from tandemlift.files import whole
+from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.flight.tables import to_pandas, to_xarray
 
 if TYPE_CHECKING:
@@ -234,13 +235,14 @@ class Flight(Mapping[str, Array]):
         try:
             with path.open("rb") as file:
                 header, arrays = _read(file)
-            return _flight(header, arrays)
+            flight = _flight(header, arrays)
         except InputError as error:
             raise InputError(f"{path}: {error}") from None
         except OSError as error:
             raise InputError(f"{path}: {error.strerror or error}") from None
         except Exception as error:  # whatever a file of any content can do to the readers of ZIP, NPY and JSON
             raise InputError(f"{path} is damaged or no flight that tandemlift saved ({error})") from error
+        return _by_new_names(flight, str(path))
 
 
 def _written(divergence: Divergence | None) -> list[Any] | None:
@@ -261,6 +263,16 @@ def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:
         if number > FORMAT:
             raise InputError(f"written by a newer tandemlift: its format is {number}, this one reads up to {FORMAT}")
         return header, {name: content[name] for name in ("time", *header["channels"])}
+
+
+def _by_new_names(flight: Flight, source: str) -> Flight:
+    """A flight that may have been saved before mission keys were renamed."""
+    try:
+        mission, notices = renamed_tables(flight.mission)
+    except InputError as error:
+        raise InputError(f"{source}: {error}") from None
+    warn_of_old_names(source, notices)
+    return replace(flight, mission=mission)
 
 
 def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:

@@ -33,8 +33,8 @@ def renewed(now: Mission, first: Mission) -> Mission:
 
 
 def _by_hand(mission: Mission) -> Mission:
-    hand = HAND if mission.partner.model != "grab" else {}
-    mission = changed(mission, "partner", {**hand, "recording": None})
+    hand = HAND if mission.person.model != "grab" else {}
+    mission = changed(mission, "person", {**hand, "recording": None})
     for key, value in _always(mission):
         mission = changed(mission, key, value)
     for key, value in _if_possible(mission):

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions import tables_of
-from tandemlift.missions.explain import MISSING, value_at
+from tandemlift.missions.values import MISSING, value_at
 from tandemlift.settings import Mission
 
 EVERY = "vehicle.quadrotors.each."  # begins the key of a control that all quadrotors have together
@@ -30,9 +30,9 @@ CONTROLS = (
     Control("admittance.stiffness", "stiffness", "feel", "N/m", 0.0, 20.0),
     Control("admittance.threshold", "threshold", "feel", "N", 0.05, 5.0),
     Control("compliance.max_speed", "speed, at most", "feel", "m/s", 0.1, 3.0),
-    Control("partner.stiffness", "stiffness", "spring", "N/m", 1.0, 40.0),
-    Control("partner.damping", "damping", "spring", "N s/m", 0.0, 20.0),
-    Control("partner.max_force", "force, at most", "spring", "N", 0.5, 20.0),
+    Control("person.stiffness", "stiffness", "spring", "N/m", 1.0, 40.0),
+    Control("person.damping", "damping", "spring", "N s/m", 0.0, 20.0),
+    Control("person.max_force", "force, at most", "spring", "N", 0.5, 20.0),
     Control("controller.gains.xi", "ξ", "pilot", "1/s", 0.05, 20.0),
     Control("controller.gains.lambda_1", "λ₁", "pilot", "1/s", 0.05, 40.0),
     Control("controller.gains.lambda_2", "λ₂", "pilot", "m/s², rad/s²", 0.05, 40.0),

@@ -14,7 +14,7 @@ from tandemlift.live.controls import BY_KEY, CHOICES, CONTROLLER, bounds_of, key
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.live.taring import TARE, check_in_time, start_of_tare
 from tandemlift.missions import tables_of
-from tandemlift.missions.explain import MISSING, shown
+from tandemlift.missions.values import MISSING, shown
 from tandemlift.settings import Mission
 
 RAMP = 0.5  # s, within which a setting changes

@@ -13,7 +13,8 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, 
 from pydantic_core import from_json
 
 from tandemlift.errors import InputError, suggestion
-from tandemlift.missions.explain import explain, shown
+from tandemlift.missions.refusals import problems_in
+from tandemlift.missions.values import shown
 from tandemlift.settings.leaves import must
 
 MAX_SIZE = 65_536  # bytes; who sends more is cut off
@@ -222,5 +223,5 @@ def _refusal(text: str) -> Refusal:
     try:
         KINDS[name].model_validate_json(text)
     except ValidationError as error:
-        return Refusal(name, explain(KINDS[name], error, {name: data}, (name,))[0].sentence)
+        return Refusal(name, problems_in(KINDS[name], error, {name: data}, (name,))[0].sentence)
     return Refusal(name, "must be text in UTF-8")

@@ -56,7 +56,7 @@ def ready_of(mission: Mission, engine: str = "compiled") -> Ready:
 
 
 class RecordedFlight:
-    """One flight of a mission whose `partner.model` is "grab"; what it needs is compiled as it is made.
+    """One flight of a mission whose `person.model` is "grab"; what it needs is compiled as it is made.
 
     Args:
         mission: how it begins; at the end of its duration it can only be saved.
@@ -223,7 +223,7 @@ class Snapshot:
     def _toml(self, name: str) -> str:
         tables, step = tables_of(self._start), self._start.mission.step
         tables["mission"] |= {"name": name, "duration": self._steps * step}
-        tables["partner"]["recording"] = HAND
+        tables["person"]["recording"] = HAND
         tables["changes"] = [c for c in self._changes if round(c["time"] / step) <= self._steps]
         return format_toml(tables)
 

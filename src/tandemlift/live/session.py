@@ -94,7 +94,7 @@ class Session:
     def scene(self) -> dict[str, Any]:
         """What a viewer must know, with the settings as they are."""
         now = self._flight.now if self.is_ready else self._mission
-        p = now.partner
+        p = now.person
         spring = {"stiffness": p.stiffness, "damping": p.damping, "max_force": p.max_force}
         about = {"threshold": list(now.admittance.threshold), "spring": spring}
         return self._framing.scene | about | {"controls": list(controls_of(now, self._mission))}

@@ -83,7 +83,7 @@ def predicted(k: Estimators, m: Remembered) -> Predicted:
 @law
 def if_felt(p: Push, r: Report) -> Push:
     """The push, trusted only where joints and accelerometer can be."""
-    well = where(r.joints + r.accelerometer + r.unit > 0.0, 0.0, 1.0)
+    well = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0)
     return Push(
         p.measured,
         p.measured_moment,
@@ -101,7 +101,7 @@ def if_felt(p: Push, r: Report) -> Push:
 @law
 def at_best(s: State, readings: Readings, r: Report, rates: Vec3) -> State:
     """The estimate of the state, or the readings where the sensors that it rests on are lost; `rates`: as they turn."""
-    no_force, no_turn = maximum(r.accelerometer, r.unit), maximum(r.gyroscope, r.unit)
+    no_force, no_turn = maximum(r.accelerometer, r.imu), maximum(r.gyroscope, r.imu)
     v = readings.motion
     return State(
         chosen(no_force, v.position, s.position),
@@ -142,7 +142,7 @@ def reported_by(known: Any) -> Any:
 @reported_by.register(Checked)
 def _reported(known):
     p, r = known.push, known.report
-    apart = where(r.joints + r.accelerometer + r.unit > 0.0, 0.0, 1.0 - p.trusted)
+    apart = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0 - p.trusted)
     return Senses(r, apart, p.armed, p.payload_mass)
 
 

@@ -1,4 +1,4 @@
-"""A hand as it was moved, step by step: the file that a recorded mission names in `partner.recording`.
+"""A hand as it was moved, step by step: the file that a recorded mission names in `person.recording`.
 
 A NumPy archive (.npz) of `step` (n,), whole and rising, and `hand` (n, 14): from that step on, held, grip (3), target
 (3), force (3), lift, land, stop, enabled, as `virtual_hand.Held` has them; and `engine`, the one that it was
@@ -47,9 +47,9 @@ def read_recording(path: str) -> Recording:
             engine = archive["engine"] if "engine" in archive else np.array(ENGINE)
             recording = Recording(archive["step"], archive["hand"], str(engine))
     except FileNotFoundError:
-        raise InputError(f"partner.recording = {path!r}: there is no such file") from None
+        raise InputError(f"person.recording = {path!r}: there is no such file") from None
     except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
-        raise InputError(f"partner.recording = {path!r}: not a recording: {error}") from None
+        raise InputError(f"person.recording = {path!r}: not a recording: {error}") from None
     _check(path, recording)
     return recording
 
@@ -57,9 +57,9 @@ def read_recording(path: str) -> Recording:
 def _check(path: str, recording: Recording) -> None:
     steps, hands, _ = recording
     if steps.dtype != np.int64 or steps.ndim != 1 or (steps.size and (steps[0] < 0 or np.any(np.diff(steps) <= 0))):
-        raise InputError(f"partner.recording = {path!r}: `step` must be int64 (n,), rising from 0 or more")
+        raise InputError(f"person.recording = {path!r}: `step` must be int64 (n,), rising from 0 or more")
     if hands.dtype != np.float64 or hands.shape != (steps.size, WIDTH) or not np.isfinite(hands).all():
-        raise InputError(f"partner.recording = {path!r}: `hand` must be finite float64 ({steps.size}, {WIDTH})")
+        raise InputError(f"person.recording = {path!r}: `hand` must be finite float64 ({steps.size}, {WIDTH})")
 
 
 def engine_of(mission: Mission) -> str:
@@ -68,12 +68,12 @@ def engine_of(mission: Mission) -> str:
     Raises:
         InputError: the recording cannot be read.
     """
-    return read_recording(mission.partner.recording).engine if mission.partner.recording else ENGINE
+    return read_recording(mission.person.recording).engine if mission.person.recording else ENGINE
 
 
 def portable(tables: dict[str, Any]) -> dict[str, Any]:
     """A mission's tables without the folder that its recording is in: it stands beside the file that they go to."""
-    recording = tables.get("partner", {}).get("recording")
+    recording = tables.get("person", {}).get("recording")
     return (
-        tables if recording is None else {**tables, "partner": {**tables["partner"], "recording": Path(recording).name}}
+        tables if recording is None else {**tables, "person": {**tables["person"], "recording": Path(recording).name}}
     )

@@ -29,10 +29,10 @@ def _phasing(mission: Mission) -> Phasing:
         lift_rate=1.0 / p.lift_duration,
         land_start=NEVER if p.land_start is None else p.land_start,
         land_rate=1.0 / p.land_duration,
-        press=c.press,
-        spool=c.spool,
+        touchdown_depth=c.touchdown_depth,
+        spin_up_time=c.spin_up_time,
         always=1.0 if p.rotors == "always" else 0.0,
-        descent=c.max_descent,
+        max_descent_speed=c.max_descent_speed,
         requests=start_requests(mission),
     )
 
@@ -40,15 +40,15 @@ def _phasing(mission: Mission) -> Phasing:
 def _compliance(mission: Mission, admittance: Admittance) -> Compliance:
     c, step = mission.compliance, mission.mission.step
     threshold = vec3(mission.admittance.threshold)
-    limits = Limits(vec3(c.max_speed), vec3(c.max_acceleration), vec3(c.max_jerk), c.braking)
+    limits = Limits(vec3(c.max_speed), vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain)
     return Compliance(
-        hearing=low_pass(c.hearing, step),
-        band=DeadBand(threshold, threshold * c.release, c.dwell, 1.0 / c.forget),
-        easing=low_pass(c.easing, step),
+        input_filter=low_pass(c.input_bandwidth, step),
+        band=DeadBand(threshold, threshold * c.release_fraction, c.dwell, 1.0 / c.bias_time_constant),
+        output_filter=low_pass(c.output_bandwidth, step),
         admittance=admittance,
         limits=limits,
         force_lead=c.force_lead,
-        lead=c.lead,
+        reference_lead=c.reference_lead,
     )
 
 
@@ -56,22 +56,22 @@ def _tank(c: ComplianceTable) -> tuple[Any, Any]:
     if c.tank.model == "none":
         return Nothing(), Nothing()
     t = c.tank
-    return Tank(t.size, t.low, t.max_damping, t.refill, 1.0 / t.fade), Filled(t.size, 0.0)
+    return Tank(t.capacity, t.low_energy, t.max_damping, t.refill_fraction, 1.0 / t.fade_time), Filled(t.capacity, 0.0)
 
 
 def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     c, y, step = mission.compliance, mission.compliance.yaw, mission.mission.step
     start = 0.0 if mission.phases.rotors == "always" else mission.initial.euler[2]
     if y.model == "held":
-        return Held(start, y.leash), Nothing()
+        return Held(start, y.max_lead_angle), Nothing()
     turning = Turning(
-        hearing=low_pass(c.hearing, step),
-        band=DeadBand(y.threshold, y.threshold * c.release, c.dwell, 1.0 / c.forget),
-        easing=low_pass(c.easing, step),
+        input_filter=low_pass(c.input_bandwidth, step),
+        band=DeadBand(y.threshold, y.threshold * c.release_fraction, c.dwell, 1.0 / c.bias_time_constant),
+        output_filter=low_pass(c.output_bandwidth, step),
         inverse_inertia=1.0 / (y.inertia or float(vehicle.inertia[2, 2])),
         damping=y.damping,
         most=y.max_moment,
-        leash=y.leash,
+        max_lead_angle=y.max_lead_angle,
     )
     return turning, Heading(STILL, Hearing(0.0, 0.0, 0.0, 0.0, 0.0), STILL, start, 0.0, 0.0)
 
@@ -87,10 +87,10 @@ def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance, kno
         compliance=_compliance(mission, admittance),
         tank=tank,
         heading=heading,
-        moment=low_pass(c.hearing, mission.mission.step),
+        moment=low_pass(c.input_bandwidth, mission.mission.step),
         moment_lead=c.moment_lead,
         mass=vehicle.mass,
-        most_thrust=vehicle.max_thrust * c.thrust_share,
+        most_thrust=vehicle.max_thrust * c.thrust_fraction,
         tangent=math.tan(c.max_tilt),
         supervision=supervision,
     )

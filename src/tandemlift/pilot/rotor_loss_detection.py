@@ -19,7 +19,14 @@ BOUND = 0.5  # of what a rotor's loss leaves: what a sample adds to the scatter 
 
 
 def _rules(d: DetectionTable) -> Rules:
-    return Rules(d.evidence, d.margin, d.unexplained, d.dwell, d.retest, 1.0 / d.spread**2)
+    return Rules(
+        d.threshold,
+        d.isolation_margin,
+        d.unexplained_fraction,
+        d.dwell,
+        d.retest_time,
+        1.0 / d.thrust_uncertainty**2,
+    )
 
 
 def _four(values: Any) -> Any:
@@ -39,8 +46,8 @@ def start_detection(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[
         effect=effect,
         rotors=low_pass(2.0 / (d.rotor_lag + d.rotor_delay + step), step),
         quick=low_pass(d.bandwidth, step),
-        slow=low_pass(d.forget, step),
-        habit=low_pass(d.habit, step),
+        bias_filter=low_pass(d.bias_bandwidth, step),
+        scatter_filter=low_pass(d.scatter_bandwidth, step),
         scatter=_four(np.square(d.scatter)),
         bound=_four(bound),
         trial=rotors(*(hover,) * vehicle.rotor_count),

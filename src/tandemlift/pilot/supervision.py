@@ -44,23 +44,23 @@ def start_requests(mission: Mission) -> Any:
 
 def _checks(mission: Mission, vehicle: Vehicle) -> Checks:
     c, payload = mission.supervision.checks, vehicle.payload.mass
-    least, most = payload * c.payload_least, payload * c.payload_most
-    return Checks(c.thrust_share, math.cos(c.tilt), c.speed, c.rates, least, most)
+    least, most = payload * c.min_payload_ratio, payload * c.max_payload_ratio
+    return Checks(c.thrust_fraction, math.cos(c.tilt), c.speed, c.rates, least, most)
 
 
 def _limits(mission: Mission) -> Limits:
-    b, w = mission.supervision.limits, mission.supervision.watch
+    b, w = mission.supervision.limits, mission.supervision.watchdog
     return Limits(
-        thrust=b.thrust_share,
+        thrust=b.thrust_fraction,
         upright=math.cos(b.tilt),
         rates=b.rates,
-        error=b.error,
+        tracking_error=b.tracking_error,
         thrust_time=b.thrust_time,
         tilt_time=b.tilt_time,
         rates_time=b.rates_time,
-        error_time=b.error_time,
+        tracking_error_time=b.tracking_error_time,
         apart_time=w.joints_time,
-        blank_time=w.invalid,
+        blank_time=w.invalid_time,
     )
 
 
@@ -82,14 +82,14 @@ def start_supervision(mission: Mission, vehicle: Vehicle, known: Any) -> tuple[A
         limits=rotors(*[q.max_thrust for q in vehicle.quadrotors for _ in range(4)]),
         known=known,
         checks=_checks(mission, vehicle),
-        fence=Fence(vec3(s.fence.low), vec3(s.fence.high), s.fence.margin, s.fence.slowing),
+        fence=Fence(vec3(s.fence.low), vec3(s.fence.high), s.fence.margin, s.fence.braking_gain),
         bounds=_limits(mission),
         reactions=Faults(**{name: float(REACTIONS.index(r)) for name, r in s.reactions}),
-        patience=s.patience,
-        calm=s.calm,
-        deeper=s.deeper,
-        sinking=s.sinking,
-        touch=s.touch,
+        hold_timeout=s.hold_timeout,
+        recovery_time=s.recovery_time,
+        blind_descent_depth=s.blind_descent_depth,
+        blind_descent_acceleration=s.blind_descent_acceleration,
+        touchdown_gap=s.touchdown_gap,
         slots=slots(*map(float, range(SLOTS))),
     )
     at, empty = Vec3(*i.position), slots(*(0.0,) * SLOTS)

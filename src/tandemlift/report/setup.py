@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from typing import TypeVar
 
 from tandemlift.figures.drawing.ground import floor_height
-from tandemlift.flight.record import Flight
-from tandemlift.missions.explain import shown
+from tandemlift.flight import Flight
+from tandemlift.missions.values import shown
 from tandemlift.settings import (
     ChangeTable,
     ComplianceTable,
@@ -20,8 +20,10 @@ from tandemlift.settings import (
 )
 from tandemlift.settings.guided import ObserverTable
 from tandemlift.settings.pilot import AllocationTable, Estimator, PilotTable
+from tandemlift.settings.sensors import Sensors
 from tandemlift.settings.supervision import SupervisionTable
-from tandemlift.settings.world import Actuators, Disturbance, Fault, Ground, Plant, Sensors, WindTable
+from tandemlift.settings.surroundings import Ground, WindTable
+from tandemlift.settings.world import Actuators, Disturbance, Fault, Plant
 
 Row = tuple[str, str]
 Settings = TypeVar("Settings", bound=Table)
@@ -204,7 +206,7 @@ LEADS = {
 
 
 def _company(flight: Flight) -> Iterator[Row]:
-    p = _table(flight, "partner", PartnerTable)
+    p = _table(flight, "person", PartnerTable)
     if p.model == "none":
         return
     if p.model == "grab":

@@ -16,13 +16,13 @@ from tandemlift.errors import InputError, unknown
 from tandemlift.live.controls import controls_of
 from tandemlift.live.messages import Set
 from tandemlift.live.session import Session
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
 from tandemlift.ros.diagnostics import Tell
 from tandemlift.ros.middleware import Middleware
 from tandemlift.settings import Mission
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
-SPRING = ("partner.stiffness", "partner.damping")  # of a page's hand; here pushes are forces
+SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces
 LAST = (DAMPING, RATIO)  # are set after mass and stiffness, of which they are formed
 
 

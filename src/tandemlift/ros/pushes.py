@@ -90,10 +90,10 @@ class Pushes:
 
     def _bounded(self, force: Array) -> Array:
         """A force of the same direction that the flight's hand has at most."""
-        most, size = self._session.flight.now.partner.max_force, float(np.linalg.norm(force))
+        most, size = self._session.flight.now.person.max_force, float(np.linalg.norm(force))
         if size <= most:
             return force if size >= LEAST else np.zeros(3)
-        self._tell(f"push cut: {size:.3g} N is more than partner.max_force = {most:g} N")
+        self._tell(f"push cut: {size:.3g} N is more than person.max_force = {most:g} N")
         return force * (most / size)
 
     def _point(self, frame: str, force: Array, torque: Array) -> Array:

@@ -27,6 +27,7 @@ NonNegative = Annotated[float, Field(ge=0.0)]
 AtLeastOne = Annotated[float, Field(ge=1.0)]
 Scale = Annotated[float, Field(ge=1e-6, le=1e6)]
 Size = Annotated[float, Field(ge=0.0, le=1e6)]
+Delay = Annotated[float, Field(ge=0.0, le=1.0)]  # s
 Tilt = Annotated[float, Field(gt=0.0, le=1.4)]  # rad
 Length = Annotated[float, Field(gt=0.0, le=1e3), AfterValidator(divisor)]  # m
 

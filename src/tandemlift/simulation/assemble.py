@@ -53,8 +53,8 @@ def delays_of(mission: Mission) -> NDArray[np.int64]:
         mission.actuators.delay * real,
     ]
     steps = [round(s / mission.mission.step) for s in seconds]
-    sight = round(mission.partner.delay / mission.mission.step) - 1  # what is seen is known a step later anyway
-    accompanied = mission.partner.model not in ("none", "grab")
+    sight = round(mission.person.delay / mission.mission.step) - 1  # what is seen is known a step later anyway
+    accompanied = mission.person.model not in ("none", "grab")
     return np.array([*steps, max(sight, 0) * accompanied], dtype=np.int64)
 
 

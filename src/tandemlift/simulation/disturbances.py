@@ -26,7 +26,7 @@ NO_WHIFFS = Whiffs(0.0, 0.0, 0.0, 0.0, 0.0)
 
 def push_kind(mission: Mission) -> Any:
     """The zero push of the type that serves a mission's pushes: with a moment only if one has any."""
-    central = all(p.point == ZERO for p in mission.pushes) and mission.partner.model == "none"
+    central = all(p.point == ZERO for p in mission.pushes) and mission.person.model == "none"
     return CentralPush(ZERO) if central else PointPush(ZERO, mat3([[0.0] * 3] * 3))
 
 

@@ -29,7 +29,7 @@ LATER = "is chosen before a flight begins, and cannot be changed in flight"
 
 def changes_in_flight(mission: Mission) -> bool:
     """Whether something changes while a mission is flown."""
-    return bool(mission.changes or mission.partner.recording)
+    return bool(mission.changes or mission.person.recording)
 
 
 class Due(NamedTuple):
@@ -125,7 +125,7 @@ class Changing:
     def __init__(self, p: Prepared) -> None:
         self.dues = dues_of(p)
         self.ramps: list[Ramp] = []
-        self.moved = read_recording(p.mission.partner.recording) if p.mission.partner.recording else None
+        self.moved = read_recording(p.mission.person.recording) if p.mission.person.recording else None
         self.next_row = 0
 
     def become(self, numbers: Array, before: Prepared, due: Due) -> None:

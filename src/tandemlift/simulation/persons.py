@@ -11,7 +11,7 @@ from tandemlift.laws.person.tremor import STILL, TWITCH, tremor
 from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, Grab, Grabbing
 from tandemlift.laws.signals.low_pass import Smoothed, low_pass
 from tandemlift.settings import Mission
-from tandemlift.settings.partner import PartnerTable, WaypointTable
+from tandemlift.settings.person import PartnerTable, WaypointTable
 from tandemlift.vehicle import Vehicle
 
 
@@ -19,18 +19,18 @@ def manner_of(p: PartnerTable) -> Manner:
     """How a person of a mission leads."""
     hands = 1.0 if p.model == "two-hands" else 0.0
     at_grip, stays = 0.0 if p.model == "steer" else 1.0, 1.0 if p.model == "hold" else 0.0
-    return Manner(at_grip, hands * p.turn_gain, hands * p.turn_damping, stays)
+    return Manner(at_grip, hands * p.yaw_gain, hands * p.yaw_damping, stays)
 
 
 def waypoints_of(mission: Mission) -> tuple[WaypointTable, ...]:
     """The path of a mission's person: their own, or the corridor's centreline."""
     centreline = mission.corridor.centreline
-    return mission.partner.path or tuple(WaypointTable(point=point) for point in centreline)
+    return mission.person.path or tuple(WaypointTable(point=point) for point in centreline)
 
 
 def grip_of(mission: Mission, vehicle: Vehicle) -> Vec3:
     """Where the person holds on [m, body axes, from the centre of mass]."""
-    along = 0.0 if mission.partner.model == "two-hands" else mission.partner.grip
+    along = 0.0 if mission.person.model == "two-hands" else mission.person.grip
     return vec3([0.0, along, 0.0] - vehicle.center_of_mass)
 
 
@@ -38,7 +38,7 @@ def legs_of(mission: Mission, partner: Any, state: State) -> list[Leg]:
     """The legs of a mission's path, from where what is steered is at the start; none without a person."""
     if not isinstance(partner, Partner):
         return []
-    p, waypoints = mission.partner, waypoints_of(mission)
+    p, waypoints = mission.person, waypoints_of(mission)
     at, _ = steered(partner.manner, sight(partner.grip, state))
     at, heading, legs = Vec3(at.x, at.y, at.z + mission.phases.height), mission.initial.euler[2], list[Leg]()
     level = at.z
@@ -46,7 +46,8 @@ def legs_of(mission: Mission, partner: Any, state: State) -> list[Leg]:
         end = Vec3(float(w.point[0]), float(w.point[1]), level + w.rise)
         heading = heading if w.heading is None else w.heading
         stops = 1.0 if w.dwell > 0.0 or number == len(waypoints) - 1 else 0.0
-        legs.append(Leg(at, end, heading, w.dwell, stops, p.arrive if stops else p.corner, float(number)))
+        radius = p.arrival_radius if stops else p.corner_distance
+        legs.append(Leg(at, end, heading, w.dwell, stops, radius, float(number)))
         at = end
     return legs
 
@@ -60,7 +61,7 @@ def start_grab(p: PartnerTable, step: float) -> tuple[Grab, Grabbing]:
 
 def start_partner(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any, Any, Any]:
     """The person of a mission, their memory at t = 0 and the layout of their noise; or `Nothing` three times."""
-    p, step = mission.partner, mission.mission.step
+    p, step = mission.person, mission.mission.step
     if p.model == "none":
         return Nothing(), Nothing(), Nothing()
     if p.model == "grab":
@@ -75,9 +76,20 @@ def start_partner(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any
         most_couple=p.max_couple,
         horizon=p.delay + 2.0 * p.lag,
     )
-    height = mission.initial.position[2] + p.height_share * mission.phases.height
+    height = mission.initial.position[2] + p.height_fraction * mission.phases.height
     last = float(len(waypoints_of(mission)) - 1)
-    walk = Walk(p.speed, p.gain, p.look_ahead, p.approach, p.breakaway, p.trimming, p.slow, p.start, height, last)
+    walk = Walk(
+        speed=p.speed,
+        gain=p.gain,
+        look_ahead=p.look_ahead,
+        approach_gain=p.approach_gain,
+        breakaway_force=p.breakaway_force,
+        trim_rate=p.trim_rate,
+        landing_speed=p.landing_speed,
+        start_time=p.start_time,
+        height=height,
+        last=last,
+    )
     partner = Partner(grip, arm, walk, manner_of(p))
     seen = sight(grip, state)
     quiet = Smoothed(0.0, 0.0)

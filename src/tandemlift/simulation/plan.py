@@ -93,5 +93,5 @@ class Prepared:
 
 def takes_long(mission: Mission) -> bool:
     """Whether flying this mission, once compiled, takes more than a second or so."""
-    stepwise = Prepared(mission).interpreted is not None or mission.changes or mission.partner.recording
+    stepwise = Prepared(mission).interpreted is not None or mission.changes or mission.person.recording
     return mission.mission.steps >= (LONG_STEPWISE if stepwise else LONG_RUN)

@@ -85,7 +85,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         unit_period=period,
         length=payload.length or math.inf,
         bandwidth=e.push_bandwidth,
-        least_force=e.least_force,
+        min_force=e.min_force,
         tare_start=0.0 if e.tare == "hover" else e.tare_start,
         tare_duration=e.tare_duration,
         identify_mass=e.identify_mass,

@@ -15,8 +15,8 @@ from tandemlift.errors import InputError, suggestion
 from tandemlift.flight.record import CHANNELS, DERIVED, TIME, Channel, Divergence, Flight
 from tandemlift.kernels import place
 from tandemlift.loop.running_metrics import EMPTY
-from tandemlift.missions.explain import shown
 from tandemlift.missions.recording import engine_of
+from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.simulation.plan import Prepared
 from tandemlift.simulation.results import Flown, channels_of, divergence_of, flight_of, take_tallies

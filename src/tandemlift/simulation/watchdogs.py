@@ -23,7 +23,7 @@ from tandemlift.loop.fault_tolerant_perception import Failing, FailingMemory, Wa
 from tandemlift.settings import Mission, SensorFaultTable
 from tandemlift.simulation.sensors import steps_of
 
-ON = {"unit": ("joints", "accelerometer", "gyroscope"), "motion": ("position", "velocity", "attitude")}
+ON = {"imu": ("joints", "accelerometer", "gyroscope"), "motion": ("position", "velocity", "attitude")}
 
 
 def _steps(f: SensorFaultTable, step: float) -> tuple[float, float]:
@@ -45,7 +45,7 @@ def with_faults(mission: Mission, devices: Any, sensing: Any) -> tuple[Any, Any]
         return devices, sensing
     step, count = mission.mission.step, len(mission.vehicle.quadrotors)
     silence: dict[str, Any] = {name: Silence(NEVER, NEVER) for name in ON}
-    faults: dict[str, Any] = dict.fromkeys((*ON["unit"], *ON["motion"]), SOUND)
+    faults: dict[str, Any] = dict.fromkeys((*ON["imu"], *ON["motion"]), SOUND)
     joints = [SOUND] * count
     for f in mission.sensor_faults:
         if f.kind == "stale":
@@ -62,7 +62,7 @@ def with_faults(mission: Mission, devices: Any, sensing: Any) -> tuple[Any, Any]
 
 def _alike(mission: Mission) -> Alike:
     """How many samples alike make a sensor frozen: never where no noise is expected."""
-    s, most = mission.sensors, float(mission.supervision.watch.frozen)
+    s, most = mission.sensors, float(mission.supervision.watchdog.frozen_samples)
 
     def after(noise: float) -> float:
         return most if noise > 0.0 else math.inf
@@ -81,19 +81,19 @@ def watched(mission: Mission, estimators: Any, memory: Any, readings: Any) -> tu
     """Estimators and their memory, behind the watchdogs of a mission if it has any."""
     if mission.supervision.model == "none" or isinstance(estimators, Nothing):
         return estimators, memory
-    w, step = mission.supervision.watch, mission.mission.step
+    w, step = mission.supervision.watchdog, mission.mission.step
     interval = step * steps_of(mission.sensors.motion.interval, step)
     watchdog = Watchdog(
-        stale=w.stale,
-        invalid=w.invalid,
-        ranges=Ranges(w.force, w.torque, w.specific_force, w.rates, w.position, w.velocity),
+        stale=w.stale_time,
+        invalid=w.invalid_time,
+        ranges=Ranges(w.max_force, w.max_torque, w.max_specific_force, w.max_rates, w.max_position, w.max_velocity),
         alike=_alike(mission),
         forgets=min(interval / w.window, 1.0),
         attitude=w.attitude_gap,
         way=w.position_gap,
         speed=w.speed_gap,
-        turn_share=1.0 - math.exp(-w.turn_bandwidth * interval),
-        way_share=1.0 - math.exp(-w.way_bandwidth * interval),
+        turn_share=1.0 - math.exp(-w.rates_bandwidth * interval),
+        way_share=1.0 - math.exp(-w.velocity_bandwidth * interval),
         per_interval=1.0 / interval,
     )
     return Watched(watchdog, estimators), WatchedMemory(start_watching(readings), memory)

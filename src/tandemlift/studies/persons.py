@@ -20,7 +20,7 @@ from tandemlift.studies.scenarios import Bench
 
 SCALED = (
     *("stiffness", "damping", "lag", "gain", "speed"),
-    *("look_ahead", "approach", "trimming", "turn_gain", "turn_damping"),
+    *("look_ahead", "approach_gain", "trim_rate", "yaw_gain", "yaw_damping"),
 )
 LONGER = 1.6  # times the mission's duration: some persons are slow
 NEAR, STANDS = 1.2, 0.02  # m: of the path's end, and of the height at which it stood
@@ -33,23 +33,23 @@ def random_persons(name: str, count: int, seed: int = 1) -> list[Mission]:
     drawn = []
     for i in range(count):
         wind, angle, grip = rng.uniform(0.0, 1.0), rng.uniform(0.0, 2.0 * np.pi), rng.uniform(-1.0, 1.0)
-        own = {f"partner.{key}": getattr(mission.partner, key) * rng.uniform(0.7, 1.3) for key in SCALED}
+        own = {f"person.{key}": getattr(mission.person, key) * rng.uniform(0.7, 1.3) for key in SCALED}
         own |= {
             "mission.seed": i,
             "mission.duration": LONGER * mission.mission.duration,
-            "partner.delay": 0.02 * int(rng.integers(5, 16)),
-            "partner.tremor": rng.uniform(0.0, 0.1),
+            "person.delay": 0.02 * int(rng.integers(5, 16)),
+            "person.tremor": rng.uniform(0.0, 0.1),
             "disturbance.force": [wind * np.cos(angle), wind * np.sin(angle), 0.0],
         }
-        if mission.partner.model == "steer":
-            own["partner.grip"] = grip
+        if mission.person.model == "steer":
+            own["person.grip"] = grip
         drawn.append(load_mission(name, own))
     return drawn
 
 
 def through(mission: Mission, metrics: dict[str, Any]) -> bool:
     """Whether a flight came to the end of its path, stands there, and touched no wall."""
-    end = ([w.point for w in mission.partner.path] or list(mission.corridor.centreline))[-1]
+    end = ([w.point for w in mission.person.path] or list(mission.corridor.centreline))[-1]
     x, y, z = metrics["final_position_m"] or [np.nan] * 3
     there = np.hypot(x - end[0], y - end[1]) < NEAR
     return bool(there and abs(z - mission.initial.position[2]) < STANDS and not metrics["wall_contact"])

@@ -24,7 +24,7 @@ TRIAL: Changes = {
     "initial.euler": [0.15, -0.15, 0.2],
     "ground.model": "floor",
     "ground.height": FLOOR,
-    "compliance.press": DROP,
+    "compliance.touchdown_depth": DROP,
     "detection.model": "residual",
 }
 CALM, WIND = "calm", "wind"

@@ -7,7 +7,7 @@ import { type Ask, ControlBox } from "./control.ts";
 import { choice, el, icon, toggle } from "./dom.ts";
 import { RotorMap } from "./rotormap.ts";
 
-const MOST = "partner.max_force"; // the control that bounds the force of the keys
+const MOST = "person.max_force"; // the control that bounds the force of the keys
 const LEAST = 0.1; // N
 
 const OVERLAYS: Record<Overlay, string> = {

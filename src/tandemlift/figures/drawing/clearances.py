@@ -62,8 +62,8 @@ def clearances(flight: Flight) -> Clearances:
 
 
 def grips(flight: Flight) -> Array | None:
-    """Where the person of [partner] holds on (T, 3) [m, world axes], or None without one."""
-    partner = flight.mission.get("partner", {"model": "none"})
+    """Where the person of [person] holds on (T, 3) [m, world axes], or None without one."""
+    partner = flight.mission.get("person", {"model": "none"})
     if partner["model"] in ("none", "grab"):
         return None
     along = 0.0 if partner["model"] == "two-hands" else partner["grip"]

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Quat
 from tandemlift.figures.drawing.vehicle import mass_of, vehicle_of
-from tandemlift.flight.record import Flight
+from tandemlift.flight import Flight
 from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.settings.world import Ground
+from tandemlift.settings.surroundings import Ground
 from tandemlift.vehicle import Vehicle
 
 Array = NDArray[np.float64]

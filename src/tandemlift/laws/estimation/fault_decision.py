@@ -13,15 +13,16 @@ FAITH = 10.0  # evidence that a rotor has beforehand that was named
 class Rules(NamedTuple):
     """When a rotor is named, or restored.
 
-    `evidence` over none and `margin` over the next, as twice a log-likelihood ratio; `rest`: the share of |r|² that
-    may stay unexplained; `dwell` [s]; for how long a named rotor is tried again, `retest` [s]; 1/spread².
+    `threshold` over none and `isolation_margin` over the next, as twice a log-likelihood ratio;
+    `unexplained_fraction`: of |r|², that may stay unexplained; `dwell` [s]; for how long a named rotor is tried again,
+    `retest_time` [s]; 1/spread².
     """
 
-    evidence: Any
-    margin: Any
-    rest: Any
+    threshold: Any
+    isolation_margin: Any
+    unexplained_fraction: Any
     dwell: Any
-    retest: Any
+    retest_time: Any
     per_spread: Any
 
 
@@ -76,13 +77,13 @@ def judged(k: Rules, v: Verdict, evidence: Any, square: Any, active: Any, t: Any
     """
     held = evidence + v.lost * FAITH
     best = greatest(held)
-    clear = where(best - greatest(but(held, best)) > k.margin, active, 0.0)
-    sure = where(best > k.evidence, where(square - best > k.rest * square, 0.0, clear), 0.0)
+    clear = where(best - greatest(but(held, best)) > k.isolation_margin, active, 0.0)
+    sure = where(best > k.threshold, where(square - best > k.unexplained_fraction * square, 0.0, clear), 0.0)
     above = counted(v.above, held, best, sure, dt)
     ripe = where(greatest(above) < k.dwell, 0.0, 1.0)
     renamed = ripe * (1.0 - where(total(is_named(v.lost, above, k.dwell, ripe) * v.lost) > 0.0, 1.0, 0.0))
     named = total(v.lost)
-    alive = where(total(v.lost * evidence) < -k.evidence, (v.alive + dt) * named * active, 0.0)
+    alive = where(total(v.lost * evidence) < -k.threshold, (v.alive + dt) * named * active, 0.0)
     restored = where(alive < k.dwell, 0.0, 1.0)
     return Verdict(
         is_named(v.lost, above, k.dwell, renamed) * (1.0 - restored),

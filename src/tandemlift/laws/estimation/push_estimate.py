@@ -204,7 +204,7 @@ def push_estimator(
     unit_period: int = 1,
     length: float = math.inf,
     bandwidth: float = 36.0,
-    least_force: float = 0.5,
+    min_force: float = 0.5,
     tare_start: float | None = None,
     tare_duration: float = 2.0,
     identify_mass: bool = False,
@@ -223,7 +223,7 @@ def push_estimator(
         unit_period: of the on-board unit, in steps.
         length: of the beam along body y [m]; no point of application lies beyond its ends.
         bandwidth: of the low-pass [rad/s].
-        least_force: across the beam [N], below which no point of application is given.
+        min_force: across the beam [N], below which no point of application is given.
         tare_start: of the tare in hover [s]; None for no tare.
         tare_duration: [s].
         identify_mass: whether to identify the payload's mass during the tare.
@@ -247,7 +247,7 @@ def push_estimator(
         reach=0.5 * length,
         per_interval=1.0 / (step * unit_period),
         low_pass=low_pass(bandwidth, step),
-        least=least_force**2,
+        least=min_force**2,
         tare_start=0.0 if tare_start is None else float(tare_start),
         tare_end=-math.inf if tare_start is None else tare_start + tare_duration,
         identify=1.0 if identify_mass else 0.0,

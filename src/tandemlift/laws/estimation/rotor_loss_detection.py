@@ -38,9 +38,9 @@ HELD = 0.15  # of the weight: the force from below with which it counts as stand
 class Detection(NamedTuple):
     """The vehicle as it is believed to be, low-passes, rules.
 
-    `rotors`: stands for their lag and delay; `quick` for the residual; `slow` for its mean; `habit` for its scatter.
-    Sets of thrust [N], roll, pitch, yaw [N·m]: `scatter`² of a well modelled vehicle, `bound`² on what a sample adds to
-    it. `trial` [N]: command to a lost rotor while it is tried again, a set of rotors; `numbers` of the
+    `rotors`: stands for their lag and delay; `quick` for the residual; `bias_filter` for its mean, `scatter_filter` for
+    its scatter. Sets of thrust [N], roll, pitch, yaw [N·m]: `scatter`² of a well modelled vehicle, `bound`² on what a
+    sample adds to it. `trial` [N]: command to a lost rotor while it is tried again, a set of rotors; `numbers` of the
     rotors, from 1.
     """
 
@@ -49,8 +49,8 @@ class Detection(NamedTuple):
     effect: Mixer
     rotors: LowPass
     quick: LowPass
-    slow: LowPass
-    habit: LowPass
+    bias_filter: LowPass
+    scatter_filter: LowPass
     scatter: Any
     bound: Any
     trial: Any
@@ -105,7 +105,7 @@ def trials(k: Detection, verdict: Verdict, t: Any) -> Any:
 @law
 def confirmed(k: Detection, verdict: Verdict, t: Any) -> Any:
     """1 once a rotor has stayed lost for as long as it is tried again, else 0."""
-    return total(verdict.lost) * where(t - verdict.since < k.rules.retest, 0.0, 1.0)
+    return total(verdict.lost) * where(t - verdict.since < k.rules.retest_time, 0.0, 1.0)
 
 
 @law
@@ -195,7 +195,8 @@ def _watched(k, memory, heard, thrusts, active, t, dt):
     verdict = judged(k.rules, m.verdict, evidence_for(k, f, off, weights), total(off * off * weights), judging, t, dt)
     rest = r - explained_by(k, m.verdict, f)
     left = rest - m.mean.value
-    mean, scatter = smooth(k.slow, m.mean, rest), smooth(k.habit, m.scatter, minimum(left * left, k.bound))
+    mean = smooth(k.bias_filter, m.mean, rest)
+    scatter = smooth(k.scatter_filter, m.scatter, minimum(left * left, k.bound))
     still = kept_or(scatter.value, k.bound * FRESH, free)
     return Watching(
         m.rotors,

@@ -26,13 +26,14 @@ LATE = 0.5  # 1/s: the bias comes two seconds after what is learned
 class DeadBand(NamedTuple):
     """Threshold [N] above which a push is heard, and `release` [N] below which it is over; `dwell` [s] before it is.
 
-    `forget`: one over the time [s] over which the mean is taken for a bias, once nothing was heard for `QUIET`.
+    `forgetting`: one over the time constant [s] of the mean that is learned as a bias, once nothing was heard for
+    `QUIET`.
     """
 
     threshold: Any
     release: Any
     dwell: Any
-    forget: Any
+    forgetting: Any
 
 
 class Hearing(NamedTuple):
@@ -54,22 +55,22 @@ class Limits(NamedTuple):
     speed: Vec3
     acceleration: Vec3
     jerk: Vec3
-    braking: Any
+    braking_gain: Any
 
 
 class Compliance(NamedTuple):
     """Low-pass on the push, dead-band, low-pass after it, M, C, K and T_d, limits; what leads by how long [s].
 
-    `force_lead` [s] of the push that is countered, `lead` [s] of the reference's acceleration.
+    `force_lead` [s] of the push that is countered, `reference_lead` [s] of the reference's acceleration.
     """
 
-    hearing: LowPass
+    input_filter: LowPass
     band: DeadBand
-    easing: LowPass
+    output_filter: LowPass
     admittance: Admittance
     limits: Limits
     force_lead: Any
-    lead: Any
+    reference_lead: Any
 
 
 class Compliant(NamedTuple):
@@ -123,7 +124,7 @@ def hear(k: DeadBand, m: Hearing, force: Any, listening: Any, dt: Any) -> Any:
     above = time_above(m.above, f, k.threshold, dt) * listening
     on = still_on(m.on, above, f, k.threshold, k.release, k.dwell) * listening
     off = silent_for(m.off, on, dt) * listening
-    learned = kept(on, m.bias, m.learned + drawn(force - m.learned, k.threshold * FAINT, off) * (k.forget * dt))
+    learned = kept(on, m.bias, m.learned + drawn(force - m.learned, k.threshold * FAINT, off) * (k.forgetting * dt))
     bias = m.bias + (learned - m.bias) * (LATE * dt)
     return soft(f, k.threshold) * on, Hearing(on, above, off, learned, bias)
 
@@ -154,7 +155,7 @@ def wanted(k: Compliance, m: Compliant, force: Vec3, damping: Any, across: Any) 
     a = k.admittance
     pull = force - (a.damping + Vec3(damping, damping, damping)) * m.velocity - a.stiffness * (m.position - m.anchor)
     free = clip(pull * a.inverse_mass, -k.limits.acceleration, k.limits.acceleration)
-    return shortened(braked(free, m.velocity, k.limits.speed, k.limits.braking), across)
+    return shortened(braked(free, m.velocity, k.limits.speed, k.limits.braking_gain), across)
 
 
 @law
@@ -170,9 +171,9 @@ def comply(k: Compliance, m: Compliant, push: Vec3, listening: Any, damping: Any
         across: the greatest horizontal acceleration that the rotors can still give [m/s²].
         dt: of the step [s].
     """
-    heard = smooth(k.hearing, m.heard, push)
+    heard = smooth(k.input_filter, m.heard, push)
     beyond, hearing = hear(k.band, m.hearing, heard.value, listening, dt)
-    eased = smooth(k.easing, m.eased, beyond)
+    eased = smooth(k.output_filter, m.eased, beyond)
     asked = wanted(k, m, eased.value, damping, across)
     acceleration = approached(m.acceleration, asked, k.limits.jerk * dt)
     jerk = (acceleration - m.acceleration) * (1.0 / dt)
@@ -185,8 +186,8 @@ def comply(k: Compliance, m: Compliant, push: Vec3, listening: Any, damping: Any
 @law
 def with_speed(k: Compliance, speed: Vec3) -> Compliance:
     """A compliance with another greatest speed along each axis [m/s]."""
-    limits = Limits(speed, k.limits.acceleration, k.limits.jerk, k.limits.braking)
-    return Compliance(k.hearing, k.band, k.easing, k.admittance, limits, k.force_lead, k.lead)
+    limits = Limits(speed, k.limits.acceleration, k.limits.jerk, k.limits.braking_gain)
+    return Compliance(k.input_filter, k.band, k.output_filter, k.admittance, limits, k.force_lead, k.reference_lead)
 
 
 @law

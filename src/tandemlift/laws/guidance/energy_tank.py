@@ -21,10 +21,10 @@ class Tank(NamedTuple):
     `fading`: one over the time that damping stays [1/s].
     """
 
-    size: Any
-    low: Any
+    capacity: Any
+    low_energy: Any
     most: Any
-    share: Any
+    refill_fraction: Any
     fading: Any
 
 
@@ -47,6 +47,6 @@ def _no_tank(k, m, push, velocity, burned, dt):
 
 @damp.register(Tank)
 def _tank(k, m, push, velocity, burned, dt):
-    energy = clip(m.energy + (dot(push, velocity) + burned * k.share) * dt, -k.size, k.size)
-    added = maximum(1.0 - clip(energy / k.low, 0.0, 1.0), m.added * (1.0 - k.fading * dt))
+    energy = clip(m.energy + (dot(push, velocity) + burned * k.refill_fraction) * dt, -k.capacity, k.capacity)
+    added = maximum(1.0 - clip(energy / k.low_energy, 0.0, 1.0), m.added * (1.0 - k.fading * dt))
     return k.most * added, Filled(energy, added)

@@ -50,7 +50,7 @@ CHECKS = (
 class Faults(NamedTuple):
     """By fault, in the order of `FAULTS`: what is wrong (of a sensor, `KINDS` from 1), 1 for a fault, 0 for none."""
 
-    unit: Any
+    imu: Any
     joints: Any
     accelerometer: Any
     gyroscope: Any
@@ -58,18 +58,18 @@ class Faults(NamedTuple):
     position: Any
     velocity: Any
     attitude: Any
-    joints_apart: Any
-    attitude_apart: Any
-    velocity_apart: Any
+    joints_inconsistent: Any
+    attitude_inconsistent: Any
+    velocity_inconsistent: Any
     state: Any
     orientation: Any
     fence: Any
     thrust: Any
     tilt: Any
     rates: Any
-    error: Any
+    tracking_error: Any
     rotor: Any
-    speed_apart: Any
+    speed_inconsistent: Any
 
 
 class Worst(NamedTuple):
@@ -94,7 +94,7 @@ def worst_of(f: Faults, r: Faults) -> Worst:
     """The worst of faults `f`, with the reactions `r` to each."""
     w = worse(NO_ALARM, f.orientation, r.orientation, 130.0)
     w = worse(w, f.state, r.state, 120.0)
-    w = worse(w, f.unit, r.unit, 10.0)
+    w = worse(w, f.imu, r.imu, 10.0)
     w = worse(w, f.motion, r.motion, 50.0)
     w = worse(w, f.joints, r.joints, 20.0 + f.joints)
     w = worse(w, f.accelerometer, r.accelerometer, 30.0 + f.accelerometer)
@@ -102,16 +102,16 @@ def worst_of(f: Faults, r: Faults) -> Worst:
     w = worse(w, f.position, r.position, 60.0 + f.position)
     w = worse(w, f.velocity, r.velocity, 70.0 + f.velocity)
     w = worse(w, f.attitude, r.attitude, 80.0 + f.attitude)
-    w = worse(w, f.joints_apart, r.joints_apart, 90.0)
-    w = worse(w, f.attitude_apart, r.attitude_apart, 100.0)
-    w = worse(w, f.velocity_apart, r.velocity_apart, 110.0)
-    w = worse(w, f.speed_apart, r.speed_apart, 200.0)
+    w = worse(w, f.joints_inconsistent, r.joints_inconsistent, 90.0)
+    w = worse(w, f.attitude_inconsistent, r.attitude_inconsistent, 100.0)
+    w = worse(w, f.velocity_inconsistent, r.velocity_inconsistent, 110.0)
+    w = worse(w, f.speed_inconsistent, r.speed_inconsistent, 200.0)
     w = worse(w, f.rotor, r.rotor, 190.0)
     w = worse(w, f.tilt, r.tilt, 160.0)
     w = worse(w, f.rates, r.rates, 170.0)
     w = worse(w, f.fence, r.fence, 140.0)
     w = worse(w, f.thrust, r.thrust, 150.0)
-    return worse(w, f.error, r.error, 180.0)
+    return worse(w, f.tracking_error, r.tracking_error, 180.0)
 
 
 def alarm_name(alarm: float) -> str:

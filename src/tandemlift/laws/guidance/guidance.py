@@ -303,7 +303,7 @@ def _guided(g, m, heard, unknown, lost, t, dt):
     guidance = Guidance(
         after.eased.value,
         motion,
-        Reference(target, course.angle, course.rate, course.acceleration, after.jerk * g.compliance.lead),
+        Reference(target, course.angle, course.rate, course.acceleration, after.jerk * g.compliance.reference_lead),
         countered(g.compliance, after) * orders.countering,
         (moment.value + moment.rate * g.moment_lead) * orders.countering,
         Share(orders.running),

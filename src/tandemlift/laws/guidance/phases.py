@@ -23,10 +23,10 @@ STEADY = 0.1  # m/s and rad/s
 class Phasing(NamedTuple):
     """What is asked for, and how fast.
 
-    `height` [m] of the lift; when it is asked for, and the landing [s]; rates are 1/duration [1/s]. `press` [m]: how
-    far below the ground the landing's reference ends, so that the feet press. `spool` [s] from when the rotors run to
-    the lift. `always` is 1 if the rotors run in idle too. `descent` [m/s]: the greatest speed of a landing. `requests`
-    besides, or `Nothing`.
+    `height` [m] of the lift; when it is asked for, and the landing [s]; rates are 1/duration [1/s]. `touchdown_depth`
+    [m]: how far below the ground the landing's reference ends, so that the feet press. `spin_up_time` [s] from when the
+    rotors run to the lift. `always` is 1 if the rotors run in idle too. `max_descent_speed` [m/s]: of a landing.
+    `requests` besides, or `Nothing`.
     """
 
     height: Any
@@ -34,10 +34,10 @@ class Phasing(NamedTuple):
     lift_rate: Any
     land_start: Any
     land_rate: Any
-    press: Any
-    spool: Any
+    touchdown_depth: Any
+    spin_up_time: Any
     always: Any
-    descent: Any
+    max_descent_speed: Any
     requests: Any
 
 
@@ -121,7 +121,7 @@ def wants_lift(k: Phasing, m: Phase, asked: Asked, wish: Any, wants_land: Any) -
 def next_phase(k: Phasing, m: Phase, asked: Asked, bounds: Bounds, lifts: Any, wants_land: Any, t: Any) -> Any:
     """The phase after this sample; `lifts` is 1 if a lift begins."""
     lift = is_in(m, LIFT)
-    up = lift * where((t - m.since - k.spool) * k.lift_rate >= 1.0, 1.0, 0.0) + is_in(m, GUIDED) + is_in(m, HOLD)
+    up = lift * where((t - m.since - k.spin_up_time) * k.lift_rate >= 1.0, 1.0, 0.0) + is_in(m, GUIDED) + is_in(m, HOLD)
     listens = asked.enabled * bounds.clear * (1.0 - bounds.hold)
     demanded = maximum(maximum(wants_land, bounds.land), lift * bounds.hold)
     lands = (lift + is_in(m, GUIDED) + is_in(m, HOLD)) * demanded
@@ -135,7 +135,8 @@ def next_phase(k: Phasing, m: Phase, asked: Asked, bounds: Bounds, lifts: Any, w
 @law
 def landing_rate(k: Phasing, height: Any) -> Any:
     """1/duration [1/s] of a landing over a height [m], no faster than allowed."""
-    return minimum(k.land_rate, k.descent / (1.875 * maximum(height, 1e-3)))  # 1.875: the smooth step's greatest slope
+    steepest = 1.875  # slope of the smooth step
+    return minimum(k.land_rate, k.max_descent_speed / (steepest * maximum(height, 1e-3)))
 
 
 @law
@@ -167,8 +168,8 @@ def follow(k: Phasing, m: Phase, state: State, asked: Asked, wants: Any, bounds:
     lands = where(phase == LAND, 1.0 - is_in(m, LAND), 0.0)
     ground = where(lifts > 0.0, height, m.ground)
     deep = where(lands > 0.0, bounds.deep, m.deep)
-    rate = where(lands > 0.0, landing_rate(k, height - ground + k.press + deep), m.land_rate)
-    up = smoothstep(t, m.since + k.spool, k.lift_rate).value
+    rate = where(lands > 0.0, landing_rate(k, height - ground + k.touchdown_depth + deep), m.land_rate)
+    up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate).value
     in_vain = maximum(lifts, maximum(1.0 - idle, idle * more(asked.lands, m.lands)))
     return Phase(
         phase,
@@ -187,10 +188,10 @@ def follow(k: Phasing, m: Phase, state: State, asked: Asked, wants: Any, bounds:
 def orders_of(k: Phasing, m: Phase, t: Any) -> Orders:
     """What a phase lets happen at time t [s]."""
     idle, lift, land, stopped = is_in(m, IDLE), is_in(m, LIFT), is_in(m, LAND), is_in(m, STOPPED)
-    up = smoothstep(t, m.since + k.spool, k.lift_rate)
+    up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate)
     down = smoothstep(t, m.since, m.land_rate)
     landed = idle * k.always * where(m.land_rate > 0.0, 1.0, 0.0)
-    begun = where(t - m.since < k.spool, 0.0, 1.0)
+    begun = where(t - m.since < k.spin_up_time, 0.0, 1.0)
     down_here = idle * (1.0 - k.always)
     risen = m.risen * (1.0 - stopped) * (1.0 - down_here)
     return Orders(
@@ -201,6 +202,6 @@ def orders_of(k: Phasing, m: Phase, t: Any) -> Orders:
         flying=(1.0 - down_here) * (1.0 - stopped) * (1.0 - lift * (1.0 - begun) * (1.0 - k.always)),
         lift=Ramp(where(lift > 0.0, up.value, risen), lift * up.rate, lift * up.curvature),
         land=Ramp(land * down.value + landed, land * down.rate, land * down.curvature),
-        end=m.ground - k.press - m.deep,
+        end=m.ground - k.touchdown_depth - m.deep,
         countering=(1.0 - idle) * (1.0 - stopped),
     )

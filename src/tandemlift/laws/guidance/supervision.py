@@ -37,13 +37,13 @@ class Checks(NamedTuple):
 class Fence(NamedTuple):
     """Corners of the box for the reference [m, world axes], and by how much the vehicle may be outside [m].
 
-    `slowing` [1/s]: the speed towards a side of the box over the distance that is left.
+    `braking_gain` [1/s]: the speed towards a side of the box over the distance that is left.
     """
 
     low: Vec3
     high: Vec3
     margin: Any
-    slowing: Any
+    braking_gain: Any
 
 
 class Limits(NamedTuple):
@@ -56,11 +56,11 @@ class Limits(NamedTuple):
     thrust: Any
     upright: Any
     rates: Any
-    error: Any
+    tracking_error: Any
     thrust_time: Any
     tilt_time: Any
     rates_time: Any
-    error_time: Any
+    tracking_error_time: Any
     apart_time: Any
     blank_time: Any
 
@@ -69,10 +69,10 @@ class Supervision(NamedTuple):
     """The numbers of a supervision.
 
     Masses as believed [kg]; the rotors' limits [N] and the faults that are known of them; `reactions` to each fault. A
-    hold lasts at most `patience` [s] and ends once all has been well for `calm` [s]. `deeper` [m]: how much farther
-    down a landing ends that cannot know its height; `sinking` [m/s²]: how one begins that knows no motion at all.
-    `touch` [m]: how far above a landing's reference it stands on something. `slots`: numbers of the events, from 0, a
-    set.
+    hold lasts at most `hold_timeout` [s] and ends once all has been well for `recovery_time` [s]. `blind_descent_depth`
+    [m]: how much farther down a landing ends that cannot know its height; `blind_descent_acceleration` [m/s²]: how one
+    begins that knows no motion at all. `touchdown_gap` [m]: how far above a landing's reference it stands on something.
+    `slots`: numbers of the events, from 0, a set.
     """
 
     mass: Any
@@ -83,11 +83,11 @@ class Supervision(NamedTuple):
     fence: Fence
     bounds: Limits
     reactions: Faults
-    patience: Any
-    calm: Any
-    deeper: Any
-    sinking: Any
-    touch: Any
+    hold_timeout: Any
+    recovery_time: Any
+    blind_descent_depth: Any
+    blind_descent_acceleration: Any
+    touchdown_gap: Any
     slots: Any
 
 
@@ -212,7 +212,7 @@ def refusal_to_lift(k: Supervision, s: Senses, state: State, own: Own, reaction:
     n = first_check(4.0, where(weight > c.share * most, 1.0, 0.0), n)
     n = first_check(3.0, ill + s.apart + reaction, n)
     n = first_check(2.0, maximum(r.motion, 1.0 - r.seen), n)
-    return first_check(1.0, maximum(r.unit, 1.0 - r.seen), n)
+    return first_check(1.0, maximum(r.imu, 1.0 - r.seen), n)
 
 
 @law
@@ -238,9 +238,9 @@ def timed(k: Supervision, m: Supervising, s: Senses, state: State, own: Own, sha
         lasting(t.thrust, aloft * where(share > b.thrust, 1.0, 0.0), dt),
         lasting(t.tilt, flying * where(body_z_axis(state.attitude).z < b.upright, 1.0, 0.0), dt),
         lasting(t.rates, flying * where(dot(state.rates, state.rates) > b.rates * b.rates, 1.0, 0.0), dt),
-        lasting(t.error, aloft * where(dot(off, off) > b.error * b.error, 1.0, 0.0), dt),
+        lasting(t.error, aloft * where(dot(off, off) > b.tracking_error * b.tracking_error, 1.0, 0.0), dt),
         lasting(t.blank, own.blank, dt),
-        lasting(t.stuck, landing * where(-off.z > k.touch, 1.0, 0.0), dt),
+        lasting(t.stuck, landing * where(-off.z > k.touchdown_gap, 1.0, 0.0), dt),
     )
 
 
@@ -249,9 +249,9 @@ def faults_of(k: Supervision, s: Senses, timers: Timers, state: State, own: Own,
     """What is wrong."""
     r, b = s.report, k.bounds
     listening = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, 0.0))
-    no_attitude = where(r.attitude + r.motion > 0.0, where(r.gyroscope + r.unit > 0.0, 1.0, 0.0), 0.0)
+    no_attitude = where(r.attitude + r.motion > 0.0, where(r.gyroscope + r.imu > 0.0, 1.0, 0.0), 0.0)
     return Faults(
-        unit=r.unit,
+        imu=r.imu,
         joints=r.joints,
         accelerometer=r.accelerometer,
         gyroscope=r.gyroscope,
@@ -259,18 +259,18 @@ def faults_of(k: Supervision, s: Senses, timers: Timers, state: State, own: Own,
         position=r.position,
         velocity=r.velocity,
         attitude=r.attitude,
-        joints_apart=too_long(timers.apart, b.apart_time),
-        attitude_apart=r.attitude_apart,
-        velocity_apart=r.velocity_apart,
+        joints_inconsistent=too_long(timers.apart, b.apart_time),
+        attitude_inconsistent=r.attitude_inconsistent,
+        velocity_inconsistent=r.velocity_inconsistent,
         state=too_long(timers.blank, b.blank_time),
         orientation=no_attitude,
         fence=listening * outside(k.fence, state.position),
         thrust=too_long(timers.thrust, b.thrust_time),
         tilt=too_long(timers.tilt, b.tilt_time),
         rates=too_long(timers.rates, b.rates_time),
-        error=too_long(timers.error, b.error_time),
+        tracking_error=too_long(timers.error, b.tracking_error_time),
         rotor=own.rotor_lost,
-        speed_apart=r.speed_apart,
+        speed_inconsistent=r.speed_inconsistent,
     )
 
 
@@ -279,7 +279,7 @@ def bounds_of(k: Supervision, s: Senses, m: Supervising, refused: Any, grounded:
     """What a reaction and refusals come to. `refused`: by the checks before (a lift, listening)."""
     r, flying = s.report, 1.0 - grounded
     unknown = where(r.motion + r.position > 0.0, 1.0, 0.0)
-    unmoved = where(r.motion + r.position + r.velocity > 0.0, where(r.accelerometer + r.unit > 0.0, 1.0, 0.0), 0.0)
+    unmoved = where(r.motion + r.position + r.velocity > 0.0, where(r.accelerometer + r.imu > 0.0, 1.0, 0.0), 0.0)
     return Supervised(
         Bounds(
             ready=where(refused[0] > 0.0, 0.0, 1.0),
@@ -288,7 +288,7 @@ def bounds_of(k: Supervision, s: Senses, m: Supervising, refused: Any, grounded:
             land=where(m.reaction >= LANDS, flying, 0.0),
             stop=where(m.reaction >= STOPS, flying, 0.0),
             landed=too_long(m.timers.stuck, STUCK),
-            deep=k.deeper * unknown,
+            deep=k.blind_descent_depth * unknown,
         ),
         unmoved,
     )

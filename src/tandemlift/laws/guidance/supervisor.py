@@ -48,11 +48,11 @@ def reacted(k: Supervision, m: Supervising, w: Worst, timers: Timers, state: Sta
     """The memory with the worst fault of now; `idle` is 1 on the ground, else 0."""
     raised = where(w.reaction > m.reaction, 1.0, 0.0)
     well = where(w.reaction > 0.0, 0.0, m.well + dt)
-    over = where(well < k.calm, 0.0, where(m.reaction > HOLDS, idle, 1.0))
+    over = where(well < k.recovery_time, 0.0, where(m.reaction > HOLDS, idle, 1.0))
     reaction = where(raised > 0.0, w.reaction, m.reaction * (1.0 - over))
     alarm = where(raised > 0.0, w.alarm, m.alarm * (1.0 - over))
     held = (m.held + dt) * (1.0 - idle) * where(reaction == HOLDS, 1.0, 0.0)
-    reaction = where(held > k.patience, maximum(reaction, LANDS), reaction)
+    reaction = where(held > k.hold_timeout, maximum(reaction, LANDS), reaction)
     return Supervising(reaction, alarm, held, well, timers, state, m.reference, m.refused, m.deaf, m.events)
 
 
@@ -171,7 +171,7 @@ def _unfenced(k, compliance, m, up):
 @kept_inside.register(Supervision)
 def _fenced(k, compliance, m, up):
     f, at, most = k.fence, m.position + Vec3(0.0, 0.0, up), compliance.limits.speed
-    return with_speed(compliance, speed_left(at, m.velocity, m.eased.value, f.low, f.high, f.slowing, most))
+    return with_speed(compliance, speed_left(at, m.velocity, m.eased.value, f.low, f.high, f.braking_gain, most))
 
 
 @choice
@@ -190,8 +190,9 @@ def _never_given_up(k, target, state, blind, lands, share):
 @given_up.register(Supervision)
 def _given_up(k, target, state, blind, lands, share):
     down = maximum(share - 0.5, 0.0)
+    most = k.blind_descent_acceleration
     return Trajectory(
         chosen(blind, state.position, target.position),
         chosen(blind, state.velocity, target.velocity),
-        chosen(blind, Vec3(0.0, 0.0, -k.sinking * lands * (1.0 + PRESSING * down)), target.acceleration),
+        chosen(blind, Vec3(0.0, 0.0, -most * lands * (1.0 + PRESSING * down)), target.acceleration),
     )

@@ -16,16 +16,16 @@ from tandemlift.laws.signals.low_pass import LowPass, Smoothed, smooth
 class Turning(NamedTuple):
     """Low-pass on the moment, dead-band [N·m], low-pass after it, 1/J [1/(kg·m²)], C [N·m·s], U [N·m].
 
-    `leash` [rad]: how far the reference may be ahead of the vehicle, so that it waits for one that cannot turn.
+    `max_lead_angle` [rad]: how far the reference may lead the vehicle, so that it waits for one that cannot turn.
     """
 
-    hearing: LowPass
+    input_filter: LowPass
     band: DeadBand
-    easing: LowPass
+    output_filter: LowPass
     inverse_inertia: Any
     damping: Any
     most: Any
-    leash: Any
+    max_lead_angle: Any
 
 
 class Heading(NamedTuple):
@@ -42,11 +42,11 @@ class Heading(NamedTuple):
 class Held(NamedTuple):
     """The heading is held at an angle [rad], whatever the moment.
 
-    Once a rotor is lost, the reference is no farther than `leash` [rad] from the vehicle, which may have to turn.
+    Once a rotor is lost, the reference is at most `max_lead_angle` [rad] from the vehicle, which may have to turn.
     """
 
     angle: Any
-    leash: Any
+    max_lead_angle: Any
 
 
 class Course(NamedTuple):
@@ -67,18 +67,18 @@ def turn(k: Any, m: Any, moment: Any, yaw: Any, orders: Any, lost: Any, dt: Any)
 
 @turn.register(Held)
 def _held(k, m, moment, yaw, orders, lost, dt):
-    near = turned_least(yaw + clip(turned_least(k.angle - yaw), -k.leash, k.leash))
+    near = turned_least(yaw + clip(turned_least(k.angle - yaw), -k.max_lead_angle, k.max_lead_angle))
     return Course(where(lost > 0.0, near, k.angle), 0.0, 0.0), m
 
 
 @turn.register(Turning)
 def _turning(k, m, moment, yaw, orders, lost, dt):
-    heard = smooth(k.hearing, m.heard, moment)
+    heard = smooth(k.input_filter, m.heard, moment)
     beyond, hearing = hear(k.band, m.hearing, heard.value, orders.listening, dt)
-    eased = smooth(k.easing, m.eased, beyond)
+    eased = smooth(k.output_filter, m.eased, beyond)
     acceleration = (eased.value - clip(k.damping * m.rate, -k.most, k.most)) * k.inverse_inertia
     ahead = turned_least(m.angle + m.rate * dt + acceleration * (0.5 * dt * dt) - yaw)
-    leash, off = k.leash * (1.0 - orders.grounded), 1.0 - orders.grounded
-    angle = turned_least(yaw + clip(ahead, -leash, leash))
+    most, off = k.max_lead_angle * (1.0 - orders.grounded), 1.0 - orders.grounded
+    angle = turned_least(yaw + clip(ahead, -most, most))
     after = Heading(heard, hearing, eased, angle, (m.rate + acceleration * dt) * off, acceleration)
     return Course(m.angle, m.rate, acceleration), after

@@ -107,11 +107,11 @@ class Walk(NamedTuple):
     speed: Any
     gain: Any
     look_ahead: Any
-    approach: Any
-    breakaway: Any
-    trimming: Any
-    slow: Any
-    start: Any
+    approach_gain: Any
+    breakaway_force: Any
+    trim_rate: Any
+    landing_speed: Any
+    start_time: Any
     height: Any
     last: Any
 
@@ -125,8 +125,8 @@ class Manner(NamedTuple):
     """
 
     at_grip: Any
-    turn_gain: Any
-    turn_damping: Any
+    yaw_gain: Any
+    yaw_damping: Any
     stays: Any
 
 
@@ -176,10 +176,11 @@ def pursue(w: Walk, leg: Leg, p: Vec3, v: Vec3) -> Vec3:
     square = maximum(dot(along, along), TINY)
     ahead = clip(dot(p - leg.start, along) / square + w.look_ahead / sqrt(square), 0.0, 1.0)
     way = leg.start + along * ahead - p
-    slower = minimum(w.speed, w.approach * sqrt(maximum(dot(left, left), TINY)))
+    slower = minimum(w.speed, w.approach_gain * sqrt(maximum(dot(left, left), TINY)))
     speed = where(leg.stops > 0.0, slower, w.speed)
     force = (way * (speed / sqrt(maximum(dot(way, way), TINY))) - v) * w.gain
-    return force * (1.0 + w.breakaway / sqrt(dot(force, force) + maximum(w.breakaway * w.breakaway, TINY)))
+    extra = w.breakaway_force
+    return force * (1.0 + extra / sqrt(dot(force, force) + maximum(extra * extra, TINY)))
 
 
 @law
@@ -206,7 +207,7 @@ def aim(k: Partner, m: Partnering) -> Aim:
     wanted = pursue(k.walk, m.leg, p, v)
     led = seen.grip + seen.grip_velocity * ahead + bounded(wanted + m.trim, k.arm.most) / k.arm.stiffness
     off = turned_least(m.leg.heading - seen.yaw - seen.yaw_rate * ahead)
-    couple = clip(off * manner.turn_gain - seen.yaw_rate * manner.turn_damping, -k.arm.most_couple, k.arm.most_couple)
+    couple = clip(off * manner.yaw_gain - seen.yaw_rate * manner.yaw_damping, -k.arm.most_couple, k.arm.most_couple)
     place = m.leg.end * manner.stays + led * (1.0 - manner.stays)
     return Aim(place, couple, across(m.leg, m.leg.end - p, wanted))
 
@@ -227,9 +228,10 @@ def push_by(k: Partner, m: Partnering, now: Sight, state: State) -> PointPush:
 def gone_on(k: Partner, m: Partnering, t: Any, dt: Any) -> Partnering:
     """The memory of how far the person has come, by what they see."""
     w, seen = k.walk, m.seen
-    begun = maximum(m.begun, where(seen.position.z < w.height, 0.0, where(t < w.start, 0.0, 1.0)))
+    begun = maximum(m.begun, where(seen.position.z < w.height, 0.0, where(t < w.start_time, 0.0, 1.0)))
     p, v = steered(k.manner, seen)
-    left, stands = m.leg.end - p - v * k.arm.horizon, dot(seen.velocity, seen.velocity) < w.slow * w.slow
+    left = m.leg.end - p - v * k.arm.horizon
+    stands = dot(seen.velocity, seen.velocity) < w.landing_speed * w.landing_speed
     there = where(dot(left, left) < m.leg.within * m.leg.within, begun, 0.0)
     on_it = where(m.leg.number == m.index, 1.0, 0.0)
     waited = (m.waited + dt * maximum(there, where(m.waited > 0.0, 1.0, 0.0))) * on_it
@@ -257,7 +259,7 @@ def _somebody(partner, memory, hand, state, noise, t, dt):
     idle = m.seen.grip + m.seen.grip_velocity * partner.arm.horizon
     place = smooth(lag, m.place, intent.place * holding + idle * (1.0 - holding))
     couple, grasp = smooth(lag, m.couple, intent.couple * holding), smooth(lag, m.grasp, holding)
-    trim = bounded(m.trim + intent.across * (partner.walk.trimming * dt), partner.arm.most) * holding
+    trim = bounded(m.trim + intent.across * (partner.walk.trim_rate * dt), partner.arm.most) * holding
     shaking = shake(partner.arm.tremor, m.tremor, noise)
     after = Partnering(now, m.index, m.leg, place, couple, grasp, trim, m.waited, m.begun, m.landing, shaking)
     push = push_by(partner, after, now, state)

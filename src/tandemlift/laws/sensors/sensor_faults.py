@@ -41,7 +41,7 @@ class Silence(NamedTuple):
 class SensorFaults(NamedTuple):
     """Of both devices, and of every sensor on them."""
 
-    unit: Silence
+    imu: Silence
     motion: Silence
     joints: SensorFault
     accelerometer: SensorFault
@@ -159,7 +159,7 @@ def spoil(k: SensorFaults, m: Spoiling, readings: Readings) -> Any:
         spoil_attitude(k.attitude, v.attitude, then.attitude, n),
         v.fresh,
     )
-    silent = during(k.unit.start, k.unit.end, n), during(k.motion.start, k.motion.end, n)
+    silent = during(k.imu.start, k.imu.end, n), during(k.motion.start, k.motion.end, n)
     given = Readings(held_unit(silent[0], unit, was), held_motion(silent[1], motion, then))
     return given, Spoiling(given, n + 1.0)
 

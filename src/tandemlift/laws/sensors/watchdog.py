@@ -91,10 +91,10 @@ class Watching(NamedTuple):
 class Report(NamedTuple):
     """What is wrong: 1 or 0, or what is wrong with a sensor (`KINDS`, from 1; 0 for nothing).
 
-    `unit` and `motion`: stale. `seen`: 1 once both devices have been heard.
+    `imu` and `motion`: stale. `seen`: 1 once both devices have been heard.
     """
 
-    unit: Any
+    imu: Any
     motion: Any
     joints: Any
     accelerometer: Any
@@ -102,9 +102,9 @@ class Report(NamedTuple):
     position: Any
     velocity: Any
     attitude: Any
-    attitude_apart: Any
-    velocity_apart: Any
-    speed_apart: Any
+    attitude_inconsistent: Any
+    velocity_inconsistent: Any
+    speed_inconsistent: Any
     seen: Any
 
 
@@ -148,8 +148,8 @@ def replaced_unit(u: Unit, r: Report, rates: Vec3, p: Predicted, mean: Biases) -
     force = u.specific_force + chosen(moves, p.accelerometer_bias - mean.accelerometer, ZERO)
     turning = u.rates + chosen(turns, p.gyroscope_bias - mean.gyroscope, ZERO)
     return Unit(
-        chosen(maximum(r.accelerometer, r.unit), still, force),
-        chosen(maximum(r.gyroscope, r.unit), rates + p.gyroscope_bias, turning),
+        chosen(maximum(r.accelerometer, r.imu), still, force),
+        chosen(maximum(r.gyroscope, r.imu), rates + p.gyroscope_bias, turning),
         u.joint_force,
         u.joint_torque,
         u.frame,
@@ -248,7 +248,7 @@ def any_wrong(h: Healths) -> Any:
 @law
 def any_lost(r: Report) -> Any:
     """1 if any of what is compared is lost, else 0."""
-    unit = r.unit + r.gyroscope + r.accelerometer
+    unit = r.imu + r.gyroscope + r.accelerometer
     return where(unit + r.motion + r.attitude + r.position + r.velocity > 0.0, 1.0, 0.0)
 
 
@@ -261,7 +261,7 @@ def watch(k: Watchdog, m: Watching, readings: Readings, p: Predicted, dt: Any) -
     before = reported(k, health, unit_age, motion_age, seen[0] * seen[1], m.apart)
     kept, attitude = kept_unit(m.good.unit, u, health), passing(health.attitude)
     seen_attitude = chosen_attitude(attitude, v.attitude, m.good.motion.attitude)
-    heard = where(before.gyroscope + before.unit > 0.0, 0.0, 1.0)
+    heard = where(before.gyroscope + before.imu > 0.0, 0.0, 1.0)
     rates = turning_of(k, m, kept, seen_attitude, v.fresh * attitude, heard, p)
     wrong, velocity = maximum(any_wrong(health), any_lost(before)), velocity_of(k, m, v, health, before)
     mean = mean_of(m.mean, p, wrong, dt)

@@ -16,7 +16,7 @@ MAX_DELAY = 10_000  # steps
 WIDTH = 3.0  # of a push, in standard deviations
 
 
-def check_equipment(m: Mission) -> None:
+def check_hardware(m: Mission) -> None:
     """Refuse rotors that cannot lift or fail as told, and what sensors and estimators cannot give.
 
     Raises:
@@ -72,7 +72,7 @@ def _check_delays(m: Mission) -> None:
         "actuators.delay": m.actuators.delay,
         "sensors.delay": m.sensors.delay,
         "sensors.motion.delay": m.sensors.motion.delay,
-        "partner.delay": m.partner.delay,
+        "person.delay": m.person.delay,
     }
     for key, delay in delays.items():
         if delay / m.mission.step > MAX_DELAY:
@@ -130,7 +130,7 @@ def _check_detection(m: Mission) -> None:
         )
 
 
-def doubts_of_equipment(m: Mission) -> Iterator[str]:
+def hardware_warnings(m: Mission) -> Iterator[str]:
     """What may fly badly, with the numbers."""
     if m.actuators.model == "rotors":
         yield from _of_hover(m)

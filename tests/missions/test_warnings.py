@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 import tandemlift as tl
 from tandemlift.laws.mechanics.contact import sinkage_of, standing_height
-from tandemlift.missions import load_mission
-from tandemlift.missions.equipment import lift_of, weight_of
-from tandemlift.missions.flyable import row_of
-from tandemlift.missions.surroundings import standing_of
+from tandemlift.missions import built_in, load_mission
+from tandemlift.missions.checks import sample_size
+from tandemlift.missions.hardware_checks import lift_of, weight_of
+from tandemlift.missions.surroundings_checks import standing_of
 from tandemlift.simulation.assemble import assemble
 from tandemlift.simulation.plan import Prepared
 from tandemlift.trace import leaves
@@ -21,7 +21,7 @@ WEAK = [{"quadrotor": 1, "rotor": r, "time": 1.0, "efficiency": 0.1, "known_afte
 ALONG = [{"start": [0.2, -3.0], "end": [0.2, 3.0]}]
 GUSTS = [{"velocity": [1.0, 0.0, 0.0], "start": 1.0, "rise": 1.0}]
 SHORT_LEGS = {f"vehicle.quadrotors.{i}.feet_depth": 0.1 for i in (0, 1)}
-UNLIMITED = {"allocation.method": "pseudo-inverse", "observer.model": "none"}
+UNLIMITED = {"allocation.method": "pseudo-inverse", "observer.model": "none", "detection.model": "none"}
 AIR = {"wind.model": "air", "wind.turbulence": 3.0}
 
 TOLD = {  # on top of mission iris
@@ -143,9 +143,12 @@ def test_lift_and_weight_are_those_of_the_parts():
     assert lift_of(mission, faulty=True) == pytest.approx((5 + 0.3) * most)
 
 
+WITHOUT = {"detection.model": "none", "supervision.model": "none"}
+
+
 @pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
-@pytest.mark.parametrize("changes", [{}, {"wind.model": "air"}, UNLIMITED], ids=str)
-@pytest.mark.parametrize("name", ["paper", "four", "iris"])
-def test_the_log_s_size_is_told_to_the_byte(name, changes):
+@pytest.mark.parametrize("changes", [{}, {"wind.model": "air"}, UNLIMITED, WITHOUT], ids=str)
+@pytest.mark.parametrize("name", built_in())
+def test_the_size_of_a_logged_sample_is_that_of_the_log(name, changes):
     mission = load_mission(name, changes)
-    assert row_of(mission) == 8 * (leaves(Prepared(mission).sample) + 1)  # and its time
+    assert sample_size(mission) == 8 * (leaves(Prepared(mission).sample) + 1)  # and its time

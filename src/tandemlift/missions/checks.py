@@ -9,11 +9,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.errors import FlightWarning, InputError
-from tandemlift.missions.company import check_company, doubts_of_company
-from tandemlift.missions.equipment import check_equipment, doubts_of_equipment
-from tandemlift.missions.explain import shown
-from tandemlift.missions.supervised import check_supervised
-from tandemlift.missions.surroundings import check_surroundings, doubts_of_surroundings
+from tandemlift.missions.hardware_checks import check_hardware, hardware_warnings
+from tandemlift.missions.person_checks import check_person, person_warnings
+from tandemlift.missions.supervision_checks import check_supervision
+from tandemlift.missions.surroundings_checks import check_surroundings, surroundings_warnings
+from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
@@ -32,21 +32,27 @@ def check_flyable(m: Mission) -> None:
     _check_times(m)
     _check_vehicle(m)
     _check_admittance(m)
-    check_equipment(m)
+    check_hardware(m)
     check_surroundings(m)
-    check_supervised(m)
-    check_company(m)
+    check_supervision(m)
+    check_person(m)
 
 
-def row_of(m: Mission) -> int:
-    """Bytes of a logged sample."""
+def sample_size(m: Mission) -> int:
+    """Bytes of a logged sample: 8 for its time and for each number of the channels that the mission has."""
     count = len(m.vehicle.quadrotors)
-    numbers = 51 + 10 * count
-    numbers += (5 + 4 * count) * (m.actuators.model == "rotors") + 6 * (m.wind.model == "air")
-    numbers += 12 * (m.observer.model != "none") + 9 * (m.pilot.guidance == "hand")
-    numbers += 3 * (m.ground.model == "floor") + (42 + 6 * count) * (m.sensors.model == "simulated")
-    numbers += 2 * (m.supervision.model == "watch")
-    return 8 * numbers
+    numbers = {
+        "time, state, reference, admittance, push, wrench; rotors and joints": 51 + 10 * count,
+        "commands of real rotors": (5 + 4 * count) * (m.actuators.model == "rotors"),
+        "wind": 6 * (m.wind.model == "air"),
+        "contact": 3 * (m.ground.model == "floor"),
+        "readings and estimates": (42 + 6 * count) * (m.sensors.model == "simulated"),
+        "observer": 12 * (m.observer.model != "none"),
+        "guidance by hand": 9 * (m.pilot.guidance == "hand"),
+        "supervision": 2 * (m.supervision.model == "watch"),
+        "rotor-failure detection": 1 * (m.detection.model != "none"),
+    }
+    return 8 * sum(numbers.values())
 
 
 def _check_times(m: Mission) -> None:
@@ -57,7 +63,7 @@ def _check_times(m: Mission) -> None:
     if t.duration / t.step > MAX_STEPS:
         count = f"makes {t.duration / t.step:.3g} steps of mission.step = {t.step}"
         raise InputError(f"mission.duration = {t.duration}: {count}; at most {MAX_STEPS:.0e} are allowed")
-    size = t.steps / t.log_every * row_of(m)
+    size = t.steps / t.log_every * sample_size(m)
     if size > MAX_LOG:
         longer = f"must be at least {t.log_interval * size / MAX_LOG:.2g}"
         raise InputError(
@@ -101,7 +107,7 @@ def _check_admittance(m: Mission) -> None:
             )
 
 
-def _doubts(m: Mission) -> Iterator[str]:
+def _phase_warnings(m: Mission) -> Iterator[str]:
     p = m.phases
     lifted = p.lift_start + p.lift_duration
     if p.height and p.land_start is not None and p.land_start < lifted:
@@ -109,6 +115,6 @@ def _doubts(m: Mission) -> Iterator[str]:
 
 
 def warn(m: Mission, source: str) -> None:
-    """Tell of what may fly badly, with the numbers."""
-    for message in (*_doubts(m), *doubts_of_equipment(m), *doubts_of_surroundings(m), *doubts_of_company(m)):
+    """Warn of what may fly badly, with the numbers."""
+    for message in (*_phase_warnings(m), *hardware_warnings(m), *surroundings_warnings(m), *person_warnings(m)):
         warnings.warn(f"{source}: {message}", FlightWarning, stacklevel=5)

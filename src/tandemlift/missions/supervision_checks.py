@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tandemlift.errors import InputError
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 
-DEVICES = ("unit", "motion")
+DEVICES = ("imu", "motion")
 
 
-def check_supervised(m: Mission) -> None:
+def check_supervision(m: Mission) -> None:
     """Refuse a supervision and requests without a guidance by hand, limits that exclude each other, and odd faults.
 
     Raises:
@@ -44,13 +44,13 @@ def _check_limits(m: Mission) -> None:
                 f"supervision.fence.low = {shown(s.fence.low)}: must be below supervision.fence.high = "
                 f"{shown(s.fence.high)} along each axis"
             )
-    if s.checks.payload_least >= s.checks.payload_most:
-        most = f"supervision.checks.payload_most = {s.checks.payload_most}"
-        raise InputError(f"supervision.checks.payload_least = {s.checks.payload_least}: must be below {most}")
-    for name in ("stale", "invalid"):
+    if s.checks.min_payload_ratio >= s.checks.max_payload_ratio:
+        most = f"supervision.checks.max_payload_ratio = {s.checks.max_payload_ratio}"
+        raise InputError(f"supervision.checks.min_payload_ratio = {s.checks.min_payload_ratio}: must be below {most}")
+    for name in ("stale_time", "invalid_time"):
         for key, interval in (("interval", m.sensors.interval), ("motion.interval", m.sensors.motion.interval)):
-            if getattr(s.watch, name) <= max(interval, m.mission.step):
-                given = f"supervision.watch.{name} = {getattr(s.watch, name)}"
+            if getattr(s.watchdog, name) <= max(interval, m.mission.step):
+                given = f"supervision.watchdog.{name} = {getattr(s.watchdog, name)}"
                 raise InputError(f"{given}: must be longer than sensors.{key} = {interval}, and than mission.step")
 
 
@@ -61,7 +61,7 @@ def _check_sensor_faults(m: Mission) -> None:
     for i, f in enumerate(m.sensor_faults):
         for sentence in _odd(m, i):
             raise InputError(sentence)
-        parts = {"unit": ("joints", "accelerometer", "gyroscope"), "motion": ("position", "velocity", "attitude")}
+        parts = {"imu": ("joints", "accelerometer", "gyroscope"), "motion": ("position", "velocity", "attitude")}
         names = (f.sensor,) if f.kind == "stale" else parts.get(f.sensor, (f.sensor,))
         fleet = range(1, len(m.vehicle.quadrotors) + 1)
         for name in names:
@@ -75,7 +75,7 @@ def _check_sensor_faults(m: Mission) -> None:
 def _odd(m: Mission, i: int) -> Iterator[str]:
     f, key = m.sensor_faults[i], f"sensor_faults.{i}"
     if (f.kind == "stale") and f.sensor not in DEVICES:
-        yield f'{key}.kind = "stale": must be of a device, with sensor "unit" or "motion"'
+        yield f'{key}.kind = "stale": must be of a device, with sensor "imu" or "motion"'
     if f.kind in ("bias", "range") and f.sensor in DEVICES:
         yield f'{key}.kind = "{f.kind}": must be of a sensor, not of the device "{f.sensor}"'
     if f.quadrotor is not None and f.sensor != "joints":

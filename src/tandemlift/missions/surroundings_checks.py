@@ -16,7 +16,7 @@ from tandemlift.laws.mechanics.contact import Floor, floor, sinkage_of, soles_be
 from tandemlift.laws.mechanics.rectangle import offset, wall
 from tandemlift.laws.mechanics.rotation import rotation_from_euler
 from tandemlift.laws.mechanics.wind import FOOT, HIGHEST, LOWEST
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.settings.corridor import SHORTEST
 from tandemlift.vehicle import Vehicle
@@ -94,7 +94,7 @@ def standing_of(m: Mission) -> Standing:
     return Standing(built._replace(height=height), height + stands, sinkage, height - lowest - sinkage)
 
 
-def doubts_of_surroundings(m: Mission) -> Iterator[str]:
+def surroundings_warnings(m: Mission) -> Iterator[str]:
     """What may fly badly, with the numbers."""
     if m.ground.model == "floor":
         standing = standing_of(m)
