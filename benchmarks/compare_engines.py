@@ -1,8 +1,8 @@
 """How closely the engines agree, beside what is tolerated: `python benchmarks/compare_engines.py [mujoco] [gazebo]`.
 
 Prints Markdown: the same vehicle under the same thrusts, then under the same pilot, one body compiled and one in
-MuJoCo, unless other engines are named; they share no equation of motion. Differences of flights
-are those of `tandemlift compare --engines`. Ends with status 1 if one is beyond its tolerance.
+MuJoCo, unless other engines are named; they share no equation of motion. Differences of flights are those of
+`tandemlift compare --engines`. Ends with status 1 if one is beyond its tolerance.
 """
 
 from __future__ import annotations
