@@ -7,7 +7,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.cli.main import main
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.export.reading import read_bag
 from tandemlift.export.write import export
 

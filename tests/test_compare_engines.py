@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.cli.main import main
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.missions import tables_of
 from tandemlift.studies.engine_comparison import apart, fly_in, most_apart
 

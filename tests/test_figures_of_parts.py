@@ -15,7 +15,7 @@ from tandemlift.figures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
 from tandemlift.figures.drawing.vehicle import payload_mass_of
 from tandemlift.figures.registry import FIGURES, figures_of, save_figures
 from tandemlift.flight.record import Divergence
-from tandemlift.models.surroundings import floor_of
+from tandemlift.models.surroundings import floor_from
 from tandemlift.vehicle import Vehicle
 
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}
@@ -291,7 +291,7 @@ def test_grey_is_where_the_vehicle_is_in_contact(windy, drawn):
 def test_the_height_is_the_lowest_soles_over_the_floor_that_the_engine_has(windy, drawn):
     mission = tl.load_mission("iris", WIND)
     vehicle = Vehicle.from_settings(mission.vehicle)
-    floor = floor_of(mission, vehicle).height
+    floor = floor_from(mission, vehicle).height
     assert floor_height(windy) == pytest.approx(floor, abs=1e-12)
     height = clearance(windy, floor)
     assert_drawn(lines(drawn["surroundings"].axes[3])[0], windy.time, height)

@@ -12,8 +12,8 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from tandemlift.common.errors import FlightWarning, InputError
     from tandemlift.controllers import load_controller
-    from tandemlift.errors import FlightWarning, InputError
     from tandemlift.flight.record import Flight
     from tandemlift.missions import load_mission
     from tandemlift.settings import Mission
@@ -26,8 +26,8 @@ __version__ = "0.1.0"
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Flight": "flight.record",
-    "FlightWarning": "errors",
-    "InputError": "errors",
+    "FlightWarning": "common.errors",
+    "InputError": "common.errors",
     "Mission": "settings",
     "Pilot": "simulation.pilot_api",
     "Simulation": "simulation.simulation",

@@ -13,9 +13,9 @@ import pytest
 from patience import PATIENCE, ended, said
 
 import tandemlift as tl
-from tandemlift.engines.gazebo.gazebo import GazeboBody, start_of, world_of
-from tandemlift.engines.gazebo.server import free_port
-from tandemlift.engines.gazebo.wire import Wire
+from tandemlift.engines.gazebo import GazeboBody, start_state_of, world_of
+from tandemlift.engines.gazebo_server import free_port
+from tandemlift.engines.gazebo_wire import Wire
 from tandemlift.models.sdf import rotors_of
 
 from .plugin import BadNetwork, Plugin, RigidBody
@@ -75,7 +75,7 @@ def wire_to(wire_at):
 
     def dial(plugin, patience=PATIENCE):
         wire = wire_at(plugin.port, plugin.body.N, patience)
-        wire.hello(DT, rotors_of(plugin.body.vehicle), start_of(tl.load_mission("hover")))
+        wire.hello(DT, rotors_of(plugin.body.vehicle), start_state_of(tl.load_mission("hover")))
         return wire
 
     return dial
@@ -210,7 +210,7 @@ def test_a_body_that_is_no_longer_used_says_goodbye(mission, vehicle, monkeypatc
 def test_a_pilot_killed_in_flight_leaves_a_plugin_that_flies_the_next(vehicle, wire_to):
     code = (
         "import sys; sys.path[:0] = sys.argv[2:]\n"
-        "import numpy as np\nfrom tandemlift.engines.gazebo.wire import Wire\n"
+        "import numpy as np\nfrom tandemlift.engines.gazebo_wire import Wire\n"
         "wire = Wire(int(sys.argv[1]), 2)\nwire.hello(1e-3, np.zeros((3, 8)))\n"
         "while True: wire.advance(); print(flush=True)"
     )

@@ -13,7 +13,7 @@ from patience import COMPILING, completed, ended, said, until
 from screen import Screen
 
 import tandemlift as tl
-from tandemlift.engines.gazebo.server import command, in_gazebo, root
+from tandemlift.engines.gazebo_server import command, in_gazebo, root
 
 pytestmark = pytest.mark.gazebo
 TANDEMLIFT = [sys.executable, "-m", "tandemlift", "gazebo"]

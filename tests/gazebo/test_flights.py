@@ -10,7 +10,7 @@ import pytest
 from patience import ended, said, until
 
 import tandemlift as tl
-from tandemlift.engines.gazebo import gazebo
+from tandemlift.engines import gazebo
 
 pytestmark = pytest.mark.gazebo
 DT = 1e-3
@@ -99,7 +99,7 @@ def runs(server):
 
 def test_a_flight_that_is_killed_takes_its_server_with_it():
     code = (
-        "import numpy as np, tandemlift as tl\nfrom tandemlift.engines.gazebo.gazebo import GazeboBody\n"
+        "import numpy as np, tandemlift as tl\nfrom tandemlift.engines.gazebo import GazeboBody\n"
         "m = tl.load_mission('hover')\nbody = GazeboBody(m, tl.Vehicle.from_settings(m.vehicle))\n"
         "print(body.server._process.pid, flush=True)\n"
         "while True: body.advance(np.full(8, 4.0), np.zeros(0), np.zeros(3), np.zeros(3))"

@@ -12,8 +12,8 @@ import pytest
 from patience import ended, said
 
 from tandemlift.algebra.constants import GRAVITY
-from tandemlift.engines.gazebo.gazebo import GazeboBody
-from tandemlift.engines.gazebo.wire import HEADER, Wire
+from tandemlift.engines.gazebo import GazeboBody
+from tandemlift.engines.gazebo_wire import HEADER, Wire
 from tandemlift.models.sdf import rotors_of
 
 from .conftest import SILENT, fly, rest_and_fly
@@ -24,7 +24,7 @@ PUSH = "/gazebo/default/tandemlift/push"
 PILOT = """
 import sys
 import numpy as np
-from tandemlift.engines.gazebo.wire import Wire
+from tandemlift.engines.gazebo_wire import Wire
 port, weight = int(sys.argv[1]), float(sys.argv[2])
 wire = Wire(port, 2)
 state = np.array([0, 0, 5, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0], dtype=float)

@@ -16,9 +16,9 @@ from patience import ended, said, until
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Quat
-from tandemlift.engines.gazebo.ros import ROOT
-from tandemlift.engines.gazebo.ros_master import node
-from tandemlift.engines.gazebo.rospy import message_type
+from tandemlift.engines.gazebo_ros import ROOT
+from tandemlift.engines.ros_master import node
+from tandemlift.engines.rospy import message_type
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 from .conftest import SILENT_OVER_ROS, fly
@@ -27,7 +27,7 @@ pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore")]  # rospy
 DOCS = Path(__file__).parents[2] / "docs/gazebo.md"
 FIND = "import sys, threading; sys.path += sys.argv[1:]; threading.Thread.isAlive = threading.Thread.is_alive\n"
 PILOT = """
-from tandemlift.engines.gazebo.ros import RosWire
+from tandemlift.engines.gazebo_ros import RosWire
 wire = RosWire(2)
 wire.hello(1e-3, [], [0, 0, 5, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0])
 wire.thrusts[:] = {thrust!r}

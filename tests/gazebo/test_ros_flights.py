@@ -10,8 +10,8 @@ import pytest
 from patience import completed, ended, said, until
 
 import tandemlift as tl
-from tandemlift.engines.gazebo.ros import over_ros
-from tandemlift.engines.gazebo.server import root
+from tandemlift.engines.gazebo_ros import over_ros
+from tandemlift.engines.gazebo_server import root
 
 from .conftest import SILENT_OVER_ROS, Gazebo, rest_and_fly
 from .test_flights import WINDY, runs
@@ -85,7 +85,7 @@ def test_a_pilot_that_rests_is_not_given_up_by_a_world_that_is_joined(monkeypatc
 
 def test_a_flight_that_is_killed_takes_server_and_master_with_it():
     code = (
-        "import numpy as np, os, tandemlift as tl\nfrom tandemlift.engines.gazebo.ros import over_ros\n"
+        "import numpy as np, os, tandemlift as tl\nfrom tandemlift.engines.gazebo_ros import over_ros\n"
         "m = tl.load_mission('hover')\nbody = over_ros(m, tl.Vehicle.from_settings(m.vehicle))\n"
         "print(body.server._process.pid, os.environ['ROS_MASTER_URI'], flush=True)\n"
         "while True: body.advance(np.full(8, 4.0), np.zeros(0), np.zeros(3), np.zeros(3))"

@@ -8,7 +8,7 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.engines.gazebo.server import command, in_gazebo, root
+from tandemlift.engines.gazebo_server import command, in_gazebo, root
 from tandemlift.export.write import export
 
 pytestmark = pytest.mark.gazebo

@@ -13,7 +13,7 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import Vec3, vec3
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.laws.estimation.push_estimate import (
     PushEstimator,
     estimate,
@@ -24,17 +24,17 @@ from tandemlift.laws.estimation.push_estimate import (
     start_push,
 )
 from tandemlift.laws.sensors.readings import sensors
-from tandemlift.laws.sensors.sensor_errors import Grade
+from tandemlift.laws.sensors.sensor_errors import SensorGrade
 
 from .helpers import array, random_attitude, seeds
 from .newton_euler import Flight, Given, Parts, flown, paper_parts, random_parts, solved, unit
 from .perceived import STEP, happening, onboard, perceived, rows
 
 NOISE = {
-    "force": Grade(noise=0.05),
-    "torque": Grade(noise=0.01),
-    "accelerometer": Grade(noise=0.03),
-    "gyroscope": Grade(noise=0.001),
+    "force": SensorGrade(noise=0.05),
+    "torque": SensorGrade(noise=0.01),
+    "accelerometer": SensorGrade(noise=0.03),
+    "gyroscope": SensorGrade(noise=0.001),
 }
 
 
@@ -202,10 +202,10 @@ def test_the_point_stays_right_while_force_and_vehicle_turn():
 
 
 BIASED = {
-    "force": Grade(noise=0.05, bias=[[0.3, -0.2, 0.4], [-0.1, 0.25, -0.3]]),
-    "torque": Grade(noise=0.01, bias=[[0.05, 0.02, -0.04], [0.1, -0.03, 0.02]]),
-    "accelerometer": Grade(noise=0.03, bias=(0.05, -0.04, 0.03)),
-    "gyroscope": Grade(noise=0.001, bias=(0.01, 0.0, -0.01)),
+    "force": SensorGrade(noise=0.05, bias=[[0.3, -0.2, 0.4], [-0.1, 0.25, -0.3]]),
+    "torque": SensorGrade(noise=0.01, bias=[[0.05, 0.02, -0.04], [0.1, -0.03, 0.02]]),
+    "accelerometer": SensorGrade(noise=0.03, bias=(0.05, -0.04, 0.03)),
+    "gyroscope": SensorGrade(noise=0.001, bias=(0.01, 0.0, -0.01)),
 }
 
 

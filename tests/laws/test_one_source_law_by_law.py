@@ -26,7 +26,7 @@ from tandemlift.controllers import equations_of_motion, sliding_surface
 from tandemlift.laws.estimation import fault_decision, rotor_loss_detection
 from tandemlift.laws.guidance import admittance, guidance
 from tandemlift.laws.mechanics import air_drag, contact, loads, parts, rotation, tilt, walls
-from tandemlift.laws.mechanics.body import Body, State, Wrench, motion
+from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, motion
 from tandemlift.laws.mechanics.inertia import gyroscopic
 from tandemlift.laws.mechanics.push import PointPush
 from tandemlift.laws.mechanics.rectangle import Wall
@@ -40,35 +40,37 @@ V = Vec3(0.0, 0.0, 0.0)
 M = Mat3(V, V, V)
 Q = Quat(0.0, 0.0, 0.0, 0.0)
 EULER = rotation.Euler(V, *[0.0] * 7)
-BODY = Body(0.0, V, V, V, V, V, V)
+BODY = RigidBody(0.0, V, V, V, V, V, V)
 JOINT = parts.Joint(V, V)
 SURFACE = sliding_surface.Surface(V, V, sliding_surface.Power(V), V, V, sliding_surface.Tanh(V))
-AXES = equations_of_motion.Axes(V, V)
+AXES = equations_of_motion.GeneralizedVector(V, V)
 STATE = State(V, V, Q, V)
 TWO, EIGHT = each(2)(0.0, 0.0), each(8)(*[0.0] * 8)  # a value of every quadrotor, and of every rotor
 VV, FOUR = Vec3(TWO, TWO, TWO), Quarters(TWO, TWO, TWO, TWO)
-FRAME = loads.Frame(V, VV, VV, TWO, VV, FOUR, FOUR, FOUR)
-LOADS = loads.Loads(loads.Load(V, V), loads.Load(VV, VV))
-FELT = loads.Felt(V, VV, VV, V)
+FRAME = loads.PartsLayout(V, VV, VV, TWO, VV, FOUR, FOUR, FOUR)
+LOADS = loads.PartLoads(loads.PartLoad(V, V), loads.PartLoad(VV, VV))
+FELT = loads.PerfectReadings(V, VV, VV, V)
 FLOOR = contact.Floor(*[0.0] * 7, Quarters(VV, VV, VV, VV), V, 0.0)
-GRIP = Quarters(*[contact.Grip(TWO, TWO, TWO)] * 4)
+GRIP = Quarters(*[contact.FootGrip(TWO, TWO, TWO)] * 4)
 WALLS = walls.Walls(*[0.0] * 4, TWO, walls.Beam(0.0, TWO), 0.0)
 UPRIGHT, UPRIGHTS = Wall(*[0.0] * 6), Wall(*[TWO] * 6)
-NEAR = walls.Near(UPRIGHTS, UPRIGHTS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT, UPRIGHT))
+NEAR = walls.NearWalls(UPRIGHTS, UPRIGHTS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT, UPRIGHT))
 LAG, MIXER = dynamics.Lag(EIGHT, EIGHT, EIGHT), allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
 SURFACES = dynamics.GroundEffect(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, 0.0)
-ROTORS = dynamics.Rotors(EIGHT, EIGHT, EIGHT, LAG, LAG, dynamics.Faults(EIGHT, EIGHT), SURFACES, 0.0, Wrench(0.0, V))
+ROTORS = dynamics.Rotors(
+    EIGHT, EIGHT, EIGHT, LAG, LAG, dynamics.RotorFaults(EIGHT, EIGHT), SURFACES, 0.0, Wrench(0.0, V)
+)
 FOURS, LOW = each(4)(*[0.0] * 4), low_pass.LowPass(*[0.0] * 4)
-SMOOTH, SMOOTHS = low_pass.Smoothed(FOURS, FOURS), low_pass.Smoothed(EIGHT, EIGHT)
-DETECTION = rotor_loss_detection.Detection(
-    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, fault_decision.Rules(*[0.0] * 6)
+SMOOTH, SMOOTHS = low_pass.LowPassState(FOURS, FOURS), low_pass.LowPassState(EIGHT, EIGHT)
+DETECTION = rotor_loss_detection.RotorLossDetection(
+    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, fault_decision.DecisionRules(*[0.0] * 6)
 )
-WATCHING = rotor_loss_detection.Watching(
-    *[SMOOTHS] * 2, *[SMOOTH] * 4, fault_decision.Verdict(EIGHT, 0.0, 0.0, EIGHT, 0.0)
+WATCHING = rotor_loss_detection.DetectionState(
+    *[SMOOTHS] * 2, *[SMOOTH] * 4, fault_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
 )
-HEARD = guidance.Heard(STATE, V, V, 0.0, Nothing())
-BLOWN = air_drag.Blown(V, 0.0, low_pass.Smoothed(V, V))
-CONSTRAINED = allocation.Constrained(MIXER, MIXER, Wrench(0.0, V), EIGHT, dynamics.Faults(EIGHT, EIGHT))
+HEARD = guidance.PilotInput(STATE, V, V, 0.0, Nothing())
+BLOWN = air_drag.PayloadDragState(V, 0.0, low_pass.LowPassState(V, V))
+CONSTRAINED = allocation.ConstrainedAllocation(MIXER, MIXER, Wrench(0.0, V), EIGHT, dynamics.RotorFaults(EIGHT, EIGHT))
 
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "cross": (cross, (V, V)),
@@ -104,12 +106,15 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "reaching time": (sliding_surface.reaching_time, (V, V, V, V)),
     "expanded dynamics": (equations_of_motion.expanded_dynamics, (BODY, V, V, AXES)),
     "Euler dynamics": (equations_of_motion.euler_dynamics, (BODY, EULER, V, V, Wrench(0.0, V))),
-    "thrusts of rotors": (dynamics.drive, (ROTORS, dynamics.Spinning(EIGHT, EIGHT), EIGHT, STATE, 0.0)),
+    "thrusts of rotors": (dynamics.drive, (ROTORS, dynamics.RotorState(EIGHT, EIGHT), EIGHT, STATE, 0.0)),
     "commands to weak rotors": (allocation.commanded, (CONSTRAINED, EIGHT, 0.0)),
-    "watching for a lost rotor": (rotor_loss_detection.watch, (DETECTION, WATCHING, HEARD, EIGHT, 0.0, 0.0, 0.0)),
-    "wind on the payload": (air_drag.blown, (air_drag.Windage(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0)),
+    "watching for a lost rotor": (
+        rotor_loss_detection.detection_step,
+        (DETECTION, WATCHING, HEARD, EIGHT, 0.0, 0.0, 0.0),
+    ),
+    "wind on the payload": (air_drag.blown, (air_drag.PayloadDrag(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0)),
     "share of a wrench": (thrust_limits.given_share, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
-    "what joints feel": (loads.feel, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
+    "what joints feel": (loads.perfect_readings, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
     "what joints pass on": (loads.under, (LOADS.quadrotors, FRAME, Q, FELT)),
     "loads together": (loads.resultant, (FRAME, Q, LOADS)),
     "feet on the floor": (contact.touch, (FLOOR, GRIP, FRAME, STATE)),

@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.laws.signals.trajectories import Phases, Trajectory, reference, smoothstep
+from tandemlift.laws.signals.trajectories import ScheduledPhases, Trajectory, reference, smoothstep
 
 from .helpers import array, vectors
 
-PHASES = Phases(height=1.0, lift_start=2.0, lift_rate=1.0 / 6.0, land_start=70.0, land_rate=1.0 / 12.0)
+PHASES = ScheduledPhases(height=1.0, lift_start=2.0, lift_rate=1.0 / 6.0, land_start=70.0, land_rate=1.0 / 12.0)
 AT_REST = Trajectory(ZERO, ZERO, ZERO)
 
 

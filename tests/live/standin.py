@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from patience import PATIENCE, joined
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.frames import fields_of, frames_of
 from tandemlift.live.messages import Force, Grab, Message, Move, Release, Reset, Restore, Save, Set
 from tandemlift.live.scene import SPRING, scene_of

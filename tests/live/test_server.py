@@ -12,7 +12,7 @@ from patience import PATIENCE, until
 from standin import StandIn
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live import viewers
 from tandemlift.live.frames import read_frames
 from tandemlift.live.guard import listen

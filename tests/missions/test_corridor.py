@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import tandemlift as tl
-from tandemlift.laws.person.person import LEG
+from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.missions import check, tables_of
 from tandemlift.settings import wall_tables
 from tandemlift.settings.corridor import CorridorTable
@@ -82,7 +82,7 @@ def test_the_file_keeps_the_centreline_and_the_loop_gets_walls_and_legs():
     assert wall_tables(tables) == [w.model_dump(mode="json") for w in mission.all_walls]
     assembled = assemble(mission)
     assert len(assembled.tables.walls) == 1 + 6
-    legs = [unflat(row, LEG) for row in assembled.tables.legs]
+    legs = [unflat(row, PATH_LEG) for row in assembled.tables.legs]
     assert [(leg.end.x, leg.end.y) for leg in legs] == list(LINE)
     assert [leg.number for leg in legs] == [0.0, 1.0, 2.0, 3.0]
     assert check(tables) == mission

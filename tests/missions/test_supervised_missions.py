@@ -3,7 +3,7 @@
 import pytest
 
 import tandemlift as tl
-from tandemlift.laws.guidance.fault_reactions import CHECKS, FAULTS, Faults, alarm_name
+from tandemlift.laws.guidance.fault_reactions import CHECKS, FAULTS, ActiveFaults, alarm_name
 from tandemlift.missions import load_mission
 from tandemlift.pilot.supervision import start_requests
 from tandemlift.settings.supervision import ReactionsTable
@@ -71,8 +71,8 @@ def test_whatever_is_asked_the_vehicle_is_enabled_or_not():
 
 
 def test_every_fault_has_a_name_and_a_reaction_and_every_alarm_is_told_in_words():
-    assert len(FAULTS) == len(Faults._fields) == 20
-    assert set(ReactionsTable.model_fields) == set(Faults._fields)
+    assert len(FAULTS) == len(ActiveFaults._fields) == 20
+    assert set(ReactionsTable.model_fields) == set(ActiveFaults._fields)
     assert alarm_name(41.0) == "gyroscope frozen"
     assert alarm_name(62.0) == "position not a number"
     assert alarm_name(190.0) == "rotor lost"

@@ -14,7 +14,7 @@ from tandemlift.missions.checks import sample_size
 from tandemlift.missions.hardware_checks import lift_of, weight_of
 from tandemlift.missions.surroundings_checks import standing_of
 from tandemlift.simulation.assemble import assemble
-from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import leaves
 
 WEAK = [{"quadrotor": 1, "rotor": r, "time": 1.0, "efficiency": 0.1, "known_after": 0.0} for r in (1, 2, 3)]
@@ -151,4 +151,4 @@ WITHOUT = {"detection.model": "none", "supervision.model": "none"}
 @pytest.mark.parametrize("name", built_in())
 def test_the_size_of_a_logged_sample_is_that_of_the_log(name, changes):
     mission = load_mission(name, changes)
-    assert sample_size(mission) == 8 * (leaves(Prepared(mission).sample) + 1)  # and its time
+    assert sample_size(mission) == 8 * (leaves(FlightPlan(mission).sample) + 1)  # and its time

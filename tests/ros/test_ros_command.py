@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from patience import completed
 
 from tandemlift.cli.main import cli, main
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.pace import MOST_BEHIND
 from tandemlift.ros.clock import Clock
 from tandemlift.ros.dds_types import PACKAGES
@@ -74,7 +74,7 @@ def test_the_document_names_every_topic_request_and_parameter(trial):
 
 def python(code, path, *folders):
     """What a Python prints that looks for rospy in these folders."""
-    code = f"import tandemlift.engines.gazebo.rospy as noetic\nnoetic.FOLDERS = {tuple(map(str, folders))}\n{code}"
+    code = f"import tandemlift.engines.rospy as noetic\nnoetic.FOLDERS = {tuple(map(str, folders))}\n{code}"
     source = str(Path(__file__).parents[2] / "src")
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([source, *map(str, path)])}
     return completed([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
@@ -147,7 +147,7 @@ def machine(monkeypatch, somewhere):
     """Make this machine one with rospy, or with what ROS 2 needs, or not; nothing is connected to."""
 
     def make(*, rospy, dds):
-        monkeypatch.setattr("tandemlift.engines.gazebo.rospy.FOLDERS", (str(somewhere),) if rospy else ())
+        monkeypatch.setattr("tandemlift.engines.rospy.FOLDERS", (str(somewhere),) if rospy else ())
         if not rospy:
             monkeypatch.setitem(sys.modules, "rospy", None)  # wherever else it may be
         if not dds:

@@ -9,13 +9,13 @@ from ros_trial import GUIDED, UP, Middleware, Trial
 import tandemlift as tl
 from tandemlift.missions import tables_of
 from tandemlift.ros.parameters import DAMPING, RATIO
-from tandemlift.ros.requests import REQUESTS, Requests
+from tandemlift.ros.requests import REQUESTS, RequestServices
 
 
 @pytest.fixture
 def asked(trial):
     """Services whose waiting is flying."""
-    requests = Requests(trial.session, nap=trial.fly)
+    requests = RequestServices(trial.session, nap=trial.fly)
     trial.fly(UP)
     return requests.answer
 

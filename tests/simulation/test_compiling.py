@@ -15,7 +15,7 @@ import tandemlift as tl
 from tandemlift.algebra.law import LAWS
 from tandemlift.kernels import LANES
 from tandemlift.missions import built_in
-from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import key, machine
 from tandemlift.trace.key import key_of, sources
 
@@ -64,7 +64,7 @@ print(len(made), flight["thrust"].sum().hex(), tl.__file__)
 
 
 def test_an_edit_of_any_source_changes_the_key(monkeypatch):
-    value = Prepared(tl.load_mission("one-push")).flying
+    value = FlightPlan(tl.load_mission("one-push")).flying
     before, content = key_of(value), key.content
     assert len(sources(value)) > 80
     for path in sources(value):
@@ -96,7 +96,7 @@ print(key_of(flying))
 
 def test_other_versions_another_processor_and_another_layout_have_other_keys(monkeypatch):
     changes = {"controller.switching": "saturation"}
-    paper, other = (Prepared(tl.load_mission("paper", c)).flying for c in ({}, changes))
+    paper, other = (FlightPlan(tl.load_mission("paper", c)).flying for c in ({}, changes))
     keys = [key_of(paper), key_of(other), key_of(paper, "loop", 8)]
     monkeypatch.setattr(machine, "processor", lambda: ("another", "+fma"))
     keys.append(key_of(paper))
@@ -113,7 +113,7 @@ def test_two_variants_whose_parameters_are_equal_tuples_fly_differently():
 
 def text_of(name, lanes):
     """The module of a built-in mission's loop."""
-    return Prepared(tl.load_mission(name)).kernels._written("loop", lanes).text
+    return FlightPlan(tl.load_mission(name)).kernels._written("loop", lanes).text
 
 
 @pytest.mark.parametrize("name", built_in())

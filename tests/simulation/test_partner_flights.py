@@ -8,9 +8,9 @@ import pytest
 import tandemlift as tl
 from tandemlift.algebra.vector import vec3
 from tandemlift.figures.drawing.clearances import clearances
-from tandemlift.kernels import place
-from tandemlift.laws.person.person import Sight
-from tandemlift.simulation.plan import Prepared
+from tandemlift.kernels import leaf_offset
+from tandemlift.laws.person.person import PersonView
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper, fly_stepwise
 
 LEAST = {"zigzag": 0.4, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m
@@ -92,20 +92,22 @@ def test_alone_in_a_block_and_step_by_step_a_flight_with_a_person_is_the_same_to
     for mission, block in zip(missions, blocks, strict=True):
         alone = tl.fly(mission)
         assert [name for name in alone if not np.array_equal(alone[name], block[name])] == []
-    p = Prepared(missions[0])
+    p = FlightPlan(missions[0])
     steps = fly_stepwise(p, p.steps // p.every + 1, p.every)
     assert np.abs(blocks[0]["push_force"]).max() > 0.5
-    at = [n for n, span in ((n, place(p.sample, n)) for n in ("position", "push_force", "push_moment")) if span.size]
+    at = [
+        n for n, span in ((n, leaf_offset(p.sample, n)) for n in ("position", "push_force", "push_moment")) if span.size
+    ]
     for name in at:
-        span = place(p.sample, name)
+        span = leaf_offset(p.sample, name)
         assert np.array_equal(steps.log[:, span.at : span.at + span.size], blocks[0][name]), name
 
 
 def test_what_a_person_sees_is_what_was_exactly_their_delay_ago():
     mission = persons(1, **SHORT)[0]
-    p = Prepared(mission)
-    stepper, span = Stepper(p), place(p.flying, "moving", "partner", "seen")
-    at = span.at + place(Sight(*[vec3([0.0] * 3)] * 4, 0.0, 0.0), "position").at
+    p = FlightPlan(mission)
+    stepper, span = Stepper(p), leaf_offset(p.flying, "moving", "partner", "seen")
+    at = span.at + leaf_offset(PersonView(*[vec3([0.0] * 3)] * 4, 0.0, 0.0), "position").at
     was, seen = [], []
     for k in range(1500):
         was.append(stepper.a[:3].copy())

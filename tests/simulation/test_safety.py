@@ -11,7 +11,7 @@ import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing
 from tandemlift.laws.estimation.disturbance_observer import NONE
 from tandemlift.laws.guidance.fault_reactions import CHECKS, FAULTS, REACTIONS, alarm_name
-from tandemlift.laws.guidance.guidance import Heard, attend, guide
+from tandemlift.laws.guidance.guidance import PilotInput, checked_input, guide
 from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
 from tandemlift.settings.supervision import SupervisionTable
@@ -157,9 +157,9 @@ def in_plain_python(seconds, heard_at):
     flying = assemble(tl.load_mission("iris", changes)).flying
     guidance, memory, dt, names = flying.pilot.guidance, flying.moving.memory.guidance, 0.01, []
     for i in range(round(seconds / dt)):
-        heard = Heard(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
+        heard = PilotInput(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
         heard, lost = heard_at(heard, i * dt)
-        heard = attend(guidance, memory, heard, 0.0, lost)
+        heard = checked_input(guidance, memory, heard, 0.0, lost)
         decided, memory = guide(guidance, memory, heard, NONE, lost, i * dt, dt)
         names.append(NAMES[int(decided.shown.phase)])
     return list(dict.fromkeys(names)), memory

@@ -11,7 +11,7 @@ import tandemlift as tl
 from tandemlift.kernels import LANES
 from tandemlift.missions import built_in
 from tandemlift.simulation.fly import _jobs
-from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import flight_of
 from tandemlift.simulation.stepping import fly_stepwise
 
@@ -52,7 +52,7 @@ def different(a, b):
 
 
 def step_by_step(mission):
-    p = Prepared(mission)
+    p = FlightPlan(mission)
     return flight_of(p, fly_stepwise(p, p.steps // p.every + 1, p.every))
 
 

@@ -231,7 +231,7 @@ def test_a_module_on_disk_that_cannot_be_trusted_is_traced_again(way, cache):
     plan.KERNELS.clear()
     (text,) = cache.glob("code/*-text.o")
     damaged(text, way)
-    found = plan.Prepared(mission).kernels.loop(1)
+    found = plan.FlightPlan(mission).kernels.loop(1)
     found.optimise().join(PATIENCE)
     assert found.is_best
     assert np.array_equal(tl.fly(mission)["thrust"], first["thrust"])
@@ -348,7 +348,7 @@ class Full:
 def test_a_full_disk_is_no_reason_not_to_optimise(cache, monkeypatch):
     monkeypatch.setattr(store.os, "replace", fails(errno.ENOSPC))
     mission = tl.load_mission("one-push", CHANGES)
-    first, found = here(), plan.Prepared(mission).kernels.loop(1)
+    first, found = here(), plan.FlightPlan(mission).kernels.loop(1)
     thread = found.optimise()
     assert thread is not None
     thread.join(PATIENCE)

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.notices import teller
+from tandemlift.cli.notices import compile_notices
 from tandemlift.cli.results import bar, results_in
-from tandemlift.cli.run import DIVERGED, chosen_controller, load, parse_setting, say
-from tandemlift.errors import InputError
-from tandemlift.files import whole
+from tandemlift.cli.run import DIVERGED, chosen_controller, echo, load, parse_setting
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
     from tandemlift.flight.record import Flight
-    from tandemlift.studies.controller_comparison import Entrant, Entry, Part
+    from tandemlift.studies.controller_comparison import Entrant, Entry, ScoredPart
 
 FILES = ("compare.html", "compare.json")
 OF_ENGINES = ("engines.html", "engines.json")
@@ -81,7 +81,7 @@ def compare(
         entries = _fly(entered, engine)
         _print_tables(name, entries)
         _write(entries, folder, name, engine)
-        say(f"  page: {folder / 'compare.html'}")
+        echo(f"  page: {folder / 'compare.html'}")
     lost = {e.name: e.flight.divergence for e in entries if e.flight and e.flight.divergence}
     for controller, divergence in lost.items():
         click.echo(f"{controller}: {divergence}", err=True)
@@ -116,7 +116,7 @@ def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
     from tandemlift.studies.controller_comparison import compare
 
     count = sum(e.mission is not None for e in entered)
-    with teller.together(), bar("Flying", count, shown=sys.stderr.isatty()) as progress:
+    with compile_notices.together(), bar("Flying", count, shown=sys.stderr.isatty()) as progress:
         return compare(entered, engine, progress)
 
 
@@ -128,7 +128,7 @@ def _printed(value: float | None, scale: float, digits: int) -> str:
     return "" if value is None else f"{scale * value:.{digits}f}"
 
 
-def _scores(flight: Flight, part: Part) -> list[str]:
+def _scores(flight: Flight, part: ScoredPart) -> list[str]:
     """The cells of `HEADS`."""
     from tandemlift.studies.controller_comparison import scores
 
@@ -148,12 +148,12 @@ def _run(flight: Flight) -> list[str]:
 def _print_rows(heads: Sequence[str], rows: Sequence[tuple[str, list[str], str]]) -> None:
     """Print a table: rows of a name, its cells, and what is to be said under them."""
     width = max(len(name) for name, _, _ in rows) + 2
-    say("  " + " " * width + "  ".join(head.rjust(max(9, len(head))) for head in heads))
+    echo("  " + " " * width + "  ".join(head.rjust(max(9, len(head))) for head in heads))
     for name, cells, note in rows:
         filled = (cell.rjust(max(9, len(head))) for cell, head in zip(cells, heads, strict=False))
-        say(f"  {name.ljust(width)}{'  '.join(filled)}".rstrip())
+        echo(f"  {name.ljust(width)}{'  '.join(filled)}".rstrip())
         if note:
-            say(f"  {'':{width}}{note}")
+            echo(f"  {'':{width}}{note}")
 
 
 def _print_tables(name: str, entries: Sequence[Entry]) -> None:
@@ -169,14 +169,14 @@ def _print_tables(name: str, entries: Sequence[Entry]) -> None:
             rows.append((entry.name, cells, str(entry.flight.divergence or "")))
         else:
             rows.append((entry.name, [], f"not flown: {entry.refusal}"))
-    say(f"{name}: position errors {counts.words}")
+    echo(f"{name}: position errors {counts.words}")
     _print_rows((*HEADS, *OF_A_FLIGHT), rows)
     for part in others:
         if any(moving_axes(flights.values(), part)):
-            say(f"{name}: position errors {part.words}")
+            echo(f"{name}: position errors {part.words}")
             _print_rows(HEADS, [(controller, _scores(flight, part), "") for controller, flight in flights.items()])
         else:
-            say(f"  {part.words.capitalize()} every position error is below 1 µm.")
+            echo(f"  {part.words.capitalize()} every position error is below 1 µm.")
 
 
 def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> None:
@@ -189,7 +189,7 @@ def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> No
 
 
 def _write_json(found: Any, path: Path) -> None:
-    with whole(path) as partial:
+    with atomic_write(path) as partial:
         partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
 
 
@@ -200,12 +200,12 @@ def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], 
 
     loaded = load(mission, settings)
     with results_in(out, Path("out") / loaded.mission.name, OF_ENGINES) as folder:
-        with teller.together(), bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
+        with compile_notices.together(), bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
             flights = fly_in(loaded, names, progress)
         found = summary_of(flights)
         _print_differences(loaded.mission.name, found)
         _write_json({"mission": loaded.mission.name, "engines": found}, folder / "engines.json")
-        say(f"  page: {write_engines(flights, folder / 'engines.html')}")
+        echo(f"  page: {write_engines(flights, folder / 'engines.html')}")
     lost = [row for row in found if row["diverged"]]
     for row in lost:
         click.echo(f"{row['engine']}: {row['diverged']}", err=True)
@@ -220,9 +220,9 @@ def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:
     shown = [q for q in QUANTITIES if q in found[0]["apart"]]
     heads = [f"{q.replace('_', ' ')} ({QUANTITIES[q]})" for q in shown] + ["steps/s"]
     width = max(len(row["engine"]) for row in found) + 2
-    say(f"{name}: largest difference from {found[0]['engine']}")
-    say("  " + " " * width + "  ".join(head.rjust(18) for head in heads))
+    echo(f"{name}: largest difference from {found[0]['engine']}")
+    echo("  " + " " * width + "  ".join(head.rjust(18) for head in heads))
     for row in found:
         cells = [f"{row['apart'][q]:.1e}" if row is not found[0] else "" for q in shown]
         line = "  ".join(cell.rjust(18) for cell in [*cells, f"{row['steps_per_s']:,.0f}"])
-        say(f"  {row['engine'].ljust(width)}{line}")
+        echo(f"  {row['engine'].ljust(width)}{line}")

@@ -23,13 +23,13 @@ def explain(key: str | None, controller: str | None, markdown: bool) -> None:
       tandemlift explain supervision.watchdog
       tandemlift explain controller.stiffness --controller my_pd.py
     """
-    from tandemlift.cli.run import chosen_controller, say
+    from tandemlift.cli.run import chosen_controller, echo
     from tandemlift.missions.reference.explaining import explained, index
     from tandemlift.missions.reference.markdown import keys_page
 
     if controller is not None:
         chosen_controller(controller)
     if markdown:
-        say(keys_page(), nl=False)
+        echo(keys_page(), nl=False)
     else:
-        say(index() if key is None else explained(key))
+        echo(index() if key is None else explained(key))

@@ -14,14 +14,14 @@ import click
 
 from tandemlift.cli.live import DEFAULT
 from tandemlift.cli.results import bar, keep_recording, results_in, write_results
-from tandemlift.cli.run import DIVERGED, load, say, say_report, summarise
-from tandemlift.errors import InputError
+from tandemlift.cli.run import DIVERGED, echo, load, say_report, summarise
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from tandemlift.flight.record import Flight
-    from tandemlift.gazebo_app.flying import Gazebo, Photo
+    from tandemlift.gazebo_app.flying import GazeboSession, Photo
     from tandemlift.settings import Mission
 
 
@@ -67,7 +67,7 @@ def gazebo(
         raise InputError(
             f"--by-hand: is in real time and has no pictures; leave {'--fast' if fast else '--pictures'} out"
         )
-    from tandemlift.engines.gazebo.server import root
+    from tandemlift.engines.gazebo_server import root
 
     loaded = load(mission, settings)
     root()  # complains if there is no Gazebo, before anything is compiled
@@ -131,7 +131,7 @@ def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
     with opened(mission, window=window, real_time=True) as gazebo, _until_stopped() as stopped:
         recorded = RecordedFlight(mission, "gazebo")
         _tell_how_to_push(mission, gazebo)
-        say("  Ctrl-C ends it")
+        echo("  Ctrl-C ends it")
         while not (stopped() or recorded.over):
             recorded.advance()
         return recorded.snapshot().alone(), None
@@ -149,10 +149,10 @@ def _until_stopped() -> Iterator[Callable[[], bool]]:
             signal.signal(number, handler)
 
 
-def _tell_how_to_push(mission: Mission, gazebo: Gazebo) -> None:
-    from tandemlift.engines.gazebo.server import by_yourself
+def _tell_how_to_push(mission: Mission, gazebo: GazeboSession) -> None:
+    from tandemlift.engines.gazebo_server import by_yourself
 
     push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
-    say(f"{mission.mission.name}, in Gazebo; to push it, in another terminal:")
-    say(f"  {by_yourself(gazebo.master, push)}")
+    echo(f"{mission.mission.name}, in Gazebo; to push it, in another terminal:")
+    echo(f"  {by_yourself(gazebo.master, push)}")
     sys.stdout.flush()

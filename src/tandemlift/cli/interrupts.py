@@ -20,7 +20,7 @@ def leave(status: int) -> None:
     os._exit(status)
 
 
-def heed_interrupts() -> None:
+def handle_interrupts() -> None:
     """Let no Ctrl-C be lost: Python swallows one that comes while an object is finalised, and says so."""
     told = sys.unraisablehook
 

@@ -15,17 +15,17 @@ from tandemlift.cli.compare import compare
 from tandemlift.cli.explain import explain
 from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
-from tandemlift.cli.interrupts import heed_interrupts, leave
+from tandemlift.cli.interrupts import handle_interrupts, leave
 from tandemlift.cli.live import live
-from tandemlift.cli.notices import teller
+from tandemlift.cli.notices import compile_notices
 from tandemlift.cli.render import render
 from tandemlift.cli.replay import replay
 from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
-from tandemlift.cli.run import run, say
+from tandemlift.cli.run import echo, run
 from tandemlift.cli.schema import schema
 from tandemlift.cli.validate import validate
-from tandemlift.errors import FlightWarning, InputError, suggestion
+from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.trace.compile_events import watching
 
 BAD_INPUT = 2
@@ -78,7 +78,7 @@ cli.add_command(report)
 def _print_table(rows: Mapping[str, str]) -> None:
     width = max(map(len, rows)) + 2
     for name, summary in rows.items():
-        say(f"{name:{width}}{summary}")
+        echo(f"{name:{width}}{summary}")
 
 
 @cli.command()
@@ -99,7 +99,7 @@ def template() -> None:
     """
     from tandemlift.missions.reference.template import template_text
 
-    say(template_text(), nl=False)
+    echo(template_text(), nl=False)
 
 
 cli.add_command(explain)
@@ -138,9 +138,9 @@ def main() -> None:
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: what was started is ended too
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a character shows '?'
-    heed_interrupts()
+    handle_interrupts()
     try:
-        with watching(teller):
+        with watching(compile_notices):
             sys.exit(cli.main(prog_name="tandemlift", standalone_mode=False))
     except click.ClickException as error:
         error.show()

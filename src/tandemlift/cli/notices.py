@@ -16,7 +16,7 @@ PATIENCE = 2.0  # s of compiling, after which it is told before its end
 LEAST = 0.1  # s, less than which nobody notices
 
 
-class Teller:
+class CompileNotices:
     """Tells in one line of each loop, or in one of several."""
 
     def __init__(self) -> None:
@@ -75,7 +75,7 @@ class Teller:
             self._tell()
 
 
-teller = Teller()
+compile_notices = CompileNotices()
 
 
 def _say(line: str) -> None:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.results import bar, flight_file
-from tandemlift.cli.run import parse_setting, say
-from tandemlift.errors import InputError
+from tandemlift.cli.run import echo, parse_setting
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
@@ -120,4 +120,4 @@ def _draw(flight: Flight, path: Path, shot: Shot) -> None:
         count = len(rendering.Animation(flight, shot))
         with bar("Drawing", count, shown=sys.stderr.isatty()) as progress:
             rendering.render(flight, path, shot, progress)
-    say(f"{flight.name}: {path}")
+    echo(f"{flight.name}: {path}")

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.notices import teller
-from tandemlift.errors import InputError
-from tandemlift.files import whole
+from tandemlift.cli.notices import compile_notices
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -77,10 +77,10 @@ def write_results(flight: Flight, folder: Path, *, figures: bool, views: Figure 
     from tandemlift.missions import format_toml
     from tandemlift.report.flight_report import write_report
 
-    with whole(folder / "mission.toml") as partial:
+    with atomic_write(folder / "mission.toml") as partial:
         partial.write_text(format_toml(flight.mission), "utf-8")
     flight.save(folder / "flight.npz")
-    with whole(folder / "metrics.json") as partial:
+    with atomic_write(folder / "metrics.json") as partial:
         partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
     for name in (*FIGURES, VIEWS):
         for kind in ("png", "pdf"):
@@ -99,7 +99,7 @@ def keep_recording(mission: Mission, folder: Path) -> None:
     if mission.person.recording is None:
         return
     source = Path(mission.person.recording)
-    with whole(folder / source.name) as partial:
+    with atomic_write(folder / source.name) as partial:
         shutil.copyfile(source, partial)
 
 
@@ -119,5 +119,5 @@ def bar(label: str, length: int, *, shown: bool = True) -> Iterator[Callable[[in
     if not shown:
         yield None
         return
-    with teller.together(), click.progressbar(length=length, label=label, file=sys.stderr) as bar:
+    with compile_notices.together(), click.progressbar(length=length, label=label, file=sys.stderr) as bar:
         yield lambda done, total: bar.update(done - bar.pos)

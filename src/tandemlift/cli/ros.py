@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import DEFAULT, session_of
-from tandemlift.cli.run import DIVERGED, load, say
-from tandemlift.errors import InputError
+from tandemlift.cli.run import DIVERGED, echo, load
+from tandemlift.common.errors import InputError
 from tandemlift.ros.sample_queue import every_of
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def ros(
     from tandemlift.ros.selection import middleware_of, version_for
 
     if folder:
-        say(str(package()))
+        echo(str(package()))
         return
     if rviz and version == "2":
         raise InputError("--rviz: its file is for ROS 1")
@@ -100,20 +100,20 @@ def _words(words: tuple[str, ...]) -> tuple[str, list[str]]:
 
 def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
     """Fly until it ends; the phase that it ends in."""
-    from tandemlift.ros.node import Front
+    from tandemlift.ros.node import FlightNode
     from tandemlift.ros.package import start_rviz
 
     beside = start_rviz() if rviz else None
-    front = Front(session, middleware, rate)
+    front = FlightNode(session, middleware, rate)
     for number in (signal.SIGINT, signal.SIGTERM):  # from roslaunch too, which may have had them ignored
         signal.signal(number, signal.default_int_handler)
     try:
         front.start()
-        say(f"{what}: topics below /tandemlift, pushes by /tandemlift/push; Ctrl-C ends it")
+        echo(f"{what}: topics below /tandemlift, pushes by /tandemlift/push; Ctrl-C ends it")
         sys.stdout.flush()
         return front.spin()
     except KeyboardInterrupt:
-        say("stopped")
+        echo("stopped")
         return "stopped"
     finally:
         front.stop()
@@ -122,10 +122,10 @@ def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rv
 
 
 def _save(session: Session, save: str | None) -> None:
-    from tandemlift.errors import FlightWarning
+    from tandemlift.common.errors import FlightWarning
 
     if save:
         with warnings.catch_warnings():  # of what may go badly with rotors that may fail
             warnings.simplefilter("ignore", FlightWarning)
             session.flight.snapshot().save(Path(save))
-        say(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")
+        echo(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")

@@ -19,9 +19,9 @@ def schema(controller: str | None) -> None:
       tandemlift schema > mission.schema.json
       #:schema ./mission.schema.json
     """
-    from tandemlift.cli.run import chosen_controller, say
+    from tandemlift.cli.run import chosen_controller, echo
     from tandemlift.missions.reference.schema import mission_schema
 
     if controller is not None:
         chosen_controller(controller)
-    say(json.dumps(mission_schema(), indent=2, ensure_ascii=False))
+    echo(json.dumps(mission_schema(), indent=2, ensure_ascii=False))

@@ -13,7 +13,7 @@ from tandemlift.controllers import geometric, lqr, nftsmc, pid, smc, super_twist
 from tandemlift.controllers.interface import CALM, Command, Disturbance, Measured, NoMemory, control
 from tandemlift.controllers.loading import load_controller
 from tandemlift.controllers.registry import CONTROLLERS, Controller, controller, file_of, register
-from tandemlift.controllers.trial import told
+from tandemlift.controllers.trial import error_text
 from tandemlift.laws.signals.trajectories import Reference
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "Reference",
     "control",
     "controller",
+    "error_text",
     "file_of",
     "geometric",
     "load_controller",
@@ -36,5 +37,4 @@ __all__ = [
     "register",
     "smc",
     "super_twisting",
-    "told",
 ]

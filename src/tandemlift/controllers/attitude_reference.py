@@ -31,7 +31,7 @@ class CommandFilter(NamedTuple):
     velocity_from_velocity: Any
 
 
-class Filtered(NamedTuple):
+class CommandFilterState(NamedTuple):
     """Memory of the command filter: angles [rad] and rates [rad/s]."""
 
     angles: Vec3
@@ -60,7 +60,7 @@ def _unfiltered(kind, memory, desired):
 def _filtered(kind, memory, desired):
     x = memory.angles - desired
     acceleration = -(x * (kind.bandwidth * kind.bandwidth) + memory.rates * (2.0 * kind.bandwidth))
-    after = Filtered(
+    after = CommandFilterState(
         desired + x * kind.position_from_position + memory.rates * kind.position_from_velocity,
         x * kind.velocity_from_position + memory.rates * kind.velocity_from_velocity,
     )

@@ -14,12 +14,12 @@ from pydantic import Field
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
-from tandemlift.controllers.attitude_reference import Filtered, command_filter, shape, with_heading
+from tandemlift.controllers.attitude_reference import CommandFilterState, command_filter, shape, with_heading
 from tandemlift.controllers.interface import Command
 from tandemlift.laws.mechanics.body import UP, Wrench
 from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
 from tandemlift.laws.mechanics.rotation import Euler
-from tandemlift.laws.mechanics.tilt import TiltZXY, desired_orientation, most_tilt, total_thrust
+from tandemlift.laws.mechanics.tilt import TiltZXY, desired_orientation, tilt_limit, total_thrust
 from tandemlift.settings import ControllerTable, Tilt, key
 from tandemlift.vehicle import Vehicle
 
@@ -38,7 +38,7 @@ class CascadeTable(ControllerTable):
     human_force_feedforward: bool = key(True, None, "true: the position law counters the measured push")
 
 
-class Believed(NamedTuple):
+class ControllerModel(NamedTuple):
     """The vehicle as the controller believes it to be, and how a force becomes an attitude reference.
 
     `feedforward` is 1 to counter the measured push, else 0.
@@ -54,7 +54,7 @@ class Believed(NamedTuple):
 
 
 @law
-def wanted_force(b: Believed, acceleration: Vec3, measured: Any, reference: Any) -> Vec3:
+def wanted_force(b: ControllerModel, acceleration: Vec3, measured: Any, reference: Any) -> Vec3:
     """The force (u_x, u_y, u_z) [N, world axes] for an acceleration [m/s²] beyond the reference's; no limit yet."""
     ahead = reference.trajectory.acceleration + reference.lead
     force = (ahead + acceleration + UP * GRAVITY) * b.mass + b.drag_force * measured.state.velocity
@@ -62,14 +62,14 @@ def wanted_force(b: Believed, acceleration: Vec3, measured: Any, reference: Any)
 
 
 @law
-def tracked_attitude(b: Believed, memory: Filtered, e: Euler, u: Vec3, reference: Any) -> Any:
+def tracked_attitude(b: ControllerModel, memory: CommandFilterState, e: Euler, u: Vec3, reference: Any) -> Any:
     """(what the attitude law tracks, the new memory) for a force u [N, world axes] at the actual attitude e."""
     desired, memory = shape(b.shaping, memory, desired_orientation(TiltZXY(), u, e, reference.yaw))
     return with_heading(desired, reference), memory
 
 
 @law
-def wanted_moment(b: Believed, turn: Vec3, measured: Any) -> Vec3:
+def wanted_moment(b: ControllerModel, turn: Vec3, measured: Any) -> Vec3:
     """The moments (U₂, U₃, U₄) [N·m, body axes] that turn the vehicle by an angular acceleration [rad/s²]."""
     rates = measured.state.rates
     moment = turn_by(b.inertia, turn) - gyroscopic(b.inertia, rates) + b.drag_moment * rates
@@ -77,19 +77,19 @@ def wanted_moment(b: Believed, turn: Vec3, measured: Any) -> Vec3:
 
 
 @law
-def commanded(b: Believed, e: Euler, u: Vec3, turn: Vec3, angles: Vec3, measured: Any) -> Command:
+def commanded(b: ControllerModel, e: Euler, u: Vec3, turn: Vec3, angles: Vec3, measured: Any) -> Command:
     """The command for a force [N, world axes], an angular acceleration [rad/s²], and the angles [rad] tracked."""
     return Command(Wrench(total_thrust(e, u), wanted_moment(b, turn, measured)), angles)
 
 
-def believed(s: CascadeTable, vehicle: Vehicle, step: float) -> Believed:
+def controller_model(s: CascadeTable, vehicle: Vehicle, step: float) -> ControllerModel:
     """The shared part of the gains, for samples every `step` [s]."""
-    return Believed(
+    return ControllerModel(
         mass=vehicle.mass,
         inertia=inertia_value(vehicle.inertia),
         drag_force=vec3(vehicle.drag.force),
         drag_moment=vec3(vehicle.drag.moment),
-        tilt=most_tilt(s.max_tilt),
+        tilt=tilt_limit(s.max_tilt),
         shaping=command_filter(s.filter_bandwidth, step),
         feedforward=1.0 if s.human_force_feedforward else 0.0,
     )
@@ -100,5 +100,5 @@ def halves(*sixes: Sequence[float]) -> tuple[list[Sequence[float]], list[Sequenc
     return [six[:3] for six in sixes], [six[3:] for six in sixes]
 
 
-LEVEL = Filtered(ZERO, ZERO)
+LEVEL = CommandFilterState(ZERO, ZERO)
 """The attitude reference at the start."""

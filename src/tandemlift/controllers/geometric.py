@@ -27,9 +27,9 @@ from tandemlift.algebra.vector import ZERO, Mat3, Vec3, apply_transposed, cross,
 from tandemlift.controllers.cascade import (
     TUNED,
     Bandwidth,
-    Believed,
     CascadeTable,
-    believed,
+    ControllerModel,
+    controller_model,
     wanted_force,
     wanted_moment,
 )
@@ -38,7 +38,7 @@ from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.tilt import within_tilt
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, low_pass, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
 from tandemlift.settings import Positive3, key
 from tandemlift.vehicle import Vehicle
 
@@ -60,7 +60,7 @@ class GeometricSettings(CascadeTable):
 class Geometric(NamedTuple):
     """Gains: the vehicle as it is believed to be, the four gains, and the filter of A; `least` [N] of A upwards."""
 
-    vehicle: Believed
+    vehicle: ControllerModel
     position_stiffness: Vec3
     position_damping: Vec3
     attitude_stiffness: Vec3
@@ -70,7 +70,7 @@ class Geometric(NamedTuple):
     least: Any
 
 
-class Moved(NamedTuple):
+class Derivatives(NamedTuple):
     """A vector with its first and second derivative over time."""
 
     value: Vec3
@@ -78,7 +78,7 @@ class Moved(NamedTuple):
     acceleration: Vec3
 
 
-class Turning(NamedTuple):
+class AttitudeTrajectory(NamedTuple):
     """An attitude R_d, its rates Ω_d [rad/s] and Ω̇_d [rad/s²], both in its own axes. `columns`: R_dᵀ."""
 
     columns: Mat3
@@ -87,34 +87,36 @@ class Turning(NamedTuple):
 
 
 @law
-def direction(a: Moved) -> Moved:
+def direction(a: Derivatives) -> Derivatives:
     """The unit vector along a, with its derivatives."""
     inverse = 1.0 / sqrt(maximum(dot(a.value, a.value), 1e-12))
     b = a.value * inverse
     growth = dot(b, a.rate)
     rate = (a.rate - b * growth) * inverse
     more = dot(rate, a.rate) + dot(b, a.acceleration)
-    return Moved(b, rate, (a.acceleration - b * more - rate * (2.0 * growth)) * inverse)
+    return Derivatives(b, rate, (a.acceleration - b * more - rate * (2.0 * growth)) * inverse)
 
 
 @law
-def product(a: Moved, b: Moved) -> Moved:
+def product(a: Derivatives, b: Derivatives) -> Derivatives:
     """a × b, with its derivatives."""
     rate = cross(a.rate, b.value) + cross(a.value, b.rate)
     twice = cross(a.rate, b.rate) * 2.0
-    return Moved(cross(a.value, b.value), rate, cross(a.acceleration, b.value) + twice + cross(a.value, b.acceleration))
+    return Derivatives(
+        cross(a.value, b.value), rate, cross(a.acceleration, b.value) + twice + cross(a.value, b.acceleration)
+    )
 
 
 @law
-def heading(yaw: Any, rate: Any, acceleration: Any) -> Moved:
+def heading(yaw: Any, rate: Any, acceleration: Any) -> Derivatives:
     """b₁d = (cos ψ, sin ψ, 0), with its derivatives."""
     c, s = cos(yaw), sin(yaw)
     ahead, aside = Vec3(c, s, 0.0), Vec3(-s, c, 0.0)
-    return Moved(ahead, aside * rate, aside * acceleration - ahead * (rate * rate))
+    return Derivatives(ahead, aside * rate, aside * acceleration - ahead * (rate * rate))
 
 
 @law
-def attitude_along(force: Moved, b1d: Moved) -> Turning:
+def attitude_along(force: Derivatives, b1d: Derivatives) -> AttitudeTrajectory:
     """R_d whose third axis is along the force and whose second is normal to b₁d, with Ω_d and Ω̇_d."""
     b3 = direction(force)
     b2 = direction(product(b3, b1d))
@@ -125,7 +127,7 @@ def attitude_along(force: Moved, b1d: Moved) -> Turning:
         dot(b1.rate, b3.rate) + dot(b1.value, b3.acceleration),
         dot(b2.rate, b1.rate) + dot(b2.value, b1.acceleration),
     )
-    return Turning(Mat3(b1.value, b2.value, b3.value), rates, accelerations)
+    return AttitudeTrajectory(Mat3(b1.value, b2.value, b3.value), rates, accelerations)
 
 
 @law
@@ -145,7 +147,7 @@ def zxy_angles(columns: Mat3) -> Vec3:
 
 
 @law
-def wanted_turn(k: Geometric, R: Mat3, rates: Vec3, desired: Turning) -> Vec3:
+def wanted_turn(k: Geometric, R: Mat3, rates: Vec3, desired: AttitudeTrajectory) -> Vec3:
     """The angular acceleration [rad/s², body axes] that the attitude error wants."""
     there = apply_transposed(R, apply_transposed(desired.columns, desired.rates))  # RᵀR_d Ω_d
     onward = apply_transposed(R, apply_transposed(desired.columns, desired.accelerations))
@@ -154,11 +156,11 @@ def wanted_turn(k: Geometric, R: Mat3, rates: Vec3, desired: Turning) -> Vec3:
 
 
 @law
-def filtered_force(k: Geometric, memory: Smoothed, u: Vec3) -> Any:
+def filtered_force(k: Geometric, memory: LowPassState, u: Vec3) -> Any:
     """(the force [N] behind the command filter with its derivatives, the new memory)."""
     w, up = k.bandwidth, Vec3(u.x, u.y, maximum(u.z, k.least))
     acceleration = (up - memory.value) * (w * w) - memory.rate * (2.0 * w)
-    return Moved(memory.value, memory.rate, acceleration), smooth(k.filter, memory, up)
+    return Derivatives(memory.value, memory.rate, acceleration), smooth(k.filter, memory, up)
 
 
 @control.register(Geometric)
@@ -176,11 +178,11 @@ def geometric(k, memory, measured, reference):
 
 
 @register("geometric", GeometricSettings)
-def start(s: GeometricSettings, vehicle: Vehicle, step: float) -> tuple[Geometric, Smoothed]:
+def start(s: GeometricSettings, vehicle: Vehicle, step: float) -> tuple[Geometric, LowPassState]:
     """Geometric tracking control on SE(3), on rotation matrices (Lee, Leok and McClamroch)."""
     weight = vehicle.mass * GRAVITY
     gains = Geometric(
-        vehicle=believed(s, vehicle, step),
+        vehicle=controller_model(s, vehicle, step),
         position_stiffness=vec3(s.position_stiffness),
         position_damping=vec3(s.position_damping),
         attitude_stiffness=vec3(s.attitude_stiffness),
@@ -189,4 +191,4 @@ def start(s: GeometricSettings, vehicle: Vehicle, step: float) -> tuple[Geometri
         bandwidth=s.filter_bandwidth,
         least=LEAST * weight,
     )
-    return gains, Smoothed(Vec3(0.0, 0.0, weight), ZERO)
+    return gains, LowPassState(Vec3(0.0, 0.0, weight), ZERO)

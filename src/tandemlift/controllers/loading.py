@@ -12,9 +12,9 @@ from types import FunctionType, ModuleType
 
 from tandemlift.algebra.law import LAWS
 from tandemlift.algebra.vector import dot
+from tandemlift.common.errors import InputError
 from tandemlift.controllers.registry import CONTROLLERS, Controller
-from tandemlift.controllers.trial import told
-from tandemlift.errors import InputError
+from tandemlift.controllers.trial import error_text
 
 _loaded: dict[Path, tuple[bytes, Controller]] = {}
 
@@ -54,7 +54,7 @@ def load_controller(path: str | Path) -> Controller:
         sys.modules.pop(module.__name__)
         if before[1] is not None:
             sys.modules[module.__name__] = before[1]
-        raise InputError(f"controller file {told(error, str(path))}") from error
+        raise InputError(f"controller file {error_text(error, str(path))}") from error
     _loaded[path] = source, new[0]
     return new[0]
 

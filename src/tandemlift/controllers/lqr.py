@@ -29,14 +29,14 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip
 from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.controllers.attitude_reference import Filtered
+from tandemlift.controllers.attitude_reference import CommandFilterState
 from tandemlift.controllers.cascade import (
     LEVEL,
     TUNED,
-    Believed,
     CascadeTable,
-    believed,
+    ControllerModel,
     commanded,
+    controller_model,
     tracked_attitude,
     wanted_force,
 )
@@ -83,7 +83,7 @@ class LQR(NamedTuple):
     of z; the rest are of roll, pitch, yaw. `share` is how far the lag comes in a step.
     """
 
-    vehicle: Believed
+    vehicle: ControllerModel
     lean_position: Vec3
     lean_velocity: Vec3
     most_lean: Any
@@ -96,10 +96,10 @@ class LQR(NamedTuple):
     share: Any
 
 
-class Regulated(NamedTuple):
+class LQRState(NamedTuple):
     """Memory: of the attitude reference, and the modelled angular [rad/s²] and vertical [m/s²] acceleration."""
 
-    shaped: Filtered
+    shaped: CommandFilterState
     turn: Vec3
     climb: Any
 
@@ -129,7 +129,7 @@ def lqr(k, memory, measured, reference):
     angles = tracked.angles + lean(k, e, off, off_rate)
     spin = tracked.rates - euler_rates_from_rates(e, state.rates)
     turn = k.angles * turned_least(angles - e.angles) + k.rates * spin - k.accelerations * memory.turn
-    after = Regulated(
+    after = LQRState(
         shaped, memory.turn + (turn - memory.turn) * k.share, memory.climb + (climb - memory.climb) * k.share
     )
     return commanded(k.vehicle, e, u, tracked.accelerations + turn, angles, measured), after
@@ -164,14 +164,14 @@ def _sideways(s: LQRSettings, place: int, turned: int) -> np.ndarray:
 
 
 @register("lqr", LQRSettings)
-def start(s: LQRSettings, vehicle: Vehicle, step: float) -> tuple[LQR, Regulated]:
+def start(s: LQRSettings, vehicle: Vehicle, step: float) -> tuple[LQR, LQRState]:
     """Linear-quadratic regulator about hover, from moment to position (Kalman)."""
     roll, pitch = _sideways(s, 1, 0), _sideways(s, 0, 1)
     short = chain(2, s.lag, gravity=False)
     z = regulator(*short, np.diag([s.position_weight[2], s.velocity_weight[2], 0.0]), s.thrust_weight)
     yaw = regulator(*short, np.diag([s.attitude_weight[2], s.rates_weight[2], 0.0]), s.moment_weight[2])
     gains = LQR(
-        vehicle=believed(s, vehicle, step),
+        vehicle=controller_model(s, vehicle, step),
         lean_position=Vec3(float(roll[0] / roll[2]), float(pitch[0] / pitch[2]), 0.0),
         lean_velocity=Vec3(float(roll[1] / roll[2]), float(pitch[1] / pitch[2]), 0.0),
         most_lean=s.max_tilt,
@@ -183,4 +183,4 @@ def start(s: LQRSettings, vehicle: Vehicle, step: float) -> tuple[LQR, Regulated
         accelerations=Vec3(float(roll[4]), float(pitch[4]), float(yaw[2])),
         share=-math.expm1(-step / s.lag),
     )
-    return gains, Regulated(LEVEL, ZERO, 0.0)
+    return gains, LQRState(LEVEL, ZERO, 0.0)

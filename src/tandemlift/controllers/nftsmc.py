@@ -18,9 +18,10 @@ from pydantic import Field
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.common.errors import FlightWarning
 from tandemlift.controllers.attitude_reference import (
     AttitudeReference,
-    Filtered,
+    CommandFilterState,
     Unfiltered,
     command_filter,
     shape,
@@ -29,7 +30,6 @@ from tandemlift.controllers.attitude_reference import (
 from tandemlift.controllers.interface import Command, NoMemory, control
 from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration
-from tandemlift.errors import FlightWarning
 from tandemlift.laws.mechanics.body import UP, Wrench
 from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
 from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
@@ -37,7 +37,7 @@ from tandemlift.laws.mechanics.tilt import (
     TiltPrinted,
     TiltZXY,
     desired_orientation,
-    most_tilt,
+    tilt_limit,
     total_thrust,
     within_tilt,
 )
@@ -226,7 +226,7 @@ def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, Any
         derivatives=command_filter(s.filter_bandwidth, step) if filtered else Unfiltered(),
         rates=ExactRates() if s.euler_rates == "exact" else BodyRates(),
         inverse=TiltZXY() if s.tilt_inverse == "zxy" else TiltPrinted(),
-        tilt=most_tilt(s.max_tilt),
+        tilt=tilt_limit(s.max_tilt),
         feedforward=1.0 if s.human_force_feedforward else 0.0,
     )
-    return gains, Filtered(ZERO, ZERO) if filtered else NoMemory()
+    return gains, CommandFilterState(ZERO, ZERO) if filtered else NoMemory()

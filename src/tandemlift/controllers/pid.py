@@ -18,16 +18,16 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
-from tandemlift.controllers.attitude_reference import Filtered
+from tandemlift.controllers.attitude_reference import CommandFilterState
 from tandemlift.controllers.cascade import (
     ATTITUDE_FILTER,
     LEVEL,
     TUNED,
     Bandwidth,
-    Believed,
     CascadeTable,
-    believed,
+    ControllerModel,
     commanded,
+    controller_model,
     tracked_attitude,
     wanted_force,
 )
@@ -35,7 +35,7 @@ from tandemlift.controllers.interface import control
 from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rates_from_euler_rates, turned_least
 from tandemlift.laws.mechanics.tilt import within_tilt
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, low_pass, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
 from tandemlift.settings import NonNegative3, Positive3, key
 from tandemlift.vehicle import Vehicle
 
@@ -71,7 +71,7 @@ class PIDSettings(CascadeTable):
     )
 
 
-class Stage(NamedTuple):
+class PIDGains(NamedTuple):
     """A PID of three axes; `integral` is of one step, `limit` is of what it adds up to."""
 
     proportional: Vec3
@@ -81,44 +81,44 @@ class Stage(NamedTuple):
     smoothing: LowPass
 
 
-class Staged(NamedTuple):
+class PIDStageState(NamedTuple):
     """Memory of a PID: what the integral gives, and the error behind the low-pass."""
 
     integral: Vec3
-    error: Smoothed
+    error: LowPassState
 
 
 class PID(NamedTuple):
     """Gains: the vehicle as it is believed to be, and the stages; `tracking` is of one step, over the mass."""
 
-    vehicle: Believed
+    vehicle: ControllerModel
     position: Vec3
-    velocity: Stage
+    velocity: PIDGains
     attitude: Vec3
-    rates: Stage
+    rates: PIDGains
     tracking: Any
 
 
-class Cascaded(NamedTuple):
+class PIDState(NamedTuple):
     """Memory: that of the attitude reference and of both PIDs."""
 
-    shaped: Filtered
-    velocity: Staged
-    rates: Staged
+    shaped: CommandFilterState
+    velocity: PIDStageState
+    rates: PIDStageState
 
 
 @law
-def pid_of(k: Stage, memory: Staged, error: Vec3) -> Any:
+def pid_of(k: PIDGains, memory: PIDStageState, error: Vec3) -> Any:
     """(P + I + D of an error, the new memory)."""
     integral = clip(memory.integral + error * k.integral, -k.limit, k.limit)
     smoothed = smooth(k.smoothing, memory.error, error)
-    return error * k.proportional + integral + smoothed.rate * k.derivative, Staged(integral, smoothed)
+    return error * k.proportional + integral + smoothed.rate * k.derivative, PIDStageState(integral, smoothed)
 
 
 @law
-def drawn_back(memory: Staged, excess: Vec3) -> Staged:
+def drawn_back(memory: PIDStageState, excess: Vec3) -> PIDStageState:
     """The memory with its integral less what could not be given."""
-    return Staged(memory.integral - excess, memory.error)
+    return PIDStageState(memory.integral - excess, memory.error)
 
 
 @control.register(PID)
@@ -135,24 +135,24 @@ def pid(k, memory, measured, reference):
     angle_rates = tracked.rates + turned_least(tracked.angles - e.angles) * k.attitude
     spin, rates = pid_of(k.rates, memory.rates, rates_from_euler_rates(e, angle_rates) - state.rates)
     turn = tracked.accelerations + spin
-    return commanded(k.vehicle, e, u, turn, tracked.angles, measured), Cascaded(shaped, velocity, rates)
+    return commanded(k.vehicle, e, u, turn, tracked.angles, measured), PIDState(shaped, velocity, rates)
 
 
 @register("pid", PIDSettings)
-def start(s: PIDSettings, vehicle: Vehicle, step: float) -> tuple[PID, Cascaded]:
+def start(s: PIDSettings, vehicle: Vehicle, step: float) -> tuple[PID, PIDState]:
     """Cascaded PID: position P, velocity PID, attitude P, rate PID, with anti-windup."""
     smoothing = low_pass(s.derivative_bandwidth, step)
 
-    def stage(p: Any, i: Any, d: Any, limit: Any) -> Stage:
-        return Stage(vec3(p), vec3(i) * step, vec3(d), vec3(limit), smoothing)
+    def stage(p: Any, i: Any, d: Any, limit: Any) -> PIDGains:
+        return PIDGains(vec3(p), vec3(i) * step, vec3(d), vec3(limit), smoothing)
 
-    rest = Staged(ZERO, Smoothed(ZERO, ZERO))
+    rest = PIDStageState(ZERO, LowPassState(ZERO, ZERO))
     gains = PID(
-        vehicle=believed(s, vehicle, step),
+        vehicle=controller_model(s, vehicle, step),
         position=vec3(s.position_p),
         velocity=stage(s.velocity_p, s.velocity_i, s.velocity_d, s.velocity_i_limit),
         attitude=vec3(s.attitude_p),
         rates=stage(s.rate_p, s.rate_i, s.rate_d, s.rate_i_limit),
         tracking=s.tracking * step / vehicle.mass,
     )
-    return gains, Cascaded(LEVEL, rest, rest)
+    return gains, PIDState(LEVEL, rest, rest)

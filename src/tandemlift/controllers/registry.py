@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tandemlift.controllers.trial import check_started, form, told
-from tandemlift.errors import InputError, unknown
+from tandemlift.common.errors import InputError, unknown
+from tandemlift.controllers.trial import check_started, error_text, form
 from tandemlift.settings import ControllerTable
 from tandemlift.vehicle import Vehicle
 
@@ -84,7 +84,7 @@ def _checked(name: str, settings: type[ControllerTable], start: Start) -> Start:
         try:
             started: Any = start(s, vehicle, step)
         except Exception as error:
-            raise InputError(f"controller {name!r}: {told(error, start.__code__.co_filename)}") from error
+            raise InputError(f"controller {name!r}: {error_text(error, start.__code__.co_filename)}") from error
         if type(started) is not tuple or len(started) != 2:
             raise InputError(
                 f"controller {name!r}: {start.__name__}() must return (gains, memory), not {form(started)}"

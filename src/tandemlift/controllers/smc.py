@@ -15,16 +15,16 @@ from typing import NamedTuple
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, maximum
 from tandemlift.algebra.vector import Vec3, vec3
-from tandemlift.controllers.attitude_reference import Filtered
+from tandemlift.controllers.attitude_reference import CommandFilterState
 from tandemlift.controllers.cascade import (
     ATTITUDE_FILTER,
     LEVEL,
     TUNED,
     Bandwidth,
-    Believed,
     CascadeTable,
-    believed,
+    ControllerModel,
     commanded,
+    controller_model,
     halves,
     tracked_attitude,
     wanted_force,
@@ -49,7 +49,7 @@ class SMCSettings(CascadeTable):
     )
 
 
-class Linear(NamedTuple):
+class LinearSurface(NamedTuple):
     """Of one set of axes: λ [1/s], K [m/s² or rad/s²] and 1/Φ."""
 
     slope: Vec3
@@ -60,13 +60,13 @@ class Linear(NamedTuple):
 class SMC(NamedTuple):
     """Gains: the vehicle as it is believed to be, and both surfaces."""
 
-    vehicle: Believed
-    position: Linear
-    attitude: Linear
+    vehicle: ControllerModel
+    position: LinearSurface
+    attitude: LinearSurface
 
 
 @law
-def switched_acceleration(k: Linear, e: Vec3, de: Vec3) -> Vec3:
+def switched_acceleration(k: LinearSurface, e: Vec3, de: Vec3) -> Vec3:
     """λė + K sat(S/Φ) with S = ė + λe, to be added to the reference acceleration."""
     return k.slope * de + k.gain * saturate((de + k.slope * e) * k.per_width)
 
@@ -90,13 +90,13 @@ def smc(k, memory, measured, reference):
     return commanded(k.vehicle, e, u, turn, tracked.angles, measured), memory
 
 
-def linear(slope: Sequence[float], gain: Sequence[float], width: Sequence[float]) -> Linear:
+def linear(slope: Sequence[float], gain: Sequence[float], width: Sequence[float]) -> LinearSurface:
     """The gains of three axes by λ [1/s], K and Φ."""
-    return Linear(vec3(slope), vec3(gain), vec3(1.0 / w for w in width))
+    return LinearSurface(vec3(slope), vec3(gain), vec3(1.0 / w for w in width))
 
 
 @register("smc", SMCSettings)
-def start(s: SMCSettings, vehicle: Vehicle, step: float) -> tuple[SMC, Filtered]:
+def start(s: SMCSettings, vehicle: Vehicle, step: float) -> tuple[SMC, CommandFilterState]:
     """Conventional sliding mode control: linear surfaces with a boundary layer (Slotine and Li)."""
     position, attitude = (linear(*three) for three in halves(s.slope, s.gain, s.boundary_layer))
-    return SMC(believed(s, vehicle, step), position, attitude), LEVEL
+    return SMC(controller_model(s, vehicle, step), position, attitude), LEVEL

@@ -19,16 +19,16 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, maximum, sqrt
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
-from tandemlift.controllers.attitude_reference import Filtered
+from tandemlift.controllers.attitude_reference import CommandFilterState
 from tandemlift.controllers.cascade import (
     ATTITUDE_FILTER,
     LEVEL,
     TUNED,
     Bandwidth,
-    Believed,
     CascadeTable,
-    believed,
+    ControllerModel,
     commanded,
+    controller_model,
     halves,
     tracked_attitude,
     wanted_force,
@@ -63,7 +63,7 @@ class SuperTwistingSettings(CascadeTable):
     )
 
 
-class Twisting(NamedTuple):
+class TwistingGains(NamedTuple):
     """Of one set of axes: λ [1/s], 1.5 √L, 1.1 L of one step, Φ, 1/Φ and the limit of v."""
 
     slope: Vec3
@@ -77,15 +77,15 @@ class Twisting(NamedTuple):
 class SuperTwisting(NamedTuple):
     """Gains: the vehicle as it is believed to be, and both surfaces."""
 
-    vehicle: Believed
-    position: Twisting
-    attitude: Twisting
+    vehicle: ControllerModel
+    position: TwistingGains
+    attitude: TwistingGains
 
 
-class Twisted(NamedTuple):
+class SuperTwistingState(NamedTuple):
     """Memory: that of the attitude reference, and the integrals v of position [m/s²] and attitude [rad/s²]."""
 
-    shaped: Filtered
+    shaped: CommandFilterState
     position: Vec3
     attitude: Vec3
 
@@ -97,7 +97,7 @@ def signed_root(S, width):
 
 
 @law
-def twist(k: Twisting, v: Vec3, e: Vec3, de: Vec3) -> Any:
+def twist(k: TwistingGains, v: Vec3, e: Vec3, de: Vec3) -> Any:
     """(λė + v + 1.5 √L |S|^½ sgn S, the new v) with S = ė + λe: to be added to the reference acceleration."""
     S = de + k.slope * e
     wished = k.slope * de + v + k.root * signed_root(S, k.width)
@@ -116,14 +116,14 @@ def super_twisting(k, memory, measured, reference):
     error, error_rate = turned_least(tracked.angles - e.angles), tracked.rates - euler_rates_from_rates(e, state.rates)
     turned, attitude = twist(k.attitude, memory.attitude, error, error_rate)
     turn = tracked.accelerations + turned
-    return commanded(k.vehicle, e, u, turn, tracked.angles, measured), Twisted(shaped, position, attitude)
+    return commanded(k.vehicle, e, u, turn, tracked.angles, measured), SuperTwistingState(shaped, position, attitude)
 
 
 def twisting(
     step: float, slope: Sequence[float], growth: Sequence[float], width: Sequence[float], limit: Sequence[float]
-) -> Twisting:
+) -> TwistingGains:
     """The gains of three axes for samples every `step` [s], by λ [1/s], L, Φ and the limit of v."""
-    return Twisting(
+    return TwistingGains(
         slope=vec3(slope),
         root=vec3(ROOT * L**0.5 for L in growth),
         sign_per_step=vec3(SIGN * L * step for L in growth),
@@ -134,8 +134,8 @@ def twisting(
 
 
 @register("super-twisting", SuperTwistingSettings)
-def start(s: SuperTwistingSettings, vehicle: Vehicle, step: float) -> tuple[SuperTwisting, Twisted]:
+def start(s: SuperTwistingSettings, vehicle: Vehicle, step: float) -> tuple[SuperTwisting, SuperTwistingState]:
     """Super-twisting control on linear surfaces, with its integral (Levant)."""
     sixes = halves(s.slope, s.disturbance_slope, s.boundary_layer, s.integral_limit)
     position, attitude = (twisting(step, *three) for three in sixes)
-    return SuperTwisting(believed(s, vehicle, step), position, attitude), Twisted(LEVEL, ZERO, ZERO)
+    return SuperTwisting(controller_model(s, vehicle, step), position, attitude), SuperTwistingState(LEVEL, ZERO, ZERO)

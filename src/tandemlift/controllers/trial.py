@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, layout
+from tandemlift.common.errors import InputError
 from tandemlift.controllers.interface import Command, Disturbance, Measured, control
-from tandemlift.errors import InputError
 from tandemlift.laws.mechanics.body import State, Wrench
 from tandemlift.laws.signals.trajectories import Reference, Trajectory
 
@@ -69,7 +69,7 @@ def _try(name: str, gains: Any, memory: Any, like: Any) -> None:
     except ArithmeticError:  # compiled, it gives inf or nan, which the law may well handle
         return
     except Exception as error:
-        raise InputError(f"controller {name!r}: {told(error, law.__code__.co_filename)}") from error
+        raise InputError(f"controller {name!r}: {error_text(error, law.__code__.co_filename)}") from error
     code = law.__code__
     place = f"controller {name!r}: {Path(code.co_filename).name}, line {code.co_firstlineno}: {law.__name__}()"
     if type(answer) is not tuple or len(answer) != 2:
@@ -82,7 +82,7 @@ def _try(name: str, gains: Any, memory: Any, like: Any) -> None:
     _tried.add((law, like))
 
 
-def told(error: BaseException, file: str) -> str:
+def error_text(error: BaseException, file: str) -> str:
     """An error in one line, with the line of the file that it comes from."""
     name, kind = Path(file).name, "" if isinstance(error, InputError) else f"{type(error).__name__}: "
     lines: list[Any] = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == file]

@@ -9,15 +9,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.models.mujoco_bodies import model_of, mujoco
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none, and MuJoCo would take one beyond 1e10 for zero

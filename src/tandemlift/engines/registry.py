@@ -10,17 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
-import numpy as np
-from numpy.typing import NDArray
-
-from tandemlift.errors import unknown
+from tandemlift.common.errors import unknown
+from tandemlift.common.types import Array
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
 
-
-class Body(Protocol):
+class EngineBody(Protocol):
     """A body in an engine of its own.
 
     Attributes:
@@ -46,14 +42,14 @@ class Body(Protocol):
 
 
 @runtime_checkable
-class Waiting(Protocol):
+class WaitingBody(Protocol):
     """A body that waits for its pilot, and gives it up when it is silent."""
 
     def rest(self) -> None:
         """Take no step for now, and stay the pilot; to be called ten times a second."""
 
 
-Make = Callable[[Mission, Vehicle, Any, Any], Body]
+Make = Callable[[Mission, Vehicle, Any, Any], EngineBody]
 
 
 def _mujoco() -> Make:
@@ -63,13 +59,13 @@ def _mujoco() -> Make:
 
 
 def _gazebo() -> Make:
-    from tandemlift.engines.gazebo.gazebo import GazeboBody
+    from tandemlift.engines.gazebo import GazeboBody
 
     return GazeboBody
 
 
 def _gazebo_over_ros() -> Make:
-    from tandemlift.engines.gazebo.ros import over_ros
+    from tandemlift.engines.gazebo_ros import over_ros
 
     return over_ros
 
@@ -81,7 +77,7 @@ class Engine(NamedTuple):
     summary: str
     load: Callable[[], Make] | None = None
 
-    def start(self, mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Body:
+    def start(self, mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> EngineBody:
         """The body of a mission at t = 0; `floor`: a `Floor`, `walls`: a `Walls` (laws.mechanics), or `Nothing`.
 
         Raises:

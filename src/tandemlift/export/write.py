@@ -11,10 +11,10 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 from tandemlift.export.bags import write_bag, write_mcap
 from tandemlift.export.table import write_csv
-from tandemlift.files import whole
 from tandemlift.flight.record import Flight
 from tandemlift.missions import check
 from tandemlift.settings import Mission
@@ -48,7 +48,7 @@ def export(what: Flight | Mission, path: str | os.PathLike[str], *, plugin: int 
     try:
         if path.is_dir():
             raise IsADirectoryError(None, "it is a folder")
-        with whole(path) as partial:
+        with atomic_write(path) as partial:
             write(partial)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error

@@ -13,16 +13,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.panels import extent, fit, line, time_axis
 from tandemlift.figures.drawing.series import drawable
 from tandemlift.figures.drawing.start import LONG, START
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, GREY, LIGHT_BLUE, PAGE, VERMILLION, styled
 from tandemlift.flight.record import Flight
-from tandemlift.studies.controller_comparison import LEAST, Part, airborne, moving_axes, parts_of, scored
-
-Array = NDArray[np.float64]
+from tandemlift.studies.controller_comparison import LEAST, ScoredPart, airborne, moving_axes, parts_of, scored
 
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 COLOURS = (BLUE, VERMILLION, GREEN, BLACK, "#E69F00", "#CC79A7", "#56B4E9", GREY)  # Okabe and Ito
@@ -42,13 +40,13 @@ def _settled(flights: Mapping[str, Flight]) -> Sequence[Flight]:
     return [f for f in flights.values() if not f.divergence] or list(flights.values())
 
 
-def _errors(flight: Flight, part: Part) -> Array:
+def _errors(flight: Flight, part: ScoredPart) -> Array:
     """Errors of position (T, 3) [mm] in a part, NaN on the floor, as what stands there is not controlled."""
     inside = (flight.time >= part.first) & (flight.time < part.last)
     return 1e3 * np.where(scored(flight, part)[inside, None], flight["position_error"][inside], np.nan)
 
 
-def _panel(ax: Any, flights: Mapping[str, Flight], part: Part, axis: int) -> None:
+def _panel(ax: Any, flights: Mapping[str, Flight], part: ScoredPart, axis: int) -> None:
     """Draw the errors [mm] of all flights along an axis in a part."""
     shown = []
     for place, flight in enumerate(flights.values()):

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from tandemlift.figures.drawing.panels import fit, line, time_axis, value_ticks
-from tandemlift.figures.drawing.series import telling
+from tandemlift.figures.drawing.series import decimate
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, LIGHT_BLUE, PAGE, VERMILLION, styled
 from tandemlift.figures.registry import among_walls
 from tandemlift.flight.record import Flight
@@ -47,7 +47,7 @@ def _from_above(ax: Any, flights: Mapping[str, Flight]) -> None:
         ax.plot(*np.array([wall["start"], wall["end"]]).T, color=BLACK, lw=1.4, solid_capstyle="round", gid="wall")
     for place, flight in enumerate(flights.values()):
         path = flight["position"][:, :2]
-        shown = np.unique(np.concatenate([telling(coordinate) for coordinate in path.T]))
+        shown = np.unique(np.concatenate([decimate(coordinate) for coordinate in path.T]))
         ax.plot(*path[shown].T, solid_capstyle="round", gid="path", **_look(place))
     ax.set_aspect("equal", adjustable="datalim")
     ax.set_xlabel("$x$ (m)")

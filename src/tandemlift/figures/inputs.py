@@ -19,8 +19,6 @@ from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, journal
 from tandemlift.figures.drawing.vehicle import weight_of
 from tandemlift.flight.record import Flight
 
-Array = NDArray[np.float64]
-
 LEAST = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
 LABELS = ("$U_1$ (N)", "$U_2$ (N m)", "$U_3$ (N m)", "$U_4$ (N m)")
 

@@ -11,10 +11,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
 
 Draw = Callable[[Flight], Any]
-Progress = Callable[[int, int], None]
 
 
 def _files() -> dict[str, ModuleType]:

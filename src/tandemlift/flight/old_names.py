@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
-from tandemlift.errors import FlightWarning, InputError
+from tandemlift.common.errors import FlightWarning, InputError
 
 KEYS: dict[str, str] = {
     "compliance.hearing": "compliance.input_bandwidth",

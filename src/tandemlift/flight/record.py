@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.errors import InputError, suggestion
-from tandemlift.files import whole
+from tandemlift.common.errors import InputError, suggestion
+from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Array
 from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.flight.tables import to_pandas, to_xarray
 
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-Array = NDArray[np.float64]
 FORMAT = 1
 
 
@@ -220,7 +219,7 @@ class Flight(Mapping[str, Array]):
             "channels": {name: self.info(name)._asdict() for name in self.channels},
         }
         text = np.array(json.dumps(header, allow_nan=False))
-        with whole(path) as partial, partial.open("wb") as file:
+        with atomic_write(path) as partial, partial.open("wb") as file:
             np.savez(file, header=text, time=self.time, **self.channels)  # type: ignore
         return path
 

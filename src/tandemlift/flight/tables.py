@@ -9,7 +9,7 @@ import json
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Channel, Flight

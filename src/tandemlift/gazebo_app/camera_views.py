@@ -9,14 +9,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.flight.record import Flight
 from tandemlift.laws.guidance.phases import NAMES
-from tandemlift.models.cameras import Eye
-
-Array = NDArray[np.float64]
+from tandemlift.models.cameras import FixedCamera
 
 FAR = 5.0  # reaches of the vehicle, from it to a camera
 HEIGHT, ASIDE = np.radians([34.0, 24.0])  # rad, of a camera over the horizon and beside the way
@@ -24,15 +22,15 @@ BEFORE = 1.0  # s, by which the last picture is taken before the end
 LEAST = 0.5  # m of way, for a direction to look along
 
 
-class Shot(NamedTuple):
+class ViewRequest(NamedTuple):
     """A picture to be taken: what it shows, at which time [s] of the flight, and the camera."""
 
     title: str
     time: float
-    eye: Eye
+    eye: FixedCamera
 
 
-def shots_of(flight: Flight) -> list[Shot]:
+def shots_of(flight: Flight) -> list[ViewRequest]:
     """The four pictures of a flight, in the order of time.
 
     Args:
@@ -47,7 +45,7 @@ def shots_of(flight: Flight) -> list[Shot]:
     )
     reach = float(np.linalg.norm(vehicle_of(flight).lever_arms, axis=1).max()) + 0.5
     return [
-        Shot(title, float(flight.time[k]), _eye(f"view_{letter}", flight, k, FAR * reach))
+        ViewRequest(title, float(flight.time[k]), _eye(f"view_{letter}", flight, k, FAR * reach))
         for letter, title, k in zip("abcd", titles, _moments(flight), strict=True)
     ]
 
@@ -67,7 +65,7 @@ def _moments(flight: Flight) -> tuple[int, int, int, int]:
     return 0, halfway, max(arrived, halfway), int(np.searchsorted(flight.time, flight.time[-1] - BEFORE))
 
 
-def _eye(name: str, flight: Flight, k: int, distance: float) -> Eye:
+def _eye(name: str, flight: Flight, k: int, distance: float) -> FixedCamera:
     """A camera that looks at sample k, along the way that lies ahead, or back along the way that was flown."""
     path, way = flight["position"], _way(flight)
     target = path[k]
@@ -75,7 +73,7 @@ def _eye(name: str, flight: Flight, k: int, distance: float) -> Eye:
     along = _along(flight, k, ahead)
     heading = np.arctan2(along[1], along[0]) + ASIDE
     back = np.array([-np.cos(HEIGHT) * np.cos(heading), -np.cos(HEIGHT) * np.sin(heading), np.sin(HEIGHT)])
-    return Eye(name, target + distance * back, target)
+    return FixedCamera(name, target + distance * back, target)
 
 
 def _along(flight: Flight, k: int, ahead: bool) -> Array:

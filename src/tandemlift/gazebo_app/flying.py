@@ -12,11 +12,11 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
-from tandemlift.engines.gazebo.gazebo import PORT, REAL_TIME, world_of
-from tandemlift.engines.gazebo.server import Server, command, free_port, in_gazebo, root
-from tandemlift.errors import InputError
-from tandemlift.gazebo_app.camera_views import Shot
-from tandemlift.models.cameras import PICTURES, add_eyes
+from tandemlift.common.errors import InputError
+from tandemlift.engines.gazebo import PORT, REAL_TIME, world_of
+from tandemlift.engines.gazebo_server import GazeboServer, command, free_port, in_gazebo, root
+from tandemlift.gazebo_app.camera_views import ViewRequest
+from tandemlift.models.cameras import PICTURES, add_cameras
 from tandemlift.settings import Mission
 
 EVERY = 0.5  # s, from one picture of a camera to the next
@@ -28,12 +28,12 @@ WAITING = "<wait>true</wait>", "<wait>false</wait>"  # a world that waits for it
 class Photo(NamedTuple):
     """A picture as it was taken: what it is of, the time [s] of the flight just after it, and its JPEG."""
 
-    shot: Shot
+    shot: ViewRequest
     time: float
     jpeg: bytes
 
 
-class Gazebo:
+class GazeboSession:
     """A server for a flight to come.
 
     Args:
@@ -50,14 +50,14 @@ class Gazebo:
         InputError: there is no Gazebo, no display for a window, or its cameras draw nothing.
     """
 
-    def __init__(self, mission: Mission, shots: Sequence[Shot] = (), *, window: bool = False) -> None:
+    def __init__(self, mission: Mission, shots: Sequence[ViewRequest] = (), *, window: bool = False) -> None:
         self.photos: list[Photo] = []
         self._due, self.port = list(shots), free_port(socket.SOCK_DGRAM)
         text = world_of(mission, self.port)
         if shots:
-            text = add_eyes(text.replace(*WAITING), [s.eye for s in shots], EVERY)
+            text = add_cameras(text.replace(*WAITING), [s.eye for s in shots], EVERY)
         with ExitStack() as closing:
-            self._server = Server(text, draws=bool(shots))
+            self._server = GazeboServer(text, draws=bool(shots))
             closing.callback(self._server.close)
             self.master = self._server.master
             if window:
@@ -73,7 +73,7 @@ class Gazebo:
                 raise InputError(f"Gazebo's cameras draw nothing; is Xvfb installed where it is?{self._server.said()}")
             time.sleep(GLANCE)
 
-    def _taken(self, shot: Shot) -> list[Path]:
+    def _taken(self, shot: ViewRequest) -> list[Path]:
         """The pictures of a camera in the order of time; the last may not be whole yet."""
         files = (self._server.folder / PICTURES / shot.eye.name).glob("*.jpg")
         return sorted(files, key=lambda path: int(path.stem.rpartition("-")[2]))
@@ -93,10 +93,13 @@ class Gazebo:
 
 @contextmanager
 def opened(
-    mission: Mission, shots: Sequence[Shot] = (), *, window: bool = False, real_time: bool = False
-) -> Iterator[Gazebo]:
-    """A Gazebo that engine `gazebo` joins meanwhile; arguments and errors as of `Gazebo`."""
-    gazebo, before = Gazebo(mission, shots, window=window), {name: os.environ.get(name) for name in (PORT, REAL_TIME)}
+    mission: Mission, shots: Sequence[ViewRequest] = (), *, window: bool = False, real_time: bool = False
+) -> Iterator[GazeboSession]:
+    """A Gazebo that engine `gazebo` joins meanwhile; arguments and errors as of `GazeboSession`."""
+    gazebo, before = (
+        GazeboSession(mission, shots, window=window),
+        {name: os.environ.get(name) for name in (PORT, REAL_TIME)},
+    )
     os.environ |= {PORT: str(gazebo.port), REAL_TIME: str(int(real_time))}
     try:
         yield gazebo

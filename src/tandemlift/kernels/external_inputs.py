@@ -10,18 +10,18 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.vector import ZERO
-from tandemlift.laws.mechanics.push import SUPPORT, Gaussian
+from tandemlift.laws.mechanics.push import SUPPORT, GaussianPush
 from tandemlift.laws.mechanics.wind import Gust
 from tandemlift.trace import leaves
 
 LANES = 8
 SPAN = 16  # steps
 HALVES = 2 * SPAN + 1
-GAUSSIAN = Gaussian(ZERO, 0.0, 0.0, ZERO)
+GAUSSIAN = GaussianPush(ZERO, 0.0, 0.0, ZERO)
 GUST = Gust(ZERO, 0.0, 0.0, 0.0)
 
 
-class Tables(NamedTuple):
+class InputTables(NamedTuple):
     """Data of any number: an array each of pushes, gusts, walls and legs of a person's path, a row each."""
 
     pushes: Any

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from tandemlift.kernels.traced_step import Limits, Solver
+from tandemlift.kernels.traced_step import LimitProblem, TracedSolver
 from tandemlift.trace import Function, Module, Place
 
 
-def write_limits(f: Function, needs: Limits, at: int) -> None:
+def write_limits(f: Function, needs: LimitProblem, at: int) -> None:
     """Leave thrusts within limits and the working set in scratch memory, from where the problem ends on.
 
     Args:
@@ -23,7 +23,7 @@ def write_limits(f: Function, needs: Limits, at: int) -> None:
         f.do(f"call void @solve(ptr {f.at('%work', at)})")
 
 
-def write_solver(module: Module, solver: Solver, lanes: int) -> None:
+def write_solver(module: Module, solver: TracedSolver, lanes: int) -> None:
     """`solve`: search until all lanes have ended; those that had at the beginning are left as they are."""
     f = Function(module, solver.graph, lanes, "internal void @solve(ptr noalias %s) #1")
     search, n = solver.problem_size, solver.rotors

@@ -8,27 +8,27 @@ from tandemlift.algebra.vector import Nothing
 from tandemlift.trace import leaves
 
 
-class Span(NamedTuple):
+class LeafSpan(NamedTuple):
     """A stretch of leaves: where it begins, and how long it is."""
 
     at: int
     size: int
 
 
-NONE = Span(0, 0)
+NONE = LeafSpan(0, 0)
 
 
-class Stretches(NamedTuple):
+class DelayedSpans(NamedTuple):
     """What is delayed in a flight: readings of the unit on board and of the motion, the rotors' commands, what is seen.
 
     Each is a stretch of the flight, empty where there is no delay; in a row of the delay line they stand one after the
     other.
     """
 
-    unit: Span
-    motion: Span
-    command: Span
-    seen: Span
+    unit: LeafSpan
+    motion: LeafSpan
+    command: LeafSpan
+    seen: LeafSpan
 
     @property
     def size(self) -> int:
@@ -36,28 +36,28 @@ class Stretches(NamedTuple):
         return sum(span.size for span in self)
 
 
-def place(value: Any, *path: str) -> Span:
+def leaf_offset(value: Any, *path: str) -> LeafSpan:
     """The stretch of leaves of a part of a nested value; an empty one where the path ends in `Nothing`."""
     at = 0
     for name in path:
         if name not in value._fields:
-            return Span(0, 0)
+            return LeafSpan(0, 0)
         i = value._fields.index(name)
         at += sum(map(leaves, value[:i]))
         value = value[i]
-    return Span(at, leaves(value))
+    return LeafSpan(at, leaves(value))
 
 
-def stretches_of(flying: Any) -> Stretches:
+def delayed_spans(flying: Any) -> DelayedSpans:
     """What is delayed in flights like this one."""
     late, ends = (
         flying.delays,
         (("readings", "unit"), ("readings", "motion"), ("rotors", "arriving"), ("partner", "seen")),
     )
     if isinstance(late, Nothing):
-        return Stretches(NONE, NONE, NONE, NONE)
+        return DelayedSpans(NONE, NONE, NONE, NONE)
     spans = [
-        NONE if isinstance(mark, Nothing) else place(flying, "moving", *end)
+        NONE if isinstance(mark, Nothing) else leaf_offset(flying, "moving", *end)
         for mark, end in zip(late, ends, strict=True)
     ]
-    return Stretches._make(spans)
+    return DelayedSpans._make(spans)

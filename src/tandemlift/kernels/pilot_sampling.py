@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.kernels.limit_solver import write_limits, write_solver
 from tandemlift.kernels.traced_step import check_layout, graph_for, limited
-from tandemlift.laws.rotors.allocation import Constrained
+from tandemlift.laws.rotors.allocation import ConstrainedAllocation
 from tandemlift.pilot.pilot import PilotMemory, PilotParameters, decide
 from tandemlift.trace import Function, Module, Place, symbols, traced, written_out
 from tandemlift.trace.code import Written
@@ -14,7 +14,7 @@ from tandemlift.trace.code import Written
 POINTERS = ("numbers", "heard", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
 
 
-class Onboard(NamedTuple):
+class PilotData(NamedTuple):
     """The pilot's numbers in one array: the samples taken so far, what it remembers, and its parameters."""
 
     samples: Any
@@ -22,35 +22,35 @@ class Onboard(NamedTuple):
     parameters: PilotParameters
 
 
-class Remembered(NamedTuple):
-    """The part of an `Onboard` that changes."""
+class PilotDataState(NamedTuple):
+    """The part of an `PilotData` that changes."""
 
     samples: Any
     memory: PilotMemory
 
 
-class Decided(NamedTuple):
+class PilotSample(NamedTuple):
     """A decision, and the memory after it."""
 
     decision: Any
     memory: PilotMemory
 
 
-class Sampling:
+class PilotSampler:
     """A sample of a pilot of so many quadrotors, traced: inputs `pilot`, `heard`, `dt` and what is `solved` for."""
 
-    def __init__(self, onboard: Onboard, heard: Any, quadrotors: int) -> None:
+    def __init__(self, onboard: PilotData, heard: Any, quadrotors: int) -> None:
         self.graph = graph_for(quadrotors)
         pilot, dt = self.given_by("pilot", onboard), self.graph.input("dt")
         t = pilot.samples * dt
-        decided = Decided(*traced(decide)(pilot.parameters, pilot.memory, self.given_by("heard", heard), t, dt))
+        decided = PilotSample(*traced(decide)(pilot.parameters, pilot.memory, self.given_by("heard", heard), t, dt))
         self.limits = None
-        if isinstance(onboard.parameters.allocation, Constrained):
+        if isinstance(onboard.parameters.allocation, ConstrainedAllocation):
             self.limits, *within = limited(self, pilot.parameters, pilot.memory, decided, t)
-            decided = Decided(*within)
+            decided = PilotSample(*within)
         self.thrusts = self.all(decided.decision.thrusts)
-        after = Remembered(pilot.samples + 1.0, decided.memory)
-        check_layout(pilot.parameters.controller, Remembered(onboard.samples, onboard.memory), written_out(after))
+        after = PilotDataState(pilot.samples + 1.0, decided.memory)
+        check_layout(pilot.parameters.controller, PilotDataState(onboard.samples, onboard.memory), written_out(after))
         self.after = self.all(after)
 
     def given_by(self, kind: str, like: Any) -> Any:

@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING
 
 from tandemlift.kernels.context import MEMORY
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, HALVES, SPAN
-from tandemlift.kernels.offsets import place
+from tandemlift.kernels.offsets import leaf_offset
 from tandemlift.kernels.traced_step import Symbols
 from tandemlift.laws.mechanics.rectangle import WALL
-from tandemlift.laws.person.person import LEG
+from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.trace import Function, Place, double, flat, leaves
 
 if TYPE_CHECKING:
-    from tandemlift.kernels.loops import Step
+    from tandemlift.kernels.loops import LoopWriter
 
 NORMAL_LANES = 8  # of the loop that draws normal numbers for a flight alone
 
 
-def write_feel(step: Step) -> None:
+def write_push(step: LoopWriter) -> None:
     """The sum of all pushes at the half steps of the span that holds step k."""
     f, width = step.function("feel", ", i64 %k"), step.width
     first = f.whole("and", "%k", -SPAN)
@@ -38,7 +38,7 @@ def write_feel(step: Step) -> None:
     f.end()
 
 
-def write_gust(step: Step) -> None:
+def write_gust(step: LoopWriter) -> None:
     """The velocity of all gusts at the time of a step."""
     f = step.function("blow", ", double %t")
     f.read["t"] = lambda m: "%t"
@@ -59,7 +59,7 @@ def add(f: Function, at: str | int, more: Symbols) -> None:
         f.store(f.op(f"fadd {f.vector} {f.load(place, m)}, {value}"), place, m)
 
 
-def write_draw(step: Step) -> None:
+def write_draw(step: LoopWriter) -> None:
     """Standard normals of a step of every lane; of a flight alone, of the span that holds step k."""
     lanes = step.lanes if step.lanes > 1 else NORMAL_LANES
     uniform = ("number",) if step.lanes > 1 else ("key",)
@@ -84,14 +84,14 @@ def write_draw(step: Step) -> None:
     f.end()
 
 
-def write_surroundings(step: Step) -> None:
+def write_surroundings(step: LoopWriter) -> None:
     """What is looked at once in a span: the floor, the nearest walls, the leg that a person is on."""
     x, f = step.likes, step.function("look")
     if x.grounded:
         low = f.any(f.value(step.traced.touch))
         f.store(f.op(f"uitofp i1 {low} to double"), "%work", step.low * step.lanes, "double")
     if x.walled:
-        at = place(x.flying, "moving", "near").at
+        at = leaf_offset(x.flying, "moving", "near").at
         for m, number in enumerate(flat(x.nowhere)):
             f.store(f.spread(double(number)), "%flying", at + m)
         walls, count = step.word(f, "walls"), step.word(f, "wall_count")
@@ -105,15 +105,18 @@ def write_surroundings(step: Step) -> None:
     f.end()
 
 
-def _find_legs(step: Step, f: Function) -> None:
+def _find_legs(step: LoopWriter, f: Function) -> None:
     flying, lanes = step.likes.flying, step.lanes
-    index, leg = place(flying, "moving", "partner", "index").at, place(flying, "moving", "partner", "leg").at
+    index, leg = (
+        leaf_offset(flying, "moving", "partner", "index").at,
+        leaf_offset(flying, "moving", "partner", "leg").at,
+    )
     legs, last = step.word(f, "legs"), f.whole("sub", step.word(f, "leg_count"), 1)
     for lane in range(lanes):
         number = f.load("%flying", index * lanes + lane, "double")
         i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
         i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
         i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
-        row = f.at(legs, f.whole("mul", i, leaves(LEG)))
-        for m in range(leaves(LEG)):
+        row = f.at(legs, f.whole("mul", i, leaves(PATH_LEG)))
+        for m in range(leaves(PATH_LEG)):
             f.store(f.load(row, m * lanes + lane, "double"), "%flying", (leg + m) * lanes + lane, "double")

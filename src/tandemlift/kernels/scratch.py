@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tandemlift.kernels.context import Rooms
+from tandemlift.kernels.context import ScratchLayout
 from tandemlift.kernels.traced_step import Symbols
 from tandemlift.trace import LEAVES, Function, Graph, Place, Symbol, symbols
 
@@ -29,10 +29,10 @@ def steady(graph: Graph, roots: Symbols, moving: int) -> list[int]:
     return sorted(n for n in wanted if found[n] and graph.ops[n] not in LEAVES and graph.types[n] == "f")
 
 
-class Waiting:
+class ScratchValues:
     """Nodes that wait in scratch memory, and where."""
 
-    def __init__(self, graph: Graph, rooms: Rooms) -> None:
+    def __init__(self, graph: Graph, rooms: ScratchLayout) -> None:
         self.graph, self.rooms = graph, rooms
         self.at: dict[int, int] = {}
 

@@ -7,36 +7,36 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.vector import ZERO, Nothing, Quat
 from tandemlift.controllers import Command, Measured, Reference, control
 from tandemlift.laws.mechanics.body import State, Wrench
-from tandemlift.laws.person.person import Partner
-from tandemlift.laws.rotors.allocation import Constrained
+from tandemlift.laws.person.person import Person
+from tandemlift.laws.rotors.allocation import ConstrainedAllocation
 from tandemlift.laws.signals.trajectories import Trajectory
-from tandemlift.loop.step import Flying, Inputs, act, advance, joined, observe, think
+from tandemlift.loop.step import FlightModel, StepInputs, actuate, advance, finish_sample, run_pilot, with_person
 from tandemlift.trace import zeroed
 
 COMMAND = Command(Wrench(0.0, ZERO), ZERO)
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 
 
-class Given(NamedTuple):
+class ControllerInput(NamedTuple):
     """What a controller is given at a sample."""
 
     measured: Measured
     reference: Reference
 
 
-GIVEN = Given(Measured(State(ZERO, ZERO, LEVEL, ZERO), ZERO), Reference(Trajectory(ZERO, ZERO, ZERO), 0.0))
+GIVEN = ControllerInput(Measured(State(ZERO, ZERO, LEVEL, ZERO), ZERO), Reference(Trajectory(ZERO, ZERO, ZERO), 0.0))
 
 
-class Aside(NamedTuple):
+class PythonController(NamedTuple):
     """Stands where a controller is that Python calls, between the parts of a step; the loops ask it for nothing."""
 
 
-@control.register(Aside)
+@control.register(PythonController)
 def _layout_of_command(gains, memory, measured, reference):
     return Command(Wrench(0.0, ZERO), ZERO), memory
 
 
-class Likes(NamedTuple):
+class Templates(NamedTuple):
     """Of a flight, of what a step is given, what the pilot thinks, what acts, how the body moves, what is shown.
 
     `nowhere`, whose numbers count: the nearest walls before any was looked at.
@@ -53,7 +53,7 @@ class Likes(NamedTuple):
     @property
     def constrained(self) -> bool:
         """Whether the allocation keeps to limits."""
-        return isinstance(self.flying.pilot.allocation, Constrained)
+        return isinstance(self.flying.pilot.allocation, ConstrainedAllocation)
 
     @property
     def walled(self) -> bool:
@@ -63,7 +63,7 @@ class Likes(NamedTuple):
     @property
     def accompanied(self) -> bool:
         """Whether a person leads the vehicle along a path."""
-        return isinstance(self.flying.partner, Partner)
+        return isinstance(self.flying.partner, Person)
 
     @property
     def grounded(self) -> bool:
@@ -76,14 +76,14 @@ class Likes(NamedTuple):
         return not isinstance(self.flying.delays, Nothing)
 
 
-def likes_of(flying: Flying, given: Inputs) -> Likes:
+def templates_from(flying: FlightModel, given: StepInputs) -> Templates:
     """The layouts of a flight's steps, from its first."""
     before, outer = flying.moving, given
-    given = joined(flying, given, 0.0, 0.001)
-    thought = think(flying, given.hand.start, 0.0, 0.001)
-    acting = act(flying, thought.decision.thrusts, given, 0.0)
+    given = with_person(flying, given, 0.0, 0.001)
+    thought = run_pilot(flying, given.hand.start, 0.0, 0.001)
+    acting = actuate(flying, thought.decision.thrusts, given, 0.0)
     air = acting.weather.loads
     moved = advance(flying.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
-    _, sample = observe(flying, thought, acting, moved, given)
+    _, sample = finish_sample(flying, thought, acting, moved, given)
     layouts = [zeroed(x) for x in (flying, outer, thought, acting, moved, sample)]
-    return Likes._make([*layouts, before.near])
+    return Templates._make([*layouts, before.near])

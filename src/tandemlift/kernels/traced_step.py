@@ -15,7 +15,7 @@ from tandemlift.algebra.vector import ZERO, layout, total
 from tandemlift.controllers import control
 from tandemlift.engines.compiled import first_motion, untouched
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, SPAN, active, draws
-from tandemlift.kernels.templates import COMMAND, Likes
+from tandemlift.kernels.templates import COMMAND, Templates
 from tandemlift.laws.estimation.rotor_loss_detection import left_of, with_trials
 from tandemlift.laws.mechanics.clearance import clearance, may_press
 from tandemlift.laws.mechanics.contact import may_touch
@@ -23,11 +23,21 @@ from tandemlift.laws.mechanics.push import moment_of, push_of
 from tandemlift.laws.mechanics.rectangle import WALL
 from tandemlift.laws.mechanics.walls import consider
 from tandemlift.laws.mechanics.wind import gust_velocity
-from tandemlift.laws.rotors.allocation import Working, beyond, commanded, limits_at
-from tandemlift.laws.rotors.thrust_limits import Bounded, Search, begun, searched
+from tandemlift.laws.rotors.allocation import AllocationState, beyond, commanded, limits_at
+from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, begun, searched
 from tandemlift.laws.signals.random_numbers import normals
-from tandemlift.loop.step import Inputs, Thought, act, joined, observe, overruled, perceive, swing, think
-from tandemlift.pilot.pilot import brief, conclude, with_allocation, with_thrusts
+from tandemlift.loop.step import (
+    PilotOutput,
+    StepInputs,
+    actuate,
+    finish_sample,
+    perceive,
+    run_pilot,
+    step_body,
+    with_caller_thrusts,
+    with_person,
+)
+from tandemlift.pilot.pilot import control_input, with_allocation, with_command, with_thrusts
 from tandemlift.trace import Graph, Symbol, TraceError, leaves, refused, symbols, traced, written_out
 
 Symbols = list[Symbol]
@@ -39,32 +49,32 @@ def graph_for(quadrotors: int) -> Graph:
     return Graph(MANY if quadrotors >= MANY else 0)
 
 
-class Solver:
+class TracedSolver:
     """A step of the solver of limits, traced: inputs `problem`, and `search` as it goes on."""
 
-    def __init__(self, like: Bounded, rolls_from: int = 0) -> None:
+    def __init__(self, like: BoundedProblem, rolls_from: int = 0) -> None:
         self.graph, rotors = Graph(rolls_from), like.unlimited
         self.rotors, self.problem_size = len(rotors), leaves(like)
         problem = self.graph.inputs("problem", like)
-        search = self.graph.inputs("search", Search(Working(rotors, rotors), 0.0, 0.0, 0.0))
+        search = self.graph.inputs("search", Search(AllocationState(rotors, rotors), 0.0, 0.0, 0.0))
         self.begun = symbols(self.graph, self._unless_ended(search, begun(problem.limits, search.found)))
         self.after = symbols(self.graph, self._unless_ended(search, searched(problem, search)))
 
     def _unless_ended(self, s: Search, after: Search) -> Search:
         """A search that has ended stays as it is."""
         over = s.ended > 0.0
-        found = Working(*[where(over, a, b) for a, b in zip(s.found, after.found, strict=True)])
+        found = AllocationState(*[where(over, a, b) for a, b in zip(s.found, after.found, strict=True)])
         return Search(found, *[where(over, a, b) for a, b in zip(s[1:], after[1:], strict=True)])
 
 
-class Limits(NamedTuple):
+class LimitProblem(NamedTuple):
     """Thrusts within limits: whether thrusts leave them, what is solved for, the search without it and at its start."""
 
     beyond: Symbol
     problem: Symbols
     plain: Symbols
     search: Symbols
-    solver: Solver
+    solver: TracedSolver
 
 
 class BodyInputs(NamedTuple):
@@ -98,7 +108,7 @@ def check_layout(gains: Any, before: Any, after: Any) -> None:
     raise TraceError(what)
 
 
-class Traced:
+class TracedStep:
     """The graph of a step of flights like `likes`.
 
     Args:
@@ -106,33 +116,33 @@ class Traced:
         asks: whether a controller in Python is asked in the middle of the step.
     """
 
-    def __init__(self, likes: Likes, asks: bool = False) -> None:
+    def __init__(self, likes: Templates, asks: bool = False) -> None:
         self.likes, self.asks = likes, asks
         self.graph = graph_for(len(likes.flying.plant.frame.mass))
         self.flying = self.given_by("fly", likes.flying)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
-        outer = Inputs(
+        outer = StepInputs(
             self.given_by("hand", likes.given.hand),
             self.given_by("gust", ZERO),
             self.given_by("noise", likes.given.noise),
             self.flying.moving.partner,
             self.given_by("external", likes.given.external),
         )
-        self.given = traced(joined)(self.flying, outer, self.t, self.dt)
+        self.given = traced(with_person)(self.flying, outer, self.t, self.dt)
         self.asked: Symbols = []
-        thought = self._asking() if asks else traced(think)(self.flying, self.given.hand.start, self.t, self.dt)
-        self.limits: Limits | None = None
+        thought = self._asking() if asks else traced(run_pilot)(self.flying, self.given.hand.start, self.t, self.dt)
+        self.limits: LimitProblem | None = None
         if likes.constrained:
             thought = self._limited(thought)
-        thought = traced(overruled)(thought, self.given.external)
-        acting = traced(act)(self.flying, thought.decision.thrusts, self.given, self.t)
+        thought = traced(with_caller_thrusts)(thought, self.given.external)
+        acting = traced(actuate)(self.flying, thought.decision.thrusts, self.given, self.t)
         self.body = BodyInputs(self.all(acting), self._mean_push())
         self.near, self.apart = self.all(self._swung(self.flying.plant, acting)), list[Symbol]()
         if likes.grounded or likes.walled:
             self.apart = self.all(self._swung(untouched(self.flying.plant), acting))
         self.pressing = [self._pressing(acting)] if likes.walled else []
         moved = self.given_by("moved", likes.moved)
-        moving, sample = traced(observe)(self.flying, thought, acting, moved, self.given)
+        moving, sample = traced(finish_sample)(self.flying, thought, acting, moved, self.given)
         check_layout(self.flying.pilot.controller, likes.flying.moving, written_out(moving))
         self.moving, self.sample = self.all(moving), self.all(sample)
 
@@ -144,22 +154,22 @@ class Traced:
         """The numbers of a nested value."""
         return symbols(self.graph, value)
 
-    def _asking(self) -> Thought:
+    def _asking(self) -> PilotOutput:
         f, push, t, dt = self.flying, self.given.hand.start, self.t, self.dt
         known, heard, estimator = traced(perceive)(f, push, t, dt)
         memory = f.moving.memory
-        briefed = traced(brief)(f.pilot, memory, heard, t, dt)
+        briefed = traced(control_input)(f.pilot, memory, heard, t, dt)
         self.asked = [*self.all(briefed.measured), *self.all(briefed.guidance.reference)]
         command = self.given_by("answer", COMMAND)
-        decision, memory = traced(conclude)(f.pilot, memory, briefed, command, memory.controller)
-        return Thought(known, heard.state.attitude, decision, memory, estimator)
+        decision, memory = traced(with_command)(f.pilot, memory, briefed, command, memory.controller)
+        return PilotOutput(known, heard.state.attitude, decision, memory, estimator)
 
-    def _limited(self, thought: Thought) -> Thought:
+    def _limited(self, thought: PilotOutput) -> PilotOutput:
         self.limits, decision, memory = limited(self, self.flying.pilot, self.flying.moving.memory, thought, self.t)
-        return Thought(thought.known, thought.believed, decision, memory, thought.estimator)
+        return PilotOutput(thought.known, thought.believed, decision, memory, thought.estimator)
 
     def _swung(self, plant: Any, acting: Any) -> Any:
-        return traced(swing)(plant, self.flying.moving, acting, self.given.hand, self.dt)
+        return traced(step_body)(plant, self.flying.moving, acting, self.given.hand, self.dt)
 
     def _pressing(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""
@@ -216,7 +226,7 @@ class Traced:
 
 
 def limited(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
-    """(`Limits`, a decision within them, the memory after it); `held`: the pilot's memory before.
+    """(`LimitProblem`, a decision within them, the memory after it); `held`: the pilot's memory before.
 
     Args:
         owner: of the graph; gives symbols of a kind by `given_by`, and those of a value by `all`.
@@ -230,14 +240,14 @@ def limited(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
     limits = traced(limits_at)(how, traced(left_of)(pilot.detection, held.detection), t)
     outside = total(traced(beyond)(wished, limits)) > 0.0
     problem, plain, before = (
-        Bounded(how.rows, how.weights, decision.command.wrench, wished, limits),
-        Working(wished * 0.0, wished),
+        BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits),
+        AllocationState(wished * 0.0, wished),
         held.allocation,
     )
-    start = Working(where(outside, before.active, plain.active), where(outside, before.thrusts, plain.thrusts))
+    start = AllocationState(where(outside, before.active, plain.active), where(outside, before.thrusts, plain.thrusts))
     search = Search(start, 1.0, 0.0, where(outside, 0.0, 1.0))
-    solver = Solver(written_out(problem), owner.graph.rolls_from)
-    needs = Limits(outside, owner.all(problem), owner.all(plain), owner.all(search), solver)
+    solver = TracedSolver(written_out(problem), owner.graph.rolls_from)
+    needs = LimitProblem(outside, owner.all(problem), owner.all(plain), owner.all(search), solver)
     solved = owner.given_by("solved", written_out(plain))
     commands = traced(with_trials)(pilot.detection, held.detection, traced(commanded)(how, solved.thrusts, t), t)
     return needs, traced(with_thrusts)(decision, commands), traced(with_allocation)(thought.memory, solved)

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterator
 from typing import Any
 
-from tandemlift.errors import FlightWarning, InputError
+from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.missions import changed
 from tandemlift.settings import Mission
 

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.common.types import Array
 from tandemlift.live.frames import fields_of, frames_of
-from tandemlift.live.recorded import Array, Ready
+from tandemlift.live.recorded import Ready
 from tandemlift.live.scene import scene_of
 from tandemlift.live.values import places_of, values_of
 from tandemlift.missions import tables_of

@@ -8,7 +8,7 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.by_hand import NEVER
 from tandemlift.live.controls import BY_KEY, CHOICES, CONTROLLER, bounds_of, keys_of, value_of
 from tandemlift.live.recorded import RecordedFlight

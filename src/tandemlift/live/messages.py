@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic_core import from_json
 
-from tandemlift.errors import InputError, suggestion
+from tandemlift.common.errors import InputError, suggestion
 from tandemlift.missions.refusals import problems_in
 from tandemlift.missions.values import shown
 from tandemlift.settings.leaves import must

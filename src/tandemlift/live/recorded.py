@@ -12,34 +12,33 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.engines.registry import Body, engine_named
-from tandemlift.errors import FlightWarning, InputError
-from tandemlift.files import whole
+from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Array
+from tandemlift.engines.registry import EngineBody, engine_named
 from tandemlift.flight.record import Flight
-from tandemlift.kernels import place
-from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, Held
-from tandemlift.loop.running_metrics import EMPTY, Tally
+from tandemlift.kernels import leaf_offset
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, VirtualHandInput
+from tandemlift.loop.running_metrics import EMPTY, RunningMetrics
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
 from tandemlift.missions.recording import WIDTH, Recording, write_recording
 from tandemlift.settings import Mission
-from tandemlift.simulation.parameter_changes import Due, due_of
-from tandemlift.simulation.plan import Prepared
-from tandemlift.simulation.results import Flown, flight_of, take_tallies
+from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper
 from tandemlift.trace import flat, leaves, unflat
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
 MISSION, HAND, FLIGHT = "recorded.toml", "hand.npz", "flight.npz"
 
 
 class Ready(NamedTuple):
     """A mission put together, and its body if it lives elsewhere; nothing is compiled yet."""
 
-    p: Prepared
-    body: Body | None
+    p: FlightPlan
+    body: EngineBody | None
 
 
 def ready_of(mission: Mission, engine: str = "compiled") -> Ready:
@@ -48,7 +47,7 @@ def ready_of(mission: Mission, engine: str = "compiled") -> Ready:
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
-    chosen, p = engine_named(engine), Prepared(mission)
+    chosen, p = engine_named(engine), FlightPlan(mission)
     plant = p.flying.plant
     vehicle = Vehicle.from_settings(mission.vehicle)
     body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.load else None
@@ -114,10 +113,10 @@ class RecordedFlight:
 
     def number(self, *path: str) -> float:
         """A number of what moves in the flight, by its path from `loop.Moving`."""
-        return float(self._stepper.a[place(self._stepper.p.flying, "moving", *path).at])
+        return float(self._stepper.a[leaf_offset(self._stepper.p.flying, "moving", *path).at])
 
     @property
-    def hand(self) -> Held:
+    def hand(self) -> VirtualHandInput:
         """The hand as it is moved."""
         return unflat(self._stepper.a[self._stepper.hand], NOBODY_HOLDS)
 
@@ -128,7 +127,7 @@ class RecordedFlight:
             self._before, self._like = stepper.a.copy(), stepper.p.flying.moving
         self._before[:] = stepper.a
         if k == p.late_step:
-            (self._early,) = take_tallies(stepper.a, stepper.p.flying, 1)
+            (self._early,) = take_metrics(stepper.a, stepper.p.flying, 1)
         stepper.step(k)
         if k % p.every == 0:
             self._log[k // p.every] = stepper.row
@@ -139,7 +138,7 @@ class RecordedFlight:
         """Take no step for now; to be called again and again while it lasts."""
         self._stepper.rest()
 
-    def hold(self, hand: Held) -> None:
+    def hold(self, hand: VirtualHandInput) -> None:
         """Move the hand, from the next step on."""
         numbers = np.array(flat(hand))
         self._stepper.hold(numbers)
@@ -147,7 +146,7 @@ class RecordedFlight:
             self._rows.pop()
         self._rows.append((self.step, numbers))
 
-    def prepare(self, key: str, value: Any, duration: float = 0.0) -> Due:
+    def prepare(self, key: str, value: Any, duration: float = 0.0) -> ScheduledChange:
         """Make a change ready, which may take long; the flight may go on meanwhile.
 
         Raises:
@@ -155,12 +154,12 @@ class RecordedFlight:
         """
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", FlightWarning)
-            due = due_of(self._stepper.p, changed(self.now, key, value), key, 0, duration)
+            due = scheduled_change(self._stepper.p, changed(self.now, key, value), key, 0, duration)
         if due.prepared.variant != self._stepper.p.variant:
             Stepper(due.prepared, self._stepper.body)  # its code is compiled
         return due
 
-    def change(self, due: Due, key: str, value: Any, duration: float = 0.0) -> None:
+    def change(self, due: ScheduledChange, key: str, value: Any, duration: float = 0.0) -> None:
         """Let a change that was made ready begin with the next step; none must have come between."""
         entry = {"time": self.step * self.dt, "key": key, "value": value, "duration": duration}
         self._stepper.change(due._replace(first=self.step))
@@ -187,7 +186,7 @@ class Snapshot:
         self._moving = unflat(state[: leaves(like)], like)
         p, self._wall = f._p, f._wall
         late = self._steps > p.late_step
-        self._early: Tally = f._early if late else EMPTY
+        self._early: RunningMetrics = f._early if late else EMPTY
         self._log = f._log[: self._steps // p.every + 1]  # rows that are written are never written again
         self._last = np.full(leaves(p.sample), np.nan) if f.lost else f.sample.copy()
         self._rows = [(k, hand) for k, hand in f._rows if k <= self._steps]
@@ -203,7 +202,7 @@ class Snapshot:
         steps = np.array([k for k, _ in self._rows], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self._rows], (len(steps), WIDTH))
         write_recording(folder / HAND, Recording(steps, hands, self.engine))
-        with whole(folder / MISSION) as partial:
+        with atomic_write(folder / MISSION) as partial:
             again = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
             partial.write_text(again + self._toml(folder.name), "utf-8")
 
@@ -212,13 +211,13 @@ class Snapshot:
         duration = self._steps * self._start.mission.step
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", FlightWarning)
-            p = Prepared(changed(self._start, "mission.duration", duration))
+            p = FlightPlan(changed(self._start, "mission.duration", duration))
         return flight_of(p, self.flown, self.engine)
 
     @property
-    def flown(self) -> Flown:
+    def flown(self) -> RawResult:
         """What it leaves behind."""
-        return Flown(self._moving, self._early, self._steps, self._log, self._last, self._wall)
+        return RawResult(self._moving, self._early, self._steps, self._log, self._last, self._wall)
 
     def _toml(self, name: str) -> str:
         tables, step = tables_of(self._start), self._start.mission.step
@@ -228,11 +227,11 @@ class Snapshot:
         return format_toml(tables)
 
 
-def save_flight(folder: Path, flown: Flown, engine: str) -> Flight:
+def save_flight(folder: Path, flown: RawResult, engine: str) -> Flight:
     """Write into the folder of a recorded mission the flight that was flown."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FlightWarning)
-        p = Prepared(load_mission(folder / MISSION))
+        p = FlightPlan(load_mission(folder / MISSION))
     flight = flight_of(p, flown, engine)
     flight.save(folder / FLIGHT)
     return flight

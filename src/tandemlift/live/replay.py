@@ -16,16 +16,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.live.frames import RATE, fields_of, frames_of
 from tandemlift.live.scene import scene_of_tables
 from tandemlift.live.values import values_of
-from tandemlift.rendering.stage import Stage
+from tandemlift.rendering.stage import FlightStage
 from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 MOST_FRAMES = 36_000  # ten minutes of them; a longer flight has fewer a second
 OFFLINE = (
@@ -42,7 +41,7 @@ def scene_and_frames(flight: Flight) -> tuple[dict[str, Any], NDArray[np.float32
     Raises:
         InputError: nothing of the flight can be shown.
     """
-    stage = Stage(flight)
+    stage = FlightStage(flight)
     vehicle = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
     shown = np.flatnonzero(np.isin(flight.time, stage.time))
     shown = shown[:: _every(flight.time[shown])]

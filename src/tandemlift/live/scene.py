@@ -14,15 +14,16 @@ import numpy as np
 
 from tandemlift import __version__
 from tandemlift.algebra.vector import Nothing
+from tandemlift.common.types import Array
 from tandemlift.laws.guidance.fault_reactions import FAULTS, alarm_name
 from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.laws.mechanics.contact import soles_below
 from tandemlift.laws.sensors.health import KINDS
 from tandemlift.live.frames import RATE, fields_of
 from tandemlift.missions import tables_of
-from tandemlift.models.surroundings import floor_of
+from tandemlift.models.surroundings import floor_from
 from tandemlift.settings import Mission, Quadrotor, wall_tables
-from tandemlift.vehicle import Array, Vehicle
+from tandemlift.vehicle import Vehicle
 
 SPRING = {"stiffness": 8.0, "damping": 2.0, "max_force": 8.0}  # N/m, N s/m, N: of a page's hand unless told otherwise
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
@@ -46,7 +47,7 @@ def scene_of(
         spring: stiffness [N/m], damping [N s/m] and max_force [N] of the hand by which a page pulls.
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
-    floor = floor_of(mission, vehicle)
+    floor = floor_from(mission, vehicle)
     height = _lowest(mission, vehicle) if isinstance(floor, Nothing) else float(floor.height)
     scene = scene_of_tables(tables_of(mission), vehicle, engine, height)
     return {**scene, "spring": dict(spring), "controls": [dict(c) for c in controls]}

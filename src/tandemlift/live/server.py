@@ -18,7 +18,7 @@ from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.frames import RATE
 from tandemlift.live.guard import HOST, PORT, Asked, Guard, listen
 from tandemlift.live.messages import (

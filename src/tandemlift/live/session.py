@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS

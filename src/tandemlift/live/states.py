@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.live.taring import check_hands_off
 from tandemlift.settings import Mission

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.laws.guidance.phases import GUIDED, HOLD, NAMES
 from tandemlift.live.recorded import RecordedFlight
 

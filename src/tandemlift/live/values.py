@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.laws.guidance.phases import GUIDED, LAND, LIFT
 from tandemlift.simulation.results import channels_of
 from tandemlift.trace import leaves
-
-Array = NDArray[np.float64]
 
 PUSHED = 1e-9  # N, below which a push acts nowhere
 CHANNELS = {  # of a frame's fields: the channels that tell of it, the best first

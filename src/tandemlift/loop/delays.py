@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 
-class Late(NamedTuple):
+class Delayed(NamedTuple):
     """Marks what is delayed; by how many steps is data of the loop."""
 
 
-class Lines(NamedTuple):
+class DelayLines(NamedTuple):
     """Of the readings of the unit on board, of those of the motion, of the rotors' commands, of what a person sees.
 
-    `Late` or `Nothing` each.
+    `Delayed` or `Nothing` each.
     """
 
     unit: Any

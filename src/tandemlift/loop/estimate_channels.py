@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import Nothing, Quat, Vec3
 from tandemlift.laws.sensors.readings import Readings
-from tandemlift.loop.perception import Known
+from tandemlift.loop.perception import Estimates
 
 
 class MeasuredChannels(NamedTuple):
@@ -66,7 +66,7 @@ def _no_estimate(known):
     return known
 
 
-@shown_estimate.register(Known)
+@shown_estimate.register(Estimates)
 def _estimate(known):
     s, p = known.state, known.push
     return EstimatedChannels(

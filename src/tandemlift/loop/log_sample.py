@@ -10,23 +10,23 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, greatest, minimum, where
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
-from tandemlift.engines.compiled import Above
-from tandemlift.laws.estimation.disturbance_observer import Observer, Unmodelled
-from tandemlift.laws.estimation.rotor_loss_detection import Detection
-from tandemlift.laws.guidance.guidance import GuidedChannels, share_of
+from tandemlift.engines.compiled import DistantFloor
+from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
+from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
+from tandemlift.laws.guidance.guidance import HandGuidanceChannels, thrust_fraction
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.mechanics.clearance import clearance
 from tandemlift.laws.mechanics.contact import Floor
-from tandemlift.laws.mechanics.loads import Felt, Loads, total_of_each
-from tandemlift.laws.mechanics.push import Hand, moment_of
+from tandemlift.laws.mechanics.loads import PartLoads, PerfectReadings, total_of_each
+from tandemlift.laws.mechanics.push import PushSamples, moment_of
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, turned_least
-from tandemlift.laws.person.person import Partnering
-from tandemlift.laws.person.virtual_hand import Grabbing
+from tandemlift.laws.person.person import PersonState
+from tandemlift.laws.person.virtual_hand import VirtualHandState
 from tandemlift.laws.rotors.allocation import wrench
 from tandemlift.laws.rotors.dynamics import IdealRotors, Rotors
 from tandemlift.laws.rotors.thrust_limits import given_share
 from tandemlift.loop.estimate_channels import shown_estimate, shown_readings
-from tandemlift.loop.running_metrics import Errors, effort_of
+from tandemlift.loop.running_metrics import StepErrors, effort_of
 
 
 class Sample(NamedTuple):
@@ -62,7 +62,7 @@ class Sample(NamedTuple):
     watched: Any
 
 
-class Actuated(NamedTuple):
+class ActuatorChannels(NamedTuple):
     """Of real rotors: the thrusts commanded, the wrench that they can give within limits, and its share of U."""
 
     rotor_commands: Any
@@ -71,26 +71,26 @@ class Actuated(NamedTuple):
     allocation_share: Any
 
 
-class Air(NamedTuple):
+class WindChannels(NamedTuple):
     """Of moving air: its velocity, and its force on all parts together."""
 
     wind_velocity: Vec3
     wind_force: Vec3
 
 
-class Contact(NamedTuple):
+class ContactChannels(NamedTuple):
     """Of floor and walls: their force on all parts together."""
 
     contact_force: Vec3
 
 
-class Watched(NamedTuple):
+class DetectionChannels(NamedTuple):
     """Of the detection of lost rotors: the number of the rotor that is taken for lost, 0 for none."""
 
     rotor_lost: Any
 
 
-class Disturbed(NamedTuple):
+class DisturbanceChannels(NamedTuple):
     """Of an observer: what it estimates, and how far it is behind."""
 
     disturbance_force: Vec3
@@ -100,7 +100,7 @@ class Disturbed(NamedTuple):
 
 
 @choice
-def disturbed(observer: Any, unknown: Unmodelled) -> Any:
+def disturbed(observer: Any, unknown: DisturbanceEstimate) -> Any:
     """What an observer shows."""
 
 
@@ -109,9 +109,9 @@ def _no_observer(observer, unknown):
     return observer
 
 
-@disturbed.register(Observer)
+@disturbed.register(DisturbanceObserver)
 def _an_observer(observer, unknown):
-    return Disturbed(unknown.force, unknown.moment, unknown.residual, unknown.turning_residual)
+    return DisturbanceChannels(unknown.force, unknown.moment, unknown.residual, unknown.turning_residual)
 
 
 @choice
@@ -124,9 +124,9 @@ def _not_watched(detection, memory):
     return detection
 
 
-@watched.register(Detection)
+@watched.register(RotorLossDetection)
 def _is_watched(detection, memory):
-    return Watched(dot(memory.verdict.lost, detection.numbers))
+    return DetectionChannels(dot(memory.verdict.lost, detection.numbers))
 
 
 @choice
@@ -143,7 +143,9 @@ def _nothing_to_show(rotors, effect, command, commands):
 def _within_limits(rotors, effect, command, commands):
     thrusts = clip(commands, 0.0, rotors.max_thrust)
     given = wrench(effect, thrusts)
-    return Actuated(commands, given.thrust, given.moment, given_share(effect, rotors.per_reach, command, thrusts))
+    return ActuatorChannels(
+        commands, given.thrust, given.moment, given_share(effect, rotors.per_reach, command, thrusts)
+    )
 
 
 @choice
@@ -177,13 +179,13 @@ def _no_air(loads, velocity):
     return loads
 
 
-@air_of.register(Loads)
+@air_of.register(PartLoads)
 def _some_air(loads, velocity):
-    return Air(velocity, loads.payload.force + total_of_each(loads.quadrotors.force))
+    return WindChannels(velocity, loads.payload.force + total_of_each(loads.quadrotors.force))
 
 
 @choice
-def contact_of(floor: Any, felt: Felt) -> Any:
+def contact_of(floor: Any, felt: PerfectReadings) -> Any:
     """What contact shows."""
 
 
@@ -192,14 +194,14 @@ def _no_contact(floor, felt):
     return floor
 
 
-@contact_of.register(Above)
+@contact_of.register(DistantFloor)
 @contact_of.register(Floor)
 def _some_contact(floor, felt):
-    return Contact(felt.contact_force)
+    return ContactChannels(felt.contact_force)
 
 
 @law
-def show(flying: Any, thought: Any, acting: Any, moved: Any, hand: Hand) -> Sample:
+def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
     """The sample of a step, at its start."""
     state, felt, read = flying.moving.state, moved.felt, thought.decision
     guidance, command = read.guidance, read.command
@@ -246,12 +248,12 @@ def _nobody(partner, x):
     return partner
 
 
-@effort.register(Partnering)
+@effort.register(PersonState)
 def _somebody(partner, x):
     return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
-@effort.register(Grabbing)
+@effort.register(VirtualHandState)
 def _a_hand(partner, x):
     return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
@@ -266,15 +268,15 @@ def _not_asked(shown):
     return 0.0
 
 
-@hearing.register(GuidedChannels)
+@hearing.register(HandGuidanceChannels)
 def _heard(shown):
     return greatest(shown.push_on)
 
 
 @law
-def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
+def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
     """What a sample adds to the tally."""
-    return Errors(
+    return StepErrors(
         x.reference_position - x.position,
         x.reference_velocity - x.velocity,
         turned_least(x.reference_euler - x.euler),
@@ -283,7 +285,7 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> Errors:
         x.moment,
         x.push_force,
         dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
-        saturated(flying.rotors, thought.decision.thrusts) * share_of(thought.decision.guidance.running),
+        saturated(flying.rotors, thought.decision.thrusts) * thrust_fraction(thought.decision.guidance.running),
         clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
         effort(flying.moving.partner, x),
         hearing(thought.decision.guidance.shown),

@@ -7,47 +7,47 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, apply_transposed, cross
 from tandemlift.laws.estimation.navigation import Navigator, navigate
-from tandemlift.laws.estimation.push_estimate import Push, PushEstimator, estimate
+from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import moment_of
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import Readings, Sensors, sense
 
 
-class Truth(NamedTuple):
+class TruthSource(NamedTuple):
     """The pilot reads what is true."""
 
 
-class Measurement(NamedTuple):
+class MeasurementSource(NamedTuple):
     """The pilot reads what sensors measure."""
 
 
-class Estimate(NamedTuple):
+class EstimateSource(NamedTuple):
     """The pilot reads what is estimated."""
 
 
-class Touch(NamedTuple):
+class PushWrench(NamedTuple):
     """A push: force [N, world axes] and moment about the system's centre of mass [N·m, body axes]."""
 
     force: Vec3
     moment: Vec3
 
 
-class Sensed(NamedTuple):
+class PerceptionData(NamedTuple):
     """What sensors read and what estimators know."""
 
     readings: Any
     known: Any
 
 
-class Reads(NamedTuple):
+class PilotSources(NamedTuple):
     """What the pilot reads of the state, and of the push."""
 
     state: Any
     push: Any
 
 
-class Believed(NamedTuple):
+class NominalVehicle(NamedTuple):
     """What is believed of the vehicle.
 
     The payload's centre of mass from the system's [m, body axes], and linear drag, which the joints feel as they feel a
@@ -64,44 +64,44 @@ class Estimators(NamedTuple):
 
     push: PushEstimator
     state: Navigator
-    vehicle: Believed
+    vehicle: NominalVehicle
     tare: Any
 
 
-class ByClock(NamedTuple):
+class TareAtTime(NamedTuple):
     """The tare begins at a set time."""
 
 
-class InHover(NamedTuple):
+class TareInHover(NamedTuple):
     """The tare begins in steady hover."""
 
 
-class Remembered(NamedTuple):
+class EstimatorState(NamedTuple):
     """Memory of the estimators."""
 
     push: Any
     state: Any
 
 
-class Known(NamedTuple):
+class Estimates(NamedTuple):
     """What is estimated; and what is believed of the vehicle."""
 
-    push: Push
+    push: PushEstimate
     state: State
-    vehicle: Believed
+    vehicle: NominalVehicle
 
 
 @choice
-def sensed(sensors: Any, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
+def measure(sensors: Any, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
     """(Readings of a step, the sensors' memory)."""
 
 
-@sensed.register(Nothing)
+@measure.register(Nothing)
 def _blind(sensors, memory, state, felt, believed, noise):
     return sensors, memory
 
 
-@sensed.register(Sensors)
+@measure.register(Sensors)
 def _sensed(sensors, memory, state, felt, believed, noise):
     return sense(sensors, memory, state, felt, believed, noise)
 
@@ -111,12 +111,12 @@ def tare_begun(tare: Any, guidance: Any, t: Any) -> Any:
     """The time [s] on the clock of the tare; `guidance`: its memory."""
 
 
-@tare_begun.register(ByClock)
+@tare_begun.register(TareAtTime)
 def _by_clock(tare, guidance, t):
     return t
 
 
-@tare_begun.register(InHover)
+@tare_begun.register(TareInHover)
 def _in_hover(tare, guidance, t):
     return guidance.phase.hovered
 
@@ -150,7 +150,7 @@ def _unknowing(estimators, memory, readings, t, dt):
 def _estimated(estimators, memory, readings, t, dt):
     push, push_memory = estimate(estimators.push, memory.push, readings.unit, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
-    return Known(push, state, estimators.vehicle), Remembered(push_memory, state_memory)
+    return Estimates(push, state, estimators.vehicle), EstimatorState(push_memory, state_memory)
 
 
 @choice
@@ -163,7 +163,7 @@ def _as_unknown(known, readings):
     return readings
 
 
-@usable.register(Known)
+@usable.register(Estimates)
 def _as_given(known, readings):
     return readings
 
@@ -173,53 +173,53 @@ def read_state(reads: Any, true: State, readings: Any, known: Any) -> Any:
     """The state as the pilot reads it."""
 
 
-@read_state.register(Truth)
+@read_state.register(TruthSource)
 def _true_state(reads, true, readings, known):
     return true
 
 
-@read_state.register(Measurement)
+@read_state.register(MeasurementSource)
 def _measured_state(reads, true, readings, known):
     motion = readings.motion
     return State(motion.position, motion.velocity, motion.attitude, readings.unit.rates)
 
 
-@read_state.register(Estimate)
+@read_state.register(EstimateSource)
 def _estimated_state(reads, true, readings, known):
     return known.state
 
 
 @choice
 def read_push(reads: Any, true: Any, state: State, known: Any) -> Any:
-    """The push as the pilot reads it, a `Touch`, in a state that it believes in. `true`: as it is."""
+    """The push as the pilot reads it, a `PushWrench`, in a state that it believes in. `true`: as it is."""
 
 
-@read_push.register(Truth)
+@read_push.register(TruthSource)
 def _true_push(reads, true, state, known):
-    return Touch(true.force, moment_of(true, state.attitude))
+    return PushWrench(true.force, moment_of(true, state.attitude))
 
 
-@read_push.register(Measurement)
+@read_push.register(MeasurementSource)
 def _measured_push(reads, true, state, known):
     p = known.push
-    return felt(known.vehicle, state, p.measured, p.measured_moment, p.trusted * p.armed)
+    return true_push(known.vehicle, state, p.measured, p.measured_moment, p.trusted * p.armed)
 
 
-@read_push.register(Estimate)
+@read_push.register(EstimateSource)
 def _estimated_push(reads, true, state, known):
     p = known.push
-    return felt(known.vehicle, state, p.force, p.moment, p.trusted * p.armed)
+    return true_push(known.vehicle, state, p.force, p.moment, p.trusted * p.armed)
 
 
 @law
-def felt(vehicle: Believed, state: State, force: Vec3, moment: Vec3, heard: Any) -> Touch:
+def true_push(vehicle: NominalVehicle, state: State, force: Vec3, moment: Vec3, heard: Any) -> PushWrench:
     """A push on the payload, less what drag does, about the system's centre of mass; nothing if not `heard` (0).
 
     `force` [N, world axes]; `moment` [N·m, body axes] is about the payload's centre of mass.
     """
     push = force + vehicle.drag_force * state.velocity
     arm = cross(vehicle.payload, apply_transposed(rotation_from_quaternion(state.attitude), push))
-    return Touch(push * heard, (moment + vehicle.drag_moment * state.rates + arm) * heard)
+    return PushWrench(push * heard, (moment + vehicle.drag_moment * state.rates + arm) * heard)
 
 
 @choice
@@ -234,7 +234,7 @@ def _nothing_sensed(readings, known):
 
 @all_sensed.register(Readings)
 def _some_sensed(readings, known):
-    return Sensed(readings, known)
+    return PerceptionData(readings, known)
 
 
-READS = {"truth": Truth(), "measurement": Measurement(), "estimate": Estimate()}
+READS = {"truth": TruthSource(), "measurement": MeasurementSource(), "estimate": EstimateSource()}

@@ -13,7 +13,7 @@ from tandemlift.laws.mechanics.clearance import nearer_of
 LATE = 10.0  # s: "after 10 s" leaves the disturbed start out
 
 
-class Errors(NamedTuple):
+class StepErrors(NamedTuple):
     """What a step adds to the tally: errors are desired minus actual, world axes or Euler angles; SI units."""
 
     position: Vec3
@@ -30,7 +30,7 @@ class Errors(NamedTuple):
     hearing: Any
 
 
-class Effort(NamedTuple):
+class PersonEffort(NamedTuple):
     """Of a person who guides the vehicle, while they hold on: steps, sums of |force| and of the way flown per step."""
 
     steps: Any
@@ -38,7 +38,7 @@ class Effort(NamedTuple):
     speed_sum: Any
 
 
-class Tally(NamedTuple):
+class RunningMetrics(NamedTuple):
     """Sums and extremes over a stretch of steps; `triggers`: how often a push came to be heard; if one is now."""
 
     steps: Any
@@ -59,10 +59,10 @@ class Tally(NamedTuple):
     hearing: Any
 
 
-EMPTY = Tally(
+EMPTY = RunningMetrics(
     0.0, ZERO, ZERO, ZERO, ZERO, ZERO, math.inf, -math.inf, ZERO, ZERO, 0.0, 0.0, Nothing(), Nothing(), 0.0, 0.0
 )
-NO_EFFORT = Effort(0.0, 0.0, 0.0)
+NO_EFFORT = PersonEffort(0.0, 0.0, 0.0)
 
 
 @choice
@@ -75,22 +75,22 @@ def _nobody(effort, more):
     return effort
 
 
-@added.register(Effort)
+@added.register(PersonEffort)
 def _somebody(effort, more):
-    return Effort(effort.steps + more.steps, effort.force_sum + more.force_sum, effort.speed_sum + more.speed_sum)
+    return PersonEffort(effort.steps + more.steps, effort.force_sum + more.force_sum, effort.speed_sum + more.speed_sum)
 
 
 @law
-def effort_of(grasp: Any, force: Vec3, velocity: Vec3) -> Effort:
+def effort_of(grasp: Any, force: Vec3, velocity: Vec3) -> PersonEffort:
     """A step's effort of a person who holds on (`grasp` 1) or not (0), with a force, at a velocity."""
     strong, fast = sqrt(maximum(dot(force, force), 1e-24)), sqrt(maximum(dot(velocity, velocity), 1e-24))
-    return Effort(grasp, strong * grasp, fast * grasp)
+    return PersonEffort(grasp, strong * grasp, fast * grasp)
 
 
 @law
-def count(c: Tally, x: Errors) -> Tally:
+def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
     """The tally with one more step."""
-    return Tally(
+    return RunningMetrics(
         c.steps + 1.0,
         c.position_squares + x.position * x.position,
         maximum(c.position_max, absolute(x.position)),
@@ -114,7 +114,7 @@ def _root_mean(squares: Any, steps: float) -> list[float] | None:
     return [math.sqrt(s / steps) for s in squares] if steps else None
 
 
-def summary(early: Tally, late: Tally, step: float) -> dict[str, Any]:
+def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
     """The metrics from the tallies before and after `LATE`, with steps of `step` [s]; None where there is none."""
     steps = early.steps + late.steps
     return {
@@ -137,7 +137,7 @@ def summary(early: Tally, late: Tally, step: float) -> dict[str, Any]:
     }
 
 
-def _of_walls(early: Tally, late: Tally) -> dict[str, Any]:
+def _of_walls(early: RunningMetrics, late: RunningMetrics) -> dict[str, Any]:
     """The metrics of a flight among walls."""
     if isinstance(early.clearance, Nothing):
         return {}
@@ -145,7 +145,7 @@ def _of_walls(early: Tally, late: Tally) -> dict[str, Any]:
     return {"clearance_min_m": least, "wall_contact": least < 0.0}
 
 
-def _of_effort(early: Tally, late: Tally, step: float) -> dict[str, Any]:
+def _of_effort(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
     """The metrics of a person who guides the vehicle."""
     if isinstance(early.effort, Nothing):
         return {}

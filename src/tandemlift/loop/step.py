@@ -13,25 +13,25 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import absolute, maximum, where
 from tandemlift.algebra.vector import Nothing, Quat, dot
-from tandemlift.engines.compiled import Moved, Plant, advance
+from tandemlift.engines.compiled import BodyStep, CompiledPlant, advance
 from tandemlift.laws.guidance.requests import UNAWARE, operator_of
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.push import Hand, Push
+from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.laws.person.caller_inputs import pushed, thrusts_of
-from tandemlift.laws.person.person import asks_to_land, lend
+from tandemlift.laws.person.person import asks_to_land, person_step
 from tandemlift.laws.rotors.dynamics import drive
-from tandemlift.loop.log_sample import errors_of, show
-from tandemlift.loop.perception import all_sensed, estimate_all, read_push, read_state, sensed, tare_time, usable
-from tandemlift.loop.running_metrics import Tally, count
-from tandemlift.loop.wind_loads import weather
-from tandemlift.pilot.pilot import Decision, Heard, PilotMemory, PilotParameters, decide, with_thrusts
+from tandemlift.loop.log_sample import errors_of, log_sample
+from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
+from tandemlift.loop.running_metrics import RunningMetrics, count
+from tandemlift.loop.wind_loads import wind_loads
+from tandemlift.pilot.pilot import Decision, PilotInput, PilotMemory, PilotParameters, decide, with_thrusts
 
 SIN_ROLL_LIMIT = 0.9998476951563913  # sin 89°
 FAR = 1000.0  # m
 
 
-class Moving(NamedTuple):
+class FlightState(NamedTuple):
     """What changes from step to step; `lost` becomes 1 when the state is no longer sound."""
 
     state: State
@@ -44,16 +44,16 @@ class Moving(NamedTuple):
     rotors: Any
     readings: Any
     partner: Any
-    tally: Tally
+    tally: RunningMetrics
     lost: Any
 
 
-class Flying(NamedTuple):
+class FlightModel(NamedTuple):
     """One flight: what changes, and the numbers that do not. Its type is the compiled loop's variant."""
 
-    moving: Moving
+    moving: FlightState
     pilot: PilotParameters
-    plant: Plant
+    plant: CompiledPlant
     rotors: Any
     weather: Any
     sensors: Any
@@ -63,7 +63,7 @@ class Flying(NamedTuple):
     delays: Any
 
 
-class Noise(NamedTuple):
+class StepNoise(NamedTuple):
     """Standard normals of one step: of the wind, of the sensors, of the person."""
 
     wind: Any
@@ -71,20 +71,20 @@ class Noise(NamedTuple):
     partner: Any
 
 
-class Inputs(NamedTuple):
+class StepInputs(NamedTuple):
     """What a step is given from outside: the push, gusts [m/s], standard normals; a person's memory, once they push.
 
     `external` is what a caller adds who steps the flight by hand, else `Nothing`.
     """
 
-    hand: Hand
+    hand: PushSamples
     gust: Any
     noise: Any
     partner: Any
     external: Any = Nothing()
 
 
-class Thought(NamedTuple):
+class PilotOutput(NamedTuple):
     """The pilot's part of a step: what is estimated, the attitude believed in, the decision, what is remembered."""
 
     known: Any
@@ -94,7 +94,7 @@ class Thought(NamedTuple):
     estimator: Any
 
 
-class Acting(NamedTuple):
+class Actuation(NamedTuple):
     """What acts on the body over a step: rotor thrusts [N] and moving air; and what rotors and wind remember."""
 
     thrusts: Any
@@ -103,15 +103,15 @@ class Acting(NamedTuple):
 
 
 @law
-def joined(flying: Flying, given: Inputs, t: Any, dt: Any) -> Inputs:
+def with_person(flying: FlightModel, given: StepInputs, t: Any, dt: Any) -> StepInputs:
     """What a step is given, with the push of its caller and of the person who guides the vehicle."""
     before, noise = flying.moving, given.noise.partner
-    lent = lend(flying.partner, before.partner, pushed(given.external, given.hand), before.state, noise, t, dt)
-    return Inputs(lent.hand, given.gust, given.noise, lent.memory, given.external)
+    lent = person_step(flying.partner, before.partner, pushed(given.external, given.hand), before.state, noise, t, dt)
+    return StepInputs(lent.hand, given.gust, given.noise, lent.memory, given.external)
 
 
 @law
-def perceive(flying: Flying, push: Push, t: Any, dt: Any) -> Any:
+def perceive(flying: FlightModel, push: Push, t: Any, dt: Any) -> Any:
     """(what is estimated, what the pilot hears, the estimators' memory) at time t [s]; `push`: the true one."""
     before, reads = flying.moving, flying.reads
     since = tare_time(flying.estimator, before.memory.guidance, t)
@@ -121,49 +121,51 @@ def perceive(flying: Flying, push: Push, t: Any, dt: Any) -> Any:
     touch = read_push(reads.push, push, state, known)
     land, sees = asks_to_land(before.partner), all_sensed(readings, known)
     asked = operator_of(before.partner)
-    return known, Heard(state, touch.force, touch.moment, land, sees, asked, UNAWARE), memory
+    return known, PilotInput(state, touch.force, touch.moment, land, sees, asked, UNAWARE), memory
 
 
 @law
-def think(flying: Flying, push: Push, t: Any, dt: Any) -> Thought:
+def run_pilot(flying: FlightModel, push: Push, t: Any, dt: Any) -> PilotOutput:
     """The pilot's part of a step."""
     known, heard, estimator = perceive(flying, push, t, dt)
     decision, memory = decide(flying.pilot, flying.moving.memory, heard, t, dt)
-    return Thought(known, heard.state.attitude, decision, memory, estimator)
+    return PilotOutput(known, heard.state.attitude, decision, memory, estimator)
 
 
 @law
-def overruled(thought: Thought, external: Any) -> Thought:
+def with_caller_thrusts(thought: PilotOutput, external: Any) -> PilotOutput:
     """The pilot's part of a step, with the thrusts that its caller gives in place of the pilot's."""
     decision = with_thrusts(thought.decision, thrusts_of(external, thought.decision.thrusts))
-    return Thought(thought.known, thought.believed, decision, thought.memory, thought.estimator)
+    return PilotOutput(thought.known, thought.believed, decision, thought.memory, thought.estimator)
 
 
 @law
-def act(flying: Flying, thrusts: Any, given: Inputs, t: Any) -> Acting:
+def actuate(flying: FlightModel, thrusts: Any, given: StepInputs, t: Any) -> Actuation:
     """What the rotors make of commanded thrusts [N] over the step from time t [s], and the wind over it."""
     before = flying.moving
     driven, rotors = drive(flying.rotors, before.rotors, thrusts, before.state, t)
-    blowing = weather(flying.weather, before.wind, flying.plant.frame, before.state, given.gust, given.noise.wind)
-    return Acting(driven, rotors, blowing)
+    blowing = wind_loads(flying.weather, before.wind, flying.plant.frame, before.state, given.gust, given.noise.wind)
+    return Actuation(driven, rotors, blowing)
 
 
 @law
-def unsound(state: State) -> Any:
+def is_unsound(state: State) -> Any:
     """0 while the state is finite, within 89° of roll and 1 km of the origin, else 1."""
     far = where(dot(state.position, state.position) < FAR * FAR, 0.0, 1.0)
     return where(absolute(sine_of_roll(state.attitude)) < SIN_ROLL_LIMIT, far, 1.0)
 
 
 @law
-def observe(flying: Flying, thought: Thought, acting: Acting, moved: Moved, given: Inputs) -> Any:
+def finish_sample(
+    flying: FlightModel, thought: PilotOutput, acting: Actuation, moved: BodyStep, given: StepInputs
+) -> Any:
     """What a step comes to once the body has moved: (Moving after it, the Sample at its start)."""
     before, believed = flying.moving, thought.believed
-    readings, sensing = sensed(flying.sensors, before.sensing, before.state, moved.felt, believed, given.noise.sensors)
-    sample = show(flying, thought, acting, moved, given.hand)
+    readings, sensing = measure(flying.sensors, before.sensing, before.state, moved.felt, believed, given.noise.sensors)
+    sample = log_sample(flying, thought, acting, moved, given.hand)
     tally = count(before.tally, errors_of(flying, thought, sample))
-    lost = maximum(before.lost, unsound(moved.state))
-    after = Moving(
+    lost = maximum(before.lost, is_unsound(moved.state))
+    after = FlightState(
         moved.state,
         thought.memory,
         acting.weather.memory,
@@ -181,22 +183,22 @@ def observe(flying: Flying, thought: Thought, acting: Acting, moved: Moved, give
 
 
 @law
-def swing(plant: Plant, before: Moving, acting: Acting, hand: Hand, dt: Any) -> Moved:
+def step_body(plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, dt: Any) -> BodyStep:
     """The body's part of a step."""
     air = acting.weather.loads
     return advance(plant, before.state, before.grip, before.near, acting.thrusts, air, hand, dt)
 
 
 @law
-def finish(flying: Flying, thought: Thought, given: Inputs, t: Any, dt: Any) -> Any:
+def finish_step(flying: FlightModel, thought: PilotOutput, given: StepInputs, t: Any, dt: Any) -> Any:
     """The rest of a step once the pilot has decided: (Moving after it, the Sample at its start)."""
-    thought = overruled(thought, given.external)
-    acting = act(flying, thought.decision.thrusts, given, t)
-    return observe(flying, thought, acting, swing(flying.plant, flying.moving, acting, given.hand, dt), given)
+    thought = with_caller_thrusts(thought, given.external)
+    acting = actuate(flying, thought.decision.thrusts, given, t)
+    return finish_sample(flying, thought, acting, step_body(flying.plant, flying.moving, acting, given.hand, dt), given)
 
 
 @law
-def move(flying: Flying, given: Inputs, t: Any, dt: Any) -> Any:
+def step_flight(flying: FlightModel, given: StepInputs, t: Any, dt: Any) -> Any:
     """One step of a flight from time t [s] by dt [s]: (Moving after it, the Sample at its start)."""
-    given = joined(flying, given, t, dt)
-    return finish(flying, think(flying, given.hand.start, t, dt), given, t, dt)
+    given = with_person(flying, given, t, dt)
+    return finish_step(flying, run_pilot(flying, given.hand.start, t, dt), given, t, dt)

@@ -6,18 +6,18 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import Nothing
-from tandemlift.laws.mechanics.loads import Frame
-from tandemlift.laws.mechanics.wind import AirDrag, air_loads, blow
+from tandemlift.laws.mechanics.loads import PartsLayout
+from tandemlift.laws.mechanics.wind import AirDrag, air_loads, wind_step
 
 
-class Weather(NamedTuple):
+class WindModel(NamedTuple):
     """The wind, and the parts' drag."""
 
     wind: Any
     drag: AirDrag
 
 
-class Blowing(NamedTuple):
+class WindOutput(NamedTuple):
     """The air over a step: its velocity [m/s, world axes], its loads on the parts, and the wind's memory after it."""
 
     velocity: Any
@@ -26,16 +26,16 @@ class Blowing(NamedTuple):
 
 
 @choice
-def weather(kind: Any, memory: Any, frame: Frame, state: Any, gust: Any, noise: Any) -> Any:
+def wind_loads(kind: Any, memory: Any, frame: PartsLayout, state: Any, gust: Any, noise: Any) -> Any:
     """The air over a step that starts in `state`; `gust`: velocity of all gusts together [m/s, world axes]."""
 
 
-@weather.register(Nothing)
+@wind_loads.register(Nothing)
 def _still(kind, memory, frame, state, gust, noise):
-    return Blowing(kind, kind, memory)
+    return WindOutput(kind, kind, memory)
 
 
-@weather.register(Weather)
+@wind_loads.register(WindModel)
 def _moving(kind, memory, frame, state, gust, noise):
-    velocity, after = blow(kind.wind, memory, gust, noise)
-    return Blowing(velocity, air_loads(kind.drag, frame, state, velocity), after)
+    velocity, after = wind_step(kind.wind, memory, gust, noise)
+    return WindOutput(velocity, air_loads(kind.drag, frame, state, velocity), after)

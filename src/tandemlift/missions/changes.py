@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.flight.old_names import renamed_setting, warn_of_old_names
 from tandemlift.missions.values import Tables, merge, shown, value_at
 

@@ -8,8 +8,8 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.controllers import CONTROLLERS
-from tandemlift.errors import FlightWarning, InputError, suggestion
 from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.checks import check_flyable, warn
 from tandemlift.missions.files import Layer

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.errors import FlightWarning, InputError
+from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.missions.hardware_checks import check_hardware, hardware_warnings
 from tandemlift.missions.person_checks import check_person, person_warnings
 from tandemlift.missions.supervision_checks import check_supervision

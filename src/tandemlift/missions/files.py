@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from tandemlift.errors import InputError, suggestion, unknown
+from tandemlift.common.errors import InputError, suggestion, unknown
 from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.missions.values import MISSING, Tables, merge, shown, value_at
 

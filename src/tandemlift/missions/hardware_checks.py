@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.algebra.constants import GRAVITY
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 

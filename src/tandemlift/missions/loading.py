@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from tandemlift.common.errors import InputError
 from tandemlift.controllers import CONTROLLERS, Controller
-from tandemlift.errors import InputError
 from tandemlift.flight.old_names import check_said_once
 from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.checking import check

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.missions.recording import read_recording
 from tandemlift.settings import Mission
 

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.errors import InputError
-from tandemlift.files import whole
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 from tandemlift.settings import Mission
 
 WIDTH = 14  # numbers of a `Held`
@@ -32,7 +32,7 @@ class Recording(NamedTuple):
 
 def write_recording(path: Path, recording: Recording) -> None:
     """Write a recording, whole or not at all."""
-    with whole(path) as partial, partial.open("wb") as file:
+    with atomic_write(path) as partial, partial.open("wb") as file:
         np.savez_compressed(file, step=recording.steps, hand=recording.hands, engine=recording.engine)
 
 

@@ -7,11 +7,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.laws.mechanics.contact import Floor, floor, sinkage_of, soles_below, standing_height
 from tandemlift.laws.mechanics.rectangle import offset, wall
 from tandemlift.laws.mechanics.rotation import rotation_from_euler
@@ -20,8 +19,6 @@ from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.settings.corridor import SHORTEST
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 DEEP = 0.02  # m, of feet in the floor at the start
 FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below where the vehicle stands

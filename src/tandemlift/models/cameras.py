@@ -11,17 +11,16 @@ from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.models.sdf import numbers
 from tandemlift.rendering.camera import ANGLE, NEAR
 
-Array = NDArray[np.float64]
 FAR = 300.0  # m, of what is drawn
 PICTURES = "pictures"  # folder of pictures, where the server runs
 
 
-class Eye(NamedTuple):
+class FixedCamera(NamedTuple):
     """A camera that stands still.
 
     Attributes:
@@ -37,7 +36,7 @@ class Eye(NamedTuple):
     size: tuple[int, int] = (1024, 576)
 
 
-def add_eyes(world: str, eyes: Sequence[Eye], every: float) -> str:
+def add_cameras(world: str, eyes: Sequence[FixedCamera], every: float) -> str:
     """A world with cameras in it.
 
     Args:
@@ -57,7 +56,7 @@ def add_eyes(world: str, eyes: Sequence[Eye], every: float) -> str:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(top, "unicode")}\n'
 
 
-def _model(eye: Eye, every: float) -> ElementTree.Element:
+def _model(eye: FixedCamera, every: float) -> ElementTree.Element:
     width, height = eye.size
     across = 2.0 * np.arctan(np.tan(ANGLE / 2.0) * width / height)
     x, y, z = eye.target - eye.position

@@ -11,21 +11,19 @@ from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import vec3
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.models.mujoco_bodies import mujoco, press, specification
 from tandemlift.models.sensor_frames import Link, links_of
-from tandemlift.models.surroundings import floor_of, walls_of
-from tandemlift.models.visuals import Shape, payload_shapes, quadrotor_shapes
+from tandemlift.models.surroundings import floor_from, walls_from
+from tandemlift.models.visuals import VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.light import SUN
 from tandemlift.rendering.stage import GLASS, WALL
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 GROUND, SKY, ZENITH = "#b9bdc3", "#dbe6f2", "#8fb0d3"
 CONTACT_GROUP = 3  # of shapes: MuJoCo's viewer hides it at first
@@ -55,7 +53,7 @@ def model_text(mission: Mission) -> str:
         InputError: its true vehicle cannot be a model (`links_of`), MuJoCo does not take it, or is not installed.
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
-    floor, walls = floor_of(mission, vehicle), walls_of(mission, vehicle)
+    floor, walls = floor_from(mission, vehicle), walls_from(mission, vehicle)
     spec = specification(mission, vehicle, floor, walls)
     spec.modelname = mission.mission.name
     _weigh(spec, links_of(mission, vehicle))
@@ -137,7 +135,7 @@ def _dress(spec: Any, mission: Mission, vehicle: Vehicle) -> None:
     spec.stat.center, spec.stat.extent = mission.initial.position, float(np.abs(vehicle.lever_arms).max()) + 1.0
 
 
-def _show(body: Any, shapes: Sequence[Shape], origin: Array) -> None:
+def _show(body: Any, shapes: Sequence[VisualShape], origin: Array) -> None:
     """Add shapes to look at, from an origin in the body's frame."""
     kinds, quat = mujoco.mjtGeom, np.empty(4)
     for shape in shapes:

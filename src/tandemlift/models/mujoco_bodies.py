@@ -17,10 +17,11 @@ from functools import reduce
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from tandemlift.algebra.constants import GRAVITY
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.contact import Floor
 from tandemlift.laws.mechanics.walls import Beam, Walls
 from tandemlift.settings import Mission, Quadrotor, WallTable
@@ -38,7 +39,6 @@ if int(mujoco.__version__.split(".")[0]) < 4:
         f"{mujoco.__version__} is installed: pip install --upgrade 'tandemlift[mujoco]'"
     )
 
-Array = NDArray[np.float64]
 Weight = tuple[float, ArrayLike]  # kg; kg m², principal moments
 
 SOFT = 1e-4  # impedance d of contacts, the least that MuJoCo takes: next to a pure spring and damper

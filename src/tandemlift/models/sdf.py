@@ -16,23 +16,23 @@ from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.contact import Floor
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import Beam, Walls
 from tandemlift.models.sensor_frames import Link, links_of
-from tandemlift.models.surroundings import floor_of, pads_of, pressing_of
-from tandemlift.models.visuals import ALONG_Y, LEVEL, Shape, payload_shapes, quadrotor_shapes
+from tandemlift.models.surroundings import feet_and_floor_from, floor_from, wall_contact_from
+from tandemlift.models.visuals import ALONG_Y, LEVEL, VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.camera import CAMERAS
 from tandemlift.rendering.light import SUN
 from tandemlift.rendering.stage import GLASS, WALL
 from tandemlift.settings import Mission, WallTable
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
 Element = ElementTree.Element
 
 MODEL = "tandemlift"
@@ -67,9 +67,9 @@ def world(mission: Mission, plugin: int | str | None = None) -> str:
     top = _add(root, "world", name="default")
     _surroundings(top, mission, vehicle)
     if mission.ground.model != "none":
-        _add_floor(top, floor_of(mission, vehicle), mission)
+        _add_floor(top, floor_from(mission, vehicle), mission)
     if mission.all_walls:
-        _add_walls(top, mission, floor_of(mission, vehicle))
+        _add_walls(top, mission, floor_from(mission, vehicle))
     _add_vehicle(top, mission, vehicle, plugin)
     ElementTree.indent(root)
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, "unicode")}\n'
@@ -148,7 +148,7 @@ def _geometry(parent: Element, kind: str, size: Sequence[float], digits: int | N
         _add(shape, name, numbers(values, digits))
 
 
-def _look(link: Element, shape: Shape) -> None:
+def _look(link: Element, shape: VisualShape) -> None:
     """A visual; what is translucent casts no shadow."""
     visual = _add(link, "visual", name=shape.name)
     _pose(visual, shape.position, shape.axes, DIGITS)
@@ -162,7 +162,7 @@ def _paint(visual: Element, color: str) -> None:
     _fill(visual, {"material": {"ambient": _rgba(color), "diffuse": _rgba(color), "specular": _rgba("#1a1a1a")}})
 
 
-def _touching(link: Element, shape: Shape, surface: dict[str, Any]) -> None:
+def _touching(link: Element, shape: VisualShape, surface: dict[str, Any]) -> None:
     collision = _add(link, "collision", name=shape.name)
     _pose(collision, shape.position, shape.axes)
     _geometry(collision, shape.kind, shape.size)
@@ -202,13 +202,13 @@ def _add_floor(top: Element, floor: Floor, mission: Mission) -> None:
         _look(link, line)
 
 
-def _lines(size: Array) -> Iterator[Shape]:
+def _lines(size: Array) -> Iterator[VisualShape]:
     """Lines on a floor of a size (2) [m] that show how far things are."""
     for i, (along, letter) in enumerate(zip(size[::-1], "xy", strict=True)):
         for k, place in enumerate(np.arange(0.0, size[i] + MESH / 2.0, MESH) - size[i] / 2.0):
             middle, sides = np.array([0.0, 0.0, RAISED]), [BROAD, BROAD, RAISED]
             middle[i], sides[1 - i] = place, along
-            yield Shape(f"line_{letter}_{k}", "box", (sides[0], sides[1], sides[2]), middle, LEVEL, LINE)
+            yield VisualShape(f"line_{letter}_{k}", "box", (sides[0], sides[1], sides[2]), middle, LEVEL, LINE)
 
 
 def _add_walls(top: Element, mission: Mission, floor: Floor) -> None:
@@ -220,7 +220,7 @@ def _add_walls(top: Element, mission: Mission, floor: Floor) -> None:
         _look(link, shape._replace(size=(shape.size[0], SHOWN, shape.size[2])))
 
 
-def _wall(name: str, wall: WallTable, floor: float) -> Shape:
+def _wall(name: str, wall: WallTable, floor: float) -> VisualShape:
     """A wall as a box, from below the floor to its top."""
     start, along = np.array(wall.start), np.subtract(wall.end, wall.start)
     foot, length = min(floor, wall.top) - BURIED, float(np.hypot(*along))
@@ -228,7 +228,7 @@ def _wall(name: str, wall: WallTable, floor: float) -> Shape:
     c, s = np.cos(turn), np.sin(turn)
     middle = np.array([*(start + along / 2.0), (foot + wall.top) / 2.0])
     axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    return Shape(name, "box", (length, THIN, wall.top - foot), middle, axes, WALL, GLASS)
+    return VisualShape(name, "box", (length, THIN, wall.top - foot), middle, axes, WALL, GLASS)
 
 
 def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int | str | None) -> None:
@@ -238,7 +238,7 @@ def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int |
     _pose(model, mission.initial.position, R)
     _fill(model, {"allow_auto_disable": "false", "self_collide": "false"})
     payload, *quadrotors = links_of(mission, vehicle)
-    pads, pressing = pads_of(mission, vehicle), pressing_of(mission, vehicle)
+    pads, pressing = feet_and_floor_from(mission, vehicle), wall_contact_from(mission, vehicle)
     fleet, depth = vehicle.quadrotors, vehicle.payload.radius or 0.0
     _add_link(model, payload, payload_shapes(vehicle.payload, tuple(fleet)), _beam(pressing), pressing, WALL_BIT)
     for i, (link, q) in enumerate(zip(quadrotors, fleet, strict=True)):
@@ -256,7 +256,7 @@ def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int |
 
 
 def _add_link(
-    model: Element, link: Link, looks: Iterable[Shape], touching: Iterable[Shape], how: Any, bit: int
+    model: Element, link: Link, looks: Iterable[VisualShape], touching: Iterable[VisualShape], how: Any, bit: int
 ) -> Element:
     """A body with its weight, its looks, and what of it touches as `how` tells."""
     element = _add(model, "link", name=link.name)
@@ -273,24 +273,26 @@ def _add_link(
     return element
 
 
-def _guard(walls: Walls, i: int) -> Shape:
-    return Shape("guard", "sphere", (walls.guards[i],), np.zeros(3))
+def _guard(walls: Walls, i: int) -> VisualShape:
+    return VisualShape("guard", "sphere", (walls.guards[i],), np.zeros(3))
 
 
-def _beam(walls: Walls) -> list[Shape]:
+def _beam(walls: Walls) -> list[VisualShape]:
     """A capsule along y: a cylinder, and a sphere at each end; nothing of a payload without a shape."""
     if not isinstance(walls.beam, Beam):
         return []
     ends, radius = sorted(walls.beam.ends), walls.beam.radius
-    middle = Shape("beam", "cylinder", (radius, ends[1] - ends[0]), np.zeros(3), ALONG_Y)
-    spheres = [Shape(f"beam_end_{k}", "sphere", (radius,), np.array([0.0, y, 0.0])) for k, y in enumerate(ends, 1)]
+    middle = VisualShape("beam", "cylinder", (radius, ends[1] - ends[0]), np.zeros(3), ALONG_Y)
+    spheres = [
+        VisualShape(f"beam_end_{k}", "sphere", (radius,), np.array([0.0, y, 0.0])) for k, y in enumerate(ends, 1)
+    ]
     return [middle, *spheres]
 
 
-def _feet(floor: Floor, i: int, link: Link) -> list[Shape]:
+def _feet(floor: Floor, i: int, link: Link) -> list[VisualShape]:
     """The balls of a quadrotor's four feet."""
     places = [np.array([foot.x[i], foot.y[i], foot.z[i]]) - link.position for foot in floor.feet]
-    return [Shape(f"foot_{j}", "sphere", (floor.radius,), place) for j, place in enumerate(places, 1)]
+    return [VisualShape(f"foot_{j}", "sphere", (floor.radius,), place) for j, place in enumerate(places, 1)]
 
 
 def rotors_of(vehicle: Vehicle) -> Array:

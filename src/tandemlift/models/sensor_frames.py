@@ -9,13 +9,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle, shift
-
-Array = NDArray[np.float64]
 
 ROUNDING = 1e-9  # of a flat body's largest moment, by which the other two may together be less
 

@@ -12,12 +12,12 @@ from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
 
-def floor_of(mission: Mission, vehicle: Vehicle) -> Any:
+def floor_from(mission: Mission, vehicle: Vehicle) -> Any:
     """The floor of a mission, or `Nothing`."""
-    return Nothing() if mission.ground.model == "none" else pads_of(mission, vehicle)
+    return Nothing() if mission.ground.model == "none" else feet_and_floor_from(mission, vehicle)
 
 
-def pads_of(mission: Mission, vehicle: Vehicle) -> Floor:
+def feet_and_floor_from(mission: Mission, vehicle: Vehicle) -> Floor:
     """The floor that a mission has or would have, and how the feet press on it."""
     g = mission.ground
     fleet, mass, step = vehicle.quadrotors, vehicle.mass * mission.plant.mass_scale, mission.mission.step
@@ -28,12 +28,12 @@ def pads_of(mission: Mission, vehicle: Vehicle) -> Floor:
     return at_zero._replace(height=mission.initial.position[2] - standing_height(at_zero, mass * GRAVITY))
 
 
-def walls_of(mission: Mission, vehicle: Vehicle) -> Any:
+def walls_from(mission: Mission, vehicle: Vehicle) -> Any:
     """What touches the walls of a mission and how they press, or `Nothing` where it has none."""
-    return pressing_of(mission, vehicle) if mission.all_walls else Nothing()
+    return wall_contact_from(mission, vehicle) if mission.all_walls else Nothing()
 
 
-def pressing_of(mission: Mission, vehicle: Vehicle) -> Walls:
+def wall_contact_from(mission: Mission, vehicle: Vehicle) -> Walls:
     """What touches walls, were there any, and how they press."""
     payload, fleet = vehicle.payload, vehicle.quadrotors
     beam = (payload.length, payload.radius) if payload.length and payload.radius else None

@@ -9,14 +9,13 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from tandemlift.common.types import Array
 from tandemlift.rendering.aircraft import CARBON, FRONT, GUARD, JOINT, METAL, REAR, SHAPELESS, SHELL, WOOD, spread
 from tandemlift.rendering.mesh import frame_along
 from tandemlift.rendering.stage import BLUR
 from tandemlift.settings import Payload, Quadrotor
-
-Array = NDArray[np.float64]
 
 SEGMENTS = 16  # straight pieces of a guard ring
 ALONG_Y = frame_along([0.0, 1.0, 0.0])  # axes (3 × 3) of a cylinder along y
@@ -24,7 +23,7 @@ LEVEL = np.eye(3)
 SHORTEST = 1e-6  # m: a shorter rod is left out
 
 
-class Shape(NamedTuple):
+class VisualShape(NamedTuple):
     """A shape with a name.
 
     Attributes:
@@ -46,21 +45,21 @@ class Shape(NamedTuple):
     opacity: float = 1.0
 
 
-def rod(name: str, start: ArrayLike, end: ArrayLike, radius: float, color: str) -> list[Shape]:
+def rod(name: str, start: ArrayLike, end: ArrayLike, radius: float, color: str) -> list[VisualShape]:
     """A cylinder from one point to another; none if they are the same."""
     a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     length = float(np.linalg.norm(b - a))
     if length < SHORTEST:
         return []
-    return [Shape(name, "cylinder", (radius, length), (a + b) / 2.0, frame_along(b - a), color)]
+    return [VisualShape(name, "cylinder", (radius, length), (a + b) / 2.0, frame_along(b - a), color)]
 
 
-def _block(name: str, center: ArrayLike, edges: ArrayLike, color: str) -> Shape:
+def _block(name: str, center: ArrayLike, edges: ArrayLike, color: str) -> VisualShape:
     x, y, z = np.asarray(edges, dtype=float).tolist()
-    return Shape(name, "box", (x, y, z), np.asarray(center, dtype=float), LEVEL, color)
+    return VisualShape(name, "box", (x, y, z), np.asarray(center, dtype=float), LEVEL, color)
 
 
-def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...]) -> list[Shape]:
+def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...]) -> list[VisualShape]:
     """A beam with capped ends, or a box, and struts to joints that are not on it; from its centre of mass."""
     if not payload.length:
         shapes, half = [_block("payload", np.zeros(3), [SHAPELESS] * 3, WOOD)], 0.0
@@ -76,7 +75,7 @@ def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...]) -> list[
     return shapes
 
 
-def quadrotor_shapes(q: Quadrotor, depth: float) -> list[Shape]:
+def quadrotor_shapes(q: Quadrotor, depth: float) -> list[VisualShape]:
     """One quadrotor, from its centre of mass.
 
     Args:
@@ -86,7 +85,7 @@ def quadrotor_shapes(q: Quadrotor, depth: float) -> list[Shape]:
     return [*_mount(q, depth), *_hull(spread(q)), *_rotors(q), *_ring(q), *_legs(q)]
 
 
-def _mount(q: Quadrotor, depth: float) -> list[Shape]:
+def _mount(q: Quadrotor, depth: float) -> list[VisualShape]:
     """The strut down to the joint, and the collar of the sensor where it leaves the payload."""
     s, joint = spread(q), np.subtract(q.joint_position, q.position)
     length = float(np.linalg.norm(joint))
@@ -97,7 +96,7 @@ def _mount(q: Quadrotor, depth: float) -> list[Shape]:
     return rod("strut", joint, np.zeros(3), 0.09 * s, METAL) + rod("sensor", start, end, 0.16 * s, JOINT)
 
 
-def _hull(s: float) -> list[Shape]:
+def _hull(s: float) -> list[VisualShape]:
     """A long body with a deck on it, its nose and tail in the colours of ahead and behind."""
     return [
         _block("hull", [0.0, 0.0, 0.02 * s], [0.84 * s, 0.4 * s, 0.2 * s], SHELL),
@@ -107,9 +106,9 @@ def _hull(s: float) -> list[Shape]:
     ]
 
 
-def _rotors(q: Quadrotor) -> list[Shape]:
+def _rotors(q: Quadrotor) -> list[VisualShape]:
     """Arms out to the guard, motors, hubs, blades, and the discs that they sweep."""
-    s, shapes = spread(q), list[Shape]()
+    s, shapes = spread(q), list[VisualShape]()
     for j, (x, y) in enumerate(q.rotors, 1):
         color, reach = FRONT if x > 1e-9 else REAR, max(float(np.hypot(x, y)), 1e-9)
         low, mid, hub, high = (np.array([x, y, z * s]) for z in (-0.05, 0.12, 0.2, 0.24))
@@ -121,12 +120,12 @@ def _rotors(q: Quadrotor) -> list[Shape]:
         c, n = np.cos(turn), np.sin(turn)
         axes = np.array([[c, -n, 0.0], [n, c, 0.0], [0.0, 0.0, 1.0]])
         blades = (1.9 * q.rotor_radius, 0.16 * q.rotor_radius, 0.02 * q.rotor_radius)
-        shapes.append(Shape(f"blades_{j}", "box", blades, hub, axes, CARBON))
-        shapes.append(Shape(f"rotor_{j}", "cylinder", (q.rotor_radius, 0.01 * s), hub, LEVEL, color, BLUR))
+        shapes.append(VisualShape(f"blades_{j}", "box", blades, hub, axes, CARBON))
+        shapes.append(VisualShape(f"rotor_{j}", "cylinder", (q.rotor_radius, 0.01 * s), hub, LEVEL, color, BLUR))
     return shapes
 
 
-def _ring(q: Quadrotor) -> list[Shape]:
+def _ring(q: Quadrotor) -> list[VisualShape]:
     """The guard as a ring of rods, at the radius of the sphere that touches walls."""
     s, turn = spread(q), np.linspace(0.0, 2.0 * np.pi, SEGMENTS + 1)
     radius, height = q.guard_radius / np.cos(np.pi / SEGMENTS), np.full(SEGMENTS + 1, 0.02 * s)
@@ -136,10 +135,10 @@ def _ring(q: Quadrotor) -> list[Shape]:
     ]
 
 
-def _legs(q: Quadrotor) -> list[Shape]:
-    s, shapes = spread(q), list[Shape]()
+def _legs(q: Quadrotor) -> list[VisualShape]:
+    s, shapes = spread(q), list[VisualShape]()
     for j, (x, y) in enumerate(((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)), 1):
         foot = np.array([q.feet_spread * x, q.feet_spread * y, 0.03 * s - q.feet_depth])
         shapes += rod(f"leg_{j}", foot * [0.55, 0.55, 0.0], foot, 0.03 * s, CARBON)
-        shapes.append(Shape(f"foot_{j}", "sphere", (0.05 * s,), foot, LEVEL, CARBON))
+        shapes.append(VisualShape(f"foot_{j}", "sphere", (0.05 * s,), foot, LEVEL, CARBON))
     return shapes

@@ -7,20 +7,20 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.vector import ZERO, Nothing, vec3
-from tandemlift.laws.estimation.disturbance_observer import Follower, Observer, Observing
+from tandemlift.laws.estimation.disturbance_observer import DisturbanceFilter, DisturbanceObserver, ObserverState
 from tandemlift.laws.mechanics.inertia import inertia_value
 from tandemlift.laws.rotors.allocation import Mixer
-from tandemlift.laws.signals.low_pass import Smoothed, low_pass
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
 UNBOUNDED = 1e18  # of a slope
 
 
-def _follower(bandwidth: Any, slope: Any, linear: bool, size: np.ndarray) -> Follower:
+def _follower(bandwidth: Any, slope: Any, linear: bool, size: np.ndarray) -> DisturbanceFilter:
     """A follower whose slope is given in N/s or N·m/s, for axes of a mass or inertia."""
     most = [UNBOUNDED] * 3 if linear else [min(s / m, UNBOUNDED) for s, m in zip(slope, size.tolist(), strict=True)]
-    return Follower(vec3(bandwidth), vec3(most))
+    return DisturbanceFilter(vec3(bandwidth), vec3(most))
 
 
 def start_observer(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[Any, Any]:
@@ -30,7 +30,7 @@ def start_observer(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[A
         return Nothing(), Nothing()
     linear, inertia = o.model == "extended-state", vehicle.inertia
     rotors = low_pass(2.0 / (o.rotor_lag + o.rotor_delay + step), step)
-    observer = Observer(
+    observer = DisturbanceObserver(
         mass=vehicle.mass,
         inertia=inertia_value(inertia),
         inverse_inertia=inertia_value(np.linalg.inv(inertia)),
@@ -43,6 +43,6 @@ def start_observer(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[A
         moment_follower=_follower(o.moment_bandwidth, o.moment_slope, linear, np.diag(inertia)),
     )
     i = mission.initial
-    thrust = Smoothed(vehicle.weight if mission.actuators.start == "hover" else 0.0, 0.0)
-    at_start = Observing(thrust, Smoothed(ZERO, ZERO), vec3(i.velocity), vec3(i.rates), ZERO, ZERO, ZERO, ZERO)
+    thrust = LowPassState(vehicle.weight if mission.actuators.start == "hover" else 0.0, 0.0)
+    at_start = ObserverState(thrust, LowPassState(ZERO, ZERO), vec3(i.velocity), vec3(i.rates), ZERO, ZERO, ZERO, ZERO)
     return observer, at_start

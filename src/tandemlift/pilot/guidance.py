@@ -7,23 +7,23 @@ from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.laws.guidance.admittance import Admittance
-from tandemlift.laws.guidance.compliance import Compliance, Compliant, DeadBand, Hearing, Limits
-from tandemlift.laws.guidance.energy_tank import Filled, Tank
-from tandemlift.laws.guidance.guidance import Guided, GuidedMemory
-from tandemlift.laws.guidance.phases import IDLE, SETTLE, Phase, Phasing
-from tandemlift.laws.guidance.yaw_compliance import Heading, Held, Turning
-from tandemlift.laws.signals.low_pass import Smoothed, low_pass
+from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
+from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState
+from tandemlift.laws.guidance.guidance import HandGuidance, HandGuidanceState
+from tandemlift.laws.guidance.phases import IDLE, SETTLE, PhaseSettings, PhaseState
+from tandemlift.laws.guidance.yaw_compliance import FixedHeading, YawCompliance, YawState
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 from tandemlift.pilot.supervision import NEVER, start_requests, start_supervision
 from tandemlift.settings import ComplianceTable, Mission
 from tandemlift.vehicle import Vehicle
 
-SILENT = Smoothed(ZERO, ZERO)
-STILL = Smoothed(0.0, 0.0)
+SILENT = LowPassState(ZERO, ZERO)
+STILL = LowPassState(0.0, 0.0)
 
 
-def _phasing(mission: Mission) -> Phasing:
+def _phasing(mission: Mission) -> PhaseSettings:
     p, c = mission.phases, mission.compliance
-    return Phasing(
+    return PhaseSettings(
         height=p.height,
         lift_start=p.lift_start,
         lift_rate=1.0 / p.lift_duration,
@@ -40,7 +40,7 @@ def _phasing(mission: Mission) -> Phasing:
 def _compliance(mission: Mission, admittance: Admittance) -> Compliance:
     c, step = mission.compliance, mission.mission.step
     threshold = vec3(mission.admittance.threshold)
-    limits = Limits(vec3(c.max_speed), vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain)
+    limits = MotionLimits(vec3(c.max_speed), vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain)
     return Compliance(
         input_filter=low_pass(c.input_bandwidth, step),
         band=DeadBand(threshold, threshold * c.release_fraction, c.dwell, 1.0 / c.bias_time_constant),
@@ -56,15 +56,17 @@ def _tank(c: ComplianceTable) -> tuple[Any, Any]:
     if c.tank.model == "none":
         return Nothing(), Nothing()
     t = c.tank
-    return Tank(t.capacity, t.low_energy, t.max_damping, t.refill_fraction, 1.0 / t.fade_time), Filled(t.capacity, 0.0)
+    return EnergyTank(t.capacity, t.low_energy, t.max_damping, t.refill_fraction, 1.0 / t.fade_time), EnergyTankState(
+        t.capacity, 0.0
+    )
 
 
 def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     c, y, step = mission.compliance, mission.compliance.yaw, mission.mission.step
     start = 0.0 if mission.phases.rotors == "always" else mission.initial.euler[2]
     if y.model == "held":
-        return Held(start, y.max_lead_angle), Nothing()
-    turning = Turning(
+        return FixedHeading(start, y.max_lead_angle), Nothing()
+    turning = YawCompliance(
         input_filter=low_pass(c.input_bandwidth, step),
         band=DeadBand(y.threshold, y.threshold * c.release_fraction, c.dwell, 1.0 / c.bias_time_constant),
         output_filter=low_pass(c.output_bandwidth, step),
@@ -73,16 +75,18 @@ def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
         most=y.max_moment,
         max_lead_angle=y.max_lead_angle,
     )
-    return turning, Heading(STILL, Hearing(0.0, 0.0, 0.0, 0.0, 0.0), STILL, start, 0.0, 0.0)
+    return turning, YawState(STILL, DeadBandState(0.0, 0.0, 0.0, 0.0, 0.0), STILL, start, 0.0, 0.0)
 
 
-def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance, known: Any) -> tuple[Guided, GuidedMemory]:
+def start_hand_guidance(
+    mission: Mission, vehicle: Vehicle, admittance: Admittance, known: Any
+) -> tuple[HandGuidance, HandGuidanceState]:
     """The guidance by hand of a mission before its first sample, and its memory; `known`: faults of rotors."""
     c = mission.compliance
     supervision, supervising = start_supervision(mission, vehicle, known)
     tank, filled = _tank(c)
     heading, turned = _heading(mission, vehicle)
-    guided = Guided(
+    guided = HandGuidance(
         phasing=_phasing(mission),
         compliance=_compliance(mission, admittance),
         tank=tank,
@@ -94,8 +98,8 @@ def start_guided(mission: Mission, vehicle: Vehicle, admittance: Admittance, kno
         tangent=math.tan(c.max_tilt),
         supervision=supervision,
     )
-    hearing = Hearing(ZERO, ZERO, ZERO, ZERO, ZERO)
+    hearing = DeadBandState(ZERO, ZERO, ZERO, ZERO, ZERO)
     at = ZERO if mission.phases.rotors == "always" else Vec3(*mission.initial.position)
-    compliant = Compliant(SILENT, hearing, SILENT, at, ZERO, ZERO, ZERO, at)
-    phase = Phase(IDLE, 0.0, at.z, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLE)
-    return guided, GuidedMemory(phase, compliant, filled, turned, SILENT, supervising)
+    compliant = ComplianceState(SILENT, hearing, SILENT, at, ZERO, ZERO, ZERO, at)
+    phase = PhaseState(IDLE, 0.0, at.z, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLE)
+    return guided, HandGuidanceState(phase, compliant, filled, turned, SILENT, supervising)

@@ -12,12 +12,21 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import Nothing, total
 from tandemlift.controllers import Command, Disturbance, Measured, control
-from tandemlift.laws.estimation.disturbance_observer import Unmodelled, last_known, observe
-from tandemlift.laws.estimation.rotor_loss_detection import found_lost, watch
-from tandemlift.laws.guidance.guidance import Guidance, Heard, attend, guide, running
-from tandemlift.laws.rotors.allocation import Working, allocate
+from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, last_known, observer_step
+from tandemlift.laws.estimation.rotor_loss_detection import detection_step, failed_rotors
+from tandemlift.laws.guidance.guidance import Guidance, PilotInput, checked_input, guide, running
+from tandemlift.laws.rotors.allocation import AllocationState, allocate
 
-__all__ = ["Briefed", "Decision", "Heard", "PilotMemory", "PilotParameters", "brief", "conclude", "decide"]
+__all__ = [
+    "ControlInput",
+    "Decision",
+    "PilotInput",
+    "PilotMemory",
+    "PilotParameters",
+    "control_input",
+    "decide",
+    "with_command",
+]
 
 
 class PilotParameters(NamedTuple):
@@ -40,12 +49,12 @@ class PilotMemory(NamedTuple):
     detection: Any
 
 
-class Briefed(NamedTuple):
+class ControlInput(NamedTuple):
     """What the pilot knows before it controls: what it measured, where to, what disturbs; and its parts' memories."""
 
     measured: Measured
     guidance: Guidance
-    unknown: Unmodelled
+    unknown: DisturbanceEstimate
     guidance_memory: Any
     observer_memory: Any
     detection_memory: Any
@@ -55,7 +64,7 @@ class Decision(NamedTuple):
     """One sample of the pilot: guidance, what disturbs, command, and the thrust of every rotor [N]."""
 
     guidance: Guidance
-    unknown: Unmodelled
+    unknown: DisturbanceEstimate
     command: Command
     thrusts: Any
 
@@ -70,7 +79,7 @@ def _not_known(allocation):
     return allocation
 
 
-@given_thrusts.register(Working)
+@given_thrusts.register(AllocationState)
 def _within_limits(allocation):
     return allocation.thrusts
 
@@ -85,27 +94,29 @@ def _no_thrust_known(allocation):
     return 0.0
 
 
-@given_thrust.register(Working)
+@given_thrust.register(AllocationState)
 def _all_together(allocation):
     return total(allocation.thrusts)
 
 
 @law
-def brief(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) -> Briefed:
+def control_input(p: PilotParameters, m: PilotMemory, heard: PilotInput, t: Any, dt: Any) -> ControlInput:
     """What there is to know at time t [s] before the controller is asked."""
-    before, lost = last_known(p.observer, m.observer), found_lost(p.detection, m.detection, t)
-    heard = attend(p.guidance, m.guidance, heard, given_thrust(m.allocation), lost)
+    before, lost = last_known(p.observer, m.observer), failed_rotors(p.detection, m.detection, t)
+    heard = checked_input(p.guidance, m.guidance, heard, given_thrust(m.allocation), lost)
     guidance, guided = guide(p.guidance, m.guidance, heard, before, lost, t, dt)
     given = given_thrusts(m.allocation)
     flying, learning = guidance.flying, guidance.learning
-    unknown, observing = observe(p.observer, m.observer, heard, given, flying, learning, dt)
-    watching = watch(p.detection, m.detection, heard, given, flying * learning, t, dt)
+    unknown, observing = observer_step(p.observer, m.observer, heard, given, flying, learning, dt)
+    watching = detection_step(p.detection, m.detection, heard, given, flying * learning, t, dt)
     disturbance = Disturbance(unknown.force, unknown.moment + guidance.moment)
-    return Briefed(Measured(heard.state, guidance.push, disturbance), guidance, unknown, guided, observing, watching)
+    return ControlInput(
+        Measured(heard.state, guidance.push, disturbance), guidance, unknown, guided, observing, watching
+    )
 
 
 @law
-def conclude(p: PilotParameters, m: PilotMemory, briefed: Briefed, command: Command, memory: Any) -> Any:
+def with_command(p: PilotParameters, m: PilotMemory, briefed: ControlInput, command: Command, memory: Any) -> Any:
     """(Decision, the new memory) once the controller has commanded; `memory` is the controller's."""
     thrusts = running(briefed.guidance.running, allocate(p.allocation, command.wrench))
     decision = Decision(briefed.guidance, briefed.unknown, command, thrusts)
@@ -116,14 +127,14 @@ def conclude(p: PilotParameters, m: PilotMemory, briefed: Briefed, command: Comm
 
 
 @law
-def decide(p: PilotParameters, m: PilotMemory, heard: Heard, t: Any, dt: Any) -> Any:
+def decide(p: PilotParameters, m: PilotMemory, heard: PilotInput, t: Any, dt: Any) -> Any:
     """One sample of the pilot at time t [s], held for dt [s]: (Decision, the new memory).
 
     Thrusts are not limited yet where the allocation is `Constrained`.
     """
-    briefed = brief(p, m, heard, t, dt)
+    briefed = control_input(p, m, heard, t, dt)
     command, memory = control(p.controller, m.controller, briefed.measured, briefed.guidance.reference)
-    return conclude(p, m, briefed, command, memory)
+    return with_command(p, m, briefed, command, memory)
 
 
 @law

@@ -7,19 +7,19 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.vector import Nothing, each
-from tandemlift.laws.estimation.fault_decision import Rules, Verdict
-from tandemlift.laws.estimation.rotor_loss_detection import FOUR, FRESH, Detection, Watching
+from tandemlift.laws.estimation.fault_decision import DecisionRules, DecisionState
+from tandemlift.laws.estimation.rotor_loss_detection import FOUR, FRESH, DetectionState, RotorLossDetection
 from tandemlift.laws.mechanics.inertia import inertia_value
 from tandemlift.laws.rotors.allocation import Mixer
-from tandemlift.laws.signals.low_pass import Smoothed, low_pass
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 from tandemlift.settings import DetectionTable, Mission
 from tandemlift.vehicle import Vehicle
 
 BOUND = 0.5  # of what a rotor's loss leaves: what a sample adds to the scatter at most
 
 
-def _rules(d: DetectionTable) -> Rules:
-    return Rules(
+def _rules(d: DetectionTable) -> DecisionRules:
+    return DecisionRules(
         d.threshold,
         d.isolation_margin,
         d.unexplained_fraction,
@@ -40,7 +40,7 @@ def start_detection(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[
         return Nothing(), Nothing()
     rotors, hover = each(vehicle.rotor_count), vehicle.weight / vehicle.rotor_count
     bound = (BOUND * hover * np.abs(vehicle.effect).max(axis=1)) ** 2
-    detection = Detection(
+    detection = RotorLossDetection(
         mass=vehicle.mass,
         inertia=inertia_value(vehicle.inertia),
         effect=effect,
@@ -57,18 +57,18 @@ def start_detection(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[
     return detection, _at_start(mission, vehicle, detection)
 
 
-def _at_start(mission: Mission, vehicle: Vehicle, k: Detection) -> Watching:
+def _at_start(mission: Mission, vehicle: Vehicle, k: RotorLossDetection) -> DetectionState:
     """The memory before the first sample: at rest in itself, with a scatter that nothing exceeds."""
     i, rotors = mission.initial, each(vehicle.rotor_count)
     none, nought = rotors(*(0.0,) * vehicle.rotor_count), _four((0.0,) * 4)
     start = k.trial if mission.actuators.start == "hover" else none
     momentum = _four([k.mass * i.velocity[2], *(vehicle.inertia @ np.array(i.rates))])
-    return Watching(
-        rotors=Smoothed(start, none),
-        thrusts=Smoothed(start, none),
-        momentum=Smoothed(momentum, nought),
-        others=Smoothed(_four([-vehicle.weight, 0.0, 0.0, 0.0]), nought),
-        mean=Smoothed(nought, nought),
-        scatter=Smoothed(k.bound * FRESH, nought),
-        verdict=Verdict(lost=none, since=0.0, named=0.0, above=none, alive=0.0),
+    return DetectionState(
+        rotors=LowPassState(start, none),
+        thrusts=LowPassState(start, none),
+        momentum=LowPassState(momentum, nought),
+        others=LowPassState(_four([-vehicle.weight, 0.0, 0.0, 0.0]), nought),
+        mean=LowPassState(nought, nought),
+        scatter=LowPassState(k.bound * FRESH, nought),
+        verdict=DecisionState(lost=none, since=0.0, named=0.0, above=none, alive=0.0),
     )

@@ -6,9 +6,17 @@ import math
 from typing import Any
 
 from tandemlift.algebra.vector import Nothing, Vec3, each, vec3
-from tandemlift.laws.guidance.fault_reactions import REACTIONS, Faults
-from tandemlift.laws.guidance.requests import Requests
-from tandemlift.laws.guidance.supervision import Checks, Events, Fence, Limits, Supervising, Supervision, Timers
+from tandemlift.laws.guidance.fault_reactions import REACTIONS, ActiveFaults
+from tandemlift.laws.guidance.requests import RequestSchedule
+from tandemlift.laws.guidance.supervision import (
+    EventLog,
+    Fence,
+    LimitTimers,
+    PreflightChecks,
+    Supervision,
+    SupervisionLimits,
+    SupervisionState,
+)
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.settings import Mission
@@ -39,18 +47,18 @@ def start_requests(mission: Mission) -> Any:
 
     lift, land, stop = ([float(r.action == what) for r in asked] for what in ("lift", "land", "stop"))
     times = column([r.time for r in asked], NEVER)
-    return Requests(times, column(lift), column(land), column(stop), column(changes), first)
+    return RequestSchedule(times, column(lift), column(land), column(stop), column(changes), first)
 
 
-def _checks(mission: Mission, vehicle: Vehicle) -> Checks:
+def _checks(mission: Mission, vehicle: Vehicle) -> PreflightChecks:
     c, payload = mission.supervision.checks, vehicle.payload.mass
     least, most = payload * c.min_payload_ratio, payload * c.max_payload_ratio
-    return Checks(c.thrust_fraction, math.cos(c.tilt), c.speed, c.rates, least, most)
+    return PreflightChecks(c.thrust_fraction, math.cos(c.tilt), c.speed, c.rates, least, most)
 
 
-def _limits(mission: Mission) -> Limits:
+def _limits(mission: Mission) -> SupervisionLimits:
     b, w = mission.supervision.limits, mission.supervision.watchdog
-    return Limits(
+    return SupervisionLimits(
         thrust=b.thrust_fraction,
         upright=math.cos(b.tilt),
         rates=b.rates,
@@ -84,7 +92,7 @@ def start_supervision(mission: Mission, vehicle: Vehicle, known: Any) -> tuple[A
         checks=_checks(mission, vehicle),
         fence=Fence(vec3(s.fence.low), vec3(s.fence.high), s.fence.margin, s.fence.braking_gain),
         bounds=_limits(mission),
-        reactions=Faults(**{name: float(REACTIONS.index(r)) for name, r in s.reactions}),
+        reactions=ActiveFaults(**{name: float(REACTIONS.index(r)) for name, r in s.reactions}),
         hold_timeout=s.hold_timeout,
         recovery_time=s.recovery_time,
         blind_descent_depth=s.blind_descent_depth,
@@ -94,5 +102,5 @@ def start_supervision(mission: Mission, vehicle: Vehicle, known: Any) -> tuple[A
     )
     at, empty = Vec3(*i.position), slots(*(0.0,) * SLOTS)
     state = State(at, vec3(i.velocity), quaternion_from_euler(vec3(i.euler)), vec3(i.rates))
-    timers, events = Timers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Events(empty, empty, 0.0, 0.0, 0.0)
-    return supervision, Supervising(0.0, 0.0, 0.0, 0.0, timers, state, at, 0.0, 0.0, events)
+    timers, events = LimitTimers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), EventLog(empty, empty, 0.0, 0.0, 0.0)
+    return supervision, SupervisionState(0.0, 0.0, 0.0, 0.0, timers, state, at, 0.0, 0.0, events)

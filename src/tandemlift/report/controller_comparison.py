@@ -10,21 +10,30 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from tandemlift.common.files import atomic_write
 from tandemlift.controllers.registry import CONTROLLERS
 from tandemlift.figures.captions import Caption
-from tandemlift.files import whole
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import DASH, figure_of, number, table_of
 from tandemlift.report.page import COMPARISON, STYLE
 from tandemlift.report.setup import setup_of
-from tandemlift.studies.controller_comparison import LEAST, Entry, Part, best_of, moving_axes, parts_of, run_of, scores
+from tandemlift.studies.controller_comparison import (
+    LEAST,
+    Entry,
+    ScoredPart,
+    best_of,
+    moving_axes,
+    parts_of,
+    run_of,
+    scores,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class Column(NamedTuple):
+class TableColumn(NamedTuple):
     """A column of a table.
 
     Attributes:
@@ -55,11 +64,11 @@ class Column(NamedTuple):
 
 
 OF_A_PART = (
-    *(Column(f"RMSE {axis}", "mm", "position_rmse_m", 1e3, i) for i, axis in enumerate("xyz")),
-    Column("Largest error", "mm", "position_max_error_m", 1e3),
-    Column("Effort", "N m", "effort_n_m"),
+    *(TableColumn(f"RMSE {axis}", "mm", "position_rmse_m", 1e3, i) for i, axis in enumerate("xyz")),
+    TableColumn("Largest error", "mm", "position_max_error_m", 1e3),
+    TableColumn("Effort", "N m", "effort_n_m"),
 )
-OF_A_FLIGHT = (Column("Saturated", "%", "rotor_saturated_share", 1e2), Column("Time a step", "ns", "step_ns"))
+OF_A_FLIGHT = (TableColumn("Saturated", "%", "rotor_saturated_share", 1e2), TableColumn("Time a step", "ns", "step_ns"))
 COLUMNS = (*OF_A_PART, *OF_A_FLIGHT)
 NOTE = """Errors are desired minus actual position in the air, {when}. The effort is the mean norm of the commanded
 moments over the same time. Saturated is the share of all steps in which a rotor is at a limit. Bold: the least value
@@ -82,7 +91,7 @@ CAPTIONS = {
 }
 
 
-def _cells(column: Column, found: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
+def _cells(column: TableColumn, found: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
     """A column's cells by controller; the best of those that did not diverge are bold."""
     values = {name: column.value(of) for name, of in found.items()}
     fair = [None if found[name]["diverged"] else value for name, value in values.items()]
@@ -91,7 +100,7 @@ def _cells(column: Column, found: Mapping[str, Mapping[str, Any]]) -> dict[str, 
     return {n: f"<td><b>{column.shown(v)}</b></td>" if won else f"<td>{column.shown(v)}</td>" for (n, v), won in texts}
 
 
-def _of_flights(entries: Sequence[Entry], part: Part) -> str:
+def _of_flights(entries: Sequence[Entry], part: ScoredPart) -> str:
     """The table of the part that counts, with how each flight ended, or why there was none."""
     found = {e.name: scores(e.flight, part) | run_of(e.flight) for e in entries if e.flight}
     cells, rows = [_cells(column, found) for column in COLUMNS], []
@@ -104,7 +113,7 @@ def _of_flights(entries: Sequence[Entry], part: Part) -> str:
     return table_of(head, rows, "compared")
 
 
-def _of_part(flights: Mapping[str, Flight], part: Part) -> str:
+def _of_part(flights: Mapping[str, Flight], part: ScoredPart) -> str:
     """The table of another part; a sentence if nothing moves in it."""
     if not any(moving_axes(flights.values(), part)):
         return STILL.format(when=part.words.capitalize())
@@ -115,7 +124,7 @@ def _of_part(flights: Mapping[str, Flight], part: Part) -> str:
     return f"<h3>{part.words.capitalize()}</h3>\n{table}"
 
 
-def _heads(columns: Sequence[Column]) -> str:
+def _heads(columns: Sequence[TableColumn]) -> str:
     return "".join(f'<th scope="col">{c.heading}<br><small>{c.unit}</small></th>' for c in columns)
 
 
@@ -195,6 +204,6 @@ def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> 
         settings=_settings(flights),
         versions=versions_as_html(first),
     )
-    with whole(path) as partial:
+    with atomic_write(path) as partial:
         partial.write_text(text, "utf-8")
     return path

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 
+from tandemlift.common.files import atomic_write
 from tandemlift.engines.registry import ENGINES
 from tandemlift.figures.captions import Caption
-from tandemlift.files import whole
 from tandemlift.flight.record import Flight
 from tandemlift.report.controller_comparison import figures_as_html, setup_as_html, versions_as_html
 from tandemlift.report.flight_report import DASH, number, table_of
@@ -86,6 +86,6 @@ def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str]) -
         settings=_engines(flights),
         versions=versions_as_html(first),
     )
-    with whole(path) as partial:
+    with atomic_write(path) as partial:
         partial.write_text(text, "utf-8")
     return path

@@ -12,9 +12,9 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from tandemlift.common.files import atomic_write
 from tandemlift.figures.captions import CAPTIONS, Caption
 from tandemlift.figures.registry import VIEWS, figures_of
-from tandemlift.files import whole
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.report.page import PAGE, STYLE
@@ -216,6 +216,6 @@ def write_report(
         again=_again(flight),
         versions=escape(", ".join(f"{name} {version}" for name, version in flight.version.items())),
     )
-    with whole(path) as partial:
+    with atomic_write(path) as partial:
         partial.write_text(text, "utf-8")
     return path

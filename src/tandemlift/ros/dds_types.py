@@ -10,7 +10,7 @@ import importlib.util
 from collections.abc import Callable
 from typing import Any
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.export.messages import modern
 
 PACKAGES = ("cyclonedds", "rosbags")
@@ -35,7 +35,7 @@ def check_installed() -> None:
         raise InputError(f"ROS 2 needs the package {name}: pip install 'tandemlift[ros2]'")
 
 
-class Classes:
+class DdsTypes:
     """The classes of ROS 2's messages, by their names in ROS 1."""
 
     def __init__(self) -> None:

@@ -8,10 +8,10 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from tandemlift.export.messages import Types, diagnostics_of, status_of
+from tandemlift.export.messages import MessageTypes, diagnostics_of, status_of
 from tandemlift.flight.record import Flight
-from tandemlift.ros.middleware import Channel
-from tandemlift.simulation.results import told
+from tandemlift.ros.middleware import TopicPublisher
+from tandemlift.simulation.results import describe_event
 
 AGAIN = 1.0  # s, before the same words are said again
 MOST = 100  # events that wait to be told
@@ -19,7 +19,7 @@ KIND, TOPIC = "diagnostic_msgs/DiagnosticArray", "/diagnostics"
 Tell = Callable[[str], None]
 
 
-class Telling:
+class FlightDiagnostics:
     """What is told of a flight.
 
     Args:
@@ -27,7 +27,7 @@ class Telling:
         types: of its messages.
     """
 
-    def __init__(self, channel: Channel, types: Types) -> None:
+    def __init__(self, channel: TopicPublisher, types: MessageTypes) -> None:
         self._channel, self._event, self._status = channel, diagnostics_of(types), status_of(types)
         self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
         self._said: dict[str, float] = {}
@@ -57,7 +57,7 @@ class Telling:
         for stamp, (phase, alarm, refused) in zip(stamps, seen.astype(int).tolist(), strict=True):
             now = (phase, alarm, refused)
             if now != self._now:
-                self._waiting.append((stamp, told(now, self._now)))
+                self._waiting.append((stamp, describe_event(now, self._now)))
                 self._now = now
 
     def report(self, stamp: int, summary: str, well: bool, more: Mapping[str, str]) -> None:

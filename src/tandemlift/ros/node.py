@@ -12,13 +12,13 @@ from tandemlift.flight.record import Flight
 from tandemlift.live.session import Session
 from tandemlift.missions import tables_of
 from tandemlift.ros.clock import Clock
-from tandemlift.ros.diagnostics import KIND, TOPIC, Telling
+from tandemlift.ros.diagnostics import KIND, TOPIC, FlightDiagnostics
 from tandemlift.ros.middleware import Middleware
 from tandemlift.ros.parameters import Parameters
 from tandemlift.ros.pushes import Pushes
-from tandemlift.ros.requests import REQUESTS, Requests
-from tandemlift.ros.sample_queue import Feed, Taken, as_flight, every_of
-from tandemlift.ros.topics import Once, Samples, Shown
+from tandemlift.ros.requests import REQUESTS, RequestServices
+from tandemlift.ros.sample_queue import SampleBatch, SampleQueue, as_flight, every_of
+from tandemlift.ros.topics import LatchedTopics, MarkerTopics, SampleTopics
 from tandemlift.vehicle import Vehicle
 
 PUSH = f"{ROOT}/push"
@@ -28,7 +28,7 @@ PATIENCE = 0.1  # s, for a sample
 ENDS = ("over", "lost", "failed")  # phases in which nothing moves any more
 
 
-class Front:
+class FlightNode:
     """See the module.
 
     Args:
@@ -46,12 +46,12 @@ class Front:
         vehicle = Vehicle.from_settings(self._flight.now.vehicle)
         self._tables = tables_of(self._flight.now)
         self._clock = Clock(session)
-        self._feed = Feed(every_of(rate, self._flight.dt), lambda step: self._clock.stamp(step))
-        self.telling = Telling(middleware.advertise(TOPIC, KIND, depth=100), middleware.types)
+        self._feed = SampleQueue(every_of(rate, self._flight.dt), lambda step: self._clock.stamp(step))
+        self.telling = FlightDiagnostics(middleware.advertise(TOPIC, KIND, depth=100), middleware.types)
         self._pushes = Pushes(session, self.telling.tell)
         self._parameters = Parameters(session, middleware, self.telling.tell)
-        self._samples, self._shown = Samples(middleware, self._first(), vehicle), Shown(middleware, vehicle)
-        self._once, self._vehicle = Once(middleware), vehicle
+        self._samples, self._shown = SampleTopics(middleware, self._first(), vehicle), MarkerTopics(middleware, vehicle)
+        self._once, self._vehicle = LatchedTopics(middleware), vehicle
         self._due = dict.fromkeys((MARKERS, WAYS, STATUS, STILL), 0.0)
         self._told, self._stopping = 0, threading.Event()
         self._keeper = threading.Thread(target=self._keep_parameters, name="parameters", daemon=True)
@@ -69,7 +69,7 @@ class Front:
         self._once.tell_vehicle(self._session.scene, self._vehicle, time.time_ns())
         self._tell_mission()
         self._middleware.subscribe(PUSH, WRENCH, self._pushes.heed)
-        requests = Requests(self._session)
+        requests = RequestServices(self._session)
         for what in REQUESTS:
             self._middleware.serve(f"{ROOT}/{what}", partial(requests.answer, what))
         self._clock = Clock(self._session)
@@ -99,7 +99,7 @@ class Front:
         self.telling.flush()
         return taken is not None
 
-    def _publish(self, taken: Taken) -> None:
+    def _publish(self, taken: SampleBatch) -> None:
         stamps = taken.stamps
         flight = as_flight(taken, self._flight, self._tables)
         self._samples.publish(flight, stamps)

@@ -12,7 +12,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from tandemlift.errors import InputError, unknown
+from tandemlift.common.errors import InputError, unknown
 from tandemlift.live.controls import controls_of
 from tandemlift.live.messages import Set
 from tandemlift.live.session import Session

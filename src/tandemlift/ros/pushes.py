@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.errors import InputError
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array, fixed, to_body, to_world
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.export.frames import ALIGNED, BASE, WORLD, fixed, to_body, to_world
 from tandemlift.live.messages import Force
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.live.session import Session

@@ -9,16 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.live.recorded import RecordedFlight
 from tandemlift.simulation.results import channels_of
-from tandemlift.vehicle import Array
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first
 
 
-class Taken(NamedTuple):
+class SampleBatch(NamedTuple):
     """Steps (T,) and, for each, its stamp [ns] and its sample (T, n)."""
 
     steps: list[int]
@@ -26,7 +26,7 @@ class Taken(NamedTuple):
     rows: Array
 
 
-class Feed:
+class SampleQueue:
     """Every so manieth sample of a flight.
 
     Args:
@@ -46,7 +46,7 @@ class Feed:
             self._waiting.append((step, self._stamp(step), flight.sample.copy()))
             self._some.set()
 
-    def take(self, patience: float) -> Taken | None:
+    def take(self, patience: float) -> SampleBatch | None:
         """All that wait, after so long [s] at most; None if there are none."""
         self._some.wait(patience)
         self._some.clear()
@@ -54,10 +54,10 @@ class Feed:
         if not taken:
             return None
         steps, stamps, rows = zip(*taken, strict=True)
-        return Taken(list(steps), list(stamps), np.array(rows))
+        return SampleBatch(list(steps), list(stamps), np.array(rows))
 
 
-def as_flight(taken: Taken, flight: RecordedFlight, tables: dict) -> Flight:
+def as_flight(taken: SampleBatch, flight: RecordedFlight, tables: dict) -> Flight:
     """Samples as a flight, by which topics are made; `tables`: of its mission."""
     time = np.array(taken.steps) * flight.dt
     return Flight(time, dict(channels_of(flight.layout, taken.rows)), tables, {})

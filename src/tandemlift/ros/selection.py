@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tandemlift.engines.gazebo.rospy import has_rospy
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.engines.rospy import has_rospy
 from tandemlift.ros.dds_types import missing_packages
 from tandemlift.ros.middleware import Middleware
 

@@ -11,12 +11,12 @@ from tandemlift.settings.guided import ComplianceTable, DetectionTable, Observer
 from tandemlift.settings.leaves import (
     AtLeastOne,
     AtLeastOne6,
-    Axes,
     Axes3,
     Exactly3,
     NonNegative,
     NonNegative3,
     NonNegative6,
+    PerAxis,
     Positive,
     Positive3,
     Positive6,
@@ -27,7 +27,7 @@ from tandemlift.settings.leaves import (
 )
 from tandemlift.settings.mission import Mission, MissionTable
 from tandemlift.settings.parts import Drag, Payload, Quadrotor, VehicleTable
-from tandemlift.settings.person import PartnerTable
+from tandemlift.settings.person import PersonTable
 from tandemlift.settings.pilot import AdmittanceTable, ControllerTable, PhasesTable
 from tandemlift.settings.sensors import InertialSensor, SensorFaultTable
 from tandemlift.settings.supervision import SupervisionTable
@@ -36,7 +36,6 @@ __all__ = [
     "AdmittanceTable",
     "AtLeastOne",
     "AtLeastOne6",
-    "Axes",
     "Axes3",
     "ChangeTable",
     "ComplianceTable",
@@ -53,8 +52,9 @@ __all__ = [
     "NonNegative3",
     "NonNegative6",
     "ObserverTable",
-    "PartnerTable",
     "Payload",
+    "PerAxis",
+    "PersonTable",
     "PhasesTable",
     "Positive",
     "Positive3",

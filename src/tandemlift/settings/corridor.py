@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import Axes, Table, must
+from tandemlift.settings.leaves import PerAxis, Table, must
 
-Point2 = Annotated[tuple[float, float], Axes(2, single=False)]
+Point2 = Annotated[tuple[float, float], PerAxis(2, single=False)]
 
 SHORTEST = 1e-3  # m, of a wall
 SHARPEST = math.radians(150.0)  # turn of a centreline

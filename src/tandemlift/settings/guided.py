@@ -7,11 +7,11 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import Axes, NonNegative, Positive, Positive3, Scale, Table, Tilt
+from tandemlift.settings.leaves import NonNegative, PerAxis, Positive, Positive3, Scale, Table, Tilt
 from tandemlift.settings.pilot import Bandwidth
 
 Lead = Annotated[float, Field(ge=0.0, le=1.0)]  # s
-Positive4 = Annotated[tuple[Scale, Scale, Scale, Scale], Axes(4)]
+Positive4 = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
 Fraction = Annotated[float, Field(gt=0.0, le=1.0)]
 
 BELIEVED = "chosen: near the iris's rotors, 0.0125 s up and 0.025 s down"

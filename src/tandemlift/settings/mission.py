@@ -13,19 +13,19 @@ from tandemlift.settings.facts import key
 from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
 from tandemlift.settings.leaves import Positive, Table, divisor, must
 from tandemlift.settings.parts import VehicleTable
-from tandemlift.settings.person import PartnerTable
+from tandemlift.settings.person import PersonTable
 from tandemlift.settings.pilot import (
     AdmittanceTable,
     AllocationTable,
     ControllerTable,
-    Estimator,
+    EstimatorTable,
     PhasesTable,
     PilotTable,
 )
-from tandemlift.settings.sensors import SensorFaultTable, Sensors
+from tandemlift.settings.sensors import SensorFaultTable, SensorsTable
 from tandemlift.settings.supervision import RequestTable, SupervisionTable
-from tandemlift.settings.surroundings import Ground, WindTable
-from tandemlift.settings.world import Actuators, Disturbance, Fault, Initial, Plant, PushTable
+from tandemlift.settings.surroundings import GroundTable, WindTable
+from tandemlift.settings.world import ActuatorsTable, DisturbanceTable, FaultTable, InitialTable, PlantTable, PushTable
 
 
 def _name(name: str) -> str:
@@ -82,27 +82,27 @@ class Mission(Table):
     controller: SerializeAsAny[ControllerTable]
     admittance: AdmittanceTable
     allocation: AllocationTable = AllocationTable()
-    initial: Initial = Initial()
+    initial: InitialTable = InitialTable()
     phases: PhasesTable = PhasesTable()
     pushes: tuple[PushTable, ...] = ()
-    disturbance: Disturbance = Disturbance()
-    plant: Plant = Plant()
+    disturbance: DisturbanceTable = DisturbanceTable()
+    plant: PlantTable = PlantTable()
     pilot: PilotTable = PilotTable()
-    estimator: Estimator = Estimator()
+    estimator: EstimatorTable = EstimatorTable()
     compliance: ComplianceTable = ComplianceTable()
     observer: ObserverTable = ObserverTable()
     supervision: SupervisionTable = SupervisionTable()
     requests: tuple[RequestTable, ...] = ()
     detection: DetectionTable = DetectionTable()
-    actuators: Actuators = Actuators()
-    faults: tuple[Fault, ...] = ()
-    sensors: Sensors = Sensors()
+    actuators: ActuatorsTable = ActuatorsTable()
+    faults: tuple[FaultTable, ...] = ()
+    sensors: SensorsTable = SensorsTable()
     sensor_faults: tuple[SensorFaultTable, ...] = ()
     wind: WindTable = WindTable()
-    ground: Ground = Ground()
+    ground: GroundTable = GroundTable()
     walls: tuple[WallTable, ...] = ()
     corridor: CorridorTable = CorridorTable()
-    person: PartnerTable = PartnerTable()
+    person: PersonTable = PersonTable()
     changes: tuple[ChangeTable, ...] = ()
 
     @property

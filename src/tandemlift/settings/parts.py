@@ -9,11 +9,11 @@ from pydantic import AfterValidator, Field, model_validator
 
 from tandemlift.settings.facts import key
 from tandemlift.settings.leaves import (
-    Axes,
     Exactly3,
     Length,
     NonNegative,
     NonNegative3,
+    PerAxis,
     Positive,
     Positive3,
     Size,
@@ -33,7 +33,7 @@ def _principal(inertia: Triple) -> Triple:
 
 
 Inertia = Annotated[Positive3, AfterValidator(_principal)]
-Areas = Annotated[tuple[Size, Size, Size], Axes(3)]
+Areas = Annotated[tuple[Size, Size, Size], PerAxis(3)]
 
 
 class Payload(Table):
@@ -86,8 +86,8 @@ class Payload(Table):
 
 
 Metre = Annotated[float, Field(ge=-1e3, le=1e3)]
-Corner = Annotated[tuple[Metre, Metre], Axes(2, single=False)]
-Joint = Annotated[tuple[Metre, Metre, Metre], Axes(3, single=False)]
+Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
+Joint = Annotated[tuple[Metre, Metre, Metre], PerAxis(3, single=False)]
 Turns = Literal[-1, 1]
 
 

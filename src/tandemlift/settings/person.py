@@ -33,7 +33,7 @@ class WaypointTable(Table):
     dwell: NonNegative = key(0.0, "s", "time for which the person keeps the vehicle there")
 
 
-class PartnerTable(Table):
+class PersonTable(Table):
     """`[person]`: a person in the loop, who sees the vehicle late and leads it by hand along a path.
 
     What the person sees is `delay` old. The person predicts from it where the vehicle is now, and wants a force of

@@ -9,9 +9,9 @@ from pydantic_core import core_schema
 
 from tandemlift.settings.facts import key
 from tandemlift.settings.leaves import (
-    Axes,
     NonNegative,
     NonNegative3,
+    PerAxis,
     Positive,
     Positive3,
     Scale,
@@ -23,7 +23,7 @@ from tandemlift.settings.leaves import (
 
 LN_20 = 2.995732273553991  # time constants until 95 %
 
-Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], Axes(4)]
+Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
 Bandwidth = Annotated[float, Field(gt=0.0, le=1e4), AfterValidator(divisor)]  # rad/s
 Reading = Literal["truth", "measurement", "estimate"]
 
@@ -200,7 +200,7 @@ class PilotTable(Table):
     )
 
 
-class Estimator(Table):
+class EstimatorTable(Table):
     """`[estimator]`: the push from the joints' force sensors, and the state from inertial and motion sensors.
 
     The push is the force that accelerates the payload and does not come through a joint: wind on the payload is part of

@@ -87,7 +87,7 @@ class MotionSensor(Table):
     )
 
 
-class Sensors(Table):
+class SensorsTable(Table):
     """`[sensors]`: simulated sensors; errors are independent along each axis.
 
     There are a force-torque sensor at every joint, an accelerometer and a gyroscope, all on one clock, the inertial

@@ -7,13 +7,13 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import Axes, NonNegative, Positive, Scale, Table, Tilt
+from tandemlift.settings.leaves import NonNegative, PerAxis, Positive, Scale, Table, Tilt
 
 Fraction = Annotated[float, Field(gt=0.0, le=1.0)]
 Samples = Annotated[int, Field(ge=2, le=1_000_000)]
 Reaction = Literal["none", "hold", "land", "stop"]
 Corner = Annotated[float, Field(ge=-1e3, le=1e3)]  # m
-Corners = Annotated[tuple[Corner, Corner, Corner], Axes(3)]
+Corners = Annotated[tuple[Corner, Corner, Corner], PerAxis(3)]
 
 CHOSEN = "chosen"
 FAR = "chosen: beyond what the vehicle should meet"

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import Axes, NonNegative, Positive, Table
+from tandemlift.settings.leaves import NonNegative, PerAxis, Positive, Table
 
 Speed = Annotated[float, Field(ge=-1e3, le=1e3)]  # m/s, along an axis
 Speeds = tuple[Speed, Speed, Speed]
@@ -18,7 +18,7 @@ Airspeed = Annotated[float, Field(ge=0.01, le=1e3)]  # m/s
 class GustTable(Table):
     """`[[wind.gusts]]`: gusts on top of the mean wind, one table each, as in MIL-F-8785C, 3.7.3."""
 
-    velocity: Annotated[Speeds, Axes(3, single=False)] = key(
+    velocity: Annotated[Speeds, PerAxis(3, single=False)] = key(
         ..., "m/s", "peak velocity of the gust, world axes", example=[2.0, 0.0, 0.0]
     )
     start: float = key(..., "s", "time at which the gust begins to rise", example=12.0)
@@ -35,7 +35,7 @@ class WindTable(Table):
     model: Literal["none", "air"] = key(
         "none", None, "model of the wind", choices={"none": "no moving air", "air": "moving air with drag"}
     )
-    velocity: Annotated[Speeds, Axes(3)] = key((0.0, 0.0, 0.0), "m/s", "mean velocity, world axes")
+    velocity: Annotated[Speeds, PerAxis(3)] = key((0.0, 0.0, 0.0), "m/s", "mean velocity, world axes")
     turbulence: Turbulence = key(
         0.0,
         "m/s",
@@ -60,7 +60,7 @@ class WindTable(Table):
     gusts: tuple[GustTable, ...] = ()
 
 
-class Ground(Table):
+class GroundTable(Table):
     """`[ground]`: a level floor on which the quadrotors' feet stand, with friction; nothing but feet touches it."""
 
     model: Literal["none", "floor"] = key(

@@ -8,7 +8,18 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import Axes, Axes3, Delay, Exactly3, NonNegative, Positive, Scale, Table, Triple, must
+from tandemlift.settings.leaves import (
+    Axes3,
+    Delay,
+    Exactly3,
+    NonNegative,
+    PerAxis,
+    Positive,
+    Scale,
+    Table,
+    Triple,
+    must,
+)
 
 Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
 
@@ -19,7 +30,7 @@ def _upright(euler: Triple) -> Triple:
     return euler
 
 
-class Initial(Table):
+class InitialTable(Table):
     """`[initial]`: the state at the start, t = 0."""
 
     position: Axes3 = key(
@@ -45,18 +56,18 @@ class PushTable(Table):
     point: Exactly3 = key((0.0, 0.0, 0.0), "m", "point of application, body axes, from the system's centre of mass")
 
 
-class Disturbance(Table):
+class DisturbanceTable(Table):
     """`[disturbance]`: a constant force and moment that the pilot does not know of."""
 
     force: Axes3 = key((0.0, 0.0, 0.0), "N", "force at the centre of mass, world axes")
     moment: Axes3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
 
 
-class Plant(Table):
+class PlantTable(Table):
     """`[plant]`: how the real body differs from the pilot's model of it."""
 
     mass_scale: Scale = key(1.0, "1", "real mass over the modelled mass", source="the model is right")
-    inertia_scale: Annotated[tuple[Scale, Scale, Scale], Axes(3)] = key(
+    inertia_scale: Annotated[tuple[Scale, Scale, Scale], PerAxis(3)] = key(
         (1.0, 1.0, 1.0),
         "1",
         "real inertia over the modelled inertia, about each body axis",
@@ -64,7 +75,7 @@ class Plant(Table):
     )
 
 
-class Actuators(Table):
+class ActuatorsTable(Table):
     """`[actuators]`: what the rotors do with a command."""
 
     model: Literal["ideal", "rotors"] = key(
@@ -90,7 +101,7 @@ class Actuators(Table):
     )
 
 
-class Fault(Table):
+class FaultTable(Table):
     """`[[faults]]`: rotors that lose thrust, one table each, a rotor once; they need `actuators.model = "rotors"`."""
 
     quadrotor: Annotated[int, Field(ge=1, le=64)] = key(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tandemlift.algebra.vector import Nothing, each
-from tandemlift.laws.rotors.dynamics import FreeAir, IdealRotors, Spinning, ground_effect, rotor_faults, rotors_of
+from tandemlift.laws.rotors.dynamics import FreeAir, IdealRotors, RotorState, ground_effect, rotor_faults, rotors_from
 from tandemlift.laws.rotors.thrust_limits import share_scale
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
@@ -24,7 +24,7 @@ def start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, late: bool) 
         return IdealRotors(), Nothing(), hover
     failures = [(f.quadrotor, f.rotor, f.time, f.efficiency) for f in mission.faults]
     surface = ground_effect(vehicle, floor.height) if mission.ground.effect else FreeAir()
-    rotors = rotors_of(
+    rotors = rotors_from(
         vehicle,
         mission.mission.step,
         late=late,
@@ -35,4 +35,4 @@ def start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, late: bool) 
     cls, share = type(hover), 1.0 if mission.actuators.start == "hover" else 0.0
     start = cls(*[share * min(max(f, 0.0), most) for f, most in zip(hover, rotors.max_thrust, strict=True)])
     speed = cls(*[(f * c) ** 0.5 for f, c in zip(start, rotors.per_constant, strict=True)])
-    return rotors, Spinning(speed, start), start
+    return rotors, RotorState(speed, start), start

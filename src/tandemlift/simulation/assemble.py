@@ -12,39 +12,45 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing
-from tandemlift.engines.compiled import felt_at_rest, start_plant, start_state
-from tandemlift.kernels.external_inputs import Tables
+from tandemlift.engines.compiled import readings_at_rest, start_plant, start_state
+from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.mechanics.clearance import clearance
-from tandemlift.laws.mechanics.contact import start_grip
-from tandemlift.laws.mechanics.push import Hand
+from tandemlift.laws.mechanics.contact import start_foot_grip
+from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.sensors.readings import start_sensing
 from tandemlift.laws.signals.random_numbers import keys_of
-from tandemlift.loop.delays import Late, Lines
-from tandemlift.loop.perception import READS, Reads
-from tandemlift.loop.running_metrics import EMPTY, NO_EFFORT, Tally
-from tandemlift.loop.step import Flying, Inputs, Moving, Noise
-from tandemlift.models.surroundings import floor_of, walls_of
+from tandemlift.loop.delays import Delayed, DelayLines
+from tandemlift.loop.perception import READS, PilotSources
+from tandemlift.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
+from tandemlift.loop.step import FlightModel, FlightState, StepInputs, StepNoise
+from tandemlift.models.surroundings import floor_from, walls_from
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.settings import Mission
 from tandemlift.simulation.actuators import start_rotors
-from tandemlift.simulation.disturbances import near_of, push_kind, start_weather, tables_of, whiffs_of
-from tandemlift.simulation.persons import legs_of, start_partner
-from tandemlift.simulation.sensors import sensors_of, start_estimators
-from tandemlift.simulation.watchdogs import watched, with_faults
+from tandemlift.simulation.disturbances import (
+    input_tables_from,
+    near_walls_from,
+    push_kind,
+    start_weather,
+    wind_noise_from,
+)
+from tandemlift.simulation.persons import path_legs_from, start_person
+from tandemlift.simulation.sensors import sensors_from, start_estimators
+from tandemlift.simulation.watchdogs import with_faults, with_watchdogs
 from tandemlift.vehicle import Vehicle
 
 
-class Assembled(NamedTuple):
+class AssembledFlight(NamedTuple):
     """A flight at t = 0, its inputs' layout, its tables, the delays in steps, its key."""
 
-    flying: Flying
-    given: Inputs
-    tables: Tables
+    flying: FlightModel
+    given: StepInputs
+    tables: InputTables
     delays: NDArray[np.int64]
     seeds: NDArray[np.float64]
 
 
-def delays_of(mission: Mission) -> NDArray[np.int64]:
+def delays_from(mission: Mission) -> NDArray[np.int64]:
     """Delays of the unit on board, the motion measurement, the rotors' commands and a person's sight, in steps."""
     simulated, real = mission.sensors.model == "simulated", mission.actuators.model == "rotors"
     seconds = [
@@ -58,12 +64,12 @@ def delays_of(mission: Mission) -> NDArray[np.int64]:
     return np.array([*steps, max(sight, 0) * accompanied], dtype=np.int64)
 
 
-def start_tally(far: Any, company: Any) -> Tally:
+def start_metrics(far: Any, company: Any) -> RunningMetrics:
     """The tally of a flight before its first step; `far`: the clearance before any wall was looked at."""
     return EMPTY._replace(clearance=far, effort=company if isinstance(company, Nothing) else NO_EFFORT)
 
 
-def assemble(mission: Mission) -> Assembled:
+def assemble(mission: Mission) -> AssembledFlight:
     """A mission's loop at t = 0.
 
     Raises:
@@ -72,33 +78,33 @@ def assemble(mission: Mission) -> Assembled:
     vehicle = Vehicle.from_settings(mission.vehicle)
     chance = np.random.default_rng(mission.mission.seed)
     pilot, memory = start_pilot(mission, vehicle)
-    state, floor, walls = start_state(mission), floor_of(mission, vehicle), walls_of(mission, vehicle)
+    state, floor, walls = start_state(mission), floor_from(mission, vehicle), walls_from(mission, vehicle)
     plant = start_plant(mission, vehicle, floor, walls)
-    grip = Nothing() if isinstance(floor, Nothing) else start_grip(floor, state)
-    delays = delays_of(mission)
+    grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
+    delays = delays_from(mission)
     rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, late=bool(delays[2]))
     weather, eddies = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
-    near, hand = near_of(walls), Hand(push, push, push)
-    devices, hiss = sensors_of(mission, vehicle, chance)
+    near, hand = near_walls_from(walls), PushSamples(push, push, push)
+    devices, hiss = sensors_from(mission, vehicle, chance)
     sensing: Any = Nothing()
     if not isinstance(devices, Nothing):
-        felt = felt_at_rest(plant, state, grip, near, thrusts, hand)
+        felt = readings_at_rest(plant, state, grip, near, thrusts, hand)
         sensing = start_sensing(devices, state, felt, state.attitude)
     readings = Nothing() if isinstance(devices, Nothing) else sensing.readings
-    estimators, known = watched(mission, *start_estimators(mission, vehicle, state, readings), readings)
+    estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
-    partner, company, twitch = start_partner(mission, vehicle, state)
-    tally = start_tally(clearance(walls, near, plant.frame, state), company)
-    moving = Moving(state, memory, eddies, grip, near, sensing, known, spinning, readings, company, tally, 0.0)
-    reads = Reads(READS[mission.pilot.state], READS[mission.pilot.push])
-    late = Lines(*[Late() if d else Nothing() for d in delays]) if delays.any() else Nothing()
-    flying = Flying(moving, pilot, plant, rotors, weather, devices, estimators, reads, partner, late)
-    given = Inputs(hand, ZERO, Noise(whiffs_of(weather), hiss, twitch), company)
-    return Assembled(
+    partner, company, twitch = start_person(mission, vehicle, state)
+    tally = start_metrics(clearance(walls, near, plant.frame, state), company)
+    moving = FlightState(state, memory, eddies, grip, near, sensing, known, spinning, readings, company, tally, 0.0)
+    reads = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
+    late = DelayLines(*[Delayed() if d else Nothing() for d in delays]) if delays.any() else Nothing()
+    flying = FlightModel(moving, pilot, plant, rotors, weather, devices, estimators, reads, partner, late)
+    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(weather), hiss, twitch), company)
+    return AssembledFlight(
         flying,
         given,
-        tables_of(mission, legs_of(mission, partner, state)),
+        input_tables_from(mission, path_legs_from(mission, partner, state)),
         delays,
         np.array(keys_of(mission.mission.seed)),
     )

@@ -10,26 +10,26 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Literal
 
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Progress
 from tandemlift.engines.registry import engine_named
-from tandemlift.errors import InputError
 from tandemlift.flight.record import Flight
-from tandemlift.kernels import LANES, Memory
+from tandemlift.kernels import LANES, FlightMemory
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions.recording import engine_of
 from tandemlift.settings import Mission
 from tandemlift.simulation.parameter_changes import changes_in_flight
-from tandemlift.simulation.plan import Prepared
-from tandemlift.simulation.results import Flown, flight_of, metrics_of, take_tallies
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
 from tandemlift.simulation.stepping import body_in, fly_stepwise
 from tandemlift.trace import leaves, unflat
 from tandemlift.trace.compile_events import Stopped, always
 
-Progress = Callable[[int, int], None]
 STRETCH = 0.1  # s between looks at the keyboard and at the progress bar
 FIRST_STRETCH = 5_000  # steps
 
 
-def _stretches(p: Prepared, memory: Memory, going: Callable[[], bool]) -> Iterator[int]:
+def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
     """Fly on, some tenth of a second at a time; each step that is reached."""
     pace, ends = FIRST_STRETCH, sorted({s for s in (p.late_step,) if s < p.steps} | {p.steps + 1})
     for end in ends:
@@ -48,29 +48,29 @@ def _stretches(p: Prepared, memory: Memory, going: Callable[[], bool]) -> Iterat
 
 
 def _fly_compiled(
-    flights: Sequence[Prepared],
+    flights: Sequence[FlightPlan],
     rows: int,
     every: int,
     progress: Progress | None = None,
     going: Callable[[], bool] = always,
-) -> list[Flown]:
+) -> list[RawResult]:
     """Fly one flight, or up to LANES of one variant and one grid; of these, lost ones again, to stop where they do."""
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
-    memory = Memory(
+    memory = FlightMemory(
         p.kernels.loop(len(lanes), going), [f.start() for f in lanes], p.grid(rows, every), leaves(p.sample)
     )
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
     for k in _stretches(p, memory, going):
         if k == p.late_step < p.steps:
-            early = take_tallies(memory.numbers, p.flying, len(lanes))
+            early = take_metrics(memory.numbers, p.flying, len(lanes))
         if progress:
             progress(k, p.steps)
     wall = (time.perf_counter() - began) / count
     moving = memory.numbers.reshape(-1, len(lanes))[: leaves(p.flying.moving)]
     last = memory.work[memory.room("sample")].reshape(-1, len(lanes)) if count > 1 else memory.last[:, None]
     flown = [
-        Flown(
+        RawResult(
             unflat(moving[:, i], p.flying.moving),
             early[i],
             min(memory.k, p.steps),
@@ -87,18 +87,18 @@ def _fly_compiled(
     ]
 
 
-def _flies_stepwise(p: Prepared) -> bool:
+def _flies_stepwise(p: FlightPlan) -> bool:
     """Whether a mission is flown step by step: where Python has a say in it."""
     return p.interpreted is not None or changes_in_flight(p.mission)
 
 
 def _fly_together(
-    flights: Sequence[Prepared],
+    flights: Sequence[FlightPlan],
     rows: int,
     every: int,
     progress: Progress | None = None,
     going: Callable[[], bool] = always,
-) -> list[Flown]:
+) -> list[RawResult]:
     """Fly what goes together, as a block unless it is one flight alone."""
     if _flies_stepwise(flights[0]):
         return [fly_stepwise(flights[0], rows, every, progress, going=going)]
@@ -121,7 +121,7 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
     """
     engine = engine_of(mission) if engine is None else engine
     engine_named(engine)
-    p = Prepared(mission)
+    p = FlightPlan(mission)
     rows, body = p.steps // p.every + 1, body_in(engine, p)
     if body is not None:
         return flight_of(p, fly_stepwise(p, rows, p.every, progress, body), engine)
@@ -162,7 +162,7 @@ def fly_many(
     going = threading.Event()
     going.set()
 
-    def run(places: list[int], flights: list[Prepared]) -> None:
+    def run(places: list[int], flights: list[FlightPlan]) -> None:
         p = flights[0]
         rows, every = (p.steps // p.every + 1, p.every) if keep == "flights" else (1, p.steps + 1)
         flown = _fly_together(flights, rows, every, going=going.is_set)
@@ -197,11 +197,11 @@ class _Counter:
                 self.progress(self.flown, self.total)
 
 
-def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[Prepared]]]:
+def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[FlightPlan]]]:
     """What goes together, with its places: same variant and grid, at most LANES; what is flown step by step alone."""
-    groups: defaultdict[Any, list[tuple[int, Prepared]]] = defaultdict(list)
+    groups: defaultdict[Any, list[tuple[int, FlightPlan]]] = defaultdict(list)
     for i, mission in enumerate(missions):
-        p = Prepared(mission)
+        p = FlightPlan(mission)
         if _flies_stepwise(p):
             yield [i], [p]
             continue
@@ -213,5 +213,5 @@ def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[Prepare
         yield _unzipped(group)
 
 
-def _unzipped(pairs: list[tuple[int, Prepared]]) -> tuple[list[int], list[Prepared]]:
+def _unzipped(pairs: list[tuple[int, FlightPlan]]) -> tuple[list[int], list[FlightPlan]]:
     return [i for i, _ in pairs], [p for _, p in pairs]

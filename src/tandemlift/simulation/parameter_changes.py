@@ -14,15 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Nothing, layout
-from tandemlift.errors import InputError
-from tandemlift.kernels import place
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.kernels import leaf_offset
 from tandemlift.missions import in_turn
 from tandemlift.missions.recording import read_recording
 from tandemlift.settings import Mission
-from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import flat, leaves
 
-Array = NDArray[np.float64]
 STEADY = {"changes": ()}
 LATER = "is chosen before a flight begins, and cannot be changed in flight"
 
@@ -32,35 +32,35 @@ def changes_in_flight(mission: Mission) -> bool:
     return bool(mission.changes or mission.person.recording)
 
 
-class Due(NamedTuple):
+class ScheduledChange(NamedTuple):
     """A mission to become, from step `first` on, over so many steps."""
 
     first: int
     steps: int
-    prepared: Prepared
+    prepared: FlightPlan
 
 
-def due_of(before: Prepared, mission: Mission, key: str, first: int, duration: float) -> Due:
+def scheduled_change(before: FlightPlan, mission: Mission, key: str, first: int, duration: float) -> ScheduledChange:
     """A change of one key, checked against the flight as it is before.
 
     Raises:
         InputError: the key is one that cannot be changed in flight.
     """
-    after = Prepared(mission, interactive=before.interactive)
+    after = FlightPlan(mission, interactive=before.interactive)
     _check(before, after, key)
-    return Due(first, max(1, round(duration / before.dt)), after)
+    return ScheduledChange(first, max(1, round(duration / before.dt)), after)
 
 
-def dues_of(p: Prepared) -> list[Due]:
+def scheduled_changes(p: FlightPlan) -> list[ScheduledChange]:
     """The changes of a mission, in the order in which they are due."""
-    dues, last = list[Due](), p
+    dues, last = list[ScheduledChange](), p
     for change, mission in zip(p.mission.changes, in_turn(p.mission), strict=True):
-        dues.append(due_of(last, mission, change.key, round(change.time / p.dt), change.duration))
+        dues.append(scheduled_change(last, mission, change.key, round(change.time / p.dt), change.duration))
         last = dues[-1].prepared
     return dues
 
 
-def _kept(p: Prepared) -> tuple[Any, ...]:
+def _kept(p: FlightPlan) -> tuple[Any, ...]:
     """What a flight keeps from its beginning: the layout of what moves, but for the controller's memory; the data."""
     moving, plant = p.flying.moving, p.flying.plant
     rest = moving._replace(memory=moving.memory._replace(controller=Nothing()))
@@ -73,12 +73,12 @@ def _numbers(value: Any) -> Any:
     return flat(value) if isinstance(value, tuple) else value
 
 
-def _parameters(p: Prepared) -> list[float]:
+def _parameters(p: FlightPlan) -> list[float]:
     """The numbers of a flight that do not change by themselves."""
     return flat(p.flying)[leaves(p.flying.moving) :]
 
 
-def _check(before: Prepared, after: Prepared, key: str) -> None:
+def _check(before: FlightPlan, after: FlightPlan, key: str) -> None:
     if _kept(before) != _kept(after):
         raise InputError(f"{key} {LATER}")
     if before.variant == after.variant:
@@ -92,10 +92,10 @@ def _check(before: Prepared, after: Prepared, key: str) -> None:
         raise InputError(f"{key} {LATER}: the flight's channels would change")
 
 
-class Ramp:
+class ParameterRamp:
     """Numbers of a flight on their way in a straight line; at once, where one of both is no finite number."""
 
-    def __init__(self, numbers: Array, places: NDArray[np.intp], target: Array, due: Due) -> None:
+    def __init__(self, numbers: Array, places: NDArray[np.intp], target: Array, due: ScheduledChange) -> None:
         self.places, self.first, self.steps = places, due.first, due.steps
         self.before, self.after = numbers[places], target[places]
         self.jumps = ~(np.isfinite(self.before) & np.isfinite(self.after))
@@ -115,27 +115,27 @@ class Ramp:
         return share < 1.0
 
 
-class Changing:
+class ParameterChanges:
     """What of a flight changes, step by step.
 
     Args:
         p: the mission as it is at the first step.
     """
 
-    def __init__(self, p: Prepared) -> None:
-        self.dues = dues_of(p)
-        self.ramps: list[Ramp] = []
+    def __init__(self, p: FlightPlan) -> None:
+        self.dues = scheduled_changes(p)
+        self.ramps: list[ParameterRamp] = []
         self.moved = read_recording(p.mission.person.recording) if p.mission.person.recording else None
         self.next_row = 0
 
-    def become(self, numbers: Array, before: Prepared, due: Due) -> None:
+    def become(self, numbers: Array, before: FlightPlan, due: ScheduledChange) -> None:
         """Let a flight's numbers go from one mission's to those of a changed one, of the same layout."""
         now, target = np.array(flat(before.flying)), np.array(flat(due.prepared.flying))
         differ = (now != target) & (np.arange(now.size) >= leaves(before.flying.moving))
         places = np.flatnonzero(differ)
         for ramp in self.ramps:
             ramp.leave(places)
-        self.ramps.append(Ramp(numbers, places, target, due))
+        self.ramps.append(ParameterRamp(numbers, places, target, due))
 
     def apply(self, numbers: Array, k: int) -> bool:
         """Write what is different at step k; whether anything is."""
@@ -143,7 +143,7 @@ class Changing:
         self.ramps = [ramp for ramp in ramps if ramp.apply(numbers, k)]
         return bool(ramps)
 
-    def take_due(self, k: int) -> list[Due]:
+    def take_due(self, k: int) -> list[ScheduledChange]:
         """The changes that begin with step k, which are taken out of those to come."""
         taken = [due for due in self.dues if due.first <= k]
         self.dues = self.dues[len(taken) :]
@@ -159,7 +159,7 @@ class Changing:
         return self.moved.hands[self.next_row - 1] if self.next_row > row else None
 
 
-def hand_place(p: Prepared) -> slice:
+def hand_place(p: FlightPlan) -> slice:
     """Where the hand that is moved from outside stands in a flight's numbers; nowhere without one."""
-    span = place(p.flying, "partner", "hand")
+    span = leaf_offset(p.flying, "partner", "hand")
     return slice(span.at, span.at + span.size)

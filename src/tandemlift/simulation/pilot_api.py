@@ -6,25 +6,24 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.controllers import control
-from tandemlift.errors import InputError
 from tandemlift.kernels.context import aligned
-from tandemlift.kernels.pilot_sampling import Onboard, Sampling
+from tandemlift.kernels.pilot_sampling import PilotData, PilotSampler
 from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
 from tandemlift.laws.mechanics.body import State
 from tandemlift.pilot.assemble import start_pilot
-from tandemlift.pilot.pilot import Heard
+from tandemlift.pilot.pilot import PilotInput
 from tandemlift.settings import Mission
 from tandemlift.trace import flat, leaves
 from tandemlift.trace.code import Code
 from tandemlift.trace.key import key_of
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
-HEARD = Heard(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
+HEARD = PilotInput(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
 SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
 
 
@@ -46,7 +45,7 @@ class Pilot:
         parameters, memory = start_pilot(mission, vehicle)
         if type(parameters.controller) in control.interpreted:
             raise InputError(f"controller {mission.controller.name!r} is plain Python; write it as a law to use Pilot")
-        self._start = Onboard(0.0, memory, parameters)
+        self._start = PilotData(0.0, memory, parameters)
         self._dt = mission.mission.step
         self._numbers = np.array(flat(self._start))
         self.thrusts: Array = np.zeros(vehicle.rotor_count)
@@ -55,7 +54,7 @@ class Pilot:
     @cached_property
     def _sample(self) -> Callable[[], int]:
         start, quadrotors = self._start, len(self.thrusts) // 4
-        code = Code(key_of(start, "sample"), ["sample"], lambda: Sampling(start, HEARD, quadrotors).written())
+        code = Code(key_of(start, "sample"), ["sample"], lambda: PilotSampler(start, HEARD, quadrotors).written())
         self._work = aligned(code.about["size"])
         arrays = (self._numbers, self._heard, self.thrusts, self._work)
         self._context = np.array([a.ctypes.data for a in arrays] + [0], dtype=np.int64)

@@ -10,8 +10,8 @@ import numpy as np
 
 from tandemlift.algebra.vector import ZERO, each, layout
 from tandemlift.controllers import NoMemory, control
-from tandemlift.kernels import Aside, Grid, Kernels, Start
-from tandemlift.laws.person.caller_inputs import External
+from tandemlift.kernels import FlightStart, Kernels, PythonController, TimeGrid
+from tandemlift.laws.person.caller_inputs import CallerInput
 from tandemlift.loop.running_metrics import LATE
 from tandemlift.settings import Mission
 from tandemlift.simulation.assemble import assemble
@@ -22,7 +22,7 @@ LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take more than a secon
 KERNELS: dict[Any, Kernels] = {}
 
 
-class Prepared:
+class FlightPlan:
     """A mission ready to fly: its loop at t = 0, what it is given from outside, and its grid of steps.
 
     Args:
@@ -38,7 +38,7 @@ class Prepared:
         self.flying, self.given, self.tables, self.delays, self.seeds = assemble(mission)
         if interactive:
             rotors = each(4 * len(mission.vehicle.quadrotors))
-            nothing = External(ZERO, ZERO, rotors(*[0.0] * len(rotors._fields)), 0.0)
+            nothing = CallerInput(ZERO, ZERO, rotors(*[0.0] * len(rotors._fields)), 0.0)
             self.given = self.given._replace(external=nothing)
         self.interpreted: tuple[Any, Any] | None = None
         if type(self.flying.pilot.controller) in control.interpreted:
@@ -49,7 +49,7 @@ class Prepared:
         self.interpreted = pilot.controller, moving.memory.controller
         memory = moving.memory._replace(controller=NoMemory())
         self.flying = self.flying._replace(
-            moving=moving._replace(memory=memory), pilot=pilot._replace(controller=Aside())
+            moving=moving._replace(memory=memory), pilot=pilot._replace(controller=PythonController())
         )
 
     @cached_property
@@ -74,13 +74,13 @@ class Prepared:
             KERNELS[self.variant] = Kernels(self.flying, self.given)
         return KERNELS[self.variant]
 
-    def start(self) -> Start:
+    def start(self) -> FlightStart:
         """The flight at its first step, as a compiled loop takes it."""
-        return Start(np.array(flat(self.flying)), self.tables, self._ring(), self.seeds)
+        return FlightStart(np.array(flat(self.flying)), self.tables, self._ring(), self.seeds)
 
-    def grid(self, rows: int, every: int) -> Grid:
+    def grid(self, rows: int, every: int) -> TimeGrid:
         """The steps of the flight, with so many rows of a log of every so many steps."""
-        return Grid(self.steps, every, rows, self.dt, self.delays)
+        return TimeGrid(self.steps, every, rows, self.dt, self.delays)
 
     def _ring(self) -> np.ndarray:
         """A delay line for this flight, filled with what it holds at t = 0."""
@@ -93,5 +93,5 @@ class Prepared:
 
 def takes_long(mission: Mission) -> bool:
     """Whether flying this mission, once compiled, takes more than a second or so."""
-    stepwise = Prepared(mission).interpreted is not None or mission.changes or mission.person.recording
+    stepwise = FlightPlan(mission).interpreted is not None or mission.changes or mission.person.recording
     return mission.mission.steps >= (LONG_STEPWISE if stepwise else LONG_RUN)

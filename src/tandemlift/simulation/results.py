@@ -10,33 +10,31 @@ from importlib import metadata
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
+from tandemlift.common.types import Array
 from tandemlift.flight.record import Divergence, Flight
-from tandemlift.kernels import place
+from tandemlift.kernels import leaf_offset
 from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
 from tandemlift.laws.guidance.phases import IDLE, NAMES
-from tandemlift.laws.guidance.supervision import Supervising
+from tandemlift.laws.guidance.supervision import SupervisionState
 from tandemlift.laws.guidance.supervisor import ALARM, PHASE
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import sine_of_roll
-from tandemlift.loop.running_metrics import EMPTY, Tally, summary
-from tandemlift.loop.step import FAR, SIN_ROLL_LIMIT, Flying, Moving
+from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
+from tandemlift.loop.step import FAR, SIN_ROLL_LIMIT, FlightModel, FlightState
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
-from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import flat, leaves, unflat
-
-Array = NDArray[np.float64]
 
 
 @dataclass
-class Flown:
+class RawResult:
     """The raw outcome of a flight: what moved, the tally before 10 s, the step reached, the log, the last sample."""
 
-    moving: Moving
-    early: Tally
+    moving: FlightState
+    early: RunningMetrics
     step: int
     log: Array
     last: Array
@@ -48,9 +46,9 @@ class Flown:
         return self.moving.lost != 0.0
 
 
-def take_tallies(numbers: Array, like: Flying, lanes: int) -> list[Tally]:
+def take_metrics(numbers: Array, like: FlightModel, lanes: int) -> list[RunningMetrics]:
     """Take the tallies out of a flight or a block of flights, and start them anew."""
-    at, size = place(like, "moving", "tally")
+    at, size = leaf_offset(like, "moving", "tally")
     rows = numbers[at * lanes : (at + size) * lanes].reshape(-1, lanes)
     empty = like.moving.tally
     tallies = [unflat(rows[:, lane], empty) for lane in range(lanes)]
@@ -58,7 +56,7 @@ def take_tallies(numbers: Array, like: Flying, lanes: int) -> list[Tally]:
     return tallies
 
 
-def divergence_of(p: Prepared, flown: Flown) -> Divergence | None:
+def divergence_of(p: FlightPlan, flown: RawResult) -> Divergence | None:
     """Why a flight was stopped, or None."""
     if not flown.lost:
         return None
@@ -80,7 +78,7 @@ def _formed(value: Any) -> Any:
     return value if all(v is not None and math.isfinite(v) for v in parts) else None
 
 
-def metrics_of(p: Prepared, flown: Flown) -> dict[str, Any]:
+def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     """The metrics of a flight by their names in metrics.json; None where one could not be formed."""
     first, last = unflat(flown.log[0], p.sample), unflat(flown.last, p.sample)
     late_reached = p.late_step < p.steps and flown.step >= p.late_step
@@ -94,21 +92,21 @@ def metrics_of(p: Prepared, flown: Flown) -> dict[str, Any]:
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.moving)}
 
 
-def events_of(moving: Moving) -> list[list[Any]]:
+def events_of(moving: FlightState) -> list[list[Any]]:
     """What a supervision saw happen: [time [s], what], in the order of time; none without one."""
     supervising = getattr(moving.memory.guidance, "supervision", None)
-    if not isinstance(supervising, Supervising):
+    if not isinstance(supervising, SupervisionState):
         return []
     happened = list(zip(supervising.events.time, supervising.events.code, strict=True))[: int(supervising.events.count)]
     story, before = [], (0, 0, 0)
     for at, code in happened:
         now = (int(code // PHASE), int(code % PHASE // ALARM), int(code % ALARM))
-        story.append([round(float(at), 6), told(now, before)])
+        story.append([round(float(at), 6), describe_event(now, before)])
         before = now
     return story
 
 
-def told(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
+def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
     """An event in words, from phase, alarm and the check that refuses; now, and in the event before."""
     phase, alarm, refused = now
     if alarm and (alarm != before[1] or phase not in (IDLE, before[0])):
@@ -118,7 +116,7 @@ def told(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
     return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1]}"
 
 
-def _of_detection(p: Prepared, flown: Flown) -> dict[str, Any]:
+def _of_detection(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     """How often a rotor was taken for lost, and how long after its loss [s] the one that is; None where none is."""
     detection, memory = p.flying.pilot.detection, flown.moving.memory.detection
     if isinstance(detection, Nothing):
@@ -152,7 +150,7 @@ def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
         at += leaves(part)
 
 
-def flight_of(p: Prepared, flown: Flown, engine: str = "compiled") -> Flight:
+def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flight:
     """The record of a flight in an engine."""
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
     channels = dict(channels_of(p.sample, flown.log[:logged]))

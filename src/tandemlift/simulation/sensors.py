@@ -10,11 +10,11 @@ import numpy as np
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
 from tandemlift.laws.estimation.push_estimate import push_estimator, start_push
-from tandemlift.laws.mechanics.air_drag import windage
+from tandemlift.laws.mechanics.air_drag import payload_drag
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.sensors.readings import Hiss, sensors
-from tandemlift.laws.sensors.sensor_errors import Grade
-from tandemlift.loop.perception import Believed, ByClock, Estimators, InHover, Remembered
+from tandemlift.laws.sensors.readings import SensorNoise, sensors
+from tandemlift.laws.sensors.sensor_errors import SensorGrade
+from tandemlift.loop.perception import Estimators, EstimatorState, NominalVehicle, TareAtTime, TareInHover
 from tandemlift.settings import InertialSensor, Mission
 from tandemlift.vehicle import Vehicle
 
@@ -24,13 +24,13 @@ def steps_of(interval: float, step: float) -> int:
     return max(1, round(interval / step))
 
 
-def sensors_of(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) -> tuple[Any, Any]:
+def sensors_from(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) -> tuple[Any, Any]:
     """The sensors of a mission, and the layout of their noise; or `Nothing`."""
     s, N, step = mission.sensors, vehicle.count, mission.mission.step
     if s.model == "none":
         return Nothing(), Nothing()
     j, turns = s.joints, chance.standard_normal((N, 3)) * s.joints.misalignment
-    force = Grade(
+    force = SensorGrade(
         j.force_noise,
         chance.standard_normal((N, 3)) * j.force_bias,
         j.force_drift,
@@ -38,7 +38,7 @@ def sensors_of(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) 
         j.force_range,
         turns,
     )
-    torque = Grade(
+    torque = SensorGrade(
         j.torque_noise,
         chance.standard_normal((N, 3)) * j.torque_bias,
         j.torque_drift,
@@ -61,11 +61,11 @@ def sensors_of(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) 
     )
     none = each(N)(*(0.0,) * N)
     sets = Vec3(none, none, none)
-    return devices, Hiss(ZERO, ZERO, sets, sets, ZERO, ZERO, ZERO)
+    return devices, SensorNoise(ZERO, ZERO, sets, sets, ZERO, ZERO, ZERO)
 
 
-def _inertial(s: InertialSensor, chance: np.random.Generator) -> Grade:
-    return Grade(s.noise, chance.standard_normal((1, 3)) * s.bias, s.drift, 0.0, s.range)
+def _inertial(s: InertialSensor, chance: np.random.Generator) -> SensorGrade:
+    return SensorGrade(s.noise, chance.standard_normal((1, 3)) * s.bias, s.drift, 0.0, s.range)
 
 
 def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings: Any) -> tuple[Any, Any]:
@@ -90,7 +90,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         tare_duration=e.tare_duration,
         identify_mass=e.identify_mass,
         disagreement_limit=e.disagreement_limit,
-        windage=Nothing() if e.wind_compensation == "none" else windage(vehicle, e.wind_bandwidth, step),
+        windage=Nothing() if e.wind_compensation == "none" else payload_drag(vehicle, e.wind_bandwidth, step),
     )
     observer = navigator(
         vehicle.center_of_mass,
@@ -102,7 +102,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         age=s.motion.delay - s.delay,
     )
     drag = vehicle.drag
-    believed = Believed(vec3(-vehicle.center_of_mass), vec3(drag.force), vec3(drag.moment))
-    tare = InHover() if e.tare == "hover" else ByClock()
+    believed = NominalVehicle(vec3(-vehicle.center_of_mass), vec3(drag.force), vec3(drag.moment))
+    tare = TareInHover() if e.tare == "hover" else TareAtTime()
     known = Estimators(push, observer, believed, tare)
-    return known, Remembered(start_push(push, readings.unit), start_navigation(observer, state))
+    return known, EstimatorState(start_push(push, readings.unit), start_navigation(observer, state))

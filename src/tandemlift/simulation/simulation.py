@@ -9,21 +9,21 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from tandemlift.errors import InputError, suggestion
+from tandemlift.common.errors import InputError, suggestion
+from tandemlift.common.types import Array
 from tandemlift.flight.record import CHANNELS, DERIVED, TIME, Channel, Divergence, Flight
-from tandemlift.kernels import place
+from tandemlift.kernels import leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions.recording import engine_of
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
-from tandemlift.simulation.plan import Prepared
-from tandemlift.simulation.results import Flown, channels_of, divergence_of, flight_of, take_tallies
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, channels_of, divergence_of, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_in
 from tandemlift.trace import leaves, unflat
 
-Array = NDArray[np.float64]
 FORCE, POINT, THRUSTS = (
     slice(0, 3),
     slice(3, 6),
@@ -62,13 +62,13 @@ class Simulation:
         self._begin()
 
     def _prepare(self) -> None:
-        p = self._p = Prepared(self.mission, interactive=True)
+        p = self._p = FlightPlan(self.mission, interactive=True)
         self.dt = p.dt
         row = np.arange(leaves(p.sample), dtype=np.float64)[None, :]
         self._places: dict[str, Any] = {name: at[0].astype(np.intp) for name, at in channels_of(p.sample, row)}
         self.channels = tuple(self._places)
         self._external = np.zeros(leaves(p.given.external))
-        self._state = place(p.flying, "moving", "state")
+        self._state = leaf_offset(p.flying, "moving", "state")
 
     def _begin(self) -> None:
         vars(self).pop("_stepper", None)  # an engine that only one can lead is let go first
@@ -143,7 +143,7 @@ class Simulation:
             self._rows.append(stepper.row.copy())
         self.k, self._end = self.k + 1, None
         if self.k == p.late_step < p.steps:
-            (self._early,) = take_tallies(stepper.a, stepper.p.flying, 1)
+            (self._early,) = take_metrics(stepper.a, stepper.p.flying, 1)
         if self.k % TOLD_EVERY == 0:
             stepper.code.spent(self._wall - self._told)
             self._told = self._wall
@@ -242,9 +242,9 @@ class Simulation:
         last = np.full(leaves(self._p.sample), math.nan) if self.lost else self._stepper.row if end is None else end
         return flight_of(self._p, self._flown(np.array(rows), last), self.engine)
 
-    def _flown(self, log: Array, last: Array) -> Flown:
+    def _flown(self, log: Array, last: Array) -> RawResult:
         like = self._stepper.p.flying.moving
-        return Flown(unflat(self._stepper.a[: leaves(like)], like), self._early, self.k, log, last, self._wall)
+        return RawResult(unflat(self._stepper.a[: leaves(like)], like), self._early, self.k, log, last, self._wall)
 
     def _sample_here(self) -> Array | None:
         """The sample at `time`, taken without going on; None if that cannot be."""

@@ -10,28 +10,26 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import layout
+from tandemlift.common.types import Array, Progress
 from tandemlift.controllers import control
-from tandemlift.engines.registry import Body, Waiting, engine_named
-from tandemlift.kernels import GIVEN, Memory, place
+from tandemlift.engines.registry import EngineBody, WaitingBody, engine_named
+from tandemlift.kernels import GIVEN, FlightMemory, leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
-from tandemlift.simulation.parameter_changes import Changing, Due, hand_place
-from tandemlift.simulation.plan import Prepared
-from tandemlift.simulation.results import Flown, take_tallies
+from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, take_metrics
 from tandemlift.trace import flat, leaves, unflat
 from tandemlift.trace.compile_events import Stopped, always
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
-Progress = Callable[[int, int], None]
 PROGRESS_EVERY = 1000  # steps
 STATE = 13  # numbers of a state
 NEVER = -1  # the number of no step
 
 
-def body_in(engine: str, p: Prepared) -> Body | None:
+def body_in(engine: str, p: FlightPlan) -> EngineBody | None:
     """The body of a mission at t = 0 in an engine; None for the compiled one.
 
     Raises:
@@ -55,11 +53,11 @@ class Stepper:
         row: the numbers of the sample of the last step.
     """
 
-    def __init__(self, p: Prepared, body: Body | None = None) -> None:
-        self.body, self.changing = body, Changing(p)
+    def __init__(self, p: FlightPlan, body: EngineBody | None = None) -> None:
+        self.body, self.changing = body, ParameterChanges(p)
         self._lay_out(p)
 
-    def _lay_out(self, p: Prepared, before: Memory | None = None) -> None:
+    def _lay_out(self, p: FlightPlan, before: FlightMemory | None = None) -> None:
         """Make the memory in which a mission's step works; what waits in delay lines is kept."""
         self.p, self.interpreted = p, p.interpreted
         leaves_body = self.body is not None
@@ -68,9 +66,9 @@ class Stepper:
         start = p.start()
         if before is not None:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
-        self.memory = Memory(self.code, [start], p.grid(1, 1), leaves(p.sample))
+        self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
-        self.at_lost, self.hand = place(p.flying, "moving", "lost").at, hand_place(p)
+        self.at_lost, self.hand = leaf_offset(p.flying, "moving", "lost").at, hand_place(p)
         self._find_rooms()
 
     def _find_rooms(self) -> None:
@@ -80,7 +78,7 @@ class Stepper:
             for name in ("asked", "answer", "external", "acting", "push", "moved")
         }
         acting = self.p.kernels.likes.acting
-        thrusts, air = place(acting, "thrusts"), place(acting, "weather", "loads")
+        thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "weather", "loads")
         self.x, self.y, self.v, self.push = room["asked"], room["answer"], room["moved"], room["push"]
         self.external = room["external"]
         if self.body is not None:
@@ -88,7 +86,7 @@ class Stepper:
         self.thrusts = room["acting"][thrusts.at : thrusts.at + thrusts.size]
         self.loads = room["acting"][air.at : air.at + air.size]
 
-    def change(self, due: Due) -> None:
+    def change(self, due: ScheduledChange) -> None:
         """Let the flight go on as a changed mission; what takes other laws is changed at once."""
         if due.prepared.variant == self.p.variant:
             self.changing.become(self.a, self.p, due)
@@ -96,7 +94,7 @@ class Stepper:
         else:
             self._hand_over(due.prepared)
 
-    def _hand_over(self, p: Prepared) -> None:
+    def _hand_over(self, p: FlightPlan) -> None:
         """Go on by other laws; a controller begins with a fresh memory if it remembers other things; ramps jump."""
         size, hand, row = leaves(self.p.flying.moving), self.a[self.hand].copy(), self.row
         moving = unflat(self.a[:size], self.p.flying.moving)
@@ -159,14 +157,14 @@ class Stepper:
         command, memory = control(gains, memory, measured, reference)
         self.interpreted, self.y[:] = (gains, memory), flat(command)
 
-    def _advance(self, body: Body) -> None:
+    def _advance(self, body: EngineBody) -> None:
         body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
         self.v[:STATE] = body.state
         self.v[STATE : STATE + body.felt.size] = body.felt
 
     def rest(self) -> None:
         """Take no step for now; to be called ten times a second, or more often, by who lets a flight wait."""
-        if isinstance(self.body, Waiting):
+        if isinstance(self.body, WaitingBody):
             self.body.rest()
 
     @property
@@ -176,20 +174,20 @@ class Stepper:
 
 
 def fly_stepwise(
-    p: Prepared,
+    p: FlightPlan,
     rows: int,
     every: int,
     progress: Progress | None = None,
-    body: Body | None = None,
+    body: EngineBody | None = None,
     going: Callable[[], bool] = always,
-) -> Flown:
+) -> RawResult:
     """Fly a mission step by step; as the loop does, to the last bit if the body is the same."""
     stepper, columns = Stepper(p, body), leaves(p.sample)
     log, last = np.zeros((rows, columns)), np.full(columns, math.nan)
     began, early, k = time.perf_counter(), EMPTY, 0
     while k <= p.steps:
         if k == p.late_step < p.steps:
-            (early,) = take_tallies(stepper.a, stepper.p.flying, 1)
+            (early,) = take_metrics(stepper.a, stepper.p.flying, 1)
         if stepper.lost:
             break
         stepper.step(k, final=k == p.steps)
@@ -206,4 +204,4 @@ def fly_stepwise(
                 progress(k, p.steps)
     like = stepper.p.flying.moving
     moving = unflat(stepper.a[: leaves(like)], like)
-    return Flown(moving, early, k, log, last, time.perf_counter() - began)
+    return RawResult(moving, early, k, log, last, time.perf_counter() - began)

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 import traceback
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.controllers import CONTROLLERS, Controller, controller, file_of, told
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Progress
+from tandemlift.controllers import CONTROLLERS, Controller, controller, error_text, file_of
 from tandemlift.engines.registry import engine_named
-from tandemlift.errors import InputError
 from tandemlift.flight.record import Flight
 from tandemlift.missions import load_mission
 from tandemlift.settings import Mission
 from tandemlift.simulation.fly import fly, fly_many
 
-Progress = Callable[[int, int], None]
 Mask = NDArray[np.bool_]
 
 PUSHED = 1e-6  # N: a person who gives less does not push yet
@@ -30,7 +30,7 @@ LEAST = {  # what is physical: a smaller value is as good as zero, a smaller dif
 }
 
 
-class Part(NamedTuple):
+class ScoredPart(NamedTuple):
     """A part of a mission that is scored on its own: what it is called, and its times first <= t < last [s]."""
 
     name: str
@@ -129,7 +129,7 @@ def _explained(error: Exception, entered: Sequence[Entrant]) -> Exception:
     files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)}
     for own in (controller(e.name) for e in entered):
         if not own.start.__module__.startswith("tandemlift.") and file_of(own) in files:
-            return InputError(f"controller {own.name!r} fails: {told(error, file_of(own))}")
+            return InputError(f"controller {own.name!r} fails: {error_text(error, file_of(own))}")
     return error
 
 
@@ -144,7 +144,7 @@ def airborne(flight: Flight) -> Mask:
     return mask
 
 
-def parts_of(flights: Iterable[Flight]) -> tuple[Part, ...]:
+def parts_of(flights: Iterable[Flight]) -> tuple[ScoredPart, ...]:
     """The parts in which flights of one mission are scored, the one that counts first.
 
     Where a person pushes, they are the time from the first push on, and the time before it: take-off, or a disturbed
@@ -154,22 +154,22 @@ def parts_of(flights: Iterable[Flight]) -> tuple[Part, ...]:
     pushed = [f.time[airborne(f) & (np.linalg.norm(f["push_force"], axis=1) > PUSHED)] for f in flights]
     first = min((float(times[0]) for times in pushed if len(times)), default=0.0)
     if not first:
-        return (Part("over the whole flight", 0.0, math.inf),)
-    return (Part("from the first push on", first, math.inf), Part("before the first push", 0.0, first))
+        return (ScoredPart("over the whole flight", 0.0, math.inf),)
+    return (ScoredPart("from the first push on", first, math.inf), ScoredPart("before the first push", 0.0, first))
 
 
-def scored(flight: Flight, part: Part) -> Mask:
+def scored(flight: Flight, part: ScoredPart) -> Mask:
     """Which samples (T,) of a flight count in a part: those in the air, as the floor holds what stands on it."""
     return airborne(flight) & (flight.time >= part.first) & (flight.time < part.last)
 
 
-def moving_axes(flights: Iterable[Flight], part: Part) -> list[bool]:
+def moving_axes(flights: Iterable[Flight], part: ScoredPart) -> list[bool]:
     """Along which of x, y, z the position error of any flight is physical somewhere in a part."""
     errors = [np.abs(f["position_error"][scored(f, part)]) for f in flights]
     return [any(np.any(error[:, i] >= LEAST["position_max_error_m"]) for error in errors) for i in range(3)]
 
 
-def scores(flight: Flight, part: Part) -> dict[str, Any]:
+def scores(flight: Flight, part: ScoredPart) -> dict[str, Any]:
     """What a part of a flight is compared by, from the logged samples: flat, SI, the unit at the end of each name.
 
     Returns:

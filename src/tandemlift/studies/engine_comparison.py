@@ -6,15 +6,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array, Progress
 from tandemlift.engines.registry import engine_named
-from tandemlift.errors import InputError
 from tandemlift.flight.record import Flight
 from tandemlift.settings import Mission
-from tandemlift.simulation.fly import Progress, fly
+from tandemlift.simulation.fly import fly
 
-Array = NDArray[np.float64]
 QUANTITIES = {"position": "m", "attitude": "rad", "joint_force": "N", "joint_torque": "N m", "push_estimate": "N"}
 SETTLED = 0.1  # s: joints are looked at from then on, as some engines close the gaps that a swift start tears
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 
-Array = NDArray[np.float64]
 LATE = 10.0  # s: from then on the reference is to be followed
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from tandemlift.errors import InputError, unknown
+from tandemlift.common.errors import InputError, unknown
 from tandemlift.studies import compliance, persons, rotor_losses, tracking, triggers
 from tandemlift.studies.rows import Row
 from tandemlift.studies.scenarios import Bench

@@ -19,7 +19,7 @@ from typing import Any, TypeGuard
 
 from tandemlift.algebra.law import LAWS, Choice, Elementwise
 from tandemlift.algebra.ops import PRIMITIVES
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.trace.refusal import is_ours, refused
 from tandemlift.trace.symbol import fma
 

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Quat
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.vehicle import mass_of, vehicle_of
 from tandemlift.flight import Flight
 from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.settings.surroundings import Ground
+from tandemlift.settings.surroundings import GroundTable
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 
 def _soles(vehicle: Vehicle) -> Array:
@@ -28,7 +26,7 @@ def floor_height(flight: Flight) -> float | None:
 
     A mission that does not give it means the height at which the vehicle stands on it at the start.
     """
-    ground = Ground.model_validate(flight.mission.get("ground", {}))
+    ground = GroundTable.model_validate(flight.mission.get("ground", {}))
     if ground.model == "none" or ground.height is not None:
         return ground.height if ground.model != "none" else None
     vehicle, mission, mass = vehicle_of(flight), flight.mission, mass_of(flight)

@@ -9,11 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from tandemlift.figures.drawing.series import drawable, intervals, telling
+from tandemlift.common.types import Array
+from tandemlift.figures.drawing.series import decimate, drawable, intervals
 from tandemlift.figures.drawing.style import COMPONENTS, PALE
 from tandemlift.flight.record import Flight
-
-Array = NDArray[np.float64]
 
 RELATIVE = 2e-3  # of the largest value: the least span of its axis, so that tick labels stay short
 
@@ -23,7 +22,7 @@ def line(ax: Axes, time: Array, values: Array, **look: Any) -> Any:
     if len(time) == 1:
         look = {**look, "marker": ".", "ls": "none"}
     values = drawable(values)
-    kept = telling(values)
+    kept = decimate(values)
     (drawn,) = ax.plot(time[kept], values[kept], **look)
     return drawn
 

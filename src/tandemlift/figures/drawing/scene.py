@@ -12,11 +12,9 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.style import BLACK, COLUMN, PAGE
-
-Array = NDArray[np.float64]
 
 ELEVATION, AZIMUTH = np.radians(27.0), np.radians(-64.0)  # of the reader's eye
 RIGHT = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
@@ -36,7 +34,7 @@ def on_paper(points: Any) -> Array:
     return np.asarray(points) @ np.column_stack([RIGHT, UP])
 
 
-class Scene:
+class Scene3D:
     """A figure with a box of space in it, wide enough for points (n, 3) [m, world axes].
 
     Args:

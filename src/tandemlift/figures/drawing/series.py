@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from tandemlift.common.types import Array
+
 Mask = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
@@ -20,7 +21,7 @@ def drawable(values: Array) -> Array:
         return np.where(np.abs(values) < DRAWABLE, values, np.nan)
 
 
-def telling(values: Array, buckets: int = BUCKETS) -> Indices:
+def decimate(values: Array, buckets: int = BUCKETS) -> Indices:
     """Which samples of a series (T,) to draw: the lowest and highest of each of `buckets` stretches, and both ends.
 
     NaN is passed over where its stretch has a number. At most 2 buckets + 2 places are returned, in order.

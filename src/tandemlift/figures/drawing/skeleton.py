@@ -9,14 +9,12 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Quat
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle, mixer
-
-Array = NDArray[np.float64]
 
 CORNERS = 24  # of the polygon that stands for a rotor's disc
 

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
+from tandemlift.common.types import Array
 from tandemlift.figures.drawing.panels import extent
-
-Array = NDArray[np.float64]
 
 START = 1.0  # s, how long a start may be
 LONG = 5.0  # s, flights shorter than this are all start

@@ -15,7 +15,7 @@ import matplotlib.style
 import numpy as np
 from matplotlib.figure import Figure
 
-from tandemlift.files import whole
+from tandemlift.common.files import atomic_write
 from tandemlift.flight.record import Flight
 
 COLUMN = 3.5  # in, one column of a two-column journal
@@ -110,6 +110,6 @@ def save(figure: Figure, path: Path) -> Path:
     """
     kind = path.suffix[1:]
     date = {"CreationDate": None} if kind == "pdf" else None
-    with whole(path) as partial, matplotlib.style.context(["default", SETTINGS]):
+    with atomic_write(path) as partial, matplotlib.style.context(["default", SETTINGS]):
         figure.savefig(partial, format=kind, dpi=DPI, metadata=date)
     return path

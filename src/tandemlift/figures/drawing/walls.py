@@ -8,12 +8,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.collections import LineCollection
-from numpy.typing import NDArray
 
-from tandemlift.figures.drawing.scene import NEAR, Scene, on_paper
+from tandemlift.common.types import Array
+from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.settings import WallTable
-
-Array = NDArray[np.float64]
 
 BEYOND = 0.15  # of the longest side of what is shown: how far around it walls are drawn
 TOUCHING = 1e-6  # m: a wall on the box's edge is in it
@@ -23,7 +21,7 @@ OPACITY = 0.4
 BEHIND, BEFORE = 2.0, 42.0  # in the order of drawing, in which the path and all on it come between
 
 
-class Wall(NamedTuple):
+class WallOutline(NamedTuple):
     """A wall as it is drawn: its rim from end to end (2, 3) [m, world axes], and which of the ends are its own."""
 
     rim: Array
@@ -43,7 +41,7 @@ def _cut(start: Array, end: Array, low: Array, high: Array) -> tuple[float, floa
     return (float(first), float(last)) if first <= last else None
 
 
-def walls_in(tables: Sequence[Mapping[str, Any]], low: Array, high: Array) -> list[Wall]:
+def walls_in(tables: Sequence[Mapping[str, Any]], low: Array, high: Array) -> list[WallOutline]:
     """The walls of a mission as far as they are in a box with a lowest and a highest corner (3) [m, world axes]."""
     found = []
     for table in map(WallTable.model_validate, tables):
@@ -52,18 +50,18 @@ def walls_in(tables: Sequence[Mapping[str, Any]], low: Array, high: Array) -> li
         if shares is not None and table.top > low[2]:
             points = start + np.outer(shares, end - start)
             rim = np.column_stack([points, np.full(2, min(table.top, high[2]))])
-            found.append(Wall(rim, (shares[0] == 0.0, shares[1] == 1.0)))
+            found.append(WallOutline(rim, (shares[0] == 0.0, shares[1] == 1.0)))
     return found
 
 
-def walls_near(tables: Sequence[Mapping[str, Any]], around: Array) -> list[Wall]:
+def walls_near(tables: Sequence[Mapping[str, Any]], around: Array) -> list[WallOutline]:
     """The walls of a mission as far as they are near points (n, 3) [m, world axes]."""
     low, high = around.min(axis=0), around.max(axis=0)
     room = BEYOND * float((high - low).max())
     return walls_in(tables, low - room, high + room)
 
 
-def _stretches(wall: Wall, path: Array, cell: float) -> Iterator[tuple[bool, Array]]:
+def _stretches(wall: WallOutline, path: Array, cell: float) -> Iterator[tuple[bool, Array]]:
     """The stretches (2, 3) of a wall's rim that stand before the path (n, 3), or behind it, one after another."""
     length = float(np.linalg.norm(wall.rim[1] - wall.rim[0]))
     points = np.linspace(wall.rim[0], wall.rim[1], max(2, 1 + int(np.ceil(PARTS * length / cell))))
@@ -77,7 +75,7 @@ def _stretches(wall: Wall, path: Array, cell: float) -> Iterator[tuple[bool, Arr
         at += size
 
 
-def draw_walls(scene: Scene, tables: Sequence[Mapping[str, Any]], path: Array) -> list[Wall]:
+def draw_walls(scene: Scene3D, tables: Sequence[Mapping[str, Any]], path: Array) -> list[WallOutline]:
     """Draw the walls in the scene's box, before the path (n, 3) [m, world axes] or behind it. Returns them."""
     walls, floor = walls_in(tables, *scene.box.T), scene.box[2, 0]
     thin = path[:: max(1, len(path) // 500)]

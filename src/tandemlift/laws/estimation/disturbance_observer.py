@@ -25,17 +25,17 @@ from tandemlift.laws.mechanics.body import UP, Wrench
 from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
 from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.laws.rotors.allocation import Mixer, wrench
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
 
 
-class Follower(NamedTuple):
+class DisturbanceFilter(NamedTuple):
     """How three axes follow: bandwidth λ [1/s], and the steepest slope L of the disturbance [unit of e/s²]."""
 
     bandwidth: Vec3
     slope: Vec3
 
 
-class Observer(NamedTuple):
+class DisturbanceObserver(NamedTuple):
     """The vehicle as it is believed to be, a low-pass that stands for its rotors, and how the observer follows."""
 
     mass: Any
@@ -46,19 +46,19 @@ class Observer(NamedTuple):
     effect: Mixer
     thrust: LowPass
     moment: LowPass
-    force_follower: Follower
-    moment_follower: Follower
+    force_follower: DisturbanceFilter
+    moment_follower: DisturbanceFilter
 
 
-class Observing(NamedTuple):
+class ObserverState(NamedTuple):
     """Memory: the modelled rotors' wrench; velocity [m/s] and rates [rad/s] of the copy; both disturbances.
 
     Disturbances are accelerations [m/s², world axes] and angular accelerations [rad/s², body axes]; what is left of
     them besides is the residual.
     """
 
-    thrust: Smoothed
-    moment: Smoothed
+    thrust: LowPassState
+    moment: LowPassState
     velocity: Vec3
     rates: Vec3
     acceleration: Vec3
@@ -67,7 +67,7 @@ class Observing(NamedTuple):
     turning_residual: Vec3
 
 
-class Unmodelled(NamedTuple):
+class DisturbanceEstimate(NamedTuple):
     """The disturbance: force [N, world axes], moment [N·m, body axes]; and how far the copy lags behind the vehicle.
 
     The residuals [m/s², rad/s²] are what the disturbance would have to change by, as far as the copy can tell: the
@@ -80,7 +80,7 @@ class Unmodelled(NamedTuple):
     turning_residual: Vec3
 
 
-NONE = Unmodelled(ZERO, ZERO, ZERO, ZERO)
+NONE = DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO)
 
 
 @elementwise
@@ -98,8 +98,8 @@ def growth(e, bandwidth, slope):
 
 
 @choice
-def observe(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, learning: Any, dt: Any) -> Any:
-    """(what is `Unmodelled`, the new memory) at a sample.
+def observer_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, learning: Any, dt: Any) -> Any:
+    """(what is `DisturbanceEstimate`, the new memory) at a sample.
 
     Args:
         k: the observer, or `Nothing`.
@@ -112,20 +112,20 @@ def observe(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, learning
     """
 
 
-@observe.register(Nothing)
+@observer_step.register(Nothing)
 def _unknowing(k, memory, heard, thrusts, active, learning, dt):
     return NONE, memory
 
 
 @law
-def expected(k: Observer, memory: Observing, thrusts: Any) -> Any:
+def expected(k: DisturbanceObserver, memory: ObserverState, thrusts: Any) -> Any:
     """(the modelled rotors' thrust, moment) after a step under these commands, each with its rate."""
     u = wrench(k.effect, thrusts)
     return smooth(k.thrust, memory.thrust, u.thrust), smooth(k.moment, memory.moment, u.moment)
 
 
 @law
-def rates_of_change(k: Observer, heard: Any, u: Wrench) -> Any:
+def rates_of_change(k: DisturbanceObserver, heard: Any, u: Wrench) -> Any:
     """(acceleration [m/s², world axes], angular acceleration [rad/s², body axes]) without any disturbance."""
     s = heard.state
     force = body_z_axis(s.attitude) * u.thrust + heard.push - k.drag_force * s.velocity
@@ -133,7 +133,7 @@ def rates_of_change(k: Observer, heard: Any, u: Wrench) -> Any:
     return force * (1.0 / k.mass) - UP * GRAVITY, turn_by(k.inverse_inertia, moment)
 
 
-@observe.register(Observer)
+@observer_step.register(DisturbanceObserver)
 def _observed(k, memory, heard, thrusts, active, learning, dt):
     thrust, moment = expected(k, memory, thrusts)
     linear, angular = rates_of_change(k, heard, Wrench(thrust.value, moment.value))
@@ -144,19 +144,19 @@ def _observed(k, memory, heard, thrusts, active, learning, dt):
     residual, turning_residual = correction(e, f.bandwidth, f.slope), correction(w, m.bandwidth, m.slope)
     velocity = heard.state.velocity - e + (linear + acceleration + residual) * dt
     rates = heard.state.rates - w + (angular + turning + turning_residual) * dt
-    after = Observing(thrust, moment, velocity, rates, acceleration, turning, residual, turning_residual)
+    after = ObserverState(thrust, moment, velocity, rates, acceleration, turning, residual, turning_residual)
     return unmodelled(k, after), after
 
 
 @law
-def unmodelled(k: Observer, m: Observing) -> Unmodelled:
+def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
     """What is known from the memory."""
-    return Unmodelled(m.acceleration * k.mass, turn_by(k.inertia, m.turning), m.residual, m.turning_residual)
+    return DisturbanceEstimate(m.acceleration * k.mass, turn_by(k.inertia, m.turning), m.residual, m.turning_residual)
 
 
 @choice
 def last_known(k: Any, memory: Any) -> Any:
-    """What was `Unmodelled` at the last sample."""
+    """What was `DisturbanceEstimate` at the last sample."""
 
 
 @last_known.register(Nothing)
@@ -164,6 +164,6 @@ def _nothing_known(k, memory):
     return NONE
 
 
-@last_known.register(Observer)
+@last_known.register(DisturbanceObserver)
 def _known(k, memory):
     return unmodelled(k, memory)

@@ -10,7 +10,7 @@ LEAST, MOST = 0.5, 1.5  # share of a thrust that is gone
 FAITH = 10.0  # evidence that a rotor has beforehand that was named
 
 
-class Rules(NamedTuple):
+class DecisionRules(NamedTuple):
     """When a rotor is named, or restored.
 
     `threshold` over none and `isolation_margin` over the next, as twice a log-likelihood ratio;
@@ -26,7 +26,7 @@ class Rules(NamedTuple):
     per_spread: Any
 
 
-class Verdict(NamedTuple):
+class DecisionState(NamedTuple):
     """Which rotor is lost (1, else 0; a set), since when [s], how often one was named; timers [s] of the test.
 
     `above`: for how long each rotor has been the one to name (a set); `alive`: for how long none has.
@@ -70,7 +70,9 @@ def is_named(lost, above, dwell, renamed):
 
 
 @law
-def judged(k: Rules, v: Verdict, evidence: Any, square: Any, active: Any, t: Any, dt: Any) -> Verdict:
+def decision_step(
+    k: DecisionRules, v: DecisionState, evidence: Any, square: Any, active: Any, t: Any, dt: Any
+) -> DecisionState:
     """The verdict after a sample with this evidence for every rotor; `square`: |r|² in units of the scatter.
 
     `active` is 0 while it is to stay as it is, else 1.
@@ -85,7 +87,7 @@ def judged(k: Rules, v: Verdict, evidence: Any, square: Any, active: Any, t: Any
     named = total(v.lost)
     alive = where(total(v.lost * evidence) < -k.threshold, (v.alive + dt) * named * active, 0.0)
     restored = where(alive < k.dwell, 0.0, 1.0)
-    return Verdict(
+    return DecisionState(
         is_named(v.lost, above, k.dwell, renamed) * (1.0 - restored),
         where(renamed > 0.0, t, v.since),
         v.named + renamed,

@@ -25,7 +25,7 @@ from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed,
 from tandemlift.laws.mechanics.body import UP, State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.rotation_vectors import normalised, turn_left, turned
-from tandemlift.laws.sensors.readings import Motion, Readings, Unit
+from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
 
 
 class Navigator(NamedTuple):
@@ -48,7 +48,7 @@ class Navigator(NamedTuple):
     rates: Any
 
 
-class Navigation(NamedTuple):
+class NavigationState(NamedTuple):
     """Memory: the estimate, of the unit's point, and what its next step needs.
 
     Position [m], velocity [m/s] and acceleration [m/s²] in world axes, attitude, rates as last measured and smoothed
@@ -66,7 +66,7 @@ class Navigation(NamedTuple):
     started: Any
 
 
-class Gap(NamedTuple):
+class Innovation(NamedTuple):
     """Measured less estimated: turn [rad, body axes], velocity [m/s] and position [m] in world axes."""
 
     turn: Vec3
@@ -75,7 +75,7 @@ class Gap(NamedTuple):
 
 
 @law
-def carried(k: Navigator, m: Navigation, unit: Unit) -> Navigation:
+def carried(k: Navigator, m: NavigationState, unit: ImuReading) -> NavigationState:
     """The estimate carried on to the unit's sample, if that is fresh."""
     T = k.interval * unit.fresh * m.started
     rates = (m.measured_rates + unit.rates) * 0.5 - m.gyroscope_bias
@@ -83,7 +83,7 @@ def carried(k: Navigator, m: Navigation, unit: Unit) -> Navigation:
     new = apply(rotation_from_quaternion(attitude), unit.specific_force - m.accelerometer_bias) - UP * GRAVITY
     acceleration = (m.acceleration + new) * 0.5
     smoothed = m.rates + (unit.rates - m.gyroscope_bias - m.rates) * (k.rates * unit.fresh)
-    return Navigation(
+    return NavigationState(
         m.position + m.velocity * T + (m.acceleration * 2.0 + new) * (T * T * (1.0 / 6.0)),
         m.velocity + acceleration * T,
         where(unit.fresh > 0.0, new, m.acceleration),
@@ -97,17 +97,17 @@ def carried(k: Navigator, m: Navigation, unit: Unit) -> Navigation:
 
 
 @law
-def centre_of_mass(k: Navigator, m: Navigation) -> State:
+def centre_of_mass(k: Navigator, m: NavigationState) -> State:
     """The state of the system's centre of mass."""
     R = rotation_from_quaternion(m.attitude)
     return State(m.position + apply(R, k.centre), m.velocity + apply(R, cross(m.rates, k.centre)), m.attitude, m.rates)
 
 
 @law
-def gap(k: Navigator, m: Navigation, motion: Motion) -> Gap:
+def innovation(k: Navigator, m: NavigationState, motion: MotionReading) -> Innovation:
     """What a motion sample says less what the estimate was `age` before."""
     s, ago = centre_of_mass(k, m), k.age
-    return Gap(
+    return Innovation(
         turn_left(s.attitude, motion.attitude) + s.rates * ago,
         motion.velocity - (s.velocity - m.acceleration * ago),
         motion.position - (s.position - s.velocity * ago + m.acceleration * (0.5 * ago * ago)),
@@ -115,11 +115,11 @@ def gap(k: Navigator, m: Navigation, motion: Motion) -> Gap:
 
 
 @law
-def corrected(k: Navigator, m: Navigation, motion: Motion) -> Navigation:
+def corrected(k: Navigator, m: NavigationState, motion: MotionReading) -> NavigationState:
     """The estimate after a motion sample, if that is fresh."""
-    off, fresh = gap(k, m, motion), motion.fresh
+    off, fresh = innovation(k, m, motion), motion.fresh
     drawn = apply_transposed(rotation_from_quaternion(m.attitude), off.velocity)
-    return Navigation(
+    return NavigationState(
         m.position + off.position * (k.position * fresh),
         m.velocity + off.velocity * (k.velocity * fresh),
         m.acceleration,
@@ -133,7 +133,7 @@ def corrected(k: Navigator, m: Navigation, motion: Motion) -> Navigation:
 
 
 @law
-def navigate(k: Navigator, memory: Navigation, readings: Readings) -> Any:
+def navigate(k: Navigator, memory: NavigationState, readings: Readings) -> Any:
     """(State of the system's centre of mass at the unit's last sample, the new memory)."""
     after = corrected(k, carried(k, memory, readings.unit), readings.motion)
     return centre_of_mass(k, after), after
@@ -179,7 +179,7 @@ def navigator(
     )
 
 
-def start_navigation(navigator: Navigator, state: State) -> Navigation:
+def start_navigation(navigator: Navigator, state: State) -> NavigationState:
     """The memory before the first step: the estimate is `state`, without bias.
 
     Args:
@@ -187,7 +187,7 @@ def start_navigation(navigator: Navigator, state: State) -> Navigation:
         state: of the system's centre of mass.
     """
     R = rotation_from_quaternion(state.attitude)
-    return Navigation(
+    return NavigationState(
         position=state.position - apply(R, navigator.centre),
         velocity=state.velocity - apply(R, cross(state.rates, navigator.centre)),
         acceleration=ZERO,

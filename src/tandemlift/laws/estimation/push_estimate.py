@@ -24,14 +24,14 @@ import numpy as np
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total
-from tandemlift.errors import InputError
-from tandemlift.laws.estimation.tare import TINY, Sides, Sums, summed, tare_of
-from tandemlift.laws.mechanics.air_drag import blown, start_blown
+from tandemlift.common.errors import InputError
+from tandemlift.laws.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
+from tandemlift.laws.mechanics.air_drag import blown, start_payload_drag
 from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
 from tandemlift.laws.mechanics.loads import raised, total_of_each
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.sensors.readings import Unit
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, low_pass, smooth
+from tandemlift.laws.sensors.readings import ImuReading
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
 
 NOTHING = Nothing()
 
@@ -65,20 +65,20 @@ class PushEstimator(NamedTuple):
     windage: Any
 
 
-class PushMemory(NamedTuple):
+class PushEstimatorState(NamedTuple):
     """The last rates [rad/s] and angular acceleration [rad/s²], the sums of the tare, the low-passes, the wind."""
 
     rates: Vec3
     angular: Vec3
-    sums: Sums
-    force: Smoothed
-    moment: Smoothed
-    x: Smoothed
-    y: Smoothed
+    sums: TareSums
+    force: LowPassState
+    moment: LowPassState
+    x: LowPassState
+    y: LowPassState
     blown: Any
 
 
-class Push(NamedTuple):
+class PushEstimate(NamedTuple):
     """The push as estimated.
 
     `measured` [N, world axes] and `measured_moment` [N·m, body axes, about the payload's centre of mass]: the last
@@ -101,31 +101,31 @@ class Push(NamedTuple):
 
 
 @law
-def moment_on_payload(k: PushEstimator, unit: Unit, angular: Vec3) -> Vec3:
+def moment_on_payload(k: PushEstimator, unit: ImuReading, angular: Vec3) -> Vec3:
     """What the joints do not explain of the payload's turning: M [N·m, body axes], about its centre of mass."""
     joints = unit.joint_torque + cross(k.joints, unit.joint_force)
     return turn_by(k.inertia, angular) - gyroscopic(k.inertia, unit.rates) - total_of_each(joints)
 
 
 @law
-def from_outside(k: PushEstimator, unit: Unit, angular: Vec3) -> Sides:
+def from_outside(k: PushEstimator, unit: ImuReading, angular: Vec3) -> SideForces:
     """What acts on every quadrotor from outside, horizontally in body axes [N]."""
     a, w = unit.specific_force, unit.rates
     turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
     x = unit.joint_force.x + raised(turn.x, a.x) * k.quadrotor_mass
     y = unit.joint_force.y + raised(turn.y, a.y) * k.quadrotor_mass
-    return Sides(x, y)
+    return SideForces(x, y)
 
 
 @law
-def less_mean(k: PushEstimator, outside: Sides) -> Sides:
+def less_mean(k: PushEstimator, outside: SideForces) -> SideForces:
     """By how much that differs from its mean over the quadrotors [N]."""
     x, y = outside
-    return Sides(raised(x, -total(x) * k.share), raised(y, -total(y) * k.share))
+    return SideForces(raised(x, -total(x) * k.share), raised(y, -total(y) * k.share))
 
 
 @law
-def sides(k: PushEstimator, unit: Unit, angular: Vec3) -> Sides:
+def sides(k: PushEstimator, unit: ImuReading, angular: Vec3) -> SideForces:
     """What acts on every quadrotor from outside, horizontally in body axes, less its mean [N]."""
     return less_mean(k, from_outside(k, unit, angular))
 
@@ -140,12 +140,12 @@ def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Any:
 
 @law
 def disagreement(k: PushEstimator, x: Any, y: Any) -> Any:
-    """The horizontal force [N] by which one joint sensor alone would have to be wrong to explain these `Sides`."""
+    """The horizontal force [N] by which one joint sensor alone would have to be wrong to explain these `SideForces`."""
     return sqrt(maximum((total(x * x) + total(y * y)) * k.alone, TINY))
 
 
 @law
-def estimate(k: PushEstimator, memory: PushMemory, unit: Unit, t: Any) -> Any:
+def estimate(k: PushEstimator, memory: PushEstimatorState, unit: ImuReading, t: Any) -> Any:
     """(Push, the new memory) from what the unit says at time t [s]."""
     a, f = unit.specific_force, total_of_each(unit.joint_force)
     angular = where(unit.fresh > 0.0, (unit.rates - memory.rates) * k.per_interval, memory.angular)
@@ -158,7 +158,7 @@ def estimate(k: PushEstimator, memory: PushMemory, unit: Unit, t: Any) -> Any:
     tare = tare_of(k.mass, k.identify, sums, armed)
     wind, gone = blown(k.windage, memory.blown, outside.x, outside.y, begun, taken, armed)
     force = a * tare.mass - f - tare.force - wind
-    after = PushMemory(
+    after = PushEstimatorState(
         unit.rates,
         angular,
         sums,
@@ -173,14 +173,14 @@ def estimate(k: PushEstimator, memory: PushMemory, unit: Unit, t: Any) -> Any:
 
 @law
 def concluded(
-    k: PushEstimator, unit: Unit, force: Vec3, turning: Vec3, after: PushMemory, mass: Any, armed: Any
-) -> Push:
+    k: PushEstimator, unit: ImuReading, force: Vec3, turning: Vec3, after: PushEstimatorState, mass: Any, armed: Any
+) -> PushEstimate:
     """The push from the sample's `force` [N] and `turning` moment [N·m], body axes, and what is low-passed."""
     R = rotation_from_quaternion(unit.frame)
     smoothed, moment = apply(R, after.force.value), after.moment.value
     wrong = disagreement(k, after.x.value, after.y.value)
     trusted = where(wrong < k.limit, 1.0, 0.0)
-    return Push(
+    return PushEstimate(
         measured=apply(R, force),
         measured_moment=turning,
         force=smoothed,
@@ -258,9 +258,9 @@ def push_estimator(
     )
 
 
-def start_push(estimator: PushEstimator, unit: Unit) -> PushMemory:
+def start_push(estimator: PushEstimator, unit: ImuReading) -> PushEstimatorState:
     """The memory before the first step, in which the unit says `unit`."""
     none = estimator.quadrotor_mass * 0.0
-    sums = Sums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, Sides(none, none))
-    still, level = Smoothed(ZERO, ZERO), Smoothed(none, none)
-    return PushMemory(unit.rates, ZERO, sums, still, still, level, level, start_blown(estimator.windage))
+    sums = TareSums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, SideForces(none, none))
+    still, level = LowPassState(ZERO, ZERO), LowPassState(none, none)
+    return PushEstimatorState(unit.rates, ZERO, sums, still, still, level, level, start_payload_drag(estimator.windage))

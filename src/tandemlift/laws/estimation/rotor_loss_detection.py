@@ -23,11 +23,11 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import maximum, minimum, where
 from tandemlift.algebra.vector import Nothing, each, total
-from tandemlift.laws.estimation.fault_decision import Rules, Verdict, judged, share_gone, support
+from tandemlift.laws.estimation.fault_decision import DecisionRules, DecisionState, decision_step, share_gone, support
 from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
 from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.laws.rotors.allocation import Mixer, wrench
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
 
 FOUR = each(4)
 UPRIGHT = 0.3  # least cosine of the tilt
@@ -35,7 +35,7 @@ FRESH = 4.0  # scatter² of a vehicle just lifted, over its `bound`
 HELD = 0.15  # of the weight: the force from below with which it counts as standing
 
 
-class Detection(NamedTuple):
+class RotorLossDetection(NamedTuple):
     """The vehicle as it is believed to be, low-passes, rules.
 
     `rotors`: stands for their lag and delay; `quick` for the residual; `bias_filter` for its mean, `scatter_filter` for
@@ -55,27 +55,27 @@ class Detection(NamedTuple):
     bound: Any
     trial: Any
     numbers: Any
-    rules: Rules
+    rules: DecisionRules
 
 
-class Watching(NamedTuple):
+class DetectionState(NamedTuple):
     """Memory: low-passes of the modelled thrusts, of momentum, of what else acts, mean and scatter of the residual."""
 
-    rotors: Smoothed
-    thrusts: Smoothed
-    momentum: Smoothed
-    others: Smoothed
-    mean: Smoothed
-    scatter: Smoothed
-    verdict: Verdict
+    rotors: LowPassState
+    thrusts: LowPassState
+    momentum: LowPassState
+    others: LowPassState
+    mean: LowPassState
+    scatter: LowPassState
+    verdict: DecisionState
 
 
 @choice
-def watch(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, t: Any, dt: Any) -> Any:
+def detection_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, t: Any, dt: Any) -> Any:
     """The memory after a sample.
 
     Args:
-        k: `Detection` or `Nothing`.
+        k: `RotorLossDetection` or `Nothing`.
         memory: its memory.
         heard: what the pilot is told.
         thrusts: of all rotors [N], as allocated at the last sample.
@@ -85,7 +85,7 @@ def watch(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, t: Any, dt
     """
 
 
-@watch.register(Nothing)
+@detection_step.register(Nothing)
 def _unwatched(k, memory, heard, thrusts, active, t, dt):
     return memory
 
@@ -97,19 +97,19 @@ def tried(lost, trial, for_long):
 
 
 @law
-def trials(k: Detection, verdict: Verdict, t: Any) -> Any:
+def trials(k: RotorLossDetection, verdict: DecisionState, t: Any) -> Any:
     """The commands [N] by which a lost rotor is tried again; a set."""
     return tried(verdict.lost, k.trial, confirmed(k, verdict, t))
 
 
 @law
-def confirmed(k: Detection, verdict: Verdict, t: Any) -> Any:
+def confirmed(k: RotorLossDetection, verdict: DecisionState, t: Any) -> Any:
     """1 once a rotor has stayed lost for as long as it is tried again, else 0."""
     return total(verdict.lost) * where(t - verdict.since < k.rules.retest_time, 0.0, 1.0)
 
 
 @law
-def residual(k: Detection, m: Watching, heard: Any) -> Any:
+def residual(k: RotorLossDetection, m: DetectionState, heard: Any) -> Any:
     """The force along body z [N] and the moment [N·m, body axes] that modelled rotors do not explain, as a set."""
     upright = maximum(body_z_axis(heard.state.attitude).z, UPRIGHT)
     made, p, o = wrench(k.effect, m.thrusts.value), m.momentum.rate, m.others.value
@@ -122,14 +122,14 @@ def residual(k: Detection, m: Watching, heard: Any) -> Any:
 
 
 @law
-def followed(k: Detection, m: Watching, heard: Any, thrusts: Any, t: Any) -> Watching:
+def followed(k: RotorLossDetection, m: DetectionState, heard: Any, thrusts: Any, t: Any) -> DetectionState:
     """The memory with the low-passes of a sample."""
     s = heard.state
     rotors = smooth(k.rotors, m.rotors, thrusts + trials(k, m.verdict, t))
     turning, about = turn_by(k.inertia, s.rates), heard.moment + gyroscopic(k.inertia, s.rates)
     momentum = FOUR(s.velocity.z * k.mass, turning.x, turning.y, turning.z)
     others = FOUR(heard.push.z - k.mass * GRAVITY, about.x, about.y, about.z)
-    return Watching(
+    return DetectionState(
         rotors,
         smooth(k.quick, m.thrusts, rotors.value),
         smooth(k.quick, m.momentum, momentum),
@@ -141,7 +141,7 @@ def followed(k: Detection, m: Watching, heard: Any, thrusts: Any, t: Any) -> Wat
 
 
 @law
-def weighed(k: Detection, thrusts: Any, weights: Any) -> Mixer:
+def weighed(k: RotorLossDetection, thrusts: Any, weights: Any) -> Mixer:
     """What each rotor's loss leaves of the residual, by rows, each over the variance of its component."""
     b, w = k.effect, weights
     return Mixer(
@@ -150,7 +150,7 @@ def weighed(k: Detection, thrusts: Any, weights: Any) -> Mixer:
 
 
 @law
-def evidence_for(k: Detection, thrusts: Any, off: Any, weights: Any) -> Any:
+def evidence_for(k: RotorLossDetection, thrusts: Any, off: Any, weights: Any) -> Any:
     """E of every rotor, from the residual less its mean and one over the variances of its components; a set."""
     s, b = weighed(k, thrusts, weights), k.effect
     fit = s.thrust * off[0] + s.roll * off[1] + s.pitch * off[2] + s.yaw * off[3]
@@ -171,19 +171,19 @@ def kept_or(value, other, active):
 
 
 @law
-def unheld(k: Detection, r: Any, active: Any) -> Any:
+def unheld(k: RotorLossDetection, r: Any, active: Any) -> Any:
     """1 if the vehicle flies and nothing holds it from below, else 0; r: the residual."""
     return where(r[0] > HELD * GRAVITY * k.mass, 0.0, active)
 
 
 @law
-def explained_by(k: Detection, verdict: Verdict, thrusts: Any) -> Any:
+def explained_by(k: RotorLossDetection, verdict: DecisionState, thrusts: Any) -> Any:
     """What the rotor named lost leaves of the residual; a set of four."""
     gone = wrench(k.effect, verdict.lost * thrusts)
     return FOUR(-gone.thrust, -gone.moment.x, -gone.moment.y, -gone.moment.z)
 
 
-@watch.register(Detection)
+@detection_step.register(RotorLossDetection)
 def _watched(k, memory, heard, thrusts, active, t, dt):
     m = followed(k, memory, heard, thrusts, t)
     r, f = residual(k, m, heard), m.thrusts.value
@@ -192,34 +192,36 @@ def _watched(k, memory, heard, thrusts, active, t, dt):
     weights = FOUR(1.0 / deviation[0], 1.0 / deviation[1], 1.0 / deviation[2], 1.0 / deviation[3])
     free = unheld(k, r, active)
     judging = free * (1.0 - confirmed(k, m.verdict, t))
-    verdict = judged(k.rules, m.verdict, evidence_for(k, f, off, weights), total(off * off * weights), judging, t, dt)
+    verdict = decision_step(
+        k.rules, m.verdict, evidence_for(k, f, off, weights), total(off * off * weights), judging, t, dt
+    )
     rest = r - explained_by(k, m.verdict, f)
     left = rest - m.mean.value
     mean = smooth(k.bias_filter, m.mean, rest)
     scatter = smooth(k.scatter_filter, m.scatter, minimum(left * left, k.bound))
     still = kept_or(scatter.value, k.bound * FRESH, free)
-    return Watching(
+    return DetectionState(
         m.rotors,
         m.thrusts,
         m.momentum,
         m.others,
         mean,
-        Smoothed(still, scatter.rate * free),
+        LowPassState(still, scatter.rate * free),
         verdict,
     )
 
 
 @choice
-def found_lost(k: Any, memory: Any, t: Any) -> Any:
+def failed_rotors(k: Any, memory: Any, t: Any) -> Any:
     """1 once a rotor is lost for good at time t [s], else 0."""
 
 
-@found_lost.register(Nothing)
+@failed_rotors.register(Nothing)
 def _never_lost(k, memory, t):
     return 0.0
 
 
-@found_lost.register(Detection)
+@failed_rotors.register(RotorLossDetection)
 def _lost(k, memory, t):
     return confirmed(k, memory.verdict, t)
 
@@ -240,7 +242,7 @@ def _all_left(k, memory):
     return 1.0
 
 
-@left_of.register(Detection)
+@left_of.register(RotorLossDetection)
 def _alive(k, memory):
     return allotted(memory.verdict.lost)
 
@@ -255,6 +257,6 @@ def _as_they_are(k, memory, commands, t):
     return commands
 
 
-@with_trials.register(Detection)
+@with_trials.register(RotorLossDetection)
 def _with_a_trial(k, memory, commands, t):
     return commands + trials(k, memory.verdict, t)

@@ -14,15 +14,15 @@ TINY = 1e-24
 """N² or (m/s²)²: far below what any sensor shows; guards roots and divisions."""
 
 
-class Sides(NamedTuple):
+class SideForces(NamedTuple):
     """Force along body x and y on every quadrotor [N], less its mean over them (sets)."""
 
     x: Any
     y: Any
 
 
-class Sums(NamedTuple):
-    """Over the samples of the tare: their count, Σ Σ f_i, Σ a, Σ M, Σ f·a, Σ a·a, and the sums of `Sides`."""
+class TareSums(NamedTuple):
+    """Over the samples of the tare: their count, Σ Σ f_i, Σ a, Σ M, Σ f·a, Σ a·a, and the sums of `SideForces`."""
 
     count: Any
     force: Vec3
@@ -30,34 +30,34 @@ class Sums(NamedTuple):
     moment: Vec3
     weight: Any
     square: Any
-    sides: Sides
+    sides: SideForces
 
 
 class Tare(NamedTuple):
-    """What the tare found: mass of the payload [kg], bias of force [N] and moment [N·m] (body axes), and of `Sides`."""
+    """What the tare found: mass of the payload [kg], bias of force [N] and moment [N·m] (body axes) and sides."""
 
     mass: Any
     force: Vec3
     moment: Vec3
-    sides: Sides
+    sides: SideForces
 
 
 @law
-def summed(sums: Sums, begun: Any, taken: Any, f: Vec3, a: Vec3, moment: Vec3, unequal: Sides) -> Sums:
+def summed(sums: TareSums, begun: Any, taken: Any, f: Vec3, a: Vec3, moment: Vec3, unequal: SideForces) -> TareSums:
     """The sums with this sample if it is `taken` (1), or as they were (0); none before the tare has `begun` (0)."""
-    return Sums(
+    return TareSums(
         sums.count * begun + taken,
         sums.force * begun + f * taken,
         sums.specific_force * begun + a * taken,
         sums.moment * begun + moment * taken,
         sums.weight * begun + dot(f, a) * taken,
         sums.square * begun + dot(a, a) * taken,
-        Sides(sums.sides.x * begun + unequal.x * taken, sums.sides.y * begun + unequal.y * taken),
+        SideForces(sums.sides.x * begun + unequal.x * taken, sums.sides.y * begun + unequal.y * taken),
     )
 
 
 @law
-def tare_of(mass: Any, identify: Any, sums: Sums, armed: Any) -> Tare:
+def tare_of(mass: Any, identify: Any, sums: TareSums, armed: Any) -> Tare:
     """What the sums amount to once the tare is over (`armed` 1); before, the mass as believed [kg] and no bias.
 
     `identify` is 1 to identify the payload's mass, else 0.
@@ -69,5 +69,5 @@ def tare_of(mass: Any, identify: Any, sums: Sums, armed: Any) -> Tare:
         found,
         (sums.specific_force * found - sums.force) * per_sample,
         sums.moment * per_sample,
-        Sides(sums.sides.x * per_sample, sums.sides.y * per_sample),
+        SideForces(sums.sides.x * per_sample, sums.sides.y * per_sample),
     )

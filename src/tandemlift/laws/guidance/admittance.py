@@ -39,7 +39,7 @@ class Admittance(NamedTuple):
     reanchor: Any
 
 
-class Yielding(NamedTuple):
+class AdmittanceState(NamedTuple):
     """Memory of the admittance: T_r [m], Ṫ_r [m/s] and T_d [m], world axes."""
 
     position: Vec3
@@ -85,7 +85,7 @@ def anchored(anchor, position, velocity, force, reanchor):
 
 
 @law
-def yield_to(a: Admittance, m: Yielding, F: Vec3) -> Trajectory:
+def admittance_response(a: Admittance, m: AdmittanceState, F: Vec3) -> Trajectory:
     """T_r, Ṫ_r and T̈_r under the gated force F [N, world axes]."""
     # paper: equ4
     acceleration = (F - a.damping * m.velocity - a.stiffness * (m.position - m.anchor)) * a.inverse_mass
@@ -93,8 +93,8 @@ def yield_to(a: Admittance, m: Yielding, F: Vec3) -> Trajectory:
 
 
 @law
-def hold(a: Admittance, m: Yielding, F: Vec3, now: Trajectory, dt: Any) -> Yielding:
+def admittance_step(a: Admittance, m: AdmittanceState, F: Vec3, now: Trajectory, dt: Any) -> AdmittanceState:
     """The memory after a step of `dt` [s] with T̈_r held."""
     position = m.position + m.velocity * dt + now.acceleration * (0.5 * dt * dt)
     velocity = (m.velocity + now.acceleration * dt + REST) - REST
-    return Yielding(position, velocity, anchored(m.anchor, position, velocity, F, a.reanchor))
+    return AdmittanceState(position, velocity, anchored(m.anchor, position, velocity, F, a.reanchor))

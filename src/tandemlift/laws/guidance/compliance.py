@@ -16,7 +16,7 @@ from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Vec3, dot
 from tandemlift.laws.guidance.admittance import Admittance, anchored, soft
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
 
 QUIET = 2.0  # s
 FAINT = 0.3  # of the threshold: what is louder counts no more for the bias
@@ -36,7 +36,7 @@ class DeadBand(NamedTuple):
     forgetting: Any
 
 
-class Hearing(NamedTuple):
+class DeadBandState(NamedTuple):
     """Memory: 1 while a push is heard, else 0; for how long it has been above, and not heard [s]; the bias.
 
     What is being `learned` becomes the bias later, or is forgotten if it was the beginning of a push.
@@ -49,7 +49,7 @@ class Hearing(NamedTuple):
     bias: Any
 
 
-class Limits(NamedTuple):
+class MotionLimits(NamedTuple):
     """Greatest speed [m/s], acceleration [m/s²] and jerk [m/s³] along each axis; how hard it brakes [1/s]."""
 
     speed: Vec3
@@ -68,17 +68,17 @@ class Compliance(NamedTuple):
     band: DeadBand
     output_filter: LowPass
     admittance: Admittance
-    limits: Limits
+    limits: MotionLimits
     force_lead: Any
     reference_lead: Any
 
 
-class Compliant(NamedTuple):
+class ComplianceState(NamedTuple):
     """Memory: the push [N] behind each low-pass, the dead-band's, and the trajectory with T_d."""
 
-    heard: Smoothed
-    hearing: Hearing
-    eased: Smoothed
+    heard: LowPassState
+    hearing: DeadBandState
+    eased: LowPassState
     position: Vec3
     velocity: Vec3
     acceleration: Vec3
@@ -118,7 +118,7 @@ def kept(on, old, new):
 
 
 @law
-def hear(k: DeadBand, m: Hearing, force: Any, listening: Any, dt: Any) -> Any:
+def dead_band(k: DeadBand, m: DeadBandState, force: Any, listening: Any, dt: Any) -> Any:
     """(what of a force exceeds the threshold while it is heard, the new memory); not `listening` (0), nothing is."""
     f = force - m.bias
     above = time_above(m.above, f, k.threshold, dt) * listening
@@ -126,7 +126,7 @@ def hear(k: DeadBand, m: Hearing, force: Any, listening: Any, dt: Any) -> Any:
     off = silent_for(m.off, on, dt) * listening
     learned = kept(on, m.bias, m.learned + drawn(force - m.learned, k.threshold * FAINT, off) * (k.forgetting * dt))
     bias = m.bias + (learned - m.bias) * (LATE * dt)
-    return soft(f, k.threshold) * on, Hearing(on, above, off, learned, bias)
+    return soft(f, k.threshold) * on, DeadBandState(on, above, off, learned, bias)
 
 
 @elementwise
@@ -150,7 +150,7 @@ def shortened(a: Vec3, across: Any) -> Vec3:
 
 
 @law
-def wanted(k: Compliance, m: Compliant, force: Vec3, damping: Any, across: Any) -> Vec3:
+def wanted(k: Compliance, m: ComplianceState, force: Vec3, damping: Any, across: Any) -> Vec3:
     """The acceleration [m/s²] that a force beyond the threshold asks for, within limits."""
     a = k.admittance
     pull = force - (a.damping + Vec3(damping, damping, damping)) * m.velocity - a.stiffness * (m.position - m.anchor)
@@ -159,7 +159,9 @@ def wanted(k: Compliance, m: Compliant, force: Vec3, damping: Any, across: Any) 
 
 
 @law
-def comply(k: Compliance, m: Compliant, push: Vec3, listening: Any, damping: Any, across: Any, dt: Any) -> Compliant:
+def compliance_step(
+    k: Compliance, m: ComplianceState, push: Vec3, listening: Any, damping: Any, across: Any, dt: Any
+) -> ComplianceState:
     """The memory after a step.
 
     Args:
@@ -172,7 +174,7 @@ def comply(k: Compliance, m: Compliant, push: Vec3, listening: Any, damping: Any
         dt: of the step [s].
     """
     heard = smooth(k.input_filter, m.heard, push)
-    beyond, hearing = hear(k.band, m.hearing, heard.value, listening, dt)
+    beyond, hearing = dead_band(k.band, m.hearing, heard.value, listening, dt)
     eased = smooth(k.output_filter, m.eased, beyond)
     asked = wanted(k, m, eased.value, damping, across)
     acceleration = approached(m.acceleration, asked, k.limits.jerk * dt)
@@ -180,23 +182,23 @@ def comply(k: Compliance, m: Compliant, push: Vec3, listening: Any, damping: Any
     position = m.position + m.velocity * dt + acceleration * (0.5 * dt * dt)
     velocity = m.velocity + acceleration * dt
     anchor = anchored(m.anchor, position, velocity, eased.value, k.admittance.reanchor)
-    return Compliant(heard, hearing, eased, position, velocity, acceleration, jerk, anchor)
+    return ComplianceState(heard, hearing, eased, position, velocity, acceleration, jerk, anchor)
 
 
 @law
 def with_speed(k: Compliance, speed: Vec3) -> Compliance:
     """A compliance with another greatest speed along each axis [m/s]."""
-    limits = Limits(speed, k.limits.acceleration, k.limits.jerk, k.limits.braking_gain)
+    limits = MotionLimits(speed, k.limits.acceleration, k.limits.jerk, k.limits.braking_gain)
     return Compliance(k.input_filter, k.band, k.output_filter, k.admittance, limits, k.force_lead, k.reference_lead)
 
 
 @law
-def countered(k: Compliance, m: Compliant) -> Vec3:
+def countered(k: Compliance, m: ComplianceState) -> Vec3:
     """The push that is to be countered when the vehicle answers [N, world axes]."""
     return m.heard.value + m.heard.rate * k.force_lead
 
 
 @law
-def power_of(m: Compliant, velocity: Vec3) -> Any:
+def power_of(m: ComplianceState, velocity: Vec3) -> Any:
     """What the person's push beyond the threshold does at a velocity [W]."""
     return dot(m.eased.value, velocity)

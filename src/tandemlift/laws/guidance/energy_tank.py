@@ -15,7 +15,7 @@ from tandemlift.algebra.ops import clip, maximum
 from tandemlift.algebra.vector import Nothing, dot
 
 
-class Tank(NamedTuple):
+class EnergyTank(NamedTuple):
     """Energy that it holds, and below which damping is added [J]; the most damping [N·s/m]; the share that refills.
 
     `fading`: one over the time that damping stays [1/s].
@@ -28,7 +28,7 @@ class Tank(NamedTuple):
     fading: Any
 
 
-class Filled(NamedTuple):
+class EnergyTankState(NamedTuple):
     """Memory: the energy in it [J], which may be owed; the share of the damping that is added."""
 
     energy: Any
@@ -36,17 +36,17 @@ class Filled(NamedTuple):
 
 
 @choice
-def damp(k: Any, m: Any, push: Any, velocity: Any, burned: Any, dt: Any) -> Any:
+def passivity_damping(k: Any, m: Any, push: Any, velocity: Any, burned: Any, dt: Any) -> Any:
     """(damping to add [N·s/m], the new memory): a push [N] at a velocity [m/s], and power burned by damping [W]."""
 
 
-@damp.register(Nothing)
+@passivity_damping.register(Nothing)
 def _no_tank(k, m, push, velocity, burned, dt):
     return 0.0, m
 
 
-@damp.register(Tank)
+@passivity_damping.register(EnergyTank)
 def _tank(k, m, push, velocity, burned, dt):
     energy = clip(m.energy + (dot(push, velocity) + burned * k.refill_fraction) * dt, -k.capacity, k.capacity)
     added = maximum(1.0 - clip(energy / k.low_energy, 0.0, 1.0), m.added * (1.0 - k.fading * dt))
-    return k.most * added, Filled(energy, added)
+    return k.most * added, EnergyTankState(energy, added)

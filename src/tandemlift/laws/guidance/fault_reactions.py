@@ -47,7 +47,7 @@ CHECKS = (
 )
 
 
-class Faults(NamedTuple):
+class ActiveFaults(NamedTuple):
     """By fault, in the order of `FAULTS`: what is wrong (of a sensor, `KINDS` from 1), 1 for a fault, 0 for none."""
 
     imu: Any
@@ -72,46 +72,46 @@ class Faults(NamedTuple):
     speed_inconsistent: Any
 
 
-class Worst(NamedTuple):
+class FaultReaction(NamedTuple):
     """The strongest reaction that is called for, and the alarm of the first fault that calls for it; or zeros."""
 
     reaction: Any
     alarm: Any
 
 
-NO_ALARM = Worst(0.0, 0.0)
+NO_ALARM = FaultReaction(0.0, 0.0)
 
 
 @law
-def worse(w: Worst, fault: Any, reaction: Any, alarm: Any) -> Worst:
+def stronger(w: FaultReaction, fault: Any, reaction: Any, alarm: Any) -> FaultReaction:
     """The worst with one more fault, if it is there (above 0) and calls for more."""
     more = where(fault > 0.0, where(reaction > w.reaction, 1.0, 0.0), 0.0)
-    return Worst(where(more > 0.0, reaction, w.reaction), where(more > 0.0, alarm, w.alarm))
+    return FaultReaction(where(more > 0.0, reaction, w.reaction), where(more > 0.0, alarm, w.alarm))
 
 
 @law
-def worst_of(f: Faults, r: Faults) -> Worst:
+def strongest_reaction(f: ActiveFaults, r: ActiveFaults) -> FaultReaction:
     """The worst of faults `f`, with the reactions `r` to each."""
-    w = worse(NO_ALARM, f.orientation, r.orientation, 130.0)
-    w = worse(w, f.state, r.state, 120.0)
-    w = worse(w, f.imu, r.imu, 10.0)
-    w = worse(w, f.motion, r.motion, 50.0)
-    w = worse(w, f.joints, r.joints, 20.0 + f.joints)
-    w = worse(w, f.accelerometer, r.accelerometer, 30.0 + f.accelerometer)
-    w = worse(w, f.gyroscope, r.gyroscope, 40.0 + f.gyroscope)
-    w = worse(w, f.position, r.position, 60.0 + f.position)
-    w = worse(w, f.velocity, r.velocity, 70.0 + f.velocity)
-    w = worse(w, f.attitude, r.attitude, 80.0 + f.attitude)
-    w = worse(w, f.joints_inconsistent, r.joints_inconsistent, 90.0)
-    w = worse(w, f.attitude_inconsistent, r.attitude_inconsistent, 100.0)
-    w = worse(w, f.velocity_inconsistent, r.velocity_inconsistent, 110.0)
-    w = worse(w, f.speed_inconsistent, r.speed_inconsistent, 200.0)
-    w = worse(w, f.rotor, r.rotor, 190.0)
-    w = worse(w, f.tilt, r.tilt, 160.0)
-    w = worse(w, f.rates, r.rates, 170.0)
-    w = worse(w, f.fence, r.fence, 140.0)
-    w = worse(w, f.thrust, r.thrust, 150.0)
-    return worse(w, f.tracking_error, r.tracking_error, 180.0)
+    w = stronger(NO_ALARM, f.orientation, r.orientation, 130.0)
+    w = stronger(w, f.state, r.state, 120.0)
+    w = stronger(w, f.imu, r.imu, 10.0)
+    w = stronger(w, f.motion, r.motion, 50.0)
+    w = stronger(w, f.joints, r.joints, 20.0 + f.joints)
+    w = stronger(w, f.accelerometer, r.accelerometer, 30.0 + f.accelerometer)
+    w = stronger(w, f.gyroscope, r.gyroscope, 40.0 + f.gyroscope)
+    w = stronger(w, f.position, r.position, 60.0 + f.position)
+    w = stronger(w, f.velocity, r.velocity, 70.0 + f.velocity)
+    w = stronger(w, f.attitude, r.attitude, 80.0 + f.attitude)
+    w = stronger(w, f.joints_inconsistent, r.joints_inconsistent, 90.0)
+    w = stronger(w, f.attitude_inconsistent, r.attitude_inconsistent, 100.0)
+    w = stronger(w, f.velocity_inconsistent, r.velocity_inconsistent, 110.0)
+    w = stronger(w, f.speed_inconsistent, r.speed_inconsistent, 200.0)
+    w = stronger(w, f.rotor, r.rotor, 190.0)
+    w = stronger(w, f.tilt, r.tilt, 160.0)
+    w = stronger(w, f.rates, r.rates, 170.0)
+    w = stronger(w, f.fence, r.fence, 140.0)
+    w = stronger(w, f.thrust, r.thrust, 150.0)
+    return stronger(w, f.tracking_error, r.tracking_error, 180.0)
 
 
 def alarm_name(alarm: float) -> str:

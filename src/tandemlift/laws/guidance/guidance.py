@@ -1,7 +1,7 @@
 """From the push to the reference: by the clock as in the paper, or guided by the hand, in phases.
 
-`Clocked`: gate → admittance → lift and landing at set times. `Guided`: phases that are entered for a reason, a
-compliance that the vehicle can follow, and a heading that a hand can turn.
+`ScheduledGuidance`: gate → admittance → lift and landing at set times. `HandGuidance`: phases with
+entry conditions, a compliance that the vehicle can follow, and a heading that a hand can turn.
 """
 
 from typing import Any, NamedTuple
@@ -10,32 +10,32 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, dot
-from tandemlift.laws.estimation.disturbance_observer import Unmodelled
-from tandemlift.laws.guidance.admittance import Admittance, gate, hold, yield_to
-from tandemlift.laws.guidance.compliance import Compliance, Compliant, comply, countered
-from tandemlift.laws.guidance.energy_tank import damp
+from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
+from tandemlift.laws.guidance.admittance import Admittance, admittance_response, admittance_step, gate
+from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compliance_step, countered
+from tandemlift.laws.guidance.energy_tank import passivity_damping
 from tandemlift.laws.guidance.phases import (
     LAND,
-    Orders,
-    Phase,
-    Phasing,
+    PhaseOutput,
+    PhaseSettings,
+    PhaseState,
     follow,
     is_in,
     later,
     more,
-    orders_of,
+    phase_output,
     wants_lift,
 )
-from tandemlift.laws.guidance.requests import NOBODY, UNAWARE, Operator, Own, also, asked_until
-from tandemlift.laws.guidance.supervisor import concluded, given_up, kept_inside, made_sound, supervise
-from tandemlift.laws.guidance.yaw_compliance import Course, turn
+from tandemlift.laws.guidance.requests import NOBODY, UNAWARE, OperatorRequest, VehicleStatus, also, asked_until
+from tandemlift.laws.guidance.supervisor import concluded, given_up, kept_inside, supervise, usable_input
+from tandemlift.laws.guidance.yaw_compliance import HeadingReference, yaw_step
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, smooth
-from tandemlift.laws.signals.trajectories import Phases, Reference, Trajectory, reference
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.trajectories import Reference, ScheduledPhases, Trajectory, reference
 
 
-class Heard(NamedTuple):
+class PilotInput(NamedTuple):
     """What the pilot is told at a sample.
 
     The state; the person's push: force [N, world axes] and moment about the centre of mass [N·m, body axes]; 1 if the
@@ -48,43 +48,43 @@ class Heard(NamedTuple):
     moment: Vec3
     land: Any
     sensed: Any
-    operator: Operator = NOBODY
-    own: Own = UNAWARE
+    operator: OperatorRequest = NOBODY
+    own: VehicleStatus = UNAWARE
 
 
-class Running(NamedTuple):
+class AlwaysRunning(NamedTuple):
     """Rotors always run."""
 
 
-class InFlight(NamedTuple):
+class RunningInFlight(NamedTuple):
     """Rotors run from the time `start` [s] of the lift to the end of the landing at `stop`."""
 
     start: Any
     stop: Any
 
 
-class Share(NamedTuple):
+class ThrustFraction(NamedTuple):
     """The share of every thrust that is commanded: 1 while the rotors run, else 0."""
 
     value: Any
 
 
-class Clocked(NamedTuple):
+class ScheduledGuidance(NamedTuple):
     """The paper's guidance; `yaw` is ψ_d [rad]. The types of its members pick the laws."""
 
     admittance: Admittance
-    phases: Phases
+    phases: ScheduledPhases
     yaw: Any
     rotors: Any
 
 
-class Guided(NamedTuple):
+class HandGuidance(NamedTuple):
     """Guidance by hand. `mass` [kg]; `most_thrust` [N] that may be used; `tangent` of the greatest tilt.
 
     `moment`: low-pass on the push's moment, which is countered as it will be `moment_lead` [s] later.
     """
 
-    phasing: Phasing
+    phasing: PhaseSettings
     compliance: Compliance
     tank: Any
     heading: Any
@@ -96,18 +96,18 @@ class Guided(NamedTuple):
     supervision: Any
 
 
-class GuidedMemory(NamedTuple):
+class HandGuidanceState(NamedTuple):
     """Memory of the parts of a guidance by hand."""
 
-    phase: Phase
-    compliant: Compliant
+    phase: PhaseState
+    compliant: ComplianceState
     tank: Any
     heading: Any
-    moment: Smoothed
+    moment: LowPassState
     supervision: Any
 
 
-class GuidedChannels(NamedTuple):
+class HandGuidanceChannels(NamedTuple):
     """What a guidance by hand shows."""
 
     phase: Any
@@ -139,23 +139,23 @@ class Guidance(NamedTuple):
 
 @choice
 def guide(g: Any, m: Any, heard: Any, unknown: Any, lost: Any, t: Any, dt: Any) -> Any:
-    """(Guidance, the new memory) at time t [s]; `unknown`: what is `Unmodelled`; `lost`: 1 once a rotor is lost."""
+    """(Guidance, the new memory) at time t [s]; `unknown`: a `DisturbanceEstimate`; `lost`: 1 once a rotor is lost."""
 
 
 @choice
-def attend(g: Any, m: Any, heard: Heard, thrust: Any, rotor_lost: Any) -> Any:
+def checked_input(g: Any, m: Any, heard: PilotInput, thrust: Any, rotor_lost: Any) -> Any:
     """What the pilot is told, made fit for use; with the thrust of all rotors [N], and 1 if one is found to be lost."""
 
 
-@attend.register(Clocked)
+@checked_input.register(ScheduledGuidance)
 def _told(g, m, heard, thrust, rotor_lost):
     return heard
 
 
-@attend.register(Guided)
+@checked_input.register(HandGuidance)
 def _attentive(g, m, heard, thrust, rotor_lost):
-    sound = made_sound(g.supervision, m.supervision, heard, thrust, rotor_lost)
-    return Heard(sound.state, sound.push, sound.moment, heard.land, heard.sensed, heard.operator, sound.own)
+    sound = usable_input(g.supervision, m.supervision, heard, thrust, rotor_lost)
+    return PilotInput(sound.state, sound.push, sound.moment, heard.land, heard.sensed, heard.operator, sound.own)
 
 
 @choice
@@ -163,27 +163,27 @@ def running(rotors: Any, thrusts: Any) -> Any:
     """Thrusts [N] as commanded while the rotors run, or none while they are stopped."""
 
 
-@running.register(Running)
+@running.register(AlwaysRunning)
 def _always(rotors, thrusts):
     return thrusts
 
 
-@running.register(Share)
+@running.register(ThrustFraction)
 def _a_share(rotors, thrusts):
     return thrusts * rotors.value
 
 
 @choice
-def share_of(rotors: Any) -> Any:
+def thrust_fraction(rotors: Any) -> Any:
     """The share of every thrust that is commanded."""
 
 
-@share_of.register(Running)
+@thrust_fraction.register(AlwaysRunning)
 def _all_of_it(rotors):
     return 1.0
 
 
-@share_of.register(Share)
+@thrust_fraction.register(ThrustFraction)
 def _its_value(rotors):
     return rotors.value
 
@@ -193,27 +193,27 @@ def run(rotors: Any, t: Any) -> Any:
     """Whether rotors run at time t [s], for `running`."""
 
 
-@run.register(Running)
+@run.register(AlwaysRunning)
 def _run_always(rotors, t):
     return rotors
 
 
-@run.register(InFlight)
+@run.register(RunningInFlight)
 def _run_in_flight(rotors, t):
-    return Share(where(t < rotors.start, 0.0, where(t < rotors.stop, 1.0, 0.0)))
+    return ThrustFraction(where(t < rotors.start, 0.0, where(t < rotors.stop, 1.0, 0.0)))
 
 
-@guide.register(Clocked)
+@guide.register(ScheduledGuidance)
 def _clocked(g, m, heard, unknown, lost, t, dt):
     force = gate(g.admittance.gate, heard.push)
-    motion = yield_to(g.admittance, m, force)
+    motion = admittance_response(g.admittance, m, force)
     target = Reference(reference(g.phases, motion, t), g.yaw, 0.0, 0.0, ZERO)
     guidance = Guidance(force, motion, target, heard.push, ZERO, run(g.rotors, t), 1.0, 1.0, Nothing())
-    return guidance, hold(g.admittance, m, force, motion, dt)
+    return guidance, admittance_step(g.admittance, m, force, motion, dt)
 
 
 @law
-def still_able(g: Guided, unknown: Unmodelled) -> Any:
+def still_able(g: HandGuidance, unknown: DisturbanceEstimate) -> Any:
     """The horizontal acceleration [m/s²] that rotors and tilt leave, once weight and disturbance are carried."""
     d = unknown.force
     up = maximum(g.mass * GRAVITY - d.z, 0.0)
@@ -224,15 +224,15 @@ def still_able(g: Guided, unknown: Unmodelled) -> Any:
 
 
 @law
-def grounded_at(orders: Orders, m: Compliant, state: State) -> Compliant:
+def grounded_at(orders: PhaseOutput, m: ComplianceState, state: State) -> ComplianceState:
     """The compliance's memory; on the ground the reference stays with the vehicle, at rest."""
     on = orders.grounded
     position = state.position * on + m.position * (1.0 - on)
     off = 1.0 - on
-    return Compliant(
+    return ComplianceState(
         m.heard,
         m.hearing,
-        Smoothed(m.eased.value * off, m.eased.rate * off),
+        LowPassState(m.eased.value * off, m.eased.rate * off),
         position,
         m.velocity * off,
         m.acceleration * off,
@@ -242,7 +242,7 @@ def grounded_at(orders: Orders, m: Compliant, state: State) -> Compliant:
 
 
 @law
-def lifted(g: Guided, T: Trajectory, orders: Orders) -> Trajectory:
+def lifted(g: HandGuidance, T: Trajectory, orders: PhaseOutput) -> Trajectory:
     """The desired trajectory: T_r, lifted and landed."""
     lift, land, end = orders.lift, orders.land, orders.end
     z = T.position.z + g.phasing.height * lift.value - end
@@ -257,20 +257,22 @@ def lifted(g: Guided, T: Trajectory, orders: Orders) -> Trajectory:
 
 
 @law
-def may_stand(m: Phase, height: Any) -> Any:
+def may_stand(m: PhaseState, height: Any) -> Any:
     """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0."""
     return is_in(m, LAND) * where(height < m.ground, 1.0, 0.0)
 
 
 @law
-def channels_of(orders: Orders, compliant: Compliant, damping: Any, course: Course, supervised: Any) -> GuidedChannels:
+def channels_of(
+    orders: PhaseOutput, compliant: ComplianceState, damping: Any, course: HeadingReference, supervised: Any
+) -> HandGuidanceChannels:
     """What is shown of a step; `supervised`: of the supervision."""
     heard = compliant.heard.value - compliant.hearing.bias
-    return GuidedChannels(orders.phase, heard, compliant.hearing.on, damping, course.rate, supervised)
+    return HandGuidanceChannels(orders.phase, heard, compliant.hearing.on, damping, course.rate, supervised)
 
 
 @law
-def phased(g: Guided, m: GuidedMemory, heard: Heard, lost: Any, t: Any, dt: Any) -> Any:
+def phased(g: HandGuidance, m: HandGuidanceState, heard: PilotInput, lost: Any, t: Any, dt: Any) -> Any:
     """(the phase, what the supervision comes to, its memory) at time t [s]; `lost`: 1 once a rotor is lost."""
     k, operator = g.phasing, heard.operator
     asked = also(asked_until(k.requests, t), operator, later(t, k.lift_start), later(t, k.land_start))
@@ -281,19 +283,19 @@ def phased(g: Guided, m: GuidedMemory, heard: Heard, lost: Any, t: Any, dt: Any)
     return phase, supervised, supervising
 
 
-@guide.register(Guided)
+@guide.register(HandGuidance)
 def _guided(g, m, heard, unknown, lost, t, dt):
     state = heard.state
     phase, supervised, supervising = phased(g, m, heard, lost, t, dt)
-    orders = orders_of(g.phasing, phase, t)
+    orders = phase_output(g.phasing, phase, t)
     now = grounded_at(orders, m.compliant, state)
     burned = dot(now.velocity * g.compliance.admittance.damping, now.velocity)
-    damping, tank = damp(g.tank, m.tank, now.heard.value, state.velocity, burned, dt)
+    damping, tank = passivity_damping(g.tank, m.tank, now.heard.value, state.velocity, burned, dt)
     how = kept_inside(g.supervision, g.compliance, now, g.phasing.height * orders.lift.value)
-    after = comply(how, now, heard.push, orders.listening, damping, still_able(g, unknown), dt)
+    after = compliance_step(how, now, heard.push, orders.listening, damping, still_able(g, unknown), dt)
     about = apply(rotation_from_quaternion(state.attitude), heard.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
-    course, heading = turn(g.heading, m.heading, about, yaw, orders, lost, dt)
+    course, heading = yaw_step(g.heading, m.heading, about, yaw, orders, lost, dt)
     moment = smooth(g.moment, m.moment, heard.moment)
     motion = Trajectory(now.position, now.velocity, after.acceleration)
     target = given_up(
@@ -306,9 +308,9 @@ def _guided(g, m, heard, unknown, lost, t, dt):
         Reference(target, course.angle, course.rate, course.acceleration, after.jerk * g.compliance.reference_lead),
         countered(g.compliance, after) * orders.countering,
         (moment.value + moment.rate * g.moment_lead) * orders.countering,
-        Share(orders.running),
+        ThrustFraction(orders.running),
         orders.flying * (1.0 - supervised.blind),
         1.0 - may_stand(phase, target.position.z),
         channels_of(orders, after, damping, course, shown),
     )
-    return guidance, GuidedMemory(phase, after, tank, heading, moment, supervision)
+    return guidance, HandGuidanceState(phase, after, tank, heading, moment, supervision)

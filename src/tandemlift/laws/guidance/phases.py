@@ -1,7 +1,7 @@
 """The phases of a flight with a person, as a state machine.
 
 idle on the ground → lift → hold ⇄ guided → land → idle; from any of them → stopped, for good. Each is entered for a
-reason and left for a reason; what a phase lets happen are its `Orders`. A law without branches: every condition is a
+reason and left for a reason; `PhaseOutput` says what a phase allows. A law without branches: every condition is a
 number, 1 or 0. The diagram is in docs/safety.md.
 """
 
@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, minimum, where
 from tandemlift.algebra.vector import dot
-from tandemlift.laws.guidance.requests import Asked
+from tandemlift.laws.guidance.requests import RequestCounts
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.signals.trajectories import Ramp, smoothstep
+from tandemlift.laws.signals.trajectories import SmoothStep, smoothstep
 
 IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
 NAMES = ("idle", "lift", "guided", "land", "hold", "stopped")
@@ -20,7 +20,7 @@ SETTLE = 1.0  # s, of steady hover before a tare
 STEADY = 0.1  # m/s and rad/s
 
 
-class Phasing(NamedTuple):
+class PhaseSettings(NamedTuple):
     """What is asked for, and how fast.
 
     `height` [m] of the lift; when it is asked for, and the landing [s]; rates are 1/duration [1/s]. `touchdown_depth`
@@ -41,7 +41,7 @@ class Phasing(NamedTuple):
     requests: Any
 
 
-class Phase(NamedTuple):
+class PhaseState(NamedTuple):
     """Memory: which phase, since when [s]; the ground's height [m], and 1/duration of the landing that is flown.
 
     `risen`: the share of the lift that was flown; `deep` [m]: how much farther down the landing ends. How many requests
@@ -59,7 +59,7 @@ class Phase(NamedTuple):
     hovered: Any
 
 
-class Bounds(NamedTuple):
+class PhaseBounds(NamedTuple):
     """What supervision allows, 1 or 0: a lift, to listen; what it demands: to hold, land, stop; 1 once landed.
 
     `deep` [m]: how much farther down a landing that begins now ends.
@@ -74,7 +74,7 @@ class Bounds(NamedTuple):
     deep: Any
 
 
-class Orders(NamedTuple):
+class PhaseOutput(NamedTuple):
     """What the phase lets happen: which it is; 1 or 0 for on the ground, listening to pushes, rotors running.
 
     `flying`: 1 from when the feet may have left the ground, for observers; `countering`: 1 while pushes are countered.
@@ -86,14 +86,14 @@ class Orders(NamedTuple):
     listening: Any
     running: Any
     flying: Any
-    lift: Ramp
-    land: Ramp
+    lift: SmoothStep
+    land: SmoothStep
     end: Any
     countering: Any
 
 
 @law
-def is_in(m: Phase, phase: Any) -> Any:
+def is_in(m: PhaseState, phase: Any) -> Any:
     """1 in a phase, else 0."""
     return where(m.phase == phase, 1.0, 0.0)
 
@@ -111,14 +111,16 @@ def more(count: Any, than: Any) -> Any:
 
 
 @law
-def wants_lift(k: Phasing, m: Phase, asked: Asked, wish: Any, wants_land: Any) -> Any:
+def wants_lift(k: PhaseSettings, m: PhaseState, asked: RequestCounts, wish: Any, wants_land: Any) -> Any:
     """1 on the ground while a lift is asked for: once by a request, or by a `wish` (1)."""
     again = where(m.land_rate > 0.0, 1.0 - k.always, 1.0)
     return is_in(m, IDLE) * maximum(more(asked.lifts, m.lifts), wish) * (1.0 - wants_land) * again
 
 
 @law
-def next_phase(k: Phasing, m: Phase, asked: Asked, bounds: Bounds, lifts: Any, wants_land: Any, t: Any) -> Any:
+def next_phase(
+    k: PhaseSettings, m: PhaseState, asked: RequestCounts, bounds: PhaseBounds, lifts: Any, wants_land: Any, t: Any
+) -> Any:
     """The phase after this sample; `lifts` is 1 if a lift begins."""
     lift = is_in(m, LIFT)
     up = lift * where((t - m.since - k.spin_up_time) * k.lift_rate >= 1.0, 1.0, 0.0) + is_in(m, GUIDED) + is_in(m, HOLD)
@@ -133,14 +135,14 @@ def next_phase(k: Phasing, m: Phase, asked: Asked, bounds: Bounds, lifts: Any, w
 
 
 @law
-def landing_rate(k: Phasing, height: Any) -> Any:
+def landing_rate(k: PhaseSettings, height: Any) -> Any:
     """1/duration [1/s] of a landing over a height [m], no faster than allowed."""
     steepest = 1.875  # slope of the smooth step
     return minimum(k.land_rate, k.max_descent_speed / (steepest * maximum(height, 1e-3)))
 
 
 @law
-def hovered(m: Phase, phase: Any, state: State, dt: Any) -> Any:
+def hovered(m: PhaseState, phase: Any, state: State, dt: Any) -> Any:
     """How long it has hovered steadily in the air, less `SETTLE` [s]; it goes on once it is above zero."""
     up = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, 0.0))
     moving = maximum(dot(state.velocity, state.velocity), dot(state.rates, state.rates))
@@ -149,7 +151,16 @@ def hovered(m: Phase, phase: Any, state: State, dt: Any) -> Any:
 
 
 @law
-def follow(k: Phasing, m: Phase, state: State, asked: Asked, wants: Any, bounds: Bounds, t: Any, dt: Any) -> Phase:
+def follow(
+    k: PhaseSettings,
+    m: PhaseState,
+    state: State,
+    asked: RequestCounts,
+    wants: Any,
+    bounds: PhaseBounds,
+    t: Any,
+    dt: Any,
+) -> PhaseState:
     """The phase at time t [s].
 
     Args:
@@ -171,7 +182,7 @@ def follow(k: Phasing, m: Phase, state: State, asked: Asked, wants: Any, bounds:
     rate = where(lands > 0.0, landing_rate(k, height - ground + k.touchdown_depth + deep), m.land_rate)
     up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate).value
     in_vain = maximum(lifts, maximum(1.0 - idle, idle * more(asked.lands, m.lands)))
-    return Phase(
+    return PhaseState(
         phase,
         where(phase == m.phase, m.since, t),
         ground,
@@ -185,7 +196,7 @@ def follow(k: Phasing, m: Phase, state: State, asked: Asked, wants: Any, bounds:
 
 
 @law
-def orders_of(k: Phasing, m: Phase, t: Any) -> Orders:
+def phase_output(k: PhaseSettings, m: PhaseState, t: Any) -> PhaseOutput:
     """What a phase lets happen at time t [s]."""
     idle, lift, land, stopped = is_in(m, IDLE), is_in(m, LIFT), is_in(m, LAND), is_in(m, STOPPED)
     up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate)
@@ -194,14 +205,14 @@ def orders_of(k: Phasing, m: Phase, t: Any) -> Orders:
     begun = where(t - m.since < k.spin_up_time, 0.0, 1.0)
     down_here = idle * (1.0 - k.always)
     risen = m.risen * (1.0 - stopped) * (1.0 - down_here)
-    return Orders(
+    return PhaseOutput(
         phase=m.phase,
         grounded=down_here + stopped,
         listening=is_in(m, GUIDED),
         running=(1.0 - down_here) * (1.0 - stopped),
         flying=(1.0 - down_here) * (1.0 - stopped) * (1.0 - lift * (1.0 - begun) * (1.0 - k.always)),
-        lift=Ramp(where(lift > 0.0, up.value, risen), lift * up.rate, lift * up.curvature),
-        land=Ramp(land * down.value + landed, land * down.rate, land * down.curvature),
+        lift=SmoothStep(where(lift > 0.0, up.value, risen), lift * up.rate, lift * up.curvature),
+        land=SmoothStep(land * down.value + landed, land * down.rate, land * down.curvature),
         end=m.ground - k.touchdown_depth - m.deep,
         countering=(1.0 - idle) * (1.0 - stopped),
     )

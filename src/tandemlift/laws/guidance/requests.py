@@ -11,7 +11,7 @@ from tandemlift.algebra.ops import maximum, minimum, where
 from tandemlift.algebra.vector import Nothing, total
 
 
-class Operator(NamedTuple):
+class OperatorRequest(NamedTuple):
     """What is asked now, 1 or 0: to lift, to stop the rotors at once; and whether pushes may be listened to."""
 
     lift: Any
@@ -19,7 +19,7 @@ class Operator(NamedTuple):
     enabled: Any
 
 
-class Own(NamedTuple):
+class VehicleStatus(NamedTuple):
     """What the pilot knows of its vehicle at a sample.
 
     `rotor_lost` is 1 if one is found to be lost, else 0; `thrust` [N] of all rotors as allocated at the last sample, 0
@@ -31,11 +31,11 @@ class Own(NamedTuple):
     blank: Any
 
 
-NOBODY = Operator(0.0, 0.0, 1.0)
-UNAWARE = Own(0.0, 0.0, 0.0)
+NOBODY = OperatorRequest(0.0, 0.0, 1.0)
+UNAWARE = VehicleStatus(0.0, 0.0, 0.0)
 
 
-class Requests(NamedTuple):
+class RequestSchedule(NamedTuple):
     """Requests at times [s], sets: 1 where one is to lift, to land, to stop; by how much one changes `enabled`."""
 
     time: Any
@@ -46,7 +46,7 @@ class Requests(NamedTuple):
     enabled: Any
 
 
-class Asked(NamedTuple):
+class RequestCounts(NamedTuple):
     """What has been asked until a time: how often to lift and to land; 1 or 0 for to stop, and for enabled."""
 
     lifts: Any
@@ -78,13 +78,13 @@ def asked_until(requests: Any, t: Any) -> Any:
 
 @asked_until.register(Nothing)
 def _nothing_asked(requests, t):
-    return Asked(0.0, 0.0, 0.0, 1.0)
+    return RequestCounts(0.0, 0.0, 0.0, 1.0)
 
 
-@asked_until.register(Requests)
+@asked_until.register(RequestSchedule)
 def _asked(requests, t):
     r = requests
-    return Asked(
+    return RequestCounts(
         total(due(r.time, r.lift, t)),
         total(due(r.time, r.land, t)),
         minimum(total(due(r.time, r.stop, t)), 1.0),
@@ -93,9 +93,9 @@ def _asked(requests, t):
 
 
 @law
-def also(asked: Asked, operator: Operator, lifts: Any, lands: Any) -> Asked:
+def also(asked: RequestCounts, operator: OperatorRequest, lifts: Any, lands: Any) -> RequestCounts:
     """What is asked, with an operator's wishes and so many more requests to lift and to land."""
-    return Asked(
+    return RequestCounts(
         asked.lifts + lifts,
         asked.lands + lands,
         maximum(asked.stop, operator.stop),

@@ -12,15 +12,15 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Nothing, Vec3, dot
-from tandemlift.laws.guidance.fault_reactions import HOLDS, LANDS, STOPS, Faults
-from tandemlift.laws.guidance.phases import GUIDED, HOLD, IDLE, LAND, STOPPED, Bounds
-from tandemlift.laws.guidance.requests import Own
+from tandemlift.laws.guidance.fault_reactions import HOLDS, LANDS, STOPS, ActiveFaults
+from tandemlift.laws.guidance.phases import GUIDED, HOLD, IDLE, LAND, STOPPED, PhaseBounds
+from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import body_z_axis
-from tandemlift.laws.sensors.watchdog import WELL, Report
+from tandemlift.laws.sensors.watchdog import WELL, WatchdogReport
 
 
-class Checks(NamedTuple):
+class PreflightChecks(NamedTuple):
     """Before a lift: greatest share of the thrust in hover, least cosine of the tilt, speed [m/s], rates [rad/s].
 
     Before listening: the payload's mass, as estimated, from `lightest` to `heaviest` [kg].
@@ -46,7 +46,7 @@ class Fence(NamedTuple):
     braking_gain: Any
 
 
-class Limits(NamedTuple):
+class SupervisionLimits(NamedTuple):
     """Greatest share of the thrust, least cosine of the tilt, rates [rad/s], distance from the reference [m].
 
     Each may be left for a time [s]; `apart_time` is that of joints which disagree, `blank_time` of a state without
@@ -79,10 +79,10 @@ class Supervision(NamedTuple):
     payload: Any
     limits: Any
     known: Any
-    checks: Checks
+    checks: PreflightChecks
     fence: Fence
-    bounds: Limits
-    reactions: Faults
+    bounds: SupervisionLimits
+    reactions: ActiveFaults
     hold_timeout: Any
     recovery_time: Any
     blind_descent_depth: Any
@@ -91,7 +91,7 @@ class Supervision(NamedTuple):
     slots: Any
 
 
-class Timers(NamedTuple):
+class LimitTimers(NamedTuple):
     """For how long each limit has been left, and a landing has been stuck [s]."""
 
     apart: Any
@@ -103,7 +103,7 @@ class Timers(NamedTuple):
     stuck: Any
 
 
-class Events(NamedTuple):
+class EventLog(NamedTuple):
     """Memory of what happened: times [s] and codes, sets; how many; the last code, and the refusal in it."""
 
     time: Any
@@ -113,7 +113,7 @@ class Events(NamedTuple):
     refused: Any
 
 
-class Supervising(NamedTuple):
+class SupervisionState(NamedTuple):
     """Memory: reaction and alarm, how long it has held and been well [s], timers, the last sound state and reference.
 
     `refused` and `deaf`: the number of the check that refuses to lift, and to listen (`alarms.CHECKS`, from 1), or 0.
@@ -123,49 +123,49 @@ class Supervising(NamedTuple):
     alarm: Any
     held: Any
     well: Any
-    timers: Timers
+    timers: LimitTimers
     state: State
     reference: Vec3
     refused: Any
     deaf: Any
-    events: Events
+    events: EventLog
 
 
-class Senses(NamedTuple):
+class SensorStatus(NamedTuple):
     """What is known of sensors: the watchdogs' report; 1 if joints disagree, 1 once tared; the payload's mass [kg]."""
 
-    report: Report
+    report: WatchdogReport
     apart: Any
     armed: Any
     payload: Any
 
 
-class Supervised(NamedTuple):
+class SupervisionOutput(NamedTuple):
     """What supervision comes to: bounds of the phases, and 1 if the vehicle's motion is not known at all."""
 
-    bounds: Bounds
+    bounds: PhaseBounds
     blind: Any
 
 
-class SupervisedChannels(NamedTuple):
+class SupervisionChannels(NamedTuple):
     """What a supervision shows."""
 
     alarm: Any
     refused: Any
 
 
-FREE = Supervised(Bounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0)
+FREE = SupervisionOutput(PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0)
 STUCK = 0.2  # s
 
 
 @choice
-def senses_of(sensed: Any, payload: Any) -> Any:
-    """`Senses` from what is sensed; with a payload as believed [kg]."""
+def sensor_status(sensed: Any, payload: Any) -> Any:
+    """`SensorStatus` from what is sensed; with a payload as believed [kg]."""
 
 
-@senses_of.register(Nothing)
+@sensor_status.register(Nothing)
 def _nothing_sensed(sensed, payload):
-    return Senses(WELL, 0.0, 1.0, payload)
+    return SensorStatus(WELL, 0.0, 1.0, payload)
 
 
 @law
@@ -196,7 +196,7 @@ def first_check(number: Any, fails: Any, others: Any) -> Any:
 
 
 @law
-def refusal_to_lift(k: Supervision, s: Senses, state: State, own: Own, reaction: Any, most: Any) -> Any:
+def refusal_to_lift(k: Supervision, s: SensorStatus, state: State, own: VehicleStatus, reaction: Any, most: Any) -> Any:
     """The number of the first check that refuses a lift, or 0; `most`: the thrust that the rotors have [N].
 
     `reaction` is above 0 while a fault, or one that was just there, is reacted to.
@@ -216,7 +216,7 @@ def refusal_to_lift(k: Supervision, s: Senses, state: State, own: Own, reaction:
 
 
 @law
-def refusal_to_listen(k: Supervision, s: Senses) -> Any:
+def refusal_to_listen(k: Supervision, s: SensorStatus) -> Any:
     """The number of the first check that refuses to listen to a hand, or 0."""
     c = k.checks
     plausible = where(s.payload < c.lightest, 0.0, where(s.payload > c.heaviest, 0.0, 1.0))
@@ -226,14 +226,23 @@ def refusal_to_listen(k: Supervision, s: Senses) -> Any:
 
 
 @law
-def timed(k: Supervision, m: Supervising, s: Senses, state: State, own: Own, share: Any, phase: Any, dt: Any) -> Timers:
+def timed(
+    k: Supervision,
+    m: SupervisionState,
+    s: SensorStatus,
+    state: State,
+    own: VehicleStatus,
+    share: Any,
+    phase: Any,
+    dt: Any,
+) -> LimitTimers:
     """For how long limits have been left; those of flight only in flight, thrust and distance not while it lands."""
     b, t = k.bounds, m.timers
     flying = where(phase == IDLE, 0.0, where(phase == STOPPED, 0.0, 1.0))
     landing = where(phase == LAND, 1.0, 0.0)
     aloft = flying * (1.0 - landing)
     off = m.reference - state.position
-    return Timers(
+    return LimitTimers(
         lasting(t.apart, s.apart, dt),
         lasting(t.thrust, aloft * where(share > b.thrust, 1.0, 0.0), dt),
         lasting(t.tilt, flying * where(body_z_axis(state.attitude).z < b.upright, 1.0, 0.0), dt),
@@ -245,12 +254,14 @@ def timed(k: Supervision, m: Supervising, s: Senses, state: State, own: Own, sha
 
 
 @law
-def faults_of(k: Supervision, s: Senses, timers: Timers, state: State, own: Own, phase: Any) -> Faults:
+def faults_of(
+    k: Supervision, s: SensorStatus, timers: LimitTimers, state: State, own: VehicleStatus, phase: Any
+) -> ActiveFaults:
     """What is wrong."""
     r, b = s.report, k.bounds
     listening = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, 0.0))
     no_attitude = where(r.attitude + r.motion > 0.0, where(r.gyroscope + r.imu > 0.0, 1.0, 0.0), 0.0)
-    return Faults(
+    return ActiveFaults(
         imu=r.imu,
         joints=r.joints,
         accelerometer=r.accelerometer,
@@ -275,13 +286,13 @@ def faults_of(k: Supervision, s: Senses, timers: Timers, state: State, own: Own,
 
 
 @law
-def bounds_of(k: Supervision, s: Senses, m: Supervising, refused: Any, grounded: Any) -> Supervised:
+def bounds_of(k: Supervision, s: SensorStatus, m: SupervisionState, refused: Any, grounded: Any) -> SupervisionOutput:
     """What a reaction and refusals come to. `refused`: by the checks before (a lift, listening)."""
     r, flying = s.report, 1.0 - grounded
     unknown = where(r.motion + r.position > 0.0, 1.0, 0.0)
     unmoved = where(r.motion + r.position + r.velocity > 0.0, where(r.accelerometer + r.imu > 0.0, 1.0, 0.0), 0.0)
-    return Supervised(
-        Bounds(
+    return SupervisionOutput(
+        PhaseBounds(
             ready=where(refused[0] > 0.0, 0.0, 1.0),
             clear=where(refused[1] > 0.0, 0.0, 1.0),
             hold=where(m.reaction >= HOLDS, 1.0, 0.0),

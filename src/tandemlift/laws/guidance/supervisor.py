@@ -5,22 +5,22 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, total
-from tandemlift.laws.guidance.compliance import Compliance, Compliant, with_speed
-from tandemlift.laws.guidance.fault_reactions import HOLDS, LANDS, Worst, worst_of
-from tandemlift.laws.guidance.phases import HOLD, IDLE, STOPPED, Phase
-from tandemlift.laws.guidance.requests import Own
+from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, with_speed
+from tandemlift.laws.guidance.fault_reactions import HOLDS, LANDS, FaultReaction, strongest_reaction
+from tandemlift.laws.guidance.phases import HOLD, IDLE, STOPPED, PhaseState
+from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.guidance.supervision import (
     FREE,
-    Events,
-    SupervisedChannels,
-    Supervising,
+    EventLog,
+    LimitTimers,
     Supervision,
-    Timers,
+    SupervisionChannels,
+    SupervisionState,
     bounds_of,
     faults_of,
     refusal_to_lift,
     refusal_to_listen,
-    senses_of,
+    sensor_status,
     timed,
 )
 from tandemlift.laws.mechanics.body import State
@@ -34,17 +34,19 @@ PRESSING = 8.0
 PHASE, ALARM = 1e6, 1e2  # of the numbers in the code of an event: phase, alarm, check that refuses
 
 
-class Sound(NamedTuple):
+class UsableInput(NamedTuple):
     """The state and the push that can be used, and what the pilot knows of its vehicle."""
 
     state: State
     push: Vec3
     moment: Vec3
-    own: Own
+    own: VehicleStatus
 
 
 @law
-def reacted(k: Supervision, m: Supervising, w: Worst, timers: Timers, state: State, idle: Any, dt: Any) -> Supervising:
+def reacted(
+    k: Supervision, m: SupervisionState, w: FaultReaction, timers: LimitTimers, state: State, idle: Any, dt: Any
+) -> SupervisionState:
     """The memory with the worst fault of now; `idle` is 1 on the ground, else 0."""
     raised = where(w.reaction > m.reaction, 1.0, 0.0)
     well = where(w.reaction > 0.0, 0.0, m.well + dt)
@@ -53,11 +55,11 @@ def reacted(k: Supervision, m: Supervising, w: Worst, timers: Timers, state: Sta
     alarm = where(raised > 0.0, w.alarm, m.alarm * (1.0 - over))
     held = (m.held + dt) * (1.0 - idle) * where(reaction == HOLDS, 1.0, 0.0)
     reaction = where(held > k.hold_timeout, maximum(reaction, LANDS), reaction)
-    return Supervising(reaction, alarm, held, well, timers, state, m.reference, m.refused, m.deaf, m.events)
+    return SupervisionState(reaction, alarm, held, well, timers, state, m.reference, m.refused, m.deaf, m.events)
 
 
 @choice
-def supervise(k: Any, m: Any, heard: Any, phase: Phase, wants: Any, t: Any, dt: Any) -> Any:
+def supervise(k: Any, m: Any, heard: Any, phase: PhaseState, wants: Any, t: Any, dt: Any) -> Any:
     """(`Supervised`, the new memory) at time t [s]; `wants` is 1 if a lift is asked for, else 0."""
 
 
@@ -68,21 +70,23 @@ def _unsupervised(k, m, heard, phase, wants, t, dt):
 
 @supervise.register(Supervision)
 def _supervised(k, m, heard, phase, wants, t, dt):
-    state, own, senses = heard.state, heard.own, senses_of(heard.sensed, k.payload)
+    state, own, senses = heard.state, heard.own, sensor_status(heard.sensed, k.payload)
     most = total(k.limits * efficiency_at(k.known, t))
     timers = timed(k, m, senses, state, own, own.thrust / maximum(most, 1e-9), phase.phase, dt)
     idle = where(phase.phase == IDLE, 1.0, 0.0)
     grounded = maximum(idle, where(phase.phase == STOPPED, 1.0, 0.0))
     faults = faults_of(k, senses, timers, state, own, phase.phase)
-    after = reacted(k, m, worst_of(faults, k.reactions), timers, state, idle, dt)
+    after = reacted(k, m, strongest_reaction(faults, k.reactions), timers, state, idle, dt)
     refused = refusal_to_lift(k, senses, state, own, after.reaction, most), refusal_to_listen(k, senses)
     return bounds_of(k, senses, after, refused, grounded), with_refusals(after, refused[0] * wants, refused[1])
 
 
 @law
-def with_refusals(m: Supervising, refused: Any, deaf: Any) -> Supervising:
+def with_refusals(m: SupervisionState, refused: Any, deaf: Any) -> SupervisionState:
     """The memory with the checks that refuse to lift, and to listen."""
-    return Supervising(m.reaction, m.alarm, m.held, m.well, m.timers, m.state, m.reference, refused, deaf, m.events)
+    return SupervisionState(
+        m.reaction, m.alarm, m.held, m.well, m.timers, m.state, m.reference, refused, deaf, m.events
+    )
 
 
 @elementwise
@@ -92,14 +96,14 @@ def placed(old, slot, count, new, value):
 
 
 @law
-def recorded(k: Supervision, m: Events, phase: Any, alarm: Any, refused: Any, t: Any) -> Events:
+def recorded(k: Supervision, m: EventLog, phase: Any, alarm: Any, refused: Any, t: Any) -> EventLog:
     """The events, with one more if phase or alarm have changed, or something else refuses."""
     changed = where(phase * PHASE + alarm * ALARM == m.last - m.refused, 0.0, 1.0)
     other = where(refused > 0.0, where(refused == m.refused, 0.0, 1.0), 0.0)
     new = maximum(changed, other)
     refusal = where(new > 0.0, refused, m.refused)
     code = phase * PHASE + alarm * ALARM + refusal
-    return Events(
+    return EventLog(
         placed(m.time, k.slots, m.count, new, t),
         placed(m.code, k.slots, m.count, new, code),
         m.count + new,
@@ -109,7 +113,7 @@ def recorded(k: Supervision, m: Events, phase: Any, alarm: Any, refused: Any, t:
 
 
 @choice
-def concluded(k: Any, m: Any, phase: Phase, reference: Vec3, t: Any) -> Any:
+def concluded(k: Any, m: Any, phase: PhaseState, reference: Vec3, t: Any) -> Any:
     """(what is shown, the memory of a supervision) once the phase and the reference [m] are known."""
 
 
@@ -123,21 +127,23 @@ def _concluded(k, m, phase, reference, t):
     waits = where(phase.phase == HOLD, where(m.reaction > 0.0, 0.0, m.deaf), 0.0)
     refused = where(phase.phase == IDLE, m.refused, waits)
     events = recorded(k, m.events, phase.phase, m.alarm, refused, t)
-    after = Supervising(m.reaction, m.alarm, m.held, m.well, m.timers, m.state, reference, m.refused, m.deaf, events)
-    return SupervisedChannels(m.alarm, refused), after
+    after = SupervisionState(
+        m.reaction, m.alarm, m.held, m.well, m.timers, m.state, reference, m.refused, m.deaf, events
+    )
+    return SupervisionChannels(m.alarm, refused), after
 
 
 @choice
-def made_sound(k: Any, m: Any, heard: Any, thrust: Any, rotor_lost: Any) -> Any:
-    """`Sound`: what of the state and push has numbers, and what the pilot knows of its vehicle."""
+def usable_input(k: Any, m: Any, heard: Any, thrust: Any, rotor_lost: Any) -> Any:
+    """`UsableInput`: what of the state and push has numbers, and what the pilot knows of its vehicle."""
 
 
-@made_sound.register(Nothing)
+@usable_input.register(Nothing)
 def _as_it_is(k, m, heard, thrust, rotor_lost):
-    return Sound(heard.state, heard.push, heard.moment, Own(rotor_lost, thrust, 0.0))
+    return UsableInput(heard.state, heard.push, heard.moment, VehicleStatus(rotor_lost, thrust, 0.0))
 
 
-@made_sound.register(Supervision)
+@usable_input.register(Supervision)
 def _with_numbers(k, m, heard, thrust, rotor_lost):
     s, blank = heard.state, unsound(heard.state)
     state = State(
@@ -148,7 +154,7 @@ def _with_numbers(k, m, heard, thrust, rotor_lost):
     )
     dumb = maximum(any_of(no_number(heard.push)), any_of(no_number(heard.moment)))
     push, moment = chosen(dumb, ZERO, heard.push), chosen(dumb, ZERO, heard.moment)
-    return Sound(state, push, moment, Own(rotor_lost, thrust, blank))
+    return UsableInput(state, push, moment, VehicleStatus(rotor_lost, thrust, blank))
 
 
 @elementwise
@@ -159,7 +165,7 @@ def speed_left(position, velocity, pull, low, high, slowing, most):
 
 
 @choice
-def kept_inside(k: Any, compliance: Compliance, m: Compliant, up: Any) -> Any:
+def kept_inside(k: Any, compliance: Compliance, m: ComplianceState, up: Any) -> Any:
     """The compliance with such limits of speed that the reference stays inside the fence; `up`: how far lifted [m]."""
 
 

@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.ops import clip, where
-from tandemlift.laws.guidance.compliance import DeadBand, Hearing, hear
+from tandemlift.laws.guidance.compliance import DeadBand, DeadBandState, dead_band
 from tandemlift.laws.mechanics.rotation import turned_least
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
 
 
-class Turning(NamedTuple):
+class YawCompliance(NamedTuple):
     """Low-pass on the moment, dead-band [N·m], low-pass after it, 1/J [1/(kg·m²)], C [N·m·s], U [N·m].
 
     `max_lead_angle` [rad]: how far the reference may lead the vehicle, so that it waits for one that cannot turn.
@@ -28,18 +28,18 @@ class Turning(NamedTuple):
     max_lead_angle: Any
 
 
-class Heading(NamedTuple):
+class YawState(NamedTuple):
     """Memory: the moment [N·m] behind each low-pass, the dead-band's; ψ_r [rad], its rate and acceleration."""
 
-    heard: Smoothed
-    hearing: Hearing
-    eased: Smoothed
+    heard: LowPassState
+    hearing: DeadBandState
+    eased: LowPassState
     angle: Any
     rate: Any
     acceleration: Any
 
 
-class Held(NamedTuple):
+class FixedHeading(NamedTuple):
     """The heading is held at an angle [rad], whatever the moment.
 
     Once a rotor is lost, the reference is at most `max_lead_angle` [rad] from the vehicle, which may have to turn.
@@ -49,7 +49,7 @@ class Held(NamedTuple):
     max_lead_angle: Any
 
 
-class Course(NamedTuple):
+class HeadingReference(NamedTuple):
     """The heading's reference: ψ_d [rad], its rate [rad/s] and acceleration [rad/s²]."""
 
     angle: Any
@@ -58,27 +58,27 @@ class Course(NamedTuple):
 
 
 @choice
-def turn(k: Any, m: Any, moment: Any, yaw: Any, orders: Any, lost: Any, dt: Any) -> Any:
+def yaw_step(k: Any, m: Any, moment: Any, yaw: Any, orders: Any, lost: Any, dt: Any) -> Any:
     """(course, the new memory) under a moment about the vertical [N·m] at an actual yaw [rad]; see `phases.Orders`.
 
     `lost` is 1 once a rotor is lost, else 0.
     """
 
 
-@turn.register(Held)
+@yaw_step.register(FixedHeading)
 def _held(k, m, moment, yaw, orders, lost, dt):
     near = turned_least(yaw + clip(turned_least(k.angle - yaw), -k.max_lead_angle, k.max_lead_angle))
-    return Course(where(lost > 0.0, near, k.angle), 0.0, 0.0), m
+    return HeadingReference(where(lost > 0.0, near, k.angle), 0.0, 0.0), m
 
 
-@turn.register(Turning)
+@yaw_step.register(YawCompliance)
 def _turning(k, m, moment, yaw, orders, lost, dt):
     heard = smooth(k.input_filter, m.heard, moment)
-    beyond, hearing = hear(k.band, m.hearing, heard.value, orders.listening, dt)
+    beyond, hearing = dead_band(k.band, m.hearing, heard.value, orders.listening, dt)
     eased = smooth(k.output_filter, m.eased, beyond)
     acceleration = (eased.value - clip(k.damping * m.rate, -k.most, k.most)) * k.inverse_inertia
     ahead = turned_least(m.angle + m.rate * dt + acceleration * (0.5 * dt * dt) - yaw)
     most, off = k.max_lead_angle * (1.0 - orders.grounded), 1.0 - orders.grounded
     angle = turned_least(yaw + clip(ahead, -most, most))
-    after = Heading(heard, hearing, eased, angle, (m.rate + acceleration * dt) * off, acceleration)
-    return Course(m.angle, m.rate, acceleration), after
+    after = YawState(heard, hearing, eased, angle, (m.rate + acceleration * dt) * off, acceleration)
+    return HeadingReference(m.angle, m.rate, acceleration), after

@@ -16,11 +16,11 @@ import numpy as np
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, total
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, low_pass, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
 from tandemlift.vehicle import Vehicle
 
 
-class Windage(NamedTuple):
+class PayloadDrag(NamedTuple):
     """Drag of the payload over that of all quadrotors together, along body x and y; and the low-pass."""
 
     ratio_x: Any
@@ -28,12 +28,12 @@ class Windage(NamedTuple):
     low_pass: LowPass
 
 
-class Blown(NamedTuple):
+class PayloadDragState(NamedTuple):
     """Memory: sum over the tare's samples of what is to be taken off, their count, and the low-pass [N, body axes]."""
 
     sum: Vec3
     count: Any
-    force: Smoothed
+    force: LowPassState
 
 
 @choice
@@ -41,7 +41,7 @@ def blown(k: Any, memory: Any, x: Any, y: Any, begun: Any, taken: Any, armed: An
     """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
 
     Args:
-        k: `Windage`, or `Nothing`.
+        k: `PayloadDrag`, or `Nothing`.
         memory: its memory.
         x: force from outside along body x on every quadrotor [N], a set.
         y: likewise along y.
@@ -57,26 +57,26 @@ def _unknown(k, memory, x, y, begun, taken, armed):
 
 
 @law
-def bias_of(memory: Blown) -> Vec3:
+def bias_of(memory: PayloadDragState) -> Vec3:
     """The mean over the tare [N]."""
     return memory.sum * (1.0 / maximum(memory.count, 1.0))
 
 
-@blown.register(Windage)
+@blown.register(PayloadDrag)
 def _scaled(k, memory, x, y, begun, taken, armed):
     force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
-    summed = Blown(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
+    summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
     after = smooth(k.low_pass, memory.force, (force - bias_of(summed)) * armed)
-    return after.value, Blown(summed.sum, summed.count, after)
+    return after.value, PayloadDragState(summed.sum, summed.count, after)
 
 
-def windage(vehicle: Vehicle, bandwidth: float, step: float) -> Windage:
+def payload_drag(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
     """The windage of a vehicle as it is believed to be, with a low-pass of a bandwidth [rad/s]."""
     beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
     quadrotors = np.sum([np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
-    return Windage(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
+    return PayloadDrag(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
 
 
-def start_blown(windage: Any) -> Any:
+def start_payload_drag(windage: Any) -> Any:
     """The memory before the first step."""
-    return windage if isinstance(windage, Nothing) else Blown(ZERO, 0.0, Smoothed(ZERO, ZERO))
+    return windage if isinstance(windage, Nothing) else PayloadDragState(ZERO, 0.0, LowPassState(ZERO, ZERO))

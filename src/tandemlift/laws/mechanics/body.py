@@ -11,7 +11,7 @@ from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import sqrt
 from tandemlift.algebra.vector import Quat, Vec3, dot, linear, plus, times
 from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
-from tandemlift.laws.mechanics.push import Hand, Push, moment_of
+from tandemlift.laws.mechanics.push import Push, PushSamples, moment_of
 from tandemlift.laws.mechanics.rotation import body_z_axis, quaternion_rate
 
 UP = Vec3(0.0, 0.0, 1.0)
@@ -40,7 +40,7 @@ class Wrench(NamedTuple):
     moment: Vec3
 
 
-class Body(NamedTuple):
+class RigidBody(NamedTuple):
     """What the equations of motion need to know of a body.
 
     `inverse_mass` [1/kg]; `inertia` [kg·m²] and `inverse_inertia`, both a Vec3 or both a Mat3; drag coefficients on
@@ -61,7 +61,7 @@ def motion(body: Any, s: State, u: Wrench, push: Push) -> Any:
     """The rate of change of the state of a body under a wrench and a person's push."""
 
 
-@motion.register(Body)
+@motion.register(RigidBody)
 def rigid_body_motion(body, s, u, push):
     """The equations of motion of one rigid body."""
     # paper: trans_rot_sys_equ
@@ -76,7 +76,7 @@ def rigid_body_motion(body, s, u, push):
 
 
 @law
-def rk4(body: Any, s: State, k1: State, u: Wrench, hand: Hand, dt: Any) -> State:
+def rk4(body: Any, s: State, k1: State, u: Wrench, hand: PushSamples, dt: Any) -> State:
     """One classical Runge-Kutta step of `dt` [s] with the wrench held and the push continuous; unit quaternion.
 
     `k1` is the motion at the start.

@@ -10,10 +10,19 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import least, minimum, sqrt
 from tandemlift.algebra.vector import Nothing, Vec3, apply, dot
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import Frame
+from tandemlift.laws.mechanics.loads import PartsLayout
 from tandemlift.laws.mechanics.rectangle import offset, offset_from_top
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.walls import Beam, Near, Walls, beam_axis, moved_to, on_beam, point_by_edge, point_by_top
+from tandemlift.laws.mechanics.walls import (
+    Beam,
+    NearWalls,
+    Walls,
+    beam_axis,
+    moved_to,
+    on_beam,
+    point_by_edge,
+    point_by_top,
+)
 
 FAR = 1000.0  # m
 
@@ -45,7 +54,7 @@ def away(o: Vec3, radius: Any) -> Any:
 
 
 @choice
-def beam_clearance(beam: Any, w: Walls, near: Any, frame: Frame, s: State) -> Any:
+def beam_clearance(beam: Any, w: Walls, near: Any, frame: PartsLayout, s: State) -> Any:
     """How far the beam is from the walls near it."""
 
 
@@ -65,7 +74,7 @@ def _capsule(beam, w, near, frame, s):
 
 
 @choice
-def clearance(w: Any, near: Any, frame: Frame, s: State) -> Any:
+def clearance(w: Any, near: Any, frame: PartsLayout, s: State) -> Any:
     """How far the vehicle is from the walls near it, as a `Clearance`."""
 
 
@@ -75,7 +84,7 @@ def _no_walls(w, near, frame, s):
 
 
 @clearance.register(Walls)
-def _walls(w, near: Near, frame, s):
+def _walls(w, near: NearWalls, frame, s):
     p = moved_to(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
     guards = minimum(away(offset(near.first, p), w.guards), away(offset(near.second, p), w.guards))
     return Clearance(guards, beam_clearance(w.beam, w, near.beam, frame, s))

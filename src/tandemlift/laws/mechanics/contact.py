@@ -16,17 +16,16 @@ A step is `touch` in every stage with the memory held, then `slip`. Nothing but 
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import Frame, Load, raised
+from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, raised
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-
-Array = NDArray[np.float64]
 
 FASTEST_TURN = 1000.0  # rad/s², more than rotors make
 
@@ -56,7 +55,7 @@ class Floor(NamedTuple):
     reach: Any
 
 
-class Grip(NamedTuple):
+class FootGrip(NamedTuple):
     """Memory of one foot of every quadrotor, as sets: where it grips [m, world axes], and N [N] at the time.
 
     The memory of a vehicle is `Quarters` of it.
@@ -125,7 +124,7 @@ def feet_at(floor: Floor, s: State, R: Mat3) -> Quarters:
 
 
 @law
-def tread(floor: Floor, foot: Foot, grip: Grip) -> Vec3:
+def foot_contact(floor: Floor, foot: Foot, grip: FootGrip) -> Vec3:
     """Force of the floor [N, world axes] on a foot of every quadrotor."""
     pull_x = (foot.x - grip.x) * floor.tangential_stiffness + foot.velocity_x * floor.tangential_damping
     pull_y = (foot.y - grip.y) * floor.tangential_stiffness + foot.velocity_y * floor.tangential_damping
@@ -134,22 +133,27 @@ def tread(floor: Floor, foot: Foot, grip: Grip) -> Vec3:
 
 
 @law
-def regrip(floor: Floor, foot: Foot, grip: Grip) -> Grip:
+def regrip(floor: Floor, foot: Foot, grip: FootGrip) -> FootGrip:
     """The grip drawn after the foot until friction holds the spring, under the smaller N of now and before."""
     x, y = (foot.x - grip.x) * floor.tangential_stiffness, (foot.y - grip.y) * floor.tangential_stiffness
     factor = shortening(x * x + y * y, minimum(foot.normal, grip.normal) * floor.friction)
-    return Grip(moved(grip.x, foot.x, factor), moved(grip.y, foot.y, factor), foot.normal)
+    return FootGrip(moved(grip.x, foot.x, factor), moved(grip.y, foot.y, factor), foot.normal)
 
 
 @law
-def touch(floor: Floor, grip: Quarters, frame: Frame, s: State) -> Load:
+def touch(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> PartLoad:
     """What the floor puts on every quadrotor, as sets: force, and moment about each quadrotor's centre of mass."""
     R = rotation_from_quaternion(s.attitude)
     a, b, c, d = feet_at(floor, s, R)
-    f, g, h, i = tread(floor, a, grip[0]), tread(floor, b, grip[1]), tread(floor, c, grip[2]), tread(floor, d, grip[3])
+    f, g, h, i = (
+        foot_contact(floor, a, grip[0]),
+        foot_contact(floor, b, grip[1]),
+        foot_contact(floor, c, grip[2]),
+        foot_contact(floor, d, grip[3]),
+    )
     force = f + g + h + i
     moment = cross(a.arm, f) + cross(b.arm, g) + cross(c.arm, h) + cross(d.arm, i)
-    return Load(force, apply_transposed(R, moment - cross(apply(R, frame.quadrotors), force)))
+    return PartLoad(force, apply_transposed(R, moment - cross(apply(R, frame.quadrotors), force)))
 
 
 @law
@@ -261,7 +265,7 @@ def sinkage_of(floor: Floor, weight: float) -> float:
     return weight / (floor.stiffness * 4 * len(floor.feet.first.x))
 
 
-def start_grip(floor: Floor, s: State) -> Quarters:
+def start_foot_grip(floor: Floor, s: State) -> Quarters:
     """The memory of feet that grip where they are in state `s`."""
     none = floor.feet.first.x * 0.0
-    return slip(floor, Quarters(*[Grip(none, none, none)] * 4), s)
+    return slip(floor, Quarters(*[FootGrip(none, none, none)] * 4), s)

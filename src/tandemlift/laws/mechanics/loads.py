@@ -32,34 +32,34 @@ from tandemlift.vehicle import Vehicle
 
 
 @linear
-class Load(NamedTuple):
+class PartLoad(NamedTuple):
     """Force [N, world axes] on a part, and moment [N·m, body axes] about its centre of mass."""
 
     force: Vec3
     moment: Vec3
 
-    def __add__(self, other: "Load") -> "Load":  # type: ignore[override]
+    def __add__(self, other: "PartLoad") -> "PartLoad":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Any) -> "Load":
+    def __mul__(self, k: Any) -> "PartLoad":
         return times(self, k)
 
 
 @linear
-class Loads(NamedTuple):
+class PartLoads(NamedTuple):
     """What the surroundings put on the payload, and on every quadrotor (vectors of sets)."""
 
-    payload: Load
-    quadrotors: Load
+    payload: PartLoad
+    quadrotors: PartLoad
 
-    def __add__(self, other: "Loads") -> "Loads":  # type: ignore[override]
+    def __add__(self, other: "PartLoads") -> "PartLoads":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Any) -> "Loads":
+    def __mul__(self, k: Any) -> "PartLoads":
         return times(self, k)
 
 
-class Frame(NamedTuple):
+class PartsLayout(NamedTuple):
     """Where the parts are and what they weigh: what joints transmit follows from it. Body axes.
 
     `payload` and `quadrotors`: centres of mass from the system's [m]; `joints`: from each quadrotor's centre of mass to
@@ -77,7 +77,7 @@ class Frame(NamedTuple):
     torque: Quarters
 
 
-class Felt(NamedTuple):
+class PerfectReadings(NamedTuple):
     """What perfect sensors fixed to the parts would read; body axes.
 
     Specific force at the payload's centre of mass [m/s²] (acceleration less gravity), and what each quadrotor puts on
@@ -91,12 +91,12 @@ class Felt(NamedTuple):
     contact_force: Vec3
 
 
-def frame_of(vehicle: Vehicle) -> Frame:
+def parts_layout(vehicle: Vehicle) -> PartsLayout:
     """The frame of a vehicle."""
     quadrotors, N = vehicle.quadrotors, vehicle.count
     x, y = np.array([q.rotors for q in quadrotors]).reshape(4 * N, 2).T
     torque = [q.torque_per_thrust * spin for q in quadrotors for spin in q.spins]
-    return Frame(
+    return PartsLayout(
         payload=vec3(-vehicle.center_of_mass),
         quadrotors=spread(vehicle.lever_arms),
         joints=spread([np.subtract(q.joint_position, q.position) for q in quadrotors]),
@@ -115,24 +115,24 @@ def total_of_each(v: Vec3) -> Vec3:
 
 
 @law
-def of_quadrotors(frame: Frame, attitude: Any, load: Load) -> Load:
+def of_quadrotors(frame: PartsLayout, attitude: Any, load: PartLoad) -> PartLoad:
     """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of loads on quadrotors."""
     R = rotation_from_quaternion(attitude)
     moments = load.moment + cross(frame.quadrotors, apply_transposed(R, load.force))
-    return Load(total_of_each(load.force), total_of_each(moments))
+    return PartLoad(total_of_each(load.force), total_of_each(moments))
 
 
 @law
-def resultant(frame: Frame, attitude: Any, loads: Loads) -> Load:
+def resultant(frame: PartsLayout, attitude: Any, loads: PartLoads) -> PartLoad:
     """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of all loads together."""
     R = rotation_from_quaternion(attitude)
     beam = loads.payload
-    about_center = Load(beam.force, beam.moment + cross(frame.payload, apply_transposed(R, beam.force)))
+    about_center = PartLoad(beam.force, beam.moment + cross(frame.payload, apply_transposed(R, beam.force)))
     return about_center + of_quadrotors(frame, attitude, loads.quadrotors)
 
 
 @law
-def thrust_of_each(frame: Frame, thrusts: Any) -> Wrench:
+def thrust_of_each(frame: PartsLayout, thrusts: Any) -> Wrench:
     """Thrust [N] of every quadrotor and its rotors' moment about its centre of mass [N·m], as sets."""
     # paper: total_i_thrust_moments_equ
     f, x, y, torque = quarters(thrusts), frame.x, frame.y, frame.torque
@@ -158,7 +158,7 @@ def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
 
 
 @law
-def feel(frame: Frame, s: State, a: Acceleration, thrusts: Any) -> Felt:
+def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: Any) -> PerfectReadings:
     """What the sensors feel in state `s` under an acceleration and thrusts [N], but for loads on the quadrotors."""
     # paper: trans_rot_quad_equ, solved for the joint
     made = thrust_of_each(frame, thrusts)
@@ -168,7 +168,7 @@ def feel(frame: Frame, s: State, a: Acceleration, thrusts: Any) -> Felt:
     turning = Vec3(J.x * a.angular.x, J.y * a.angular.y, J.z * a.angular.z)
     spinning = cross(w, Vec3(J.x * w.x, J.y * w.y, J.z * w.z))
     couple = made.moment - turning - spinning
-    return Felt(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force), ZERO)
+    return PerfectReadings(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force), ZERO)
 
 
 @law
@@ -178,7 +178,7 @@ def plus_zero(v: Vec3) -> Vec3:
 
 
 @choice
-def under(load: Any, frame: Frame, attitude: Any, felt: Felt) -> Any:
+def under(load: Any, frame: PartsLayout, attitude: Any, felt: PerfectReadings) -> Any:
     """`felt`, with a load on the quadrotors, which their joints pass on to the payload."""
 
 
@@ -187,8 +187,8 @@ def _no_load(load, frame, attitude, felt):
     return felt
 
 
-@under.register(Load)
+@under.register(PartLoad)
 def _loaded(load, frame, attitude, felt):
     force = plus_zero(apply_transposed(rotation_from_quaternion(attitude), load.force))
     torque = felt.joint_torque + plus_zero(load.moment - cross(frame.joints, force))
-    return Felt(felt.specific_force, felt.joint_force + force, torque, felt.contact_force)
+    return PerfectReadings(felt.specific_force, felt.joint_force + force, torque, felt.contact_force)

@@ -39,7 +39,7 @@ class PointPush(NamedTuple):
 Push = Any  # CentralPush or PointPush
 
 
-class Hand(NamedTuple):
+class PushSamples(NamedTuple):
     """The push at the start, the middle and the end of a step."""
 
     start: Push
@@ -47,7 +47,7 @@ class Hand(NamedTuple):
     end: Push
 
 
-class Gaussian(NamedTuple):
+class GaussianPush(NamedTuple):
     """One push A exp(−(t − t₀)²/2σ²): peak force A [N, world axes], time t₀ [s], 1/σ [1/s], point r [m, body axes]."""
 
     force: Vec3
@@ -57,7 +57,7 @@ class Gaussian(NamedTuple):
 
 
 @law
-def gaussian_force(p: Gaussian, t: Any) -> Vec3:
+def gaussian_force(p: GaussianPush, t: Any) -> Vec3:
     """Force of one push at time t [s], N in world axes."""
     s = (t - p.time) * p.per_sigma
     return p.force * where(s * s < SUPPORT * SUPPORT, exp(-0.5 * s * s), 0.0)

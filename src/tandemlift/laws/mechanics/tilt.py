@@ -17,7 +17,7 @@ class TiltPrinted(NamedTuple):
     """The inverse as the paper prints it (that of Z-Y-X angles), at the desired yaw."""
 
 
-class MostTilt(NamedTuple):
+class TiltLimit(NamedTuple):
     """The tangent of the greatest angle between the force and the vertical."""
 
     tangent: Any
@@ -33,16 +33,16 @@ def _any_tilt(limit, u):
     return u
 
 
-@within_tilt.register(MostTilt)
+@within_tilt.register(TiltLimit)
 def _tilted(limit, u):
     across = sqrt(maximum(u.x * u.x + u.y * u.y, 1e-24))
     share = minimum(limit.tangent * maximum(u.z, 0.0) / across, 1.0)
     return Vec3(u.x * share, u.y * share, u.z)
 
 
-def most_tilt(angle: float | None) -> Any:
+def tilt_limit(angle: float | None) -> Any:
     """The limit of a tilt [rad], or of none."""
-    return Nothing() if angle is None else MostTilt(math.tan(angle))
+    return Nothing() if angle is None else TiltLimit(math.tan(angle))
 
 
 @law

@@ -20,9 +20,10 @@ from numpy.typing import ArrayLike
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.contact import Array, mobility, shortening, spring_damper, steady
-from tandemlift.laws.mechanics.loads import Frame, Load, Loads, raised, total_of_each
+from tandemlift.laws.mechanics.contact import mobility, shortening, spring_damper, steady
+from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, raised, total_of_each
 from tandemlift.laws.mechanics.rectangle import WALL, Wall, edges_of, nearer, offset, offset_from_top, pick, runner_up
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
@@ -61,7 +62,7 @@ class NearBeam(NamedTuple):
     topped: Wall
 
 
-class Near(NamedTuple):
+class NearWalls(NamedTuple):
     """The two walls nearest to every quadrotor (of sets), and a `NearBeam`, or `Nothing`."""
 
     first: Wall
@@ -69,7 +70,7 @@ class Near(NamedTuple):
     beam: Any
 
 
-class Axis(NamedTuple):
+class BeamAxis(NamedTuple):
     """The beam's axis, world axes: centre [m], its velocity [m/s], direction, turn rate [rad/s]."""
 
     center: Vec3
@@ -103,7 +104,7 @@ def moved_to(origin: Vec3, v: Vec3) -> Vec3:
 
 
 @law
-def pressed(w: Walls, o: Vec3, radius: Any, velocity: Vec3, spin: Vec3) -> Load:
+def pressed(w: Walls, o: Vec3, radius: Any, velocity: Vec3, spin: Vec3) -> PartLoad:
     """What a wall puts on a sphere that moves at a velocity [m/s] and turns at `spin` [rad/s], all in world axes.
 
     o is the way from the wall to the sphere's centre [m]. Moment about that centre [N·m].
@@ -116,11 +117,11 @@ def pressed(w: Walls, o: Vec3, radius: Any, velocity: Vec3, spin: Vec3) -> Load:
     sliding = scaled(velocity - cross(spin, o) + scaled(n, rate), w.tangential_damping)
     factor = shortening(dot(sliding, sliding), normal * w.friction)
     force = scaled(n, normal) - scaled(sliding, factor)
-    return Load(force, cross(force, o))
+    return PartLoad(force, cross(force, o))
 
 
 @law
-def point_by_edge(a: Axis, half: Any, edge: Wall) -> Any:
+def point_by_edge(a: BeamAxis, half: Any, edge: Wall) -> Any:
     """Where along the beam's axis, ±half, it is nearest to an edge [m]: level with it, or nearest to its upper end."""
     x, y, b = edge.x - a.center.x, edge.y - a.center.y, a.direction
     along = x * b.x + y * b.y
@@ -130,7 +131,7 @@ def point_by_edge(a: Axis, half: Any, edge: Wall) -> Any:
 
 
 @law
-def point_by_top(a: Axis, half: Any, wall: Wall) -> Any:
+def point_by_top(a: BeamAxis, half: Any, wall: Wall) -> Any:
     """Where along the beam's axis, ±half, it is nearest to a wall's top [m]."""
     # Ericson, Real-Time Collision Detection, section 5.1.9
     b, r = a.direction, a.center - Vec3(wall.x, wall.y, wall.top)
@@ -143,35 +144,35 @@ def point_by_top(a: Axis, half: Any, wall: Wall) -> Any:
 
 
 @law
-def beam_axis(frame: Frame, s: State) -> Axis:
+def beam_axis(frame: PartsLayout, s: State) -> BeamAxis:
     """The beam's axis in state `s`."""
     R = rotation_from_quaternion(s.attitude)
     spin, arm = apply(R, s.rates), apply(R, frame.payload)
-    return Axis(s.position + arm, s.velocity + cross(spin, arm), Vec3(R.x.y, R.y.y, R.z.y), spin)
+    return BeamAxis(s.position + arm, s.velocity + cross(spin, arm), Vec3(R.x.y, R.y.y, R.z.y), spin)
 
 
 @law
-def on_beam(a: Axis, along: Any) -> Vec3:
+def on_beam(a: BeamAxis, along: Any) -> Vec3:
     """Points of the beam's axis [m, world axes]."""
     return moved_to(a.center, scaled(a.direction, along))
 
 
 @law
-def on_beam_pressed(w: Walls, a: Axis, along: Any, o: Vec3) -> Load:
+def on_beam_pressed(w: Walls, a: BeamAxis, along: Any, o: Vec3) -> PartLoad:
     """What a wall puts on the beam at a place along its axis [m], o from the wall: world axes, about its centre."""
     arm = scaled(a.direction, along)
     load = pressed(w, o, w.beam.radius, moved_to(a.velocity, cross(a.spin, arm)), a.spin)
-    return Load(load.force, load.moment + cross(arm, load.force))
+    return PartLoad(load.force, load.moment + cross(arm, load.force))
 
 
 @choice
-def press_beam(beam: Any, w: Walls, near: Any, frame: Frame, s: State) -> Any:
+def press_beam(beam: Any, w: Walls, near: Any, frame: PartsLayout, s: State) -> Any:
     """What the near walls put on the payload, as a Load."""
 
 
 @press_beam.register(Nothing)
 def _shapeless(beam, w, near, frame, s):
-    return Load(ZERO, ZERO)
+    return PartLoad(ZERO, ZERO)
 
 
 @press_beam.register(Beam)
@@ -183,23 +184,23 @@ def _capsule(beam, w, near, frame, s):
     edge = on_beam_pressed(w, a, i, offset(near.edge, on_beam(a, i)))
     other = on_beam_pressed(w, a, j, offset(near.other_edge, on_beam(a, j)))
     top = on_beam_pressed(w, a, k, offset_from_top(near.topped, on_beam(a, k)))
-    load = Load(total_of_each(ends.force), total_of_each(ends.moment)) + edge + other + top
-    return Load(load.force, apply_transposed(rotation_from_quaternion(s.attitude), load.moment))
+    load = PartLoad(total_of_each(ends.force), total_of_each(ends.moment)) + edge + other + top
+    return PartLoad(load.force, apply_transposed(rotation_from_quaternion(s.attitude), load.moment))
 
 
 @law
-def press(w: Walls, near: Near, frame: Frame, s: State) -> Loads:
+def press(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> PartLoads:
     """What the near walls put on all parts."""
     R = rotation_from_quaternion(s.attitude)
     spin, arm = apply(R, s.rates), apply(R, frame.quadrotors)
     p, v = moved_to(s.position, arm), moved_to(s.velocity, cross(spin, arm))
     first, second = offset(near.first, p), offset(near.second, p)
     load = pressed(w, first, w.guards, v, spin) + pressed(w, second, w.guards, v, spin)
-    return Loads(press_beam(w.beam, w, near.beam, frame, s), Load(load.force, apply_transposed(R, load.moment)))
+    return PartLoads(press_beam(w.beam, w, near.beam, frame, s), PartLoad(load.force, apply_transposed(R, load.moment)))
 
 
 @choice
-def consider_beam(beam: Any, wall: Wall, near: Any, frame: Frame, s: State) -> Any:
+def consider_beam(beam: Any, wall: Wall, near: Any, frame: PartsLayout, s: State) -> Any:
     """The walls nearest to the beam, once `wall` is considered too."""
 
 
@@ -220,7 +221,7 @@ def _near_beam(beam, wall, near, frame, s):
 
 
 @law
-def with_edge(a: Axis, half: Any, edge: Wall, first: Wall, second: Wall) -> Any:
+def with_edge(a: BeamAxis, half: Any, edge: Wall, first: Wall, second: Wall) -> Any:
     """The two of three edges that are nearest to the beam."""
     p = on_beam(a, point_by_edge(a, half, edge))
     p1, p2 = on_beam(a, point_by_edge(a, half, first)), on_beam(a, point_by_edge(a, half, second))
@@ -228,20 +229,20 @@ def with_edge(a: Axis, half: Any, edge: Wall, first: Wall, second: Wall) -> Any:
 
 
 @law
-def consider(w: Walls, wall: Wall, near: Near, frame: Frame, s: State) -> Near:
+def consider(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: State) -> NearWalls:
     """The nearest walls, once `wall` (of numbers) is considered too."""
     p = moved_to(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
-    return Near(
+    return NearWalls(
         nearer(wall, near.first, p, p),
         runner_up(wall, near.first, near.second, p, p, p),
         consider_beam(w.beam, wall, near.beam, frame, s),
     )
 
 
-def nowhere(w: Walls) -> Near:
+def nowhere(w: Walls) -> NearWalls:
     """No wall is near."""
     walls, ends = [Wall(*[each(n)(*[v] * n) for v in WALL]) for n in (len(w.guards), 2)]
-    return Near(walls, walls, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Nothing())
+    return NearWalls(walls, walls, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Nothing())
 
 
 def surface_mobility(center: Array, radius: float, mass: float, inertia: Array) -> float:

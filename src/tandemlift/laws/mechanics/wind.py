@@ -21,7 +21,7 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, cos, maximum, sqrt
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, spread, vec3
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import Frame, Load, Loads, raised
+from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, raised
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.vehicle import Vehicle
 
@@ -32,16 +32,16 @@ ROOT_3 = 1.7320508075688772
 AT_REST = 1e-200  # m²/s², lost in any square of a speed; keeps the derivative of its root finite
 
 
-class Still(NamedTuple):
+class StillAir(NamedTuple):
     """Air at rest."""
 
 
-class Calm(NamedTuple):
+class NoTurbulence(NamedTuple):
     """Wind without turbulence."""
 
 
 class Wind(NamedTuple):
-    """Steady velocity [m/s, world axes], and turbulence: `Calm` or `Dryden`."""
+    """Steady velocity [m/s, world axes], and turbulence: `NoTurbulence` or `Dryden`."""
 
     velocity: Vec3
     turbulence: Any
@@ -86,7 +86,7 @@ class Dryden(NamedTuple):
     vertical: Transverse
 
 
-class Eddies(NamedTuple):
+class TurbulenceState(NamedTuple):
     """Memory of the turbulence: each component over its σ, and for two of them a hidden number of the same scale.
 
     In the stationary process the five are independent standard normal numbers.
@@ -99,7 +99,7 @@ class Eddies(NamedTuple):
     up_hidden: Any
 
 
-class Whiffs(NamedTuple):
+class WindNoise(NamedTuple):
     """Five independent standard normal numbers that drive the eddies over one step."""
 
     along: Any
@@ -183,12 +183,12 @@ def dryden(wind_20ft: float, height: float, airspeed: float, direction: Sequence
     )
 
 
-def first_eddies(turbulence: Any, normals: Sequence[float]) -> Any:
+def start_turbulence(turbulence: Any, normals: Sequence[float]) -> Any:
     """The memory at the start of a flight, drawn from the stationary process by five standard normal numbers."""
-    return Eddies(*map(float, normals)) if isinstance(turbulence, Dryden) else Nothing()
+    return TurbulenceState(*map(float, normals)) if isinstance(turbulence, Dryden) else Nothing()
 
 
-def air_drag_of(vehicle: Vehicle, density: float) -> AirDrag:
+def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
     """The drag of a vehicle's parts in air of a density [kg/m³]."""
     payload, quadrotors = vehicle.payload, vehicle.quadrotors
     return AirDrag(
@@ -222,7 +222,7 @@ def swirl(turbulence: Any, eddies: Any) -> Any:
     """Velocity of the turbulence [m/s, world axes]."""
 
 
-@swirl.register(Calm)
+@swirl.register(NoTurbulence)
 def _no_swirl(turbulence, eddies):
     return ZERO
 
@@ -237,14 +237,14 @@ def pass_by(turbulence: Any, eddies: Any, whiffs: Any) -> Any:
     """The eddies one step later."""
 
 
-@pass_by.register(Calm)
+@pass_by.register(NoTurbulence)
 def _none_pass(turbulence, eddies, whiffs):
     return eddies
 
 
 @pass_by.register(Dryden)
 def _pass(d, e, n):
-    return Eddies(
+    return TurbulenceState(
         d.longitudinal.keep * e.along + d.longitudinal.kick * n.along,
         seen(d.lateral, e.across, e.across_hidden, n.across),
         hidden(d.lateral, e.across, e.across_hidden, n.across, n.across_hidden),
@@ -254,16 +254,16 @@ def _pass(d, e, n):
 
 
 @choice
-def blow(wind: Any, eddies: Any, gust: Any, whiffs: Any) -> Any:
+def wind_step(wind: Any, eddies: Any, gust: Any, whiffs: Any) -> Any:
     """(Velocity of the air now [m/s, world axes], the eddies one step later); `gust`: the gusts' velocity now."""
 
 
-@blow.register(Still)
+@wind_step.register(StillAir)
 def _still(wind, eddies, gust, whiffs):
     return ZERO, eddies
 
 
-@blow.register(Wind)
+@wind_step.register(Wind)
 def _blow(wind, eddies, gust, whiffs):
     air = wind.velocity + gust + swirl(wind.turbulence, eddies)
     return air, pass_by(wind.turbulence, eddies, whiffs)
@@ -283,7 +283,7 @@ def resistance(k: Vec3, v: Vec3) -> Vec3:
 
 
 @law
-def air_loads(drag: AirDrag, frame: Frame, s: State, air: Vec3) -> Loads:
+def air_loads(drag: AirDrag, frame: PartsLayout, s: State, air: Vec3) -> PartLoads:
     """Drag of every part, quadratic in the velocity of its centre of mass through the air; no moments about it."""
     # products of sets stand on the left: a CasADi number there would swallow them
     R = rotation_from_quaternion(s.attitude)
@@ -292,4 +292,4 @@ def air_loads(drag: AirDrag, frame: Frame, s: State, air: Vec3) -> Loads:
     around = Vec3(raised(turn.x, v.x), raised(turn.y, v.y), raised(turn.z, v.z))
     each = resistance(drag.quadrotors, around)
     moments = Vec3(nought(each.x), nought(each.y), nought(each.z))
-    return Loads(Load(payload, ZERO), Load(Vec3(dot(each, R.x), dot(each, R.y), dot(each, R.z)), moments))
+    return PartLoads(PartLoad(payload, ZERO), PartLoad(Vec3(dot(each, R.x), dot(each, R.y), dot(each, R.z)), moments))

@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, Mat3, Nothing, Vec3, linear, outer, plus
-from tandemlift.laws.mechanics.push import CentralPush, Hand, PointPush, moment_of
+from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, moment_of
 
 
-class External(NamedTuple):
+class CallerInput(NamedTuple):
     """A force [N, world axes] at a point [m, body axes]; thrusts of the rotors [N], which count if `override` is 1."""
 
     force: Vec3
@@ -52,7 +52,7 @@ def _on_points(push, force, point):
 
 
 @choice
-def pushed(external: Any, hand: Hand) -> Any:
+def pushed(external: Any, hand: PushSamples) -> Any:
     """The push of a step with what is added to it."""
 
 
@@ -61,10 +61,10 @@ def _as_it_is(external, hand):
     return hand
 
 
-@pushed.register(External)
+@pushed.register(CallerInput)
 def _with_more(external, hand):
     F, r = external.force, external.point
-    return Hand(plus_push(hand.start, F, r), plus_push(hand.middle, F, r), plus_push(hand.end, F, r))
+    return PushSamples(plus_push(hand.start, F, r), plus_push(hand.middle, F, r), plus_push(hand.end, F, r))
 
 
 @elementwise
@@ -83,6 +83,6 @@ def _own(external, own):
     return own
 
 
-@thrusts_of.register(External)
+@thrusts_of.register(CallerInput)
 def _given(external, own):
     return overridden(own, external.thrusts, external.override)

@@ -20,16 +20,16 @@ from tandemlift.algebra.ops import clip, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, dot, outer
 from tandemlift.laws.guidance.requests import NOBODY, operator_of
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.push import Hand, PointPush
+from tandemlift.laws.mechanics.push import PointPush, PushSamples
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, turned_least
-from tandemlift.laws.person.tremor import Shaking, Tremor, shake
-from tandemlift.laws.signals.low_pass import LowPass, Smoothed, smooth
+from tandemlift.laws.person.tremor import Tremor, TremorState, tremor_step
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
 
 TINY = 1e-12  # m², N²: guards roots and divisions
 NEAR = 1.0  # m
 
 
-class Leg(NamedTuple):
+class PathLeg(NamedTuple):
     """A straight stretch of the path: from `start` to `end` [m, world axes] of what is steered.
 
     `heading` [rad] to be had on it; `dwell` [s] at its end, and 1 if the vehicle is to stop there, else 0; `within` [m]
@@ -45,10 +45,10 @@ class Leg(NamedTuple):
     number: Any
 
 
-LEG = Leg(ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0)
+PATH_LEG = PathLeg(ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-class Sight(NamedTuple):
+class PersonView(NamedTuple):
     """What a person sees: position and velocity of the centre of mass and of the grip, yaw [rad] and its rate."""
 
     position: Vec3
@@ -59,7 +59,7 @@ class Sight(NamedTuple):
     yaw_rate: Any
 
 
-class Partnering(NamedTuple):
+class PersonState(NamedTuple):
     """Memory of a person: what they see, which leg of the path they are on, and where that is.
 
     The hand's place [m] and the couple [N·m] behind the muscles' lag, how far they hold on (0 to 1); the force [N] that
@@ -69,15 +69,15 @@ class Partnering(NamedTuple):
 
     seen: Any
     index: Any
-    leg: Leg
-    place: Smoothed
-    couple: Smoothed
-    grasp: Smoothed
+    leg: PathLeg
+    place: LowPassState
+    couple: LowPassState
+    grasp: LowPassState
     trim: Vec3
     waited: Any
     begun: Any
     landing: Any
-    tremor: Shaking
+    tremor: TremorState
 
 
 class Arm(NamedTuple):
@@ -95,7 +95,7 @@ class Arm(NamedTuple):
     horizon: Any
 
 
-class Walk(NamedTuple):
+class PathFollowing(NamedTuple):
     """How a person goes along the path.
 
     Speed aimed at [m/s], force over the speed that lacks [N·s/m], how far ahead they look [m], speed over the way left
@@ -116,7 +116,7 @@ class Walk(NamedTuple):
     last: Any
 
 
-class Manner(NamedTuple):
+class PersonSettings(NamedTuple):
     """How a person leads, as numbers, so that one compiled loop serves them all.
 
     `at_grip`: 1 to lead the grip along the path, 0 to lead the centre of mass. Couple of two hands over angle [N·m/rad]
@@ -130,16 +130,16 @@ class Manner(NamedTuple):
     stays: Any
 
 
-class Partner(NamedTuple):
+class Person(NamedTuple):
     """A person: the grip [m, body axes, from the centre of mass], the arm, the walk and the manner."""
 
     grip: Vec3
     arm: Arm
-    walk: Walk
-    manner: Manner
+    walk: PathFollowing
+    manner: PersonSettings
 
 
-class Aim(NamedTuple):
+class HandTarget(NamedTuple):
     """Where the hand is to be [m], the couple that it is to give [N·m], and what of the force wanted is across [N]."""
 
     place: Vec3
@@ -147,7 +147,7 @@ class Aim(NamedTuple):
     across: Vec3
 
 
-class Lent(NamedTuple):
+class PersonOutput(NamedTuple):
     """What a step is given of a person: the push with theirs, and their new memory."""
 
     hand: Any
@@ -155,12 +155,12 @@ class Lent(NamedTuple):
 
 
 @law
-def sight(grip: Vec3, s: State) -> Sight:
+def person_view(grip: Vec3, s: State) -> PersonView:
     """What there is to see of a vehicle in state `s`."""
     R = rotation_from_quaternion(s.attitude)
     arm, spin = apply(R, grip), apply(R, s.rates)
     yaw = euler_from_quaternion(s.attitude).angles.z
-    return Sight(s.position, s.velocity, s.position + arm, s.velocity + cross(spin, arm), yaw, spin.z)
+    return PersonView(s.position, s.velocity, s.position + arm, s.velocity + cross(spin, arm), yaw, spin.z)
 
 
 @law
@@ -170,7 +170,7 @@ def bounded(v: Vec3, most: Any) -> Vec3:
 
 
 @law
-def pursue(w: Walk, leg: Leg, p: Vec3, v: Vec3) -> Vec3:
+def pursue(w: PathFollowing, leg: PathLeg, p: Vec3, v: Vec3) -> Vec3:
     """The force wanted [N] on what is at p and moves at v, to bring it along a leg."""
     along, left = leg.end - leg.start, leg.end - p
     square = maximum(dot(along, along), TINY)
@@ -184,7 +184,7 @@ def pursue(w: Walk, leg: Leg, p: Vec3, v: Vec3) -> Vec3:
 
 
 @law
-def across(leg: Leg, left: Vec3, force: Vec3) -> Vec3:
+def across(leg: PathLeg, left: Vec3, force: Vec3) -> Vec3:
     """The part of a force [N] across a leg; all of it where the vehicle is to stop within `NEAR`."""
     along = leg.end - leg.start
     onward = along * (dot(force, along) / maximum(dot(along, along), TINY))
@@ -192,14 +192,14 @@ def across(leg: Leg, left: Vec3, force: Vec3) -> Vec3:
 
 
 @law
-def steered(manner: Manner, seen: Sight) -> Any:
+def steered(manner: PersonSettings, seen: PersonView) -> Any:
     """(place [m], velocity [m/s]) of what is led along the path."""
     grip, centre = manner.at_grip, 1.0 - manner.at_grip
     return seen.grip * grip + seen.position * centre, seen.grip_velocity * grip + seen.velocity * centre
 
 
 @law
-def aim(k: Partner, m: Partnering) -> Aim:
+def aim(k: Person, m: PersonState) -> HandTarget:
     """What a person intends, by what they see."""
     seen, ahead, manner = m.seen, k.arm.horizon, k.manner
     p, v = steered(manner, seen)
@@ -209,11 +209,11 @@ def aim(k: Partner, m: Partnering) -> Aim:
     off = turned_least(m.leg.heading - seen.yaw - seen.yaw_rate * ahead)
     couple = clip(off * manner.yaw_gain - seen.yaw_rate * manner.yaw_damping, -k.arm.most_couple, k.arm.most_couple)
     place = m.leg.end * manner.stays + led * (1.0 - manner.stays)
-    return Aim(place, couple, across(m.leg, m.leg.end - p, wanted))
+    return HandTarget(place, couple, across(m.leg, m.leg.end - p, wanted))
 
 
 @law
-def push_by(k: Partner, m: Partnering, now: Sight, state: State) -> PointPush:
+def push_by(k: Person, m: PersonState, now: PersonView, state: State) -> PointPush:
     """The push of the hand where it is, on the grip where it is."""
     reach, slip = m.place.value - now.grip, m.place.rate - now.grip_velocity
     shaken = m.tremor.second * k.arm.tremor.size
@@ -225,7 +225,7 @@ def push_by(k: Partner, m: Partnering, now: Sight, state: State) -> PointPush:
 
 
 @law
-def gone_on(k: Partner, m: Partnering, t: Any, dt: Any) -> Partnering:
+def gone_on(k: Person, m: PersonState, t: Any, dt: Any) -> PersonState:
     """The memory of how far the person has come, by what they see."""
     w, seen = k.walk, m.seen
     begun = maximum(m.begun, where(seen.position.z < w.height, 0.0, where(t < w.start_time, 0.0, 1.0)))
@@ -239,31 +239,31 @@ def gone_on(k: Partner, m: Partnering, t: Any, dt: Any) -> Partnering:
     last = where(m.index < w.last, 0.0, 1.0)
     landing = maximum(m.landing, over * last * there * where(stands, 1.0, 0.0))
     index = m.index + over * (1.0 - last)
-    return Partnering(seen, index, m.leg, m.place, m.couple, m.grasp, m.trim, waited, begun, landing, m.tremor)
+    return PersonState(seen, index, m.leg, m.place, m.couple, m.grasp, m.trim, waited, begun, landing, m.tremor)
 
 
 @choice
-def lend(partner: Any, memory: Any, hand: Any, state: Any, noise: Any, t: Any, dt: Any) -> Any:
-    """What a person adds to the push of a step: `Lent`. `state` is as it is; `noise`: standard normals."""
+def person_step(partner: Any, memory: Any, hand: Any, state: Any, noise: Any, t: Any, dt: Any) -> Any:
+    """What a person adds to the push of a step: `PersonOutput`. `state` is as it is; `noise`: standard normals."""
 
 
-@lend.register(Nothing)
+@person_step.register(Nothing)
 def _nobody(partner, memory, hand, state, noise, t, dt):
-    return Lent(hand, memory)
+    return PersonOutput(hand, memory)
 
 
-@lend.register(Partner)
+@person_step.register(Person)
 def _somebody(partner, memory, hand, state, noise, t, dt):
-    m, now = gone_on(partner, memory, t, dt), sight(partner.grip, state)
+    m, now = gone_on(partner, memory, t, dt), person_view(partner.grip, state)
     intent, holding, lag = aim(partner, m), m.begun * (1.0 - m.landing), partner.arm.lag
     idle = m.seen.grip + m.seen.grip_velocity * partner.arm.horizon
     place = smooth(lag, m.place, intent.place * holding + idle * (1.0 - holding))
     couple, grasp = smooth(lag, m.couple, intent.couple * holding), smooth(lag, m.grasp, holding)
     trim = bounded(m.trim + intent.across * (partner.walk.trim_rate * dt), partner.arm.most) * holding
-    shaking = shake(partner.arm.tremor, m.tremor, noise)
-    after = Partnering(now, m.index, m.leg, place, couple, grasp, trim, m.waited, m.begun, m.landing, shaking)
+    shaking = tremor_step(partner.arm.tremor, m.tremor, noise)
+    after = PersonState(now, m.index, m.leg, place, couple, grasp, trim, m.waited, m.begun, m.landing, shaking)
     push = push_by(partner, after, now, state)
-    return Lent(Hand(hand.start + push, hand.middle + push, hand.end + push), after)
+    return PersonOutput(PushSamples(hand.start + push, hand.middle + push, hand.end + push), after)
 
 
 @choice
@@ -276,11 +276,11 @@ def _never_asks(memory):
     return 0.0
 
 
-@asks_to_land.register(Partnering)
+@asks_to_land.register(PersonState)
 def _asks(memory):
     return memory.landing
 
 
-@operator_of.register(Partnering)
+@operator_of.register(PersonState)
 def _asks_nothing_else(company):
     return NOBODY

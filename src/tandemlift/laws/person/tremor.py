@@ -24,7 +24,7 @@ class Tremor(NamedTuple):
     size: Any
 
 
-class Shaking(NamedTuple):
+class TremorState(NamedTuple):
     """Memory: both filters, each two vectors at right angles in phase."""
 
     first: Vec3
@@ -33,23 +33,23 @@ class Shaking(NamedTuple):
     second_aside: Vec3
 
 
-class Twitch(NamedTuple):
+class TremorNoise(NamedTuple):
     """Standard normals of a step."""
 
     along: Vec3
     aside: Vec3
 
 
-STILL = Shaking(ZERO, ZERO, ZERO, ZERO)
-TWITCH = Twitch(ZERO, ZERO)
+STILL = TremorState(ZERO, ZERO, ZERO, ZERO)
+TWITCH = TremorNoise(ZERO, ZERO)
 
 
 @law
-def shake(k: Tremor, m: Shaking, noise: Twitch) -> Shaking:
+def tremor_step(k: Tremor, m: TremorState, noise: TremorNoise) -> TremorState:
     """The memory after a step; the tremor is its `second`, of standard deviation 1, times the size."""
     first = m.first * k.cosine - m.first_aside * k.sine + noise.along * k.first
     aside = m.first * k.sine + m.first_aside * k.cosine + noise.aside * k.first
-    return Shaking(
+    return TremorState(
         first,
         aside,
         m.second * k.cosine - m.second_aside * k.sine + first * k.second,

@@ -20,7 +20,7 @@ class Mixer(NamedTuple):
     yaw: Any
 
 
-class Constrained(NamedTuple):
+class ConstrainedAllocation(NamedTuple):
     """Allocation within limits: the pseudo-inverse, and what `laws.rotors.thrust_limits` needs where it leaves them.
 
     `rows` and `weights` of the weighted problem, `limits` [N] of all rotors, and the faults that the pilot `known`s.
@@ -33,7 +33,7 @@ class Constrained(NamedTuple):
     known: Any
 
 
-class Working(NamedTuple):
+class AllocationState(NamedTuple):
     """Memory: which rotors are held at a limit (−1 at 0, 1 at the most, 0 free), and the thrusts [N]; sets."""
 
     active: Any
@@ -52,13 +52,13 @@ def _pseudo_inverse(inverse, u):
     return inverse.thrust * u.thrust + inverse.roll * u.moment.x + inverse.pitch * u.moment.y + inverse.yaw * u.moment.z
 
 
-@allocate.register(Constrained)
+@allocate.register(ConstrainedAllocation)
 def _unlimited(how, u):
     return allocate(how.inverse, u)
 
 
 @law
-def limits_at(how: Constrained, left: Any, t: Any) -> Any:
+def limits_at(how: ConstrainedAllocation, left: Any, t: Any) -> Any:
     """The most that every rotor gives at time t [s], as far as the pilot knows [N]; `left`: see `detection.left_of`."""
     return how.limits * efficiency_at(how.known, t) * left
 
@@ -70,7 +70,7 @@ def restored(thrust, efficiency):
 
 
 @law
-def commanded(how: Constrained, thrusts: Any, t: Any) -> Any:
+def commanded(how: ConstrainedAllocation, thrusts: Any, t: Any) -> Any:
     """Commands [N] that make the rotors give these thrusts at time t [s], as far as the pilot knows."""
     return restored(thrusts, efficiency_at(how.known, t))
 
@@ -91,7 +91,7 @@ def wrench(effect: Mixer, thrusts: Any) -> Wrench:
     )
 
 
-def mixer_value(rows: NDArray[Any]) -> Mixer:
+def mixer_from(rows: NDArray[Any]) -> Mixer:
     """A 4 × 4N matrix as a Mixer."""
     cls = each(rows.shape[1])
     thrust, roll, pitch, yaw = (cls(*map(float, row)) for row in rows)

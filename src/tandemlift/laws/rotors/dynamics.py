@@ -35,11 +35,11 @@ class Lag(NamedTuple):
     mean_square: Any
 
 
-class Sound(NamedTuple):
+class NoFaults(NamedTuple):
     """No rotor fails."""
 
 
-class Faults(NamedTuple):
+class RotorFaults(NamedTuple):
     """From `time` [s] on, the share of its thrust that each rotor has left; sets."""
 
     time: Any
@@ -75,7 +75,7 @@ class Rotors(NamedTuple):
     per_reach: Any
 
 
-class Spinning(NamedTuple):
+class RotorState(NamedTuple):
     """Memory: speed of each rotor [rad/s]; the command [N] that arrives in this step, if commands are delayed."""
 
     speed: Any
@@ -120,7 +120,7 @@ def _real(r, memory, command, state, t):
     now = memory.arriving * r.late + command * (1.0 - r.late)
     squared, speed = spin(r, memory.speed, clip(now, 0.0, r.max_thrust))
     thrust = squared * r.constant * efficiency_at(r.faults, t)
-    return thrust * near_ground(r.surface, state), Spinning(speed, command)
+    return thrust * near_ground(r.surface, state), RotorState(speed, command)
 
 
 @choice
@@ -128,7 +128,7 @@ def efficiency_at(faults: Any, t: Any) -> Any:
     """The share of its thrust that each rotor has at time t [s]."""
 
 
-@efficiency_at.register(Sound)
+@efficiency_at.register(NoFaults)
 def _sound(faults, t):
     return 1.0
 
@@ -139,7 +139,7 @@ def since(time, efficiency, t):
     return where(t >= time, efficiency, 1.0)
 
 
-@efficiency_at.register(Faults)
+@efficiency_at.register(RotorFaults)
 def _failing(faults, t):
     return since(faults.time, faults.efficiency, t)
 
@@ -201,7 +201,7 @@ def ground_effect(vehicle: Vehicle, floor: float) -> GroundEffect:
     return GroundEffect(spread(places), each(len(quarter))(*quarter), floor)
 
 
-def rotors_of(vehicle: Vehicle, step: float, *, late: bool, faults: Any, surface: Any, per_reach: Any) -> Rotors:
+def rotors_from(vehicle: Vehicle, step: float, *, late: bool, faults: Any, surface: Any, per_reach: Any) -> Rotors:
     """The real rotors of a vehicle, for steps of `step` [s]."""
     each_rotor = [q for q in vehicle.quadrotors for _ in range(4)]
     cls = each(len(each_rotor))
@@ -222,10 +222,10 @@ def rotor_faults(count: int, failures: Iterable[tuple[int, int, float, float]]) 
     """The faults of `count` rotors, from (quadrotor, rotor, time [s], share of the thrust left) of each; from 1 on."""
     failures = tuple(failures)
     if not failures:
-        return Sound()
+        return NoFaults()
     times, efficiency = [NEVER] * count, [1.0] * count
     for quadrotor, rotor, time, left in failures:
         i = 4 * (quadrotor - 1) + rotor - 1
         times[i], efficiency[i] = time, left
     cls = each(count)
-    return Faults(cls(*times), cls(*efficiency))
+    return RotorFaults(cls(*times), cls(*efficiency))

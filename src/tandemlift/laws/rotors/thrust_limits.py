@@ -26,22 +26,20 @@ import operator
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, sqrt, where
 from tandemlift.algebra.vector import Vec3, dot, each
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import Mixer, Working, wrench
-
-Array = NDArray[np.float64]
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer, wrench
 
 ACCURACY = 1e-9  # N, of every thrust, where the rounding of the given numbers allows it
 ROUNDING = 2.220446049250313e-16  # of a double
 GAMMA = 1e-3  # of thrusts away from the pseudo-inverse's, against the weighted wrench
 
 
-class Bounded(NamedTuple):
+class BoundedProblem(NamedTuple):
     """What is minimised.
 
     `rows`: W B, `weighted_rows`, sets of n. `weights`: the diagonal of W, `weights_of`. `wanted`: τ [N, N·m body axes].
@@ -58,13 +56,13 @@ class Bounded(NamedTuple):
 class Search(NamedTuple):
     """A step's outcome; 1 or 0 each: whole steps are taken, this one is to be repeated, the search has ended."""
 
-    found: Working
+    found: AllocationState
     opening: Any
     repeated: Any
     ended: Any
 
 
-class Four(NamedTuple):
+class WrenchVector(NamedTuple):
     """Four numbers, one for each component of a wrench."""
 
     thrust: Any
@@ -99,7 +97,7 @@ def weights_of(effect: Array, priorities: Any) -> Array:
 
 
 def weighted_rows(effect: Array, weights: Array) -> Array:
-    """W B (4 × n), C-contiguous, the rows of a `Bounded` problem."""
+    """W B (4 × n), C-contiguous, the rows of a `BoundedProblem` problem."""
     return np.ascontiguousarray(weights[:, None] * effect)
 
 
@@ -157,11 +155,11 @@ def _standing(thrust, side, top):
     return where(side == 0.0, where(x < top, x, top), where(side > 0.0, top, 0.0))
 
 
-def placed(limits: Any, held: Working) -> Working:
+def placed(limits: Any, held: AllocationState) -> AllocationState:
     """A working set and thrusts that are feasible to start from. A rotor without a limit > 0 stands."""
     top = _top(limits)
     side = _side(held.active, top)
-    return Working(side, _standing(held.thrusts, side, top))
+    return AllocationState(side, _standing(held.thrusts, side, top))
 
 
 @elementwise
@@ -190,7 +188,7 @@ def _factored(rows: Mixer, active: Any) -> Factor:
     return Factor(lrt, lpt, lyt, lpr, lyr, lyp, t, r, p, y)
 
 
-def _solved(k: Factor, b: Four) -> Four:
+def _solved(k: Factor, b: WrenchVector) -> WrenchVector:
     """(L D Lᵀ)⁻¹ b."""
     u0 = b.thrust
     u1 = b.roll - k.rt * u0
@@ -200,17 +198,19 @@ def _solved(k: Factor, b: Four) -> Four:
     x2 = u2 * k.p - k.yp * x3
     x1 = u1 * k.r - k.pr * x2 - k.yr * x3
     x0 = u0 * k.t - k.rt * x1 - k.pt * x2 - k.yt * x3
-    return Four(x0, x1, x2, x3)
+    return WrenchVector(x0, x1, x2, x3)
 
 
-def _missing(p: Bounded, thrusts: Any) -> Four:
+def _missing(p: BoundedProblem, thrusts: Any) -> WrenchVector:
     """r = W(τ − B f)."""
-    weights, wanted = (Four(u.thrust, *u.moment) for u in (p.weights, p.wanted))
+    weights, wanted = (WrenchVector(u.thrust, *u.moment) for u in (p.weights, p.wanted))
     made = [row * thrusts for row in p.rows]
-    return Four(*[functools.reduce(operator.sub, m, w * x) for w, x, m in zip(weights, wanted, made, strict=True)])
+    return WrenchVector(
+        *[functools.reduce(operator.sub, m, w * x) for w, x, m in zip(weights, wanted, made, strict=True)]
+    )
 
 
-def _mapped(rows: Mixer, four: Four) -> Any:
+def _mapped(rows: Mixer, four: WrenchVector) -> Any:
     """Cᵀ x of four numbers x, for every rotor."""
     return rows.thrust * four.thrust + rows.roll * four.roll + rows.pitch * four.pitch + rows.yaw * four.yaw
 
@@ -242,12 +242,12 @@ def _newly(active, met):
     return absolute(met) * (1.0 - absolute(active))
 
 
-def _clipped(p: Bounded, now: Working, pull: Any) -> Any:
+def _clipped(p: BoundedProblem, now: AllocationState, pull: Any) -> Any:
     """(The whole step, every free rotor that would leave its limits held there; whether there is such a rotor)."""
     x = now.thrusts + pull * (1.0 / GAMMA)
     met = _met(now.active, x, p.limits)
     kept = _if_free(now.active, _within(x, p.limits, now.thrusts), now.thrusts)
-    return Working(met, kept), _summed(0.0, _newly(now.active, met)) > 0.0
+    return AllocationState(met, kept), _summed(0.0, _newly(now.active, met)) > 0.0
 
 
 @elementwise
@@ -269,7 +269,7 @@ def _at_side(number, first, kept, side, top):
     return where(number == first, where(side < 0.0, 0.0, top), kept)
 
 
-def _advanced(p: Bounded, now: Working, pull: Any) -> Any:
+def _advanced(p: BoundedProblem, now: AllocationState, pull: Any) -> Any:
     """(The step as far as the first limit that a free rotor meets, and that rotor held; whether there is one)."""
     step, numbers = pull * (1.0 / GAMMA), _numbered(pull)
     share, first = 1.0, -1.0
@@ -278,7 +278,7 @@ def _advanced(p: Bounded, now: Working, pull: Any) -> Any:
     x = now.thrusts + step * share
     side = _side_met(numbers, first, now.active, pull)
     kept = _at_side(numbers, first, _within(x, p.limits, now.thrusts), side, p.limits)
-    return Working(side, _if_free(now.active, kept, now.thrusts)), first >= 0.0
+    return AllocationState(side, _if_free(now.active, kept, now.thrusts)), first >= 0.0
 
 
 @elementwise
@@ -288,7 +288,7 @@ def _inward(active, pull, size, limit):
     return where(limit > 0.0, where(inward > 4.0 * ROUNDING * size, inward, 0.0), 0.0)
 
 
-def _held_in_vain(p: Bounded, active: Any, r: Four, pull: Any) -> Any:
+def _held_in_vain(p: BoundedProblem, active: Any, r: WrenchVector, pull: Any) -> Any:
     """The number of the held rotor that pulls hardest back into its limits; −1 if none does, beyond rounding."""
     sizes = [absolute(row * x) for row, x in zip(p.rows, r, strict=True)]
     inward = _inward(active, pull, sizes[0] + sizes[1] + sizes[2] + sizes[3], p.limits)
@@ -303,18 +303,18 @@ def _released(number, free, active):
     return where(number == free, 0.0, active)
 
 
-def _either(condition: Any, a: Working, b: Working) -> Working:
-    return Working(where(condition, a.active, b.active), where(condition, a.thrusts, b.thrusts))
+def _either(condition: Any, a: AllocationState, b: AllocationState) -> AllocationState:
+    return AllocationState(where(condition, a.active, b.active), where(condition, a.thrusts, b.thrusts))
 
 
-def searched(p: Bounded, s: Search) -> Search:
+def searched(p: BoundedProblem, s: Search) -> Search:
     """One step of the active-set method."""
     now, opening = s.found, s.opening > 0.0
     factor = _factored(p.rows, now.active)
     r = _missing(p, now.thrusts)
     pull = _mapped(p.rows, r) + (p.unlimited - now.thrusts) * GAMMA
     freely = pull * _free(now.active)
-    mu = _solved(factor, Four(*[_summed(0.0, row * freely) for row in p.rows]))
+    mu = _solved(factor, WrenchVector(*[_summed(0.0, row * freely) for row in p.rows]))
     eased = pull - _mapped(p.rows, mu)
     clipped, was_clipped = _clipped(p, now, eased)
     advanced, was_cut = _advanced(p, now, eased)
@@ -327,15 +327,15 @@ def searched(p: Bounded, s: Search) -> Search:
     free = _held_in_vain(p, after.active, r, eased)
     active = _released(_numbered(eased), where(quiet > 0.0, free, -1.0), after.active)
     ended = where(free < 0.0, quiet, 0.0)
-    return Search(Working(active, after.thrusts), s.opening * (1.0 - still), again, ended)
+    return Search(AllocationState(active, after.thrusts), s.opening * (1.0 - still), again, ended)
 
 
-def begun(limits: Any, held: Working) -> Search:
+def begun(limits: Any, held: AllocationState) -> Search:
     """The search from a working set and thrusts, of any size, made feasible."""
     return Search(placed(limits, held), 1.0, 0.0, 0.0)
 
 
-def limited(p: Bounded, held: Working, most: int) -> tuple[Working, int]:
+def limited(p: BoundedProblem, held: AllocationState, most: int) -> tuple[AllocationState, int]:
     """The thrusts within the limits that come closest to a wanted wrench.
 
     Whatever happens, it ends after `most` steps with 0 ≤ f ≤ limits exactly. Until the first step that no limit cuts

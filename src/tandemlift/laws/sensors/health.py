@@ -5,14 +5,14 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Quat, Vec3, dot, total
-from tandemlift.laws.sensors.readings import Readings, Unit
+from tandemlift.laws.sensors.readings import ImuReading, Readings
 
 FROZEN, NO_NUMBER, OUT_OF_RANGE = 1.0, 2.0, 3.0
 KINDS = ("frozen", "not a number", "out of range")
 UNIT_NORM = 0.05  # by which an attitude's norm may differ from 1
 
 
-class Ranges(NamedTuple):
+class ReadingRanges(NamedTuple):
     """The largest readings that can be true, either way: N, N·m, m/s², rad/s, m, m/s."""
 
     force: Any
@@ -23,7 +23,7 @@ class Ranges(NamedTuple):
     velocity: Any
 
 
-class Alike(NamedTuple):
+class FrozenLimits(NamedTuple):
     """How many samples of each sensor in a row, exactly alike, make it frozen."""
 
     joints: Any
@@ -34,7 +34,7 @@ class Alike(NamedTuple):
     attitude: Any
 
 
-class Health(NamedTuple):
+class SensorHealth(NamedTuple):
     """Memory of one sensor: samples alike in a row, time without a good one [s], what was wrong with the last."""
 
     same: Any
@@ -42,15 +42,15 @@ class Health(NamedTuple):
     wrong: Any
 
 
-class Healths(NamedTuple):
+class SensorHealths(NamedTuple):
     """Memory of all sensors."""
 
-    joints: Health
-    accelerometer: Health
-    gyroscope: Health
-    position: Health
-    velocity: Health
-    attitude: Health
+    joints: SensorHealth
+    accelerometer: SensorHealth
+    gyroscope: SensorHealth
+    position: SensorHealth
+    velocity: SensorHealth
+    attitude: SensorHealth
 
 
 @elementwise
@@ -90,23 +90,23 @@ def any_of_sets(v: Vec3) -> Any:
 
 
 @law
-def judged(m: Health, fresh: Any, blank: Any, far: Any, alike: Any, dt: Any) -> Health:
+def judged(m: SensorHealth, fresh: Any, blank: Any, far: Any, alike: Any, dt: Any) -> SensorHealth:
     """A sensor's health with a sample: `blank` 1 if it has no numbers, `far` 1 if out of range, `alike` the last."""
     new = fresh > 0.0
     wrong = where(blank > 0.0, NO_NUMBER, where(far > 0.0, OUT_OF_RANGE, 0.0))
     bad = where(new, where(wrong > 0.0, 1.0, 0.0), 1.0)
-    return Health(where(new, (m.same + 1.0) * alike, m.same), (m.silent + dt) * bad, where(new, wrong, m.wrong))
+    return SensorHealth(where(new, (m.same + 1.0) * alike, m.same), (m.silent + dt) * bad, where(new, wrong, m.wrong))
 
 
 @law
-def judge_vector(m: Health, x: Vec3, last: Vec3, most: Any, fresh: Any, dt: Any) -> Health:
+def judge_vector(m: SensorHealth, x: Vec3, last: Vec3, most: Any, fresh: Any, dt: Any) -> SensorHealth:
     """The health of a sensor that reads a vector."""
     far = any_of(beyond_range(x, most))
     return judged(m, fresh, any_of(no_number(x)), far, none_of(any_of(unlike(x, last))), dt)
 
 
 @law
-def joints_blank(u: Unit) -> Any:
+def joints_blank(u: ImuReading) -> Any:
     """1 if any joint's reading has no number, else 0."""
     f, t = u.joint_force, u.joint_torque
     force = Vec3(no_number(f.x), no_number(f.y), no_number(f.z))
@@ -115,7 +115,7 @@ def joints_blank(u: Unit) -> Any:
 
 
 @law
-def joints_far(k: Ranges, u: Unit) -> Any:
+def joints_far(k: ReadingRanges, u: ImuReading) -> Any:
     """1 if any joint's reading is out of range, else 0."""
     f, t = u.joint_force, u.joint_torque
     force = Vec3(beyond_range(f.x, k.force), beyond_range(f.y, k.force), beyond_range(f.z, k.force))
@@ -124,7 +124,7 @@ def joints_far(k: Ranges, u: Unit) -> Any:
 
 
 @law
-def joints_alike(u: Unit, last: Unit) -> Any:
+def joints_alike(u: ImuReading, last: ImuReading) -> Any:
     """1 if the sensor of any joint reads exactly what it read last, else 0."""
     f, t, g, s = u.joint_force, u.joint_torque, last.joint_force, last.joint_torque
     force = unlike(f.x, g.x) + unlike(f.y, g.y) + unlike(f.z, g.z)
@@ -132,7 +132,7 @@ def joints_alike(u: Unit, last: Unit) -> Any:
 
 
 @law
-def judge_attitude(m: Health, q: Quat, last: Quat, fresh: Any, dt: Any) -> Health:
+def judge_attitude(m: SensorHealth, q: Quat, last: Quat, fresh: Any, dt: Any) -> SensorHealth:
     """The health of the measured attitude: of unit norm, or it is none."""
     size = dot(q, q)
     off = absolute(sqrt(maximum(size, 0.0)) - 1.0)
@@ -141,10 +141,10 @@ def judge_attitude(m: Health, q: Quat, last: Quat, fresh: Any, dt: Any) -> Healt
 
 
 @law
-def judge(r: Ranges, h: Healths, last: Readings, readings: Readings, dt: Any) -> Healths:
+def judge(r: ReadingRanges, h: SensorHealths, last: Readings, readings: Readings, dt: Any) -> SensorHealths:
     """The health of every sensor with these readings."""
     u, v, was, then = readings.unit, readings.motion, last.unit, last.motion
-    return Healths(
+    return SensorHealths(
         judged(h.joints, u.fresh, joints_blank(u), joints_far(r, u), joints_alike(u, was), dt),
         judge_vector(h.accelerometer, u.specific_force, was.specific_force, r.specific_force, u.fresh, dt),
         judge_vector(h.gyroscope, u.rates, was.rates, r.rates, u.fresh, dt),
@@ -155,6 +155,6 @@ def judge(r: Ranges, h: Healths, last: Readings, readings: Readings, dt: Any) ->
 
 
 @law
-def passing(h: Health) -> Any:
+def passing(h: SensorHealth) -> Any:
     """1 if a sensor's last sample was good, else 0."""
     return where(h.wrong > 0.0, 0.0, 1.0)

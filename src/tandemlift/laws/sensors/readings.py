@@ -12,12 +12,12 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import Felt
+from tandemlift.laws.mechanics.loads import PerfectReadings
 from tandemlift.laws.mechanics.rotation_vectors import turned
-from tandemlift.laws.sensors.sensor_errors import PERFECT, Grade, Meter, meter, no_drift, read
+from tandemlift.laws.sensors.sensor_errors import PERFECT, SensorGrade, SensorModel, no_drift, read, sensor_model
 
 
-class Unit(NamedTuple):
+class ImuReading(NamedTuple):
     """A sample of the on-board unit, body axes; `fresh` is 1 in the step in which it was taken, else 0.
 
     Specific force at the payload's centre of mass [m/s²], rates [rad/s], and what each quadrotor puts on the payload at
@@ -32,7 +32,7 @@ class Unit(NamedTuple):
     fresh: Any
 
 
-class Motion(NamedTuple):
+class MotionReading(NamedTuple):
     """A sample of position [m] and velocity [m/s] of the centre of mass, world axes, and of the attitude."""
 
     position: Vec3
@@ -44,8 +44,8 @@ class Motion(NamedTuple):
 class Readings(NamedTuple):
     """What both devices say."""
 
-    unit: Unit
-    motion: Motion
+    unit: ImuReading
+    motion: MotionReading
 
 
 class Sensors(NamedTuple):
@@ -54,10 +54,10 @@ class Sensors(NamedTuple):
     Periods are in steps from one sample to the next.
     """
 
-    force: Meter
-    torque: Meter
-    accelerometer: Meter
-    gyroscope: Meter
+    force: SensorModel
+    torque: SensorModel
+    accelerometer: SensorModel
+    gyroscope: SensorModel
     position: Any
     velocity: Any
     attitude: Any
@@ -65,7 +65,7 @@ class Sensors(NamedTuple):
     motion_period: Any
 
 
-class Drift(NamedTuple):
+class SensorDrift(NamedTuple):
     """Random walks of the unit's meters."""
 
     force: Vec3
@@ -74,16 +74,16 @@ class Drift(NamedTuple):
     gyroscope: Vec3
 
 
-class Sensing(NamedTuple):
+class SensorState(NamedTuple):
     """Memory: the last readings, the drifts, and the steps to wait for the next samples."""
 
     readings: Readings
-    drift: Drift
+    drift: SensorDrift
     unit_wait: Any
     motion_wait: Any
 
 
-class Hiss(NamedTuple):
+class SensorNoise(NamedTuple):
     """Independent standard normals for one step, on everything that is read (at joints, vectors of sets)."""
 
     specific_force: Vec3
@@ -108,9 +108,11 @@ def renewed_attitude(due: Any, new: Quat, old: Quat) -> Quat:
 
 
 @law
-def sample_unit(k: Sensors, drift: Drift, rates: Vec3, felt: Felt, frame: Quat, n: Hiss) -> Unit:
+def sample_unit(
+    k: Sensors, drift: SensorDrift, rates: Vec3, felt: PerfectReadings, frame: Quat, n: SensorNoise
+) -> ImuReading:
     """A fresh sample of the on-board unit."""
-    return Unit(
+    return ImuReading(
         read(k.accelerometer, drift.accelerometer, felt.specific_force, n.specific_force),
         read(k.gyroscope, drift.gyroscope, rates, n.rates),
         read(k.force, drift.force, felt.joint_force, n.joint_force),
@@ -121,9 +123,9 @@ def sample_unit(k: Sensors, drift: Drift, rates: Vec3, felt: Felt, frame: Quat, 
 
 
 @law
-def sample_motion(k: Sensors, s: State, n: Hiss) -> Motion:
+def sample_motion(k: Sensors, s: State, n: SensorNoise) -> MotionReading:
     """A fresh sample of the motion measurement."""
-    return Motion(
+    return MotionReading(
         s.position + n.position * k.position,
         s.velocity + n.velocity * k.velocity,
         turned(s.attitude, n.attitude * k.attitude),
@@ -132,9 +134,9 @@ def sample_motion(k: Sensors, s: State, n: Hiss) -> Motion:
 
 
 @law
-def latest_unit(due: Any, new: Unit, old: Unit) -> Unit:
+def latest_unit(due: Any, new: ImuReading, old: ImuReading) -> ImuReading:
     """The new sample where it is due, else the old one, no longer fresh."""
-    return Unit(
+    return ImuReading(
         renewed(due, new.specific_force, old.specific_force),
         renewed(due, new.rates, old.rates),
         renewed(due, new.joint_force, old.joint_force),
@@ -145,9 +147,9 @@ def latest_unit(due: Any, new: Unit, old: Unit) -> Unit:
 
 
 @law
-def latest_motion(due: Any, new: Motion, old: Motion) -> Motion:
+def latest_motion(due: Any, new: MotionReading, old: MotionReading) -> MotionReading:
     """The new sample where it is due, else the old one, no longer fresh."""
-    return Motion(
+    return MotionReading(
         renewed(due, new.position, old.position),
         renewed(due, new.velocity, old.velocity),
         renewed_attitude(due, new.attitude, old.attitude),
@@ -156,9 +158,9 @@ def latest_motion(due: Any, new: Motion, old: Motion) -> Motion:
 
 
 @law
-def wander(k: Sensors, drift: Drift, n: Hiss, sampled: Any) -> Drift:
+def wander(k: Sensors, drift: SensorDrift, n: SensorNoise, sampled: Any) -> SensorDrift:
     """The drifts after a sample (`sampled` 1), or as they were (0)."""
-    return Drift(
+    return SensorDrift(
         drift.force + n.joint_force * (k.force.walk * sampled),
         drift.torque + n.joint_torque * (k.torque.walk * sampled),
         drift.accelerometer + n.specific_force * (k.accelerometer.walk * sampled),
@@ -167,14 +169,16 @@ def wander(k: Sensors, drift: Drift, n: Hiss, sampled: Any) -> Drift:
 
 
 @law
-def sense(sensors: Sensors, memory: Sensing, state: State, felt: Felt, believed: Quat, hiss: Hiss) -> Any:
+def sense(
+    sensors: Sensors, memory: SensorState, state: State, felt: PerfectReadings, believed: Quat, hiss: SensorNoise
+) -> Any:
     """(Readings, the new memory) of a step in which the pilot believed in the attitude `believed`."""
     unit_due, motion_due = memory.unit_wait <= 0.0, memory.motion_wait <= 0.0
     old = memory.readings
     unit = latest_unit(unit_due, sample_unit(sensors, memory.drift, state.rates, felt, believed, hiss), old.unit)
     motion = latest_motion(motion_due, sample_motion(sensors, state, hiss), old.motion)
     readings = Readings(unit, motion)
-    return readings, Sensing(
+    return readings, SensorState(
         readings,
         wander(sensors, memory.drift, hiss, unit.fresh),
         where(unit_due, sensors.unit_period, memory.unit_wait) - 1.0,
@@ -185,10 +189,10 @@ def sense(sensors: Sensors, memory: Sensing, state: State, felt: Felt, believed:
 def sensors(
     count: int,
     step: float,
-    force: Grade = PERFECT,
-    torque: Grade = PERFECT,
-    accelerometer: Grade = PERFECT,
-    gyroscope: Grade = PERFECT,
+    force: SensorGrade = PERFECT,
+    torque: SensorGrade = PERFECT,
+    accelerometer: SensorGrade = PERFECT,
+    gyroscope: SensorGrade = PERFECT,
     position_noise: float = 0.0,
     velocity_noise: float = 0.0,
     attitude_noise: float = 0.0,
@@ -212,10 +216,10 @@ def sensors(
     """
     interval = step * unit_period
     return Sensors(
-        meter(force, interval, count),
-        meter(torque, interval, count),
-        meter(accelerometer, interval),
-        meter(gyroscope, interval),
+        sensor_model(force, interval, count),
+        sensor_model(torque, interval, count),
+        sensor_model(accelerometer, interval),
+        sensor_model(gyroscope, interval),
         position_noise,
         velocity_noise,
         attitude_noise,
@@ -224,13 +228,13 @@ def sensors(
     )
 
 
-def start_sensing(sensors: Sensors, state: State, felt: Felt, believed: Quat) -> Sensing:
+def start_sensing(sensors: Sensors, state: State, felt: PerfectReadings, believed: Quat) -> SensorState:
     """The memory before the first step: readings of a state, biased but without noise, and not fresh.
 
     Both devices take their first sample in the first step.
     """
     count = len(sensors.force.bias.x)
-    drift = Drift(no_drift(count), no_drift(count), no_drift(), no_drift())
-    silence = Hiss(ZERO, ZERO, no_drift(count), no_drift(count), ZERO, ZERO, ZERO)
+    drift = SensorDrift(no_drift(count), no_drift(count), no_drift(), no_drift())
+    silence = SensorNoise(ZERO, ZERO, no_drift(count), no_drift(count), ZERO, ZERO, ZERO)
     unit = sample_unit(sensors, drift, state.rates, felt, believed, silence)._replace(fresh=0.0)
-    return Sensing(Readings(unit, sample_motion(sensors, state, silence)._replace(fresh=0.0)), drift, 0.0, 0.0)
+    return SensorState(Readings(unit, sample_motion(sensors, state, silence)._replace(fresh=0.0)), drift, 0.0, 0.0)

@@ -2,7 +2,7 @@
 
 A sample is clip(A x + bias + drift + σ n) rounded to whole steps; A turns body axes into the sensor's, the drift is a
 random walk. One standard normal n a sample and axis serves both: the drift advances by w n *after* the reading. With
-the σ that `meter` chooses, the increments of such readings have the variance 2σ₀² + w² and the covariance −σ₀² with
+the σ of `sensor_model`, the increments of such readings have the variance 2σ₀² + w² and the covariance −σ₀² with
 the one before, as those of white noise of σ₀ and an independent walk of w have; both are Gaussian, so they are the same
 process, its walk begun σ/w samples earlier (J. F. Muth, J. Am. Stat. Assoc. 55, 1960), for half the random numbers.
 Error terms: IEEE Std 952, annex C.
@@ -22,7 +22,7 @@ from tandemlift.laws.mechanics.rotation_vectors import quaternion_of_turn
 ROUNDING = 6755399441055744.0  # 1.5 · 2⁵²: a sum with it has no fraction left
 
 
-class Grade(NamedTuple):
+class SensorGrade(NamedTuple):
     """How good a sensor is, in plain numbers and in the unit U of what it measures; as it stands, perfect.
 
     `bias` [U] and `misalignment` (rotation vector of the sensor's axes, body axes [rad]) are a number for all, three,
@@ -38,10 +38,10 @@ class Grade(NamedTuple):
     misalignment: Any = 0.0
 
 
-PERFECT = Grade()
+PERFECT = SensorGrade()
 
 
-class Meter(NamedTuple):
+class SensorModel(NamedTuple):
     """A sensor in the numbers that its law needs, of the unit U; on every quadrotor, `axes` and `bias` are of sets.
 
     Rows of `axes`: the sensor's axes in body axes. `noise` σ and `walk` w [U] multiply a sample's normals. `per_step`:
@@ -67,7 +67,7 @@ def displayed(x, limit, step, per_step):
 
 
 @law
-def read(k: Meter, drift: Vec3, truth: Vec3, normals: Vec3) -> Vec3:
+def read(k: SensorModel, drift: Vec3, truth: Vec3, normals: Vec3) -> Vec3:
     """A sample of `truth`, a vector in body axes or one of every quadrotor."""
     v = apply(k.axes, truth) + k.bias + drift + normals * k.noise
     return Vec3(
@@ -86,7 +86,7 @@ def _sensor_axes(turn: np.ndarray) -> np.ndarray:
     return np.array(rotation_from_quaternion(quaternion_of_turn(vec3(turn)))).T
 
 
-def meter(grade: Grade, interval: float, count: int | None = None) -> Meter:
+def sensor_model(grade: SensorGrade, interval: float, count: int | None = None) -> SensorModel:
     """The sensor of this grade, or one on every quadrotor.
 
     Args:
@@ -97,7 +97,7 @@ def meter(grade: Grade, interval: float, count: int | None = None) -> Meter:
     walk = grade.drift * math.sqrt(interval)
     A = np.array([_sensor_axes(turn) for turn in _rows(grade.misalignment, count or 1)])
     bias = _rows(grade.bias, count or 1)
-    return Meter(
+    return SensorModel(
         axes=Mat3(*[vec3(A[0, i]) if count is None else spread(A[:, i]) for i in range(3)]),
         bias=vec3(bias[0]) if count is None else spread(bias),
         noise=0.5 * (walk + math.sqrt(walk * walk + 4.0 * grade.noise * grade.noise)),

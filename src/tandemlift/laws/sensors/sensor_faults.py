@@ -11,7 +11,7 @@ from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, each
 from tandemlift.laws.mechanics.rotation_vectors import turned
-from tandemlift.laws.sensors.readings import Motion, Readings, Unit
+from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
 
 NEVER = 1e18  # steps
 
@@ -31,7 +31,7 @@ class SensorFault(NamedTuple):
     poison: Any
 
 
-class Silence(NamedTuple):
+class DeviceSilence(NamedTuple):
     """From step `start` until before step `end`, a device sends no new sample."""
 
     start: Any
@@ -41,8 +41,8 @@ class Silence(NamedTuple):
 class SensorFaults(NamedTuple):
     """Of both devices, and of every sensor on them."""
 
-    imu: Silence
-    motion: Silence
+    imu: DeviceSilence
+    motion: DeviceSilence
     joints: SensorFault
     accelerometer: SensorFault
     gyroscope: SensorFault
@@ -51,7 +51,7 @@ class SensorFaults(NamedTuple):
     attitude: SensorFault
 
 
-class Spoiling(NamedTuple):
+class SensorFaultState(NamedTuple):
     """Memory: what was given last, and the number of the step."""
 
     given: Readings
@@ -101,9 +101,9 @@ def spoil_attitude(f: SensorFault, x: Quat, given: Quat, step: Any) -> Quat:
 
 
 @law
-def held_unit(silent: Any, new: Unit, old: Unit) -> Unit:
+def held_unit(silent: Any, new: ImuReading, old: ImuReading) -> ImuReading:
     """The new sample, or the old one, no longer fresh, while the unit is silent."""
-    return Unit(
+    return ImuReading(
         chosen(silent, old.specific_force, new.specific_force),
         chosen(silent, old.rates, new.rates),
         chosen(silent, old.joint_force, new.joint_force),
@@ -114,9 +114,9 @@ def held_unit(silent: Any, new: Unit, old: Unit) -> Unit:
 
 
 @law
-def held_motion(silent: Any, new: Motion, old: Motion) -> Motion:
+def held_motion(silent: Any, new: MotionReading, old: MotionReading) -> MotionReading:
     """The new sample, or the old one, no longer fresh, while the motion measurement is silent."""
-    return Motion(
+    return MotionReading(
         chosen(silent, old.position, new.position),
         chosen(silent, old.velocity, new.velocity),
         chosen_attitude(silent, old.attitude, new.attitude),
@@ -139,13 +139,13 @@ def chosen_attitude(flag: Any, a: Quat, b: Quat) -> Quat:
 
 
 @law
-def spoil(k: SensorFaults, m: Spoiling, readings: Readings) -> Any:
+def apply_faults(k: SensorFaults, m: SensorFaultState, readings: Readings) -> Any:
     """(Readings as they are given, the new memory) of a step."""
     u, v, n = readings.unit, readings.motion, m.step
     was, then = m.given.unit, m.given.motion
     size, keep = k.joints.size, k.joints.keep
     torque = Vec3(size.x - size.x * keep, size.y - size.y * keep, size.z - size.z * keep)  # an offset is of the force
-    unit = Unit(
+    unit = ImuReading(
         spoil_vector(k.accelerometer, u.specific_force, was.specific_force, n),
         spoil_vector(k.gyroscope, u.rates, was.rates, n),
         spoil_joints(k.joints, u.joint_force, was.joint_force, size, n),
@@ -153,7 +153,7 @@ def spoil(k: SensorFaults, m: Spoiling, readings: Readings) -> Any:
         u.frame,
         u.fresh,
     )
-    motion = Motion(
+    motion = MotionReading(
         spoil_vector(k.position, v.position, then.position, n),
         spoil_vector(k.velocity, v.velocity, then.velocity, n),
         spoil_attitude(k.attitude, v.attitude, then.attitude, n),
@@ -161,7 +161,7 @@ def spoil(k: SensorFaults, m: Spoiling, readings: Readings) -> Any:
     )
     silent = during(k.imu.start, k.imu.end, n), during(k.motion.start, k.motion.end, n)
     given = Readings(held_unit(silent[0], unit, was), held_motion(silent[1], motion, then))
-    return given, Spoiling(given, n + 1.0)
+    return given, SensorFaultState(given, n + 1.0)
 
 
 def sensor_fault(kind: str, start: float, end: float, size: Vec3) -> SensorFault:

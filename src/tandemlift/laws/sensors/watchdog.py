@@ -23,8 +23,18 @@ from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed,
 from tandemlift.laws.mechanics.body import UP, State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.rotation_vectors import turn_left, turned
-from tandemlift.laws.sensors.health import FROZEN, Alike, Health, Healths, Ranges, any_of, judge, no_number, passing
-from tandemlift.laws.sensors.readings import Motion, Readings, Unit
+from tandemlift.laws.sensors.health import (
+    FROZEN,
+    FrozenLimits,
+    ReadingRanges,
+    SensorHealth,
+    SensorHealths,
+    any_of,
+    judge,
+    no_number,
+    passing,
+)
+from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
 from tandemlift.laws.sensors.sensor_faults import chosen, chosen_attitude
 
 EARLY, LONG = 2.0, 5.0  # s: before biases are looked at, and over which their mean is taken
@@ -39,8 +49,8 @@ class Watchdog(NamedTuple):
 
     stale: Any
     invalid: Any
-    ranges: Ranges
-    alike: Alike
+    ranges: ReadingRanges
+    alike: FrozenLimits
     forgets: Any
     attitude: Any
     way: Any
@@ -50,7 +60,7 @@ class Watchdog(NamedTuple):
     per_interval: Any
 
 
-class Apart(NamedTuple):
+class Inconsistency(NamedTuple):
     """Memory of what measurements differ by: attitude [rad, body axes], way [m], speed [m/s]; what one tells since."""
 
     attitude: Vec3
@@ -69,7 +79,7 @@ class Biases(NamedTuple):
     time: Any
 
 
-class Watching(NamedTuple):
+class WatchdogState(NamedTuple):
     """Memory: readings as last given and as last found good, ages of both devices [s], 1 once each was heard.
 
     The rates as they are believed, the velocity as the position tells it, and means of the navigator's biases.
@@ -77,7 +87,7 @@ class Watching(NamedTuple):
 
     last: Readings
     good: Readings
-    health: Healths
+    health: SensorHealths
     unit_age: Any
     motion_age: Any
     unit_seen: Any
@@ -85,10 +95,10 @@ class Watching(NamedTuple):
     rates: Vec3
     velocity: Vec3
     mean: Biases
-    apart: Apart
+    apart: Inconsistency
 
 
-class Report(NamedTuple):
+class WatchdogReport(NamedTuple):
     """What is wrong: 1 or 0, or what is wrong with a sensor (`KINDS`, from 1; 0 for nothing).
 
     `imu` and `motion`: stale. `seen`: 1 once both devices have been heard.
@@ -108,10 +118,10 @@ class Report(NamedTuple):
     seen: Any
 
 
-WELL = Report(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+WELL = WatchdogReport(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
-class Predicted(NamedTuple):
+class PredictedReadings(NamedTuple):
     """What the navigator expects: the state, and both sensors' bias [rad/s, m/s²]."""
 
     state: State
@@ -120,17 +130,17 @@ class Predicted(NamedTuple):
 
 
 @law
-def wrong_with(k: Watchdog, h: Health, alike: Any) -> Any:
+def wrong_with(k: Watchdog, h: SensorHealth, alike: Any) -> Any:
     """What is wrong with a sensor for too long (`KINDS`), or 0."""
     bad = where(h.silent >= k.invalid, h.wrong, 0.0)
     return where(h.wrong > 0.0, bad, where(h.same >= alike, FROZEN, 0.0))
 
 
 @law
-def kept_unit(good: Unit, u: Unit, h: Healths) -> Unit:
+def kept_unit(good: ImuReading, u: ImuReading, h: SensorHealths) -> ImuReading:
     """A unit's sample in which the last good values stand for what is not good."""
     joints, accelerometer, gyroscope = passing(h.joints), passing(h.accelerometer), passing(h.gyroscope)
-    return Unit(
+    return ImuReading(
         chosen(accelerometer, u.specific_force, good.specific_force),
         chosen(gyroscope, u.rates, good.rates),
         chosen(joints, u.joint_force, good.joint_force),
@@ -141,13 +151,13 @@ def kept_unit(good: Unit, u: Unit, h: Healths) -> Unit:
 
 
 @law
-def replaced_unit(u: Unit, r: Report, rates: Vec3, p: Predicted, mean: Biases) -> Unit:
+def replaced_unit(u: ImuReading, r: WatchdogReport, rates: Vec3, p: PredictedReadings, mean: Biases) -> ImuReading:
     """A unit's sample in which something stands for lost sensors, and for biases that are no longer corrected."""
     still = apply_transposed(rotation_from_quaternion(p.state.attitude), UP * GRAVITY) + p.accelerometer_bias
     turns, moves = maximum(r.motion, r.attitude), maximum(r.motion, maximum(r.position, r.velocity))
     force = u.specific_force + chosen(moves, p.accelerometer_bias - mean.accelerometer, ZERO)
     turning = u.rates + chosen(turns, p.gyroscope_bias - mean.gyroscope, ZERO)
-    return Unit(
+    return ImuReading(
         chosen(maximum(r.accelerometer, r.imu), still, force),
         chosen(maximum(r.gyroscope, r.imu), rates + p.gyroscope_bias, turning),
         u.joint_force,
@@ -158,13 +168,15 @@ def replaced_unit(u: Unit, r: Report, rates: Vec3, p: Predicted, mean: Biases) -
 
 
 @law
-def replaced_motion(v: Motion, h: Healths, r: Report, velocity: Vec3, p: Predicted) -> Motion:
+def replaced_motion(
+    v: MotionReading, h: SensorHealths, r: WatchdogReport, velocity: Vec3, p: PredictedReadings
+) -> MotionReading:
     """A motion sample in which what is predicted stands for what is not good or lost; `velocity`: from the position."""
     position = maximum(maximum(r.position, h.position.wrong), r.motion)
     blurred = maximum(maximum(r.velocity, h.velocity.wrong), r.motion)
     attitude = maximum(maximum(r.attitude, h.attitude.wrong), r.motion)
     left = where(position > 0.0, where(blurred > 0.0, where(attitude > 0.0, 0.0, 1.0), 1.0), 1.0)
-    return Motion(
+    return MotionReading(
         chosen(position, p.state.position, v.position),
         chosen(blurred, chosen(position, p.state.velocity, velocity), v.velocity),
         chosen_attitude(attitude, p.state.attitude, v.attitude),
@@ -173,7 +185,9 @@ def replaced_motion(v: Motion, h: Healths, r: Report, velocity: Vec3, p: Predict
 
 
 @law
-def apart_after(k: Watchdog, m: Apart, u: Unit, v: Motion, lost: Any, dt: Any) -> Apart:
+def inconsistency_after(
+    k: Watchdog, m: Inconsistency, u: ImuReading, v: MotionReading, lost: Any, dt: Any
+) -> Inconsistency:
     """What measurements differ by, with a sample; `lost` is 1 if one of them is, and nothing is compared."""
     so_far, reached = turned(m.turned, u.rates * dt), m.reached + v.velocity * dt
     pull = apply(rotation_from_quaternion(v.attitude), u.specific_force) - UP * GRAVITY
@@ -181,7 +195,7 @@ def apart_after(k: Watchdog, m: Apart, u: Unit, v: Motion, lost: Any, dt: Any) -
     new, none = v.fresh, maximum(v.fresh, lost)
     keep = (1.0 - k.forgets * new) * (1.0 - lost)
     taken = new * (1.0 - lost)
-    return Apart(
+    return Inconsistency(
         m.attitude * keep + turn_left(so_far, v.attitude) * taken,
         m.way * keep + (v.position - reached) * taken,
         m.speed * keep + (v.velocity - gained) * taken,
@@ -192,9 +206,11 @@ def apart_after(k: Watchdog, m: Apart, u: Unit, v: Motion, lost: Any, dt: Any) -
 
 
 @law
-def reported(k: Watchdog, h: Healths, unit_age: Any, motion_age: Any, seen: Any, apart: Apart) -> Report:
+def reported(
+    k: Watchdog, h: SensorHealths, unit_age: Any, motion_age: Any, seen: Any, apart: Inconsistency
+) -> WatchdogReport:
     """What is wrong, with devices of these ages [s]; `seen` is 1 once both were heard."""
-    return Report(
+    return WatchdogReport(
         where(unit_age >= k.stale, 1.0, 0.0),
         where(motion_age >= k.stale, 1.0, 0.0),
         wrong_with(k, h.joints, k.alike.joints),
@@ -211,14 +227,16 @@ def reported(k: Watchdog, h: Healths, unit_age: Any, motion_age: Any, seen: Any,
 
 
 @law
-def turning_of(k: Watchdog, m: Watching, u: Unit, attitude: Quat, fresh: Any, heard: Any, p: Predicted) -> Vec3:
+def turning_of(
+    k: Watchdog, m: WatchdogState, u: ImuReading, attitude: Quat, fresh: Any, heard: Any, p: PredictedReadings
+) -> Vec3:
     """The rates [rad/s]: of the gyroscope while it is `heard` (1), else as the measured attitude turns."""
     seen = turn_left(m.good.motion.attitude, attitude) * k.per_interval
     return chosen(heard, u.rates - p.gyroscope_bias, m.rates + (seen - m.rates) * (k.turn_share * fresh))
 
 
 @law
-def velocity_of(k: Watchdog, m: Watching, v: Motion, h: Healths, r: Report) -> Vec3:
+def velocity_of(k: Watchdog, m: WatchdogState, v: MotionReading, h: SensorHealths, r: WatchdogReport) -> Vec3:
     """The velocity [m/s]: as measured while that is well, else as the position changes."""
     well = passing(h.velocity) * where(r.velocity > 0.0, 0.0, 1.0)
     position = chosen(passing(h.position), v.position, m.good.motion.position)
@@ -227,7 +245,7 @@ def velocity_of(k: Watchdog, m: Watching, v: Motion, h: Healths, r: Report) -> V
 
 
 @law
-def mean_of(m: Biases, p: Predicted, wrong: Any, dt: Any) -> Biases:
+def mean_of(m: Biases, p: PredictedReadings, wrong: Any, dt: Any) -> Biases:
     """The mean of the biases, with what the navigator has found now unless something is wrong (1)."""
     time = m.time + dt * (1.0 - wrong)
     share = dt / clip(time, dt, LONG) * (1.0 - wrong)
@@ -239,22 +257,22 @@ def mean_of(m: Biases, p: Predicted, wrong: Any, dt: Any) -> Biases:
 
 
 @law
-def any_wrong(h: Healths) -> Any:
+def any_wrong(h: SensorHealths) -> Any:
     """1 if any of what is compared was not good in its last sample, else 0."""
     motion = passing(h.attitude) * passing(h.position) * passing(h.velocity)
     return 1.0 - passing(h.gyroscope) * passing(h.accelerometer) * motion
 
 
 @law
-def any_lost(r: Report) -> Any:
+def any_lost(r: WatchdogReport) -> Any:
     """1 if any of what is compared is lost, else 0."""
     unit = r.imu + r.gyroscope + r.accelerometer
     return where(unit + r.motion + r.attitude + r.position + r.velocity > 0.0, 1.0, 0.0)
 
 
 @law
-def watch(k: Watchdog, m: Watching, readings: Readings, p: Predicted, dt: Any) -> Any:
-    """(readings that can be used, `Report`, the new memory) of a step of dt [s], with what the navigator expects."""
+def watchdog_step(k: Watchdog, m: WatchdogState, readings: Readings, p: PredictedReadings, dt: Any) -> Any:
+    """(usable readings, `WatchdogReport`, the new memory) of a step of dt [s], with what the navigator expects."""
     u, v, health = readings.unit, readings.motion, judge(k.ranges, m.health, m.last, readings, dt)
     unit_age, motion_age = (m.unit_age + dt) * (1.0 - u.fresh), (m.motion_age + dt) * (1.0 - v.fresh)
     seen = maximum(m.unit_seen, u.fresh), maximum(m.motion_seen, v.fresh)
@@ -266,20 +284,20 @@ def watch(k: Watchdog, m: Watching, readings: Readings, p: Predicted, dt: Any) -
     wrong, velocity = maximum(any_wrong(health), any_lost(before)), velocity_of(k, m, v, health, before)
     mean = mean_of(m.mean, p, wrong, dt)
     unit, motion = replaced_unit(kept, before, rates, p, mean), replaced_motion(v, health, before, velocity, p)
-    apart = apart_after(k, m.apart, unit, motion, wrong, dt)
+    apart = inconsistency_after(k, m.apart, unit, motion, wrong, dt)
     position = chosen(passing(health.position), v.position, m.good.motion.position)
-    good = Readings(kept, Motion(position, motion.velocity, seen_attitude, motion.fresh))
-    after = Watching(readings, good, health, unit_age, motion_age, seen[0], seen[1], rates, velocity, mean, apart)
+    good = Readings(kept, MotionReading(position, motion.velocity, seen_attitude, motion.fresh))
+    after = WatchdogState(readings, good, health, unit_age, motion_age, seen[0], seen[1], rates, velocity, mean, apart)
     report = reported(k, health, unit_age, motion_age, seen[0] * seen[1], apart)
     return Readings(unit, motion), report, after
 
 
-def start_watching(readings: Readings) -> Watching:
+def start_watchdog(readings: Readings) -> WatchdogState:
     """The memory before the first step, in which both devices say `readings`, not fresh."""
-    none, v = Health(0.0, 0.0, 0.0), readings.motion
-    health = Healths(none, none, none, none, none, none)
-    apart, mean = Apart(ZERO, ZERO, ZERO, v.attitude, v.position, v.velocity), Biases(ZERO, ZERO, -EARLY)
-    return Watching(readings, readings, health, 0.0, 0.0, 0.0, 0.0, ZERO, v.velocity, mean, apart)
+    none, v = SensorHealth(0.0, 0.0, 0.0), readings.motion
+    health = SensorHealths(none, none, none, none, none, none)
+    apart, mean = Inconsistency(ZERO, ZERO, ZERO, v.attitude, v.position, v.velocity), Biases(ZERO, ZERO, -EARLY)
+    return WatchdogState(readings, readings, health, 0.0, 0.0, 0.0, 0.0, ZERO, v.velocity, mean, apart)
 
 
 @law

@@ -22,7 +22,7 @@ class LowPass(NamedTuple):
     rate_from_rate: Any
 
 
-class Smoothed(NamedTuple):
+class LowPassState(NamedTuple):
     """Memory of a low-pass, of a number, a vector or a set: y and ẏ."""
 
     value: Any
@@ -36,10 +36,10 @@ def at_rest(x):
 
 
 @law
-def smooth(k: LowPass, memory: Smoothed, held: Any) -> Smoothed:
+def smooth(k: LowPass, memory: LowPassState, held: Any) -> LowPassState:
     """The memory after a step over which the input was `held`."""
     off = memory.value - held
-    return Smoothed(
+    return LowPassState(
         at_rest(held + off * k.value_from_value + memory.rate * k.value_from_rate),
         at_rest(off * k.rate_from_value + memory.rate * k.rate_from_rate),
     )

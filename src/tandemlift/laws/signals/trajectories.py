@@ -33,7 +33,7 @@ class Reference(NamedTuple):
     lead: Vec3 = ZERO
 
 
-class Phases(NamedTuple):
+class ScheduledPhases(NamedTuple):
     """Lift to `height` [m] from `lift_start` [s], land from `land_start`; rates are 1/duration [1/s], 0 for never."""
 
     height: Any
@@ -43,7 +43,7 @@ class Phases(NamedTuple):
     land_rate: Any
 
 
-class Ramp(NamedTuple):
+class SmoothStep(NamedTuple):
     """A smooth step from 0 to 1 with its first and second time derivatives."""
 
     value: Any
@@ -52,10 +52,10 @@ class Ramp(NamedTuple):
 
 
 @law
-def smoothstep(t: Any, start: Any, rate: Any) -> Ramp:
+def smoothstep(t: Any, start: Any, rate: Any) -> SmoothStep:
     """q((t − start) rate) and its time derivatives [1/s, 1/s²]."""
     s = clip((t - start) * rate, 0.0, 1.0)
-    return Ramp(
+    return SmoothStep(
         s * s * s * (10.0 - s * (15.0 - 6.0 * s)),
         30.0 * s * s * (1.0 - s) * (1.0 - s) * rate,
         60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) * rate * rate,
@@ -63,7 +63,7 @@ def smoothstep(t: Any, start: Any, rate: Any) -> Ramp:
 
 
 @law
-def reference(p: Phases, T: Trajectory, t: Any) -> Trajectory:
+def reference(p: ScheduledPhases, T: Trajectory, t: Any) -> Trajectory:
     """The desired trajectory of the centre of mass at time t [s], world axes."""
     lift = smoothstep(t, p.lift_start, p.lift_rate)
     land = smoothstep(t, p.land_start, p.land_rate)

@@ -21,9 +21,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
-from tandemlift.engines.gazebo.rospy import import_rospy
-from tandemlift.engines.gazebo.server import command, exported, free_port, root
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.engines.gazebo_server import command, exported, free_port, root
+from tandemlift.engines.rospy import import_rospy
 
 JOIN = "TANDEMLIFT_GAZEBO_ROS"
 URI, IP, HOST = "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME"
@@ -58,7 +58,7 @@ def node() -> ModuleType:
     if joined():
         _check_master()
     else:
-        os.environ.update({URI: Master().uri, IP: "127.0.0.1"})
+        os.environ.update({URI: RosMaster().uri, IP: "127.0.0.1"})
     with warnings.catch_warnings(), _quiet():
         warnings.simplefilter("ignore")
         rospy.init_node(NODE, anonymous=True, disable_signals=True, disable_rosout=True)
@@ -98,7 +98,7 @@ def _check_master() -> None:
         raise InputError(f"engine 'gazebo-ros': {JOIN} is set, and no ROS master runs at {URI} = {uri}")
 
 
-class Master:
+class RosMaster:
     """A ROS master of our own, on a free port.
 
     Attributes:

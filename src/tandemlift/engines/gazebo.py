@@ -19,18 +19,16 @@ from typing import Any, Protocol
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import Nothing, vec3
-from tandemlift.engines.gazebo.server import Server, free_port
-from tandemlift.engines.gazebo.wire import STATE, Told, Wire
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.engines.gazebo_server import GazeboServer, free_port
+from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.models import sdf
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none
@@ -41,19 +39,19 @@ CLOSE = 1e-9  # relative, of the world's step and mass
 PORT, REAL_TIME = "TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_REAL_TIME"
 
 
-class Line(Protocol):
+class PluginLink(Protocol):
     """A pilot's end of the way to the plugin; see `gazebo_wire.Wire`."""
 
     patience: float
     thrusts: Array
     wrench: Array
     loads: Array
-    told: Told
+    told: PluginAnswer
 
-    def hello(self, dt: float, rotors: Array, state: Array | None, real_time: bool) -> Told:
+    def hello(self, dt: float, rotors: Array, state: Array | None, real_time: bool) -> PluginAnswer:
         """Begin a session."""
 
-    def advance(self) -> Told:
+    def advance(self) -> PluginAnswer:
         """Send the step, and wait until the world has taken it."""
 
     def keep(self) -> None:
@@ -63,7 +61,7 @@ class Line(Protocol):
         """Say goodbye, and hang up."""
 
 
-def _dial(mission: Mission, vehicle: Vehicle) -> tuple[Server | None, Line]:
+def _dial(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, PluginLink]:
     """The plugin over UDP: of a server that is started, unless a port is named."""
     server, port = _find(mission)
     return server, Wire(port, vehicle.count, STEPPING, server.check if server else None)
@@ -95,13 +93,15 @@ class GazeboBody:
         vehicle: Vehicle,
         floor: Any = NONE,
         walls: Any = NONE,
-        dial: Callable[[Mission, Vehicle], tuple[Server | None, Line]] = _dial,
+        dial: Callable[[Mission, Vehicle], tuple[GazeboServer | None, PluginLink]] = _dial,
     ) -> None:
         self.server, self._wire = dial(mission, vehicle)
         wire = self._wire
         self._closing = weakref.finalize(self, _close, wire, self.server)
         real_time = os.environ.get(REAL_TIME, "0") not in ("", "0")
-        self._hello = partial(wire.hello, mission.mission.step, sdf.rotors_of(vehicle), start_of(mission), real_time)
+        self._hello = partial(
+            wire.hello, mission.mission.step, sdf.rotors_of(vehicle), start_state_of(mission), real_time
+        )
         self._begun, self._rested = False, 0.0
         self._meet(mission, vehicle)
         told = wire.told
@@ -164,18 +164,18 @@ class GazeboBody:
         self._closing()
 
 
-def _close(wire: Line, server: Server | None) -> None:
+def _close(wire: PluginLink, server: GazeboServer | None) -> None:
     if server:
         server.close()
     wire.close()
 
 
-def _find(mission: Mission) -> tuple[Server | None, int]:
+def _find(mission: Mission) -> tuple[GazeboServer | None, int]:
     """The server and the port of its plugin: started, unless one that runs is named."""
     given = os.environ.get(PORT)
     if not given:
         port = free_port(socket.SOCK_DGRAM)
-        return Server(world_of(mission, port)), port
+        return GazeboServer(world_of(mission, port)), port
     if not given.isdecimal() or not 0 < int(given) < 65536:
         raise InputError(f"{PORT} = {given}: must be a UDP port, 1 to 65535")
     return None, int(given)
@@ -191,7 +191,7 @@ def world_of(mission: Mission, plugin: int | str, **more: str) -> str:
     return ElementTree.tostring(top, "unicode")
 
 
-def start_of(mission: Mission) -> Array:
+def start_state_of(mission: Mission) -> Array:
     """The state (13,) that a mission starts in."""
     initial = mission.initial
     attitude = quaternion_from_euler(vec3(initial.euler))
@@ -200,7 +200,7 @@ def start_of(mission: Mission) -> Array:
     return state
 
 
-def _check(told: Told, mission: Mission, vehicle: Vehicle) -> None:
+def _check(told: PluginAnswer, mission: Mission, vehicle: Vehicle) -> None:
     """Refuse a world that is not the mission's."""
     _, step, mass = told.clock
     true_mass = vehicle.mass * mission.plant.mass_scale
