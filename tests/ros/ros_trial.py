@@ -6,7 +6,7 @@ from collections import defaultdict
 from rosbags.typesys import Stores, get_typestore
 
 from tandemlift.export.messages import Types, modern
-from tandemlift.live.session import Session
+from tandemlift.live.session.session import Session
 from tandemlift.ros.front import Front
 
 STORE = get_typestore(Stores.ROS2_HUMBLE)

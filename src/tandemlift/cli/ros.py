@@ -15,7 +15,7 @@ from tandemlift.cli.run import DIVERGED, load, say
 from tandemlift.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.live.session import Session
+    from tandemlift.live.session.session import Session
     from tandemlift.ros.middleware import Middleware
 
 BAD_ENDS = ("lost", "failed")

@@ -12,7 +12,7 @@ import numpy as np
 from tandemlift.errors import InputError
 from tandemlift.flight import Flight
 from tandemlift.flown import channels_of
-from tandemlift.live.recorded import RecordedFlight
+from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.vehicle import Array
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first

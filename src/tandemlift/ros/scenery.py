@@ -11,7 +11,7 @@ from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array, to_world
 from tandemlift.export.looks import Shape, payload_shapes, quadrotor_shapes
 from tandemlift.export.messages import Types
 from tandemlift.laws.rotation import rotation_from_euler
-from tandemlift.live.values import points_of
+from tandemlift.live.wire.frame_values import points_of
 from tandemlift.rendering.stage import GLASS, PUSH, WALL
 from tandemlift.ros.drawing import MARKERS, Pencil
 from tandemlift.vector import Vec3
