@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page test lint types imports tests test-gazebo bench validate bench-peers lock clean help
+.PHONY: run live page test lint types imports tests test-pythons test-gazebo bench compare-engines bench-peers lock clean help
 
 help:            ## say what there is
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -42,6 +42,9 @@ imports: .venv/dev  ## imports go downward only
 tests: .venv/dev ## all tests
 	$(BIN)/pytest -n auto
 
+test-pythons:    ## the fast tests under each Python from 3.11 to 3.13 that is there
+	tools/test-pythons
+
 test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and RViz; installs them, as root
 	tools/gazebo-root $(GAZEBO_ROOT)
 	tools/test-packages --ros
@@ -50,8 +53,8 @@ test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and R
 bench: .venv/dev ## speed of everything, printed
 	$(BIN)/python benchmarks/bench.py
 
-validate: .venv/dev  ## both engines against each other, printed
-	$(BIN)/python benchmarks/validate.py
+compare-engines: .venv/dev  ## how closely the engines agree, printed
+	$(BIN)/python benchmarks/compare_engines.py
 
 bench-peers: .venv-peers/ready  ## speed beside other simulators, printed
 	.venv-peers/bin/python benchmarks/peers.py
@@ -82,4 +85,4 @@ lock:            ## pin the newest versions of everything
 	tools/lock
 
 clean:           ## remove the environments and the outputs
-	rm -rf .venv .venv-peers out build dist
+	rm -rf .venv .venv-3.* .venv-peers out build dist

@@ -18,16 +18,16 @@ import numpy as np
 from machine import describe, heading, number, pin, save, table
 
 import tandemlift as tl
-from tandemlift.kernels.solving import write_solver
-from tandemlift.kernels.traced import Solver
-from tandemlift.laws.allocation import Mixer, Working
-from tandemlift.laws.body import Wrench
-from tandemlift.laws.limits import Bounded, Search, begun, searched, weighted_rows, weights_of
+from tandemlift.algebra.vector import Vec3, each
+from tandemlift.kernels.limit_solver import write_solver
+from tandemlift.kernels.traced_step import TracedSolver
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer
+from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, begun, searched, weighted_rows, weights_of
 from tandemlift.trace import Function, Module, double, flat, leaves
 from tandemlift.trace.functions import compiled
 from tandemlift.trace.machine import BEST, Loaded
 from tandemlift.trace.machine import compiled as machine_code
-from tandemlift.vector import Vec3, each
 from tandemlift.vehicle import Vehicle
 
 PLACES = {
@@ -42,19 +42,19 @@ SIZE = np.array([12.0, 6.0, 3.0, 2.0])  # N and N·m, of the wrench's motion abo
 ALL = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)
 
 
-def bounded(v: Vehicle, wanted: np.ndarray, unlimited: np.ndarray, limits: np.ndarray) -> Bounded:
+def bounded(v: Vehicle, wanted: np.ndarray, unlimited: np.ndarray, limits: np.ndarray) -> BoundedProblem:
     """One problem."""
     rotors, weights = each(v.rotor_count), weights_of(v.effect, PRIORITIES)
     rows = Mixer(*[rotors(*map(float, row)) for row in weighted_rows(v.effect, weights)])
     thrust, *moment = map(float, wanted)
     w, *m = map(float, weights)
     values = [rotors(*map(float, x)) for x in (unlimited, limits)]
-    return Bounded(rows, Wrench(w, Vec3(*m)), Wrench(thrust, Vec3(*moment)), *values)
+    return BoundedProblem(rows, Wrench(w, Vec3(*m)), Wrench(thrust, Vec3(*moment)), *values)
 
 
-def in_a_row(like: Bounded, warm: bool) -> Callable[[np.ndarray, np.ndarray], None]:
+def in_a_row(like: BoundedProblem, warm: bool) -> Callable[[np.ndarray, np.ndarray], None]:
     """Machine code that solves problems one after another: of their changing numbers, and of memory for one of them."""
-    module, solver, n = Module(), Solver(like), len(like.limits)
+    module, solver, n = Module(), TracedSolver(like), len(like.limits)
     size = solver.problem_size
     fixed, search = size - 4 - 2 * n, size
     write_solver(module, solver, 1)
@@ -78,10 +78,10 @@ def in_a_row(like: Bounded, warm: bool) -> Callable[[np.ndarray, np.ndarray], No
     return run
 
 
-def steps_of(like: Bounded, problems: np.ndarray, warm: bool) -> np.ndarray:
+def steps_of(like: BoundedProblem, problems: np.ndarray, warm: bool) -> np.ndarray:
     """How many steps of the search each problem takes."""
     n = len(like.limits)
-    working = Working(like.limits, like.limits)
+    working = AllocationState(like.limits, like.limits)
     begin, step = compiled(begun, like.limits, working), compiled(searched, like, Search(working, 0.0, 0.0, 0.0))
     fixed, taken, held = flat(like)[: -4 - 2 * n], np.zeros(len(problems)), np.zeros(2 * n)
     for k, problem in enumerate(problems):

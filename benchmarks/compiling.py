@@ -51,7 +51,7 @@ FIRST = f"{LOAD}tl.fly(mission, progress=first)"
 BEST = f"""{LOAD}
 import importlib.util
 if importlib.util.find_spec("tandemlift.trace"):
-    from tandemlift.prepared import Prepared
+    from tandemlift.simulation.plan import Prepared
     code = Prepared(mission).kernels.loop(1)
     while not code.is_best: tl.fly(mission)
 tl.fly(mission, progress=first)

@@ -9,10 +9,10 @@ import time
 from machine import describe, heading, number, table
 
 import tandemlift as tl
-from tandemlift.engines import engine_named
 from tandemlift.engines.gazebo import REAL_TIME
-from tandemlift.prepared import Prepared
-from tandemlift.stepwise import Stepper
+from tandemlift.engines.registry import engine_named
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.stepping import Stepper
 from tandemlift.vehicle import Vehicle
 
 ROUNDS, ENGINES = 3, ("gazebo", "gazebo-ros")
@@ -28,7 +28,7 @@ def lock_step(name: str, engine: str) -> float:
 def real_time(engine: str, seconds: float = 10.0) -> tuple[float, float]:
     """Steps a second of `hover` kept to real time, and the longest time between two [s]."""
     mission = tl.load_mission("hover", {"mission.duration": seconds + 2.0})
-    p = Prepared(mission)
+    p = FlightPlan(mission)
     p.kernels.parts(leaves_body=True)  # compiled before the clock runs
     os.environ[REAL_TIME] = "1"
     plant = p.flying.plant

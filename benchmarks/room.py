@@ -56,7 +56,7 @@ def room(mission: tl.Mission, heading: float | None = None) -> float:
         heading: [rad] to keep all the way; any, if None.
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
-    path = [w.point for w in mission.partner.path] or list(mission.corridor.centreline)
+    path = [w.point for w in mission.person.path] or list(mission.corridor.centreline)
     start, end = np.array(mission.initial.position[:2]), np.array(path[-1])
     walls = walls_of(mission)
     corners = np.array([start, end, *(p for ends in walls for p in ends)])

@@ -89,10 +89,10 @@ def topics() -> dict[str, str]:
     from tandemlift.export.topics import recipes_of
     from tandemlift.live.session.session import Session
     from tandemlift.missions import load_mission
-    from tandemlift.ros.feed import Feed, as_flight
+    from tandemlift.ros.sample_queue import SampleQueue, as_flight
     from tandemlift.vehicle import Vehicle
 
-    session, feed = Session(load_mission("zigzag")), Feed(1, lambda step: 0)
+    session, feed = Session(load_mission("zigzag")), SampleQueue(1, lambda step: 0)
     session.prepare()
     feed.note(session.flight)
     taken = feed.take(0.0)

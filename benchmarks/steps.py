@@ -53,7 +53,7 @@ def lane(name, i):
 def step(name, kind, repeats=5):
     missions = [tl.load_mission(name)] if kind == "alone" else [lane(name, i) for i in range(8)]
     if traced:
-        from tandemlift.prepared import Prepared
+        from tandemlift.simulation.plan import Prepared
         best(Prepared(missions[0]).kernels.loop(len(missions)))
     found = []
     for _ in range(repeats + 1):

@@ -7,7 +7,7 @@ import numpy as np
 from messages_as_numbers import flat
 
 import tandemlift as tl
-from tandemlift.flight import CHANNELS, Divergence, Flight
+from tandemlift.flight.record import CHANNELS, Divergence, Flight
 from tandemlift.missions import tables_of
 
 SAMPLES = 40

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.cli import main
-from tandemlift.errors import InputError
-from tandemlift.export import export
+from tandemlift.cli.main import main
+from tandemlift.common.errors import InputError
 from tandemlift.export.reading import read_bag
+from tandemlift.export.write import export
 
 rosbag1 = pytest.importorskip("rosbags.rosbag1")
 ROUNDING = 1e-12

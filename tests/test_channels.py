@@ -4,26 +4,33 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.flight import CHANNELS, DERIVED
-from tandemlift.flown import Flown, flight_of
-from tandemlift.laws.guidance import GuidedChannels
-from tandemlift.laws.supervision import SupervisedChannels
-from tandemlift.prepared import Prepared
-from tandemlift.readout import EstimatedChannels, MeasuredChannels
-from tandemlift.sample import Actuated, Air, Contact, Disturbed, Sample, Watched
-from tandemlift.tally import EMPTY
+from tandemlift.flight.record import CHANNELS, DERIVED
+from tandemlift.laws.guidance.guidance import HandGuidanceChannels
+from tandemlift.laws.guidance.supervision import SupervisionChannels
+from tandemlift.loop.estimate_channels import EstimatedChannels, MeasuredChannels
+from tandemlift.loop.log_sample import (
+    ActuatorChannels,
+    ContactChannels,
+    DetectionChannels,
+    DisturbanceChannels,
+    Sample,
+    WindChannels,
+)
+from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, flight_of
 from tandemlift.trace import leaves
 
 GROUPS = {
-    "actuated": Actuated,
-    "air": Air,
-    "contact": Contact,
+    "actuated": ActuatorChannels,
+    "air": WindChannels,
+    "contact": ContactChannels,
     "measured": MeasuredChannels,
     "estimated": EstimatedChannels,
-    "disturbed": Disturbed,
-    "guided": GuidedChannels,
-    "supervised": SupervisedChannels,
-    "watched": Watched,
+    "disturbed": DisturbanceChannels,
+    "guided": HandGuidanceChannels,
+    "supervised": SupervisionChannels,
+    "watched": DetectionChannels,
 }
 
 
@@ -59,9 +66,9 @@ def unflown(changes, count=2):
     """The record of mission iris with changes and so many quadrotors, before anything was flown."""
     quadrotor = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(exclude_none=True)
     fleet = [quadrotor | {"position": [0.3 * i, 1.0, 0.075]} for i in range(count)]
-    p = Prepared(tl.load_mission("iris", {"vehicle.quadrotors": fleet, **changes}))
+    p = FlightPlan(tl.load_mission("iris", {"vehicle.quadrotors": fleet, **changes}))
     row = np.zeros(leaves(p.sample))
-    return flight_of(p, Flown(p.flying.moving, EMPTY, 0, row[None], row, 0.0))
+    return flight_of(p, RawResult(p.flying.moving, EMPTY, 0, row[None], row, 0.0))
 
 
 BARE = {"pilot": {"state": "truth", "push": "truth"}, "phases.rotors": "always"}

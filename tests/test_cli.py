@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import tandemlift as tl
-from tandemlift.cli import cli, main
-from tandemlift.figures import FIGURES
+from tandemlift.cli.main import cli, main
+from tandemlift.figures.registry import FIGURES
 from tandemlift.missions import built_in, load_mission, to_toml
 
 METRICS = [
@@ -199,7 +199,7 @@ def test_a_folder_that_cannot_take_the_results_is_refused_before_the_flight(out,
     (tmp_path / "taken" / "metrics.json").mkdir(parents=True)
     (tmp_path / "drawn").mkdir()
     (tmp_path / "drawn" / "figures").write_text("mine")
-    monkeypatch.setattr("tandemlift.simulate.fly", lambda *_, **__: pytest.fail("flown"))
+    monkeypatch.setattr("tandemlift.simulation.fly.fly", lambda *_, **__: pytest.fail("flown"))
     message = refused(run("run", "hover", "--out", out))
     assert [piece for piece in pieces if piece not in message] == []
     assert (tmp_path / "file").read_text() == "mine"
@@ -217,7 +217,7 @@ def test_a_folder_without_permission_is_refused_before_the_flight(run, tmp_path,
 def test_a_flight_that_fails_leaves_no_folder_behind(run, tmp_path):
     Path("bad.py").write_text(
         "from typing import NamedTuple\n"
-        "from tandemlift.laws.controllers import control, register\n"
+        "from tandemlift.controllers import control, register\n"
         "from tandemlift.settings import ControllerTable\n"
         "class Settings(ControllerTable): pass\n"
         "class Gains(NamedTuple): pass\n"

@@ -9,10 +9,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.apart import apart, fly_in, most_apart
-from tandemlift.cli import main
-from tandemlift.errors import InputError
+from tandemlift.cli.main import main
+from tandemlift.common.errors import InputError
 from tandemlift.missions import tables_of
+from tandemlift.studies.engine_comparison import apart, fly_in, most_apart
 
 pytest.importorskip("mujoco")
 SHORT = {"mission.duration": 2.0}

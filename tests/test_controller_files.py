@@ -10,7 +10,7 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.laws.controllers import CONTROLLERS, controller, load_controller, register
+from tandemlift.controllers import CONTROLLERS, controller, load_controller, register
 from tandemlift.settings import ControllerTable
 
 GUIDE = (Path(__file__).parents[1] / "docs" / "controllers.md").read_text("utf-8")
@@ -55,7 +55,7 @@ print(len(made))
 
 
 HELPER = """
-from tandemlift.law import law
+from tandemlift.algebra.law import law
 
 @law
 def soft(v):
@@ -137,7 +137,7 @@ def test_a_controller_from_before_its_file_was_edited_must_be_loaded_again(own):
         tl.load_mission("hover", controller=before)
 
 
-IMPORT = ("from tandemlift.ops import clip", "from tandemlift.ops import clop")
+IMPORT = ("from tandemlift.algebra.ops import clip", "from tandemlift.algebra.ops import clop")
 RETURN = ("return Command(Wrench(total_thrust(attitude, force), moment), tilt), Memory(integral)", "return {}")
 WRONG_FILES = {
     "no controller": ((('@register("my-pd", Settings)\n', ""),), "my_pd.py: registers 0 controllers"),
@@ -145,7 +145,10 @@ WRONG_FILES = {
         (('@register("my-pd", Settings)\n', '@register("my-pd", Settings)\n@register("second", Settings)\n'),),
         "my_pd.py: registers 2 controllers; it must register one",
     ),
-    "a failing import": ((IMPORT,), "my_pd.py, line 12: ImportError: cannot import name 'clop' from 'tandemlift.ops'"),
+    "a failing import": (
+        (IMPORT,),
+        "my_pd.py, line 12: ImportError: cannot import name 'clop' from 'tandemlift.algebra.ops'",
+    ),
     "a typo at its top": ((("class Memory(NamedTuple)", "class Memory(NamedTupel)"),), "NameError: name 'NamedTupel'"),
     "bad syntax": (
         (("def start(s, vehicle, step):", "def start(s, vehicle, step)"),),

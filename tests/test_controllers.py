@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.laws.controllers import CONTROLLERS, controller, load_controller
-from tandemlift.laws.controllers import control as control_law
+from tandemlift.controllers import CONTROLLERS, controller, load_controller
+from tandemlift.controllers import control as control_law
 from tandemlift.trace import flat
 
 GUIDE = (Path(__file__).parents[1] / "docs" / "controllers.md").read_text("utf-8")

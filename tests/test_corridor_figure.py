@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.figures import FIGURES, figures_of
-from tandemlift.figures.clearances import clearances, grips
 from tandemlift.figures.corridor import NEWTON, arrows, instants
-from tandemlift.flight import Divergence
+from tandemlift.figures.drawing.clearances import clearances, grips
+from tandemlift.figures.registry import FIGURES, figures_of
+from tandemlift.flight.record import Divergence
 from tandemlift.missions import tables_of
 from tandemlift.settings import wall_tables
 
 WIDTH, REACH, GUARD, RADIUS = 4.0, 1.0, 0.375, 0.05
-STRAIGHT = {"corridor.centreline": [[-5.0, 0.0], [25.0, 0.0]], "partner.grip": 0.6, "corridor.width": WIDTH}
+STRAIGHT = {"corridor.centreline": [[-5.0, 0.0], [25.0, 0.0]], "person.grip": 0.6, "corridor.width": WIDTH}
 
 
 def moved(yaw=0.0, count=400, across=0.0, **changes):
@@ -47,7 +47,7 @@ def test_the_grip_is_along_the_beam_where_the_person_holds_on():
     assert wide[:, 1] == pytest.approx(0.6)
     assert long[:, 0] - moved()["position"][:, 0] == pytest.approx(0.6)
     assert wide[:, 2] == pytest.approx(1.0 - 0.0642857, abs=1e-6)
-    assert grips(moved(**{"partner.model": "none"})) is None
+    assert grips(moved(**{"person.model": "none"})) is None
 
 
 def test_walls_vehicle_path_and_pushes_are_drawn_where_they_were():
@@ -72,7 +72,7 @@ def test_walls_vehicle_path_and_pushes_are_drawn_where_they_were():
 
 def test_it_is_a_figure_of_flights_among_walls_only():
     assert "corridor" in figures_of(moved())
-    assert "corridor" not in figures_of(moved(**{"corridor.centreline": [], "partner.model": "none"}))
+    assert "corridor" not in figures_of(moved(**{"corridor.centreline": [], "person.model": "none"}))
     assert "corridor" in figures_of(moved(**{"walls": [{"start": [0, 9], "end": [9, 9]}]}))
     assert moved().mission["corridor"]["centreline"]
 

@@ -11,7 +11,7 @@ from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.export import export
+from tandemlift.export.write import export
 from tandemlift.missions import tables_of
 
 DOCUMENT = Path(__file__).parent.parent / "docs" / "export.md"

@@ -11,8 +11,9 @@ import pytest
 from exported import SAMPLES, eventful, flight_of
 
 import tandemlift as tl
-from tandemlift.cli import main
-from tandemlift.export import bags, export
+from tandemlift.cli.main import main
+from tandemlift.export import bags
+from tandemlift.export.write import export
 
 
 @pytest.fixture(scope="module")

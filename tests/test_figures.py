@@ -15,13 +15,13 @@ from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.figures import FIGURES, VIEWS, figures_of, save_figures
-from tandemlift.figures import style as figure_style
 from tandemlift.figures.captions import CAPTIONS
-from tandemlift.figures.series import intervals, normalised, telling
-from tandemlift.figures.skeleton import skeleton
-from tandemlift.figures.vehicle import weight_of
-from tandemlift.flight import Divergence
+from tandemlift.figures.drawing import style as figure_style
+from tandemlift.figures.drawing.series import decimate, intervals, normalised
+from tandemlift.figures.drawing.skeleton import skeleton
+from tandemlift.figures.drawing.vehicle import weight_of
+from tandemlift.figures.registry import FIGURES, VIEWS, figures_of, save_figures
+from tandemlift.flight.record import Divergence
 
 RUNAWAY = {
     "controller.gains.lambda_1": 0.0,
@@ -107,10 +107,10 @@ def test_the_figures_are_those_that_were_promised_in_that_order():
 def test_the_drawing_library_is_loaded_only_to_draw_and_never_with_a_window_system(paper, tmp_path):
     flight = paper.save(tmp_path / "flight.npz")
     code = f"""
-import sys, tandemlift.figures
-from tandemlift.flight import Flight
+import sys, tandemlift.figures.registry
+from tandemlift.flight.record import Flight
 assert "matplotlib" not in sys.modules
-tandemlift.figures.FIGURES["reference"](Flight.load({str(flight)!r}))
+tandemlift.figures.registry.FIGURES["reference"](Flight.load({str(flight)!r}))
 assert "matplotlib.figure" in sys.modules and "matplotlib.pyplot" not in sys.modules
 """
     completed([sys.executable, "-W", "error", "-c", code], check=True)
@@ -221,7 +221,7 @@ def test_the_thrust_is_compared_with_the_weight(paper, drawn):
 @given(st.integers(1, 40_000), st.integers(0, 2**32 - 1))
 def test_thinning_keeps_every_peak_and_both_ends(count, seed):
     values = np.random.default_rng(seed).standard_normal(count)
-    kept = telling(values)
+    kept = decimate(values)
     assert len(kept) <= 2402
     assert np.all(np.diff(kept) > 0)
     assert {0, count - 1, int(values.argmin()), int(values.argmax())} <= set(kept.tolist())
@@ -230,7 +230,7 @@ def test_thinning_keeps_every_peak_and_both_ends(count, seed):
 def test_thinning_passes_over_gaps():
     values = np.full(100_000, np.nan)
     values[54_321] = 7.0
-    assert 54_321 in telling(values)
+    assert 54_321 in decimate(values)
 
 
 @given(st.lists(st.booleans(), min_size=1, max_size=300))

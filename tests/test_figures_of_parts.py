@@ -9,13 +9,13 @@ from matplotlib.colors import to_hex
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.assembly.surroundings import floor_of
-from tandemlift.figures import FIGURES, figures_of, save_figures
-from tandemlift.figures.ground import clearance, floor_height
-from tandemlift.figures.scene import NEAR, on_paper
-from tandemlift.figures.style import COMPONENTS, LIGHT_BLUE, PALE
-from tandemlift.figures.vehicle import payload_mass_of
-from tandemlift.flight import Divergence
+from tandemlift.figures.drawing.ground import clearance, floor_height
+from tandemlift.figures.drawing.scene import NEAR, on_paper
+from tandemlift.figures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
+from tandemlift.figures.drawing.vehicle import payload_mass_of
+from tandemlift.figures.registry import FIGURES, figures_of, save_figures
+from tandemlift.flight.record import Divergence
+from tandemlift.models.surroundings import floor_from
 from tandemlift.vehicle import Vehicle
 
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}
@@ -177,7 +177,7 @@ def test_where_a_push_acts_is_told_from_the_payload_and_only_while_it_is_large_e
     panel = FIGURES["push"](flight).axes[3]
     across, along, estimate = lines(panel)
     seen = across[np.isfinite(across[:, 1])]
-    half = 0.6 * np.sqrt(2.0 * np.log(3.0 / windy.mission["estimator"]["least_force"]))
+    half = 0.6 * np.sqrt(2.0 * np.log(3.0 / windy.mission["estimator"]["min_force"]))
     assert seen[[0, -1], 0] == pytest.approx([22.0 - half, 22.0 + half], abs=0.05)
     assert seen[:, 1] == pytest.approx(0.5 + (3.0 * 1.0 - 1.5 * 1.0) / 5.0)  # and the centre of mass of all
     assert not np.isfinite(along[:, 1]).any(), "a push along the beam has no place on it"
@@ -291,7 +291,7 @@ def test_grey_is_where_the_vehicle_is_in_contact(windy, drawn):
 def test_the_height_is_the_lowest_soles_over_the_floor_that_the_engine_has(windy, drawn):
     mission = tl.load_mission("iris", WIND)
     vehicle = Vehicle.from_settings(mission.vehicle)
-    floor = floor_of(mission, vehicle).height
+    floor = floor_from(mission, vehicle).height
     assert floor_height(windy) == pytest.approx(floor, abs=1e-12)
     height = clearance(windy, floor)
     assert_drawn(lines(drawn["surroundings"].axes[3])[0], windy.time, height)

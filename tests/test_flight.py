@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.flight import DERIVED
+from tandemlift.flight.record import DERIVED
 
 NAMES = [  # of metrics.json, with how many numbers each has (0: one, not in a list)
     ("position_rmse_m", 3),

@@ -11,7 +11,7 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.flight import CHANNELS, FORMAT, Divergence, Flight
+from tandemlift.flight.record import CHANNELS, FORMAT, Divergence, Flight
 
 
 @pytest.fixture(scope="module")

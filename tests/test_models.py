@@ -13,9 +13,9 @@ from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.assembly.surroundings import floor_of, walls_of
-from tandemlift.cli import main
-from tandemlift.export import export
+from tandemlift.cli.main import main
+from tandemlift.export.write import export
+from tandemlift.models.surroundings import floor_from, walls_from
 from tandemlift.vehicle import Vehicle
 
 PLACES = [[0.1, 1.0, 0.2], [-0.2, -1.1, 0.15], [0.9, 0.1, 0.1], [-0.8, 0.2, -0.1]]
@@ -183,7 +183,7 @@ def test_walls_of_a_world_stand_where_the_missions_do(name, world):
         np.testing.assert_allclose((position - along)[:2], table.start, atol=1e-12)
         np.testing.assert_allclose((position + along)[:2], table.end, atol=1e-12)
         assert (position + up)[2] == pytest.approx(table.top, abs=1e-12)
-        assert (position - up)[2] < floor_of(found.mission, found.vehicle).height
+        assert (position - up)[2] < floor_from(found.mission, found.vehicle).height
 
 
 def test_a_mission_without_floor_has_neither_floor_nor_walls(world):
@@ -291,7 +291,7 @@ def test_mass_centre_of_mass_and_inertia_of_a_mujoco_model_are_the_true_vehicles
 def flown_beside_the_engine(mujoco, model, mission, vehicle, thrusts, steps):
     """The largest difference of state and sensors between a model and the engine's body of a mission [SI]."""
     body = importlib.import_module("tandemlift.engines.mujoco").MuJoCoBody(
-        mission, vehicle, floor_of(mission, vehicle), walls_of(mission, vehicle)
+        mission, vehicle, floor_from(mission, vehicle), walls_from(mission, vehicle)
     )
     data, calm, none = mujoco.MjData(model), np.zeros(0), np.zeros(3)
     mujoco.mj_resetDataKeyframe(model, data, model.key("start").id)
@@ -360,8 +360,8 @@ def test_a_hovering_vehicle_carries_half_the_beam_at_each_joint(mujoco, model_of
 @pytest.mark.parametrize("name", ["unlike", "walls"])
 def test_numbers_of_a_mujoco_model_are_the_engines_to_the_last_digits(name, mujoco, model_of):
     mission, vehicle = loaded(name)
-    ours, engine = model_of(mission), importlib.import_module("tandemlift.engines.mujoco_model")
-    theirs = engine.model_of(mission, vehicle, floor_of(mission, vehicle), walls_of(mission, vehicle))
+    ours, engine = model_of(mission), importlib.import_module("tandemlift.models.mujoco_bodies")
+    theirs = engine.model_of(mission, vehicle, floor_from(mission, vehicle), walls_from(mission, vehicle))
     for array in (
         "body_mass",
         "body_inertia",
@@ -424,7 +424,7 @@ def test_endings_and_ports_that_do_not_fit_are_refused(tmp_path):
 
 def test_without_mujoco_its_model_is_refused_and_a_world_is_not(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    for name in ("tandemlift.engines.mujoco_model", "tandemlift.export.mjcf"):
+    for name in ("tandemlift.models.mujoco_bodies", "tandemlift.models.mjcf"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     mission = tl.load_mission("paper")
     assert "pip install 'tandemlift[mujoco]'" in refusal(mission, tmp_path / "paper.xml")

@@ -14,11 +14,11 @@ from patience import completed
 
 import tandemlift as tl
 from tandemlift.cli.results import write_results
-from tandemlift.figures import figures_of, save_figures
 from tandemlift.figures.captions import CAPTIONS
-from tandemlift.flight import Divergence, Flight
+from tandemlift.figures.registry import figures_of, save_figures
+from tandemlift.flight.record import Divergence, Flight
 from tandemlift.missions import tables_of
-from tandemlift.report import number, split_unit, write_report
+from tandemlift.report.flight_report import number, split_unit, write_report
 
 HOSTILE = "<script>alert('x')</script>\"&<img src=http://evil.example/x.png>"
 VOID = {"meta", "img", "br"}

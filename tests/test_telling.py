@@ -5,9 +5,9 @@ import threading
 
 import pytest
 
-from tandemlift.cli import telling
-from tandemlift.cli.telling import Teller
-from tandemlift.events import Compiled, compiling, watching
+from tandemlift.cli import notices
+from tandemlift.cli.notices import CompileNotices
+from tandemlift.trace.compile_events import Compiled, compiling, watching
 
 LOOP = Compiled("flight loop", 0.5, is_made=True)
 
@@ -15,7 +15,7 @@ LOOP = Compiled("flight loop", 0.5, is_made=True)
 @pytest.fixture
 def clock(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("tandemlift.cli.telling.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("tandemlift.cli.notices.time.perf_counter", lambda: now[0])
     return now
 
 
@@ -32,14 +32,14 @@ def compile_for(clock, seconds, what=LOOP):
 
 
 def test_a_loop_is_told_of_with_its_time_and_what_took_no_time_is_not(clock, capsys):
-    with watching(Teller()):
+    with watching(CompileNotices()):
         compile_for(clock, 0.62)
         compile_for(clock, 0.01)
     assert told(capsys) == ["Compiled the flight loop in 0.6 s; it is kept for next time."]
 
 
 def test_several_are_told_of_in_one_line_at_the_end(clock, capsys):
-    teller = Teller()
+    teller = CompileNotices()
     with watching(teller), teller.together():
         for _ in range(3):
             compile_for(clock, 0.5)
@@ -48,7 +48,7 @@ def test_several_are_told_of_in_one_line_at_the_end(clock, capsys):
 
 
 def test_what_is_compiled_at_the_same_time_counts_once(clock, capsys):
-    teller = Teller()
+    teller = CompileNotices()
     with watching(teller), teller.together():
         compiling(None)
         clock[0] += 1.0
@@ -58,23 +58,23 @@ def test_what_is_compiled_at_the_same_time_counts_once(clock, capsys):
 
 
 def test_a_cache_that_cannot_be_written_is_told_of(clock, capsys):
-    with watching(Teller()):
+    with watching(CompileNotices()):
         compile_for(clock, 1.0, LOOP._replace(is_kept=False))
     assert told(capsys) == ["Compiled the flight loop in 1.0 s; the cache cannot be written (TANDEMLIFT_CACHE)."]
 
 
 def test_what_could_not_be_compiled_is_not_said_to_be(clock, capsys):
-    with watching(Teller()):
+    with watching(CompileNotices()):
         compile_for(clock, 1.0, Compiled("flight loop"))
         compile_for(clock, 1.0)
     assert [line[:8] for line in told(capsys)] == ["Compiled"]
 
 
 def test_what_takes_long_is_told_of_before_its_end(monkeypatch, capsys):
-    monkeypatch.setattr(telling, "PATIENCE", 0.0)
-    said, say = threading.Event(), telling._say
-    monkeypatch.setattr(telling, "_say", lambda line: (say(line), said.set()))
-    with watching(Teller()):
+    monkeypatch.setattr(notices, "PATIENCE", 0.0)
+    said, say = threading.Event(), notices._say
+    monkeypatch.setattr(notices, "_say", lambda line: (say(line), said.set()))
+    with watching(CompileNotices()):
         compiling(None)
         assert said.wait(30.0)
         assert told(capsys) == ["Compiling for this machine …"]

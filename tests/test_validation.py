@@ -6,13 +6,13 @@ from click.testing import CliRunner
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.cli import cli
-from tandemlift.flight import Flight
+from tandemlift.cli.main import cli
+from tandemlift.flight.record import Flight
 from tandemlift.missions import tables_of
-from tandemlift.validation import CHAPTERS, Row, chosen, table
-from tandemlift.validation.persons import random_persons
-from tandemlift.validation.rows import below, true_yielding
-from tandemlift.validation.scenarios import WINDY, drawn, mission
+from tandemlift.studies.persons import random_persons
+from tandemlift.studies.rows import below, true_yielding
+from tandemlift.studies.scenarios import WINDY, drawn, mission
+from tandemlift.studies.validation import CHAPTERS, Row, chosen, table
 
 
 def test_a_row_is_met_if_no_number_exceeds_its_limit():
@@ -59,7 +59,7 @@ def test_what_is_drawn_is_the_same_again_and_differs_from_draw_to_draw():
     one, again = (drawn(np.random.default_rng(1), 0) for _ in range(2))
     assert one == again
     assert drawn(np.random.default_rng(2), 0) != one
-    assert len({p.partner.delay for p in random_persons("zigzag", 20)}) > 3
+    assert len({p.person.delay for p in random_persons("zigzag", 20)}) > 3
 
 
 def test_the_wind_of_the_table_is_three_newtons_along_x_and_y():

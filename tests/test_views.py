@@ -10,16 +10,16 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.cli import main
-from tandemlift.export.eyes import Eye, add_eyes
-from tandemlift.export.sdf import world
-from tandemlift.figures import save_figures
-from tandemlift.figures.style import save
-from tandemlift.figures.views import draw_views
-from tandemlift.gazebo.views import shots_of
-from tandemlift.laws.phases import NAMES
+from tandemlift.cli.main import main
+from tandemlift.figures.drawing.style import save
+from tandemlift.figures.registry import save_figures
+from tandemlift.gazebo_app.camera_views import shots_of
+from tandemlift.gazebo_app.photographs import draw_views
+from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.missions import tables_of
-from tandemlift.report import write_report
+from tandemlift.models.cameras import FixedCamera, add_cameras
+from tandemlift.models.sdf import world
+from tandemlift.report.flight_report import write_report
 
 STANDS, FLIES, LANDS = 5.0, 25.0, 30.0  # s
 
@@ -69,8 +69,8 @@ def test_a_flight_that_stays_where_it_is_is_seen_too():
 
 
 def test_a_camera_of_a_world_looks_at_its_target():
-    eye = Eye("view", np.array([3.0, -4.0, 5.0]), np.array([-1.0, 2.0, 0.5]))
-    text = add_eyes(world(tl.load_mission("zigzag")), [eye], 0.5)
+    eye = FixedCamera("view", np.array([3.0, -4.0, 5.0]), np.array([-1.0, 2.0, 0.5]))
+    text = add_cameras(world(tl.load_mission("zigzag")), [eye], 0.5)
     model = ElementTree.fromstring(text.encode()).find(".//model[@name='view']")
     *position, roll, pitch, yaw = map(float, model.findtext("pose").split())
     ahead = Rotation.from_euler("xyz", [roll, pitch, yaw]).apply([1.0, 0.0, 0.0])  # SDF: x of a camera is ahead

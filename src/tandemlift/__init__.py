@@ -12,29 +12,29 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tandemlift.errors import FlightWarning, InputError
-    from tandemlift.flight import Flight
-    from tandemlift.laws.controllers import load_controller
+    from tandemlift.common.errors import FlightWarning, InputError
+    from tandemlift.controllers import load_controller
+    from tandemlift.flight.record import Flight
     from tandemlift.missions import load_mission
-    from tandemlift.onboard import Pilot
     from tandemlift.settings import Mission
-    from tandemlift.simulate import fly, fly_many
-    from tandemlift.simulation import Simulation
+    from tandemlift.simulation.fly import fly, fly_many
+    from tandemlift.simulation.pilot_api import Pilot
+    from tandemlift.simulation.simulation import Simulation
     from tandemlift.vehicle import Vehicle
 
 __version__ = "0.1.0"
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
-    "Flight": "flight",
-    "FlightWarning": "errors",
-    "InputError": "errors",
+    "Flight": "flight.record",
+    "FlightWarning": "common.errors",
+    "InputError": "common.errors",
     "Mission": "settings",
-    "Pilot": "onboard",
-    "Simulation": "simulation",
+    "Pilot": "simulation.pilot_api",
+    "Simulation": "simulation.simulation",
     "Vehicle": "vehicle",
-    "fly": "simulate",
-    "fly_many": "simulate",
-    "load_controller": "laws.controllers",
+    "fly": "simulation.fly",
+    "fly_many": "simulation.fly",
+    "load_controller": "controllers.loading",
     "load_mission": "missions",
 }
 

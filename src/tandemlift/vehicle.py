@@ -12,13 +12,11 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.constants import GRAVITY
-from tandemlift.errors import InputError
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.settings import Drag, Payload, Quadrotor, VehicleTable
-
-Array = NDArray[np.float64]
 
 
 def mixer(quadrotor: Quadrotor) -> Array:

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.engines.gazebo import rotors_of, world_of
-from tandemlift.engines.gazebo_master import Master, joined
+from tandemlift.engines.gazebo import world_of
+from tandemlift.engines.ros_master import RosMaster, joined
+from tandemlift.export.write import export
+from tandemlift.models.sdf import rotors_of
 
 
 @pytest.fixture
@@ -29,7 +31,7 @@ def test_a_root_without_ros_is_told_how_to_get_it(monkeypatch, tmp_path):
     (tmp_path / "usr/bin/gzserver").touch()
     monkeypatch.setenv("TANDEMLIFT_GAZEBO_ROOT", str(tmp_path))
     with pytest.raises(tl.InputError, match=r"^engine 'gazebo-ros' needs ROS 1 .* running tools/gazebo-root again"):
-        Master()
+        RosMaster()
 
 
 def test_a_world_over_ros_says_its_rotors_to_the_last_bit(mission):
@@ -48,7 +50,7 @@ def test_a_world_over_ros_says_its_rotors_to_the_last_bit(mission):
 
 
 def test_a_world_is_exported_for_ros_by_name(mission, tmp_path):
-    text = tl.export.export(mission, tmp_path / "hover.sdf", plugin="ros").read_text("utf-8")
+    text = export(mission, tmp_path / "hover.sdf", plugin="ros").read_text("utf-8")
     assert "libtandemlift_gazebo_ros.so" in text
     with pytest.raises(tl.InputError, match="plugin = rosbag: must be a port, from 1 to 65535, or 'ros'"):
-        tl.export.export(mission, tmp_path / "hover.sdf", plugin="rosbag")
+        export(mission, tmp_path / "hover.sdf", plugin="rosbag")

@@ -13,9 +13,10 @@ import pytest
 from patience import PATIENCE, ended, said
 
 import tandemlift as tl
-from tandemlift.engines.gazebo import GazeboBody, rotors_of, start_of, world_of
+from tandemlift.engines.gazebo import GazeboBody, start_state_of, world_of
 from tandemlift.engines.gazebo_server import free_port
 from tandemlift.engines.gazebo_wire import Wire
+from tandemlift.models.sdf import rotors_of
 
 from .plugin import BadNetwork, Plugin, RigidBody
 
@@ -74,7 +75,7 @@ def wire_to(wire_at):
 
     def dial(plugin, patience=PATIENCE):
         wire = wire_at(plugin.port, plugin.body.N, patience)
-        wire.hello(DT, rotors_of(plugin.body.vehicle), start_of(tl.load_mission("hover")))
+        wire.hello(DT, rotors_of(plugin.body.vehicle), start_state_of(tl.load_mission("hover")))
         return wire
 
     return dial

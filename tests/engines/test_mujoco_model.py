@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.constants import GRAVITY
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
-from tandemlift.laws.body import State
-from tandemlift.laws.contact import floor, soles_below, standing_height, start_grip
-from tandemlift.laws.loads import Felt, Load, Loads, frame_of, resultant
-from tandemlift.laws.push import CentralPush, Hand, PointPush
-from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.laws.walls import walls
-from tandemlift.vector import Nothing, Quat, Vec3, each, mat3, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height, start_foot_grip
+from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PerfectReadings, parts_layout, resultant
+from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.mechanics.walls import walls
 from tandemlift.vehicle import Vehicle
 
 mujoco = pytest.importorskip("mujoco")
@@ -103,7 +103,7 @@ def excited(mission, vehicle, seconds):
     rng, weight, J = np.random.default_rng(3), vehicle.weight * mission.plant.mass_scale, np.diag(vehicle.inertia)
     phase, rate = rng.uniform(0.0, 6.0, (2, vehicle.rotor_count))
     allocation, push = vehicle.allocation(), PointPush(vec3(NONE), mat3(np.zeros((3, 3))))
-    hand, rotors = Hand(push, push, push), each(vehicle.rotor_count)
+    hand, rotors = PushSamples(push, push, push), each(vehicle.rotor_count)
     for k in range(round(seconds / DT)):
         q, w = np.array(state.attitude), np.array(state.rates)
         upright = allocation @ [weight, *(-J * (20.0 * q[1:] + 6.0 * w))]  # or it would tumble within seconds
@@ -144,8 +144,8 @@ def test_loads_on_the_parts_and_a_push_act_as_their_resultant():
         loads, push, moment = rng.standard_normal(30), rng.standard_normal(3), rng.standard_normal(3)
         body.advance(rotors, loads, push, moment)
         sets = [each(4)(*row) for row in loads[6:].reshape(6, 4)]
-        parts = Loads(Load(vec3(loads[:3]), vec3(loads[3:6])), Load(Vec3(*sets[:3]), Vec3(*sets[3:])))
-        all_of_it = resultant(frame_of(vehicle), s.attitude, parts)
+        parts = PartLoads(PartLoad(vec3(loads[:3]), vec3(loads[3:6])), PartLoad(Vec3(*sets[:3]), Vec3(*sets[3:])))
+        all_of_it = resultant(parts_layout(vehicle), s.attitude, parts)
         R = np.array(rotation_from_quaternion(s.attitude))
         angular = np.linalg.solve(vehicle.inertia, np.array(all_of_it.moment) + moment)
         force = R.T @ (np.array(all_of_it.force) + push) / vehicle.mass
@@ -230,10 +230,10 @@ def test_a_crooked_landing_goes_as_in_the_compiled_engine():
     fall = {"initial.euler": [0.02, -0.015, 0.3], "initial.position": [0.0, 0.0, 0.03], "initial.velocity": 0.2}
     body, ground, mission, vehicle = standing("paper", fall)
     state, plant = start_state(mission), start_plant(mission, vehicle, ground, Nothing())
-    grip, off, still = start_grip(ground, state), each(8)(*[0.0] * 8), CentralPush(vec3(NONE))
+    grip, off, still = start_foot_grip(ground, state), each(8)(*[0.0] * 8), CentralPush(vec3(NONE))
     apart = []
     for _ in range(600):
-        moved = advance(plant, state, grip, Nothing(), off, Nothing(), Hand(still, still, still), DT)
+        moved = advance(plant, state, grip, Nothing(), off, Nothing(), PushSamples(still, still, still), DT)
         state, grip = moved.state, moved.grip
         body.advance(np.zeros(8), CALM, NONE, NONE)
         apart.append(np.abs(body.state - numbers(state))[:3])
@@ -286,11 +286,11 @@ def test_a_command_that_is_none_ends_the_motion_without_a_word(command, tmp_path
 def test_felt_has_the_layout_of_the_law():
     mission, vehicle = mission_of(2)
     sets = Vec3(each(2)(0.0, 0.0), each(2)(0.0, 0.0), each(2)(0.0, 0.0))
-    assert MuJoCoBody(mission, vehicle).felt.size == numbers(Felt(vec3(NONE), sets, sets, vec3(NONE))).size
+    assert MuJoCoBody(mission, vehicle).felt.size == numbers(PerfectReadings(vec3(NONE), sets, sets, vec3(NONE))).size
 
 
 def test_without_mujoco_one_sentence_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    monkeypatch.delitem(sys.modules, "tandemlift.engines.mujoco_model")
+    monkeypatch.delitem(sys.modules, "tandemlift.models.mujoco_bodies")
     with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs the package mujoco: pip install 'tandemlift\["):
-        importlib.import_module("tandemlift.engines.mujoco_model")
+        importlib.import_module("tandemlift.models.mujoco_bodies")

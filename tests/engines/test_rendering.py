@@ -19,8 +19,8 @@ from tandemlift.rendering.camera import ANGLE, look_at
 from tandemlift.rendering.ground import covered
 from tandemlift.rendering.light import SUN, Shadow
 from tandemlift.rendering.mesh import NOTHING, ball, box, panel, ring, rod, together
-from tandemlift.rendering.stage import Stage
-from tandemlift.rendering.studio import Line, Pane, Scene, shown
+from tandemlift.rendering.stage import FlightStage
+from tandemlift.rendering.studio import Pane, Scene, SceneLine, shown
 
 TINY = (96, 54)
 RED, BLUE = "#ff0000", "#0000ff"
@@ -83,7 +83,7 @@ def test_a_line_keeps_its_width_in_pixels_at_any_distance():
     width = 8.0
     for x in (0.0, -30.0):
         points = np.array([[x, -20.0, 0.0], [x, 20.0, 0.0]])
-        line = Line(points, width, np.tile([1.0, 0.0, 0.0], (2, 1)))
+        line = SceneLine(points, width, np.tile([1.0, 0.0, 0.0], (2, 1)))
         image = shown(scene(SHADED, lines=[line]), VIEW, 10.0, 4)
         assert reddish(image)[:, 160].sum() == pytest.approx(width * 180.0 / 720.0, abs=1.0)
 
@@ -143,7 +143,7 @@ def test_lines_cover_the_share_of_a_pixel_that_samples_find(start, blur, width):
 def test_the_arrow_of_a_push_starts_on_the_line_along_which_it_acts(flight):
     point, k = np.array([0.0, 0.7, 0.1]), int(np.argmin(np.abs(flight.time - 3.0)))
     moment = {"push_moment": np.cross(point, flight["push_force"])}  # level within milliradians
-    stage = Stage(dataclasses.replace(flight, channels=flight.channels | moment))
+    stage = FlightStage(dataclasses.replace(flight, channels=flight.channels | moment))
     solid, without = stage.scene(3.0, 0.01).solid, stage.scene(0.5, 0.01).solid
     arrow = solid.corners[len(without.corners) :].reshape(-1, 3)  # what there is only while the push acts
     acts = flight["position"][k] + point
@@ -153,9 +153,9 @@ def test_the_arrow_of_a_push_starts_on_the_line_along_which_it_acts(flight):
 
 
 def test_the_floor_touches_the_lowest_foot_of_the_flight_or_is_the_missions(flight):
-    assert Stage(flight).floor == pytest.approx(flight["position"][:, 2].min() + 0.0107 - 0.18, abs=0.02)
+    assert FlightStage(flight).floor == pytest.approx(flight["position"][:, 2].min() + 0.0107 - 0.18, abs=0.02)
     ground = {"ground": {"model": "floor", "height": -0.7}}
-    assert Stage(dataclasses.replace(flight, mission=flight.mission | ground)).floor == -0.7
+    assert FlightStage(dataclasses.replace(flight, mission=flight.mission | ground)).floor == -0.7
 
 
 def test_a_picture_is_the_same_to_the_last_byte_and_shows_the_push(flight, tmp_path):
@@ -200,7 +200,7 @@ def test_an_animation_lasts_as_long_as_it_says(flight, tmp_path):
 def test_a_flight_that_diverged_is_drawn_as_far_as_it_went(flight):
     channels = {name: values.copy() for name, values in flight.channels.items()}
     channels["position"][-3:], channels["attitude"][-2:] = np.nan, np.inf
-    stage = Stage(dataclasses.replace(flight, channels=channels))
+    stage = FlightStage(dataclasses.replace(flight, channels=channels))
     assert stage.time[-1] == flight.time[-4]
     picture(dataclasses.replace(flight, channels=channels), Shot(size=TINY, time=float(stage.time[-1])))
 

@@ -9,11 +9,12 @@ import pytest
 from patience import PATIENCE, completed
 
 import tandemlift as tl
-from tandemlift.engines.gazebo import rotors_of, start_of, world_of
-from tandemlift.engines.gazebo_master import environment, node
+from tandemlift.engines.gazebo import start_state_of, world_of
 from tandemlift.engines.gazebo_ros import RosWire
-from tandemlift.engines.gazebo_server import Server, command, exported, free_port, in_gazebo, root
+from tandemlift.engines.gazebo_server import GazeboServer, command, exported, free_port, in_gazebo, root
 from tandemlift.engines.gazebo_wire import Wire
+from tandemlift.engines.ros_master import environment, node
+from tandemlift.models.sdf import rotors_of
 
 SILENT, SILENT_OVER_ROS = 1.5, 3.0  # s, after which a pilot is given up
 
@@ -29,10 +30,10 @@ class Gazebo:
         staying = {"wait": "false", "stay": "true", "patience": str(SILENT_OVER_ROS if over_ros else SILENT)}
         if over_ros:
             node()
-            self.server = Server(world_of(self.mission, "ros", **staying), environment())
+            self.server = GazeboServer(world_of(self.mission, "ros", **staying), environment())
             self.call = lambda: RosWire(self.vehicle.count, PATIENCE, self.server.check)
         else:
-            self.server = Server(world_of(self.mission, self.port, **staying))
+            self.server = GazeboServer(world_of(self.mission, self.port, **staying))
             self.call = lambda: Wire(self.port, self.vehicle.count, PATIENCE, self.server.check)
         self.wires = []
 
@@ -40,7 +41,7 @@ class Gazebo:
         """A pilot's end that has said hello."""
         wire = self.call()
         self.wires.append(wire)
-        wire.hello(self.dt, rotors_of(self.vehicle), start_of(self.mission) if place else None, real_time)
+        wire.hello(self.dt, rotors_of(self.vehicle), start_state_of(self.mission) if place else None, real_time)
         wire.thrusts[:] = self.vehicle.weight / self.vehicle.rotor_count
         return wire
 

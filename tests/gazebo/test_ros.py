@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 from patience import ended, said, until
 
-from tandemlift.constants import GRAVITY
-from tandemlift.engines.gazebo_master import node
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import Quat
 from tandemlift.engines.gazebo_ros import ROOT
-from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.noetic import message_type
-from tandemlift.vector import Quat
+from tandemlift.engines.ros_master import node
+from tandemlift.engines.rospy import message_type
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 from .conftest import SILENT_OVER_ROS, fly
 

@@ -9,7 +9,7 @@ from patience import completed
 
 import tandemlift as tl
 from tandemlift.engines.gazebo_server import command, in_gazebo, root
-from tandemlift.export import export
+from tandemlift.export.write import export
 
 pytestmark = pytest.mark.gazebo
 

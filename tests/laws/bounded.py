@@ -12,15 +12,15 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from tandemlift.kernels.solving import write_solver
-from tandemlift.kernels.traced import Solver
-from tandemlift.laws.allocation import Mixer, Working
-from tandemlift.laws.body import Wrench
-from tandemlift.laws.limits import GAMMA, Bounded, weighted_rows, weights_of
+from tandemlift.algebra.vector import each, vec3
+from tandemlift.kernels.limit_solver import write_solver
+from tandemlift.kernels.traced_step import TracedSolver
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer
+from tandemlift.laws.rotors.thrust_limits import GAMMA, BoundedProblem, weighted_rows, weights_of
 from tandemlift.trace import Function, Module, Place, flat
 from tandemlift.trace.machine import BEST, QUICK, Loaded
 from tandemlift.trace.machine import compiled as object_code
-from tandemlift.vector import each, vec3
 from tandemlift.vehicle import Vehicle
 
 from .helpers import BEAM, quadrotor
@@ -98,10 +98,10 @@ def set_of(values: Any) -> Any:
     return each(len(values))(*map(float, values))
 
 
-def asked(c: Craft, p: Problem) -> Bounded:
+def asked(c: Craft, p: Problem) -> BoundedProblem:
     """What is minimised, as values."""
     rows = Mixer(*map(set_of, c.rows))
-    return Bounded(rows, wrench_of(c.weights), wrench_of(p.wanted), set_of(p.unlimited), set_of(p.limits))
+    return BoundedProblem(rows, wrench_of(c.weights), wrench_of(p.wanted), set_of(p.unlimited), set_of(p.limits))
 
 
 class Code:
@@ -111,8 +111,8 @@ class Code:
     or more are loops, none if it is 0.
     """
 
-    def __init__(self, bounded: Bounded, lanes: int, rolls_from: int) -> None:
-        self.lanes, solver, module = lanes, Solver(bounded, rolls_from), Module()
+    def __init__(self, bounded: BoundedProblem, lanes: int, rolls_from: int) -> None:
+        self.lanes, solver, module = lanes, TracedSolver(bounded, rolls_from), Module()
         self.begin, self.end = solver.problem_size, solver.problem_size + 2 * solver.rotors + 3
         write_solver(module, solver, lanes)
         module.functions[-1] = module.functions[-1].replace("internal void", "void")
@@ -126,7 +126,7 @@ class Code:
             counted = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64)
             self.search = counted(self.code.addresses["search"])
 
-    def _write_search(self, module: Module, solver: Solver) -> None:
+    def _write_search(self, module: Module, solver: TracedSolver) -> None:
         f = Function(module, solver.graph, 1, "i64 @search(ptr noalias %s, i64 %most) #0")
         f.read = {"problem": lambda i: Place("%s", i), "search": lambda i: Place("%s", self.begin + i)}
         for values in (solver.begun, solver.after):
@@ -142,7 +142,7 @@ class Code:
         f.lines += ["goes_on:", "  %next = add i64 %step, 1", "  br label %search", "done:"]
         f.end("i64 %step")
 
-    def numbers(self, bounded: Bounded, held: Working) -> np.ndarray:
+    def numbers(self, bounded: BoundedProblem, held: AllocationState) -> np.ndarray:
         """A problem, where its search begins, and room for its flags."""
         return np.array([*flat(bounded), *flat(held), 0.0, 0.0, 0.0])
 
@@ -150,26 +150,26 @@ class Code:
 CODES: dict[tuple[int, int, int], Code] = {}
 
 
-def code_of(bounded: Bounded, lanes: int = 1, rolls_from: int = 0) -> Code:
+def code_of(bounded: BoundedProblem, lanes: int = 1, rolls_from: int = 0) -> Code:
     key = len(bounded.limits), lanes, rolls_from
     if key not in CODES:
         CODES[key] = Code(bounded, lanes, rolls_from)
     return CODES[key]
 
 
-def compiled(p: Bounded, held: Working, most: int) -> tuple[Working, int]:
+def compiled(p: BoundedProblem, held: AllocationState, most: int) -> tuple[AllocationState, int]:
     """`limited` in machine code."""
     code, n = code_of(p), len(p.limits)
     numbers = code.numbers(p, held)
     steps = code.search(numbers.ctypes.data, most)
     active, thrusts = numbers[code.begin : code.begin + n], numbers[code.begin + n : code.begin + 2 * n]
-    return Working(set_of(active), set_of(thrusts)), steps
+    return AllocationState(set_of(active), set_of(thrusts)), steps
 
 
 def solve(c: Craft, p: Problem, start: Answer | None = None, run: Any = compiled, most: int | None = None) -> Answer:
     n = len(p.limits)
     f, active = (np.zeros(n), np.zeros(n)) if start is None else (start.f, start.active)
-    found, steps = run(asked(c, p), Working(set_of(active), set_of(f)), most or 8 * n)
+    found, steps = run(asked(c, p), AllocationState(set_of(active), set_of(f)), most or 8 * n)
     f, active = np.array(found.thrusts), np.array(found.active)
     assert np.all(f >= 0.0)
     assert np.all(f <= np.maximum(p.limits, 0.0))

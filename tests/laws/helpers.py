@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from hypothesis import strategies as st
 
-from tandemlift.laws.body import Body, State
-from tandemlift.laws.inertia import inertia_value
+from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, vec3
+from tandemlift.laws.mechanics.body import RigidBody, State
+from tandemlift.laws.mechanics.inertia import inertia_value
 from tandemlift.settings import Payload, Quadrotor
-from tandemlift.vector import ZERO, Mat3, Quat, Vec3, vec3
 from tandemlift.vehicle import Vehicle
 
 IRIS = {
@@ -121,9 +121,9 @@ def paper_vehicle() -> Vehicle:
     return Vehicle(BEAM, [quadrotor((0.0, 1.0, HEIGHT)), quadrotor((0.0, -1.0, HEIGHT))])
 
 
-def free_body(mass: float, J: np.ndarray) -> Body:
+def free_body(mass: float, J: np.ndarray) -> RigidBody:
     """A body without drag or disturbance."""
-    return Body(1.0 / mass, inertia_value(J), inertia_value(np.linalg.inv(J)), ZERO, ZERO, ZERO, ZERO)
+    return RigidBody(1.0 / mass, inertia_value(J), inertia_value(np.linalg.inv(J)), ZERO, ZERO, ZERO, ZERO)
 
 
 def order_of(steps: Any, errors: Any) -> float:

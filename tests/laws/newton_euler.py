@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.body import State
-from tandemlift.laws.loads import Felt
-from tandemlift.laws.sensing import Unit
-from tandemlift.vector import ZERO, Quat, spread, vec3
+from tandemlift.algebra.vector import ZERO, Quat, spread, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.sensors.readings import ImuReading
 
 from .helpers import flat
 
@@ -102,19 +102,19 @@ def solved(p: Parts, R: Rotation, w: np.ndarray, x: Given) -> Answer:
     return Answer(R.apply(y[:3]), y[3:6], joints[:, 0], joints[:, 1])
 
 
-def felt(R: Rotation, answer: Answer) -> Felt:
+def felt(R: Rotation, answer: Answer) -> PerfectReadings:
     specific = R.inv().apply(answer.linear + G * UP)
-    return Felt(vec3(specific), spread(answer.force), spread(answer.torque), ZERO)
+    return PerfectReadings(vec3(specific), spread(answer.force), spread(answer.torque), ZERO)
 
 
 def quat(R: Rotation) -> Quat:
     return Quat(*map(float, R.as_quat(scalar_first=True)))
 
 
-def unit(R: Rotation, w: np.ndarray, answer: Answer, fresh: float = 1.0) -> Unit:
+def unit(R: Rotation, w: np.ndarray, answer: Answer, fresh: float = 1.0) -> ImuReading:
     """What a perfect on-board unit says."""
     f = felt(R, answer)
-    return Unit(f.specific_force, vec3(w), f.joint_force, f.joint_torque, quat(R), fresh)
+    return ImuReading(f.specific_force, vec3(w), f.joint_force, f.joint_torque, quat(R), fresh)
 
 
 def state(p: Parts, R: Rotation, w: np.ndarray, position: np.ndarray, velocity: np.ndarray) -> State:

@@ -7,21 +7,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.laws.body import State
-from tandemlift.laws.estimation import Push, PushEstimator, estimate, push_estimator, start_push
-from tandemlift.laws.loads import Felt
-from tandemlift.laws.navigation import Navigation, Navigator, navigate, navigator, start_navigation
-from tandemlift.laws.sensing import Hiss, Readings, Sensors, sense, sensors, start_sensing
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.estimation.navigation import NavigationState, Navigator, navigate, navigator, start_navigation
+from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.sensors.readings import Readings, SensorNoise, Sensors, sense, sensors, start_sensing
 from tandemlift.trace import leaves, unflat
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each
 
 from .machine_code import Loop
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
 STATE = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
-FELT = Felt(ZERO, SETS, SETS, ZERO)
-HISS = Hiss(ZERO, ZERO, SETS, SETS, ZERO, ZERO, ZERO)
+FELT = PerfectReadings(ZERO, SETS, SETS, ZERO)
+HISS = SensorNoise(ZERO, ZERO, SETS, SETS, ZERO, ZERO, ZERO)
 DEVICES = sensors(2, STEP)
 PUSHES = push_estimator(0.5, (1.0, 1.0, 1.0), np.eye(3)[:2], np.eye(3)[:2], (1.5, 1.5), STEP)
 OBSERVER = navigator((0.0, 0.0, 0.0), STEP)
@@ -32,7 +32,7 @@ class Happening(NamedTuple):
     """The truth of a step."""
 
     state: State
-    felt: Felt
+    felt: PerfectReadings
 
 
 class Onboard(NamedTuple):
@@ -43,16 +43,16 @@ class Onboard(NamedTuple):
     observer: Navigator
     sensing: Any
     push_memory: Any
-    navigation: Navigation
+    navigation: NavigationState
 
 
 class Seen(NamedTuple):
     """What a step shows."""
 
-    push: Push
+    push: PushEstimate
     state: State
     readings: Readings
-    navigation: Navigation
+    navigation: NavigationState
 
 
 ONBOARD = Onboard(

@@ -10,25 +10,25 @@ from hypothesis import given
 from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
-from tandemlift.laws.admittance import (
+from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.laws.guidance.admittance import (
     Admittance,
+    AdmittanceState,
     HardGate,
     SoftGate,
-    Trajectory,
-    Yielding,
+    admittance_response,
+    admittance_step,
     gate,
-    hold,
-    yield_to,
 )
-from tandemlift.laws.push import Gaussian, gaussian_force
-from tandemlift.vector import ZERO, Vec3
+from tandemlift.laws.mechanics.push import GaussianPush, gaussian_force
+from tandemlift.laws.signals.trajectories import Trajectory
 
 from .helpers import array, numbers, order_of, vectors
 
 MASS, DAMPING, STIFFNESS = Vec3(1.0, 2.0, 0.5), Vec3(1.6, 0.7, 3.0), Vec3(0.0, 4.0, 2.0)
 THRESHOLD = Vec3(0.3, 0.1, 0.2)
-AT_REST = Yielding(ZERO, ZERO, ZERO)
-PUSH = Gaussian(Vec3(3.0, -2.0, 1.0), 3.0, 1.0 / 0.6, ZERO)
+AT_REST = AdmittanceState(ZERO, ZERO, ZERO)
+PUSH = GaussianPush(Vec3(3.0, -2.0, 1.0), 3.0, 1.0 / 0.6, ZERO)
 
 
 def admittance(kind=None, stiffness: Vec3 = STIFFNESS, reanchor: float = 0.0) -> Admittance:
@@ -36,12 +36,12 @@ def admittance(kind=None, stiffness: Vec3 = STIFFNESS, reanchor: float = 0.0) ->
     return Admittance(kind or HardGate(THRESHOLD), inverse, DAMPING, stiffness, reanchor)
 
 
-def answered(a: Admittance, force, duration: float, dt: float) -> Yielding:
+def answered(a: Admittance, force, duration: float, dt: float) -> AdmittanceState:
     """The memory after a push force(t) [N] has been read every dt."""
     m = AT_REST
     for k in range(round(duration / dt)):
         F = gate(a.gate, force(k * dt))
-        m = hold(a, m, F, yield_to(a, m, F), dt)
+        m = admittance_step(a, m, F, admittance_response(a, m, F), dt)
     return m
 
 
@@ -63,9 +63,9 @@ def test_a_soft_gate_is_continuous_and_lets_the_excess_through(F, step):
 def test_a_push_moves_the_reference_with_it(F):
     """Erratum equ4: T_r accelerates along the force; with the printed T_d − T_r it would go the other way."""
     a = admittance()
-    motion = yield_to(a, AT_REST, F)
+    motion = admittance_response(a, AT_REST, F)
     assert array(motion.acceleration) * array(MASS) == pytest.approx(array(F), abs=1e-15)
-    after = hold(a, AT_REST, F, motion, 0.01)
+    after = admittance_step(a, AT_REST, F, motion, 0.01)
     assert np.all(array(after.position) * array(F) >= 0.0)
     Td, printed = np.zeros(3), array(F) / array(MASS)
     residual = array(MASS) * (Td - printed) - array(F)  # the printed left side minus the right, with T̈_r = F/M
@@ -74,7 +74,7 @@ def test_a_push_moves_the_reference_with_it(F):
 
 @given(vectors(), vectors(), vectors(), vectors())
 def test_mass_damping_and_stiffness_balance_the_force_on_every_axis(position, velocity, anchor, F):
-    motion = yield_to(admittance(), Yielding(position, velocity, anchor), F)
+    motion = admittance_response(admittance(), AdmittanceState(position, velocity, anchor), F)
     M, C, K = map(np.diag, (MASS, DAMPING, STIFFNESS))
     left = M @ array(motion.acceleration) + C @ array(velocity) + K @ (array(position) - array(anchor))
     assert left == pytest.approx(array(F), abs=1e-13)
@@ -119,7 +119,7 @@ def test_one_push_without_a_spring_displaces_by_its_gated_impulse_over_the_dampi
     """A σ √(2π) erf(d/(σ√2))/C, d = σ √(2 ln(A/threshold)); soft: 2 d threshold/C less."""
     A, sigma, threshold, C = 3.0, 0.6, 0.3, 1.6
     a = Admittance(kind(Vec3(*[threshold] * 3)), Vec3(1.0, 1.0, 1.0), Vec3(C, C, C), ZERO, 0.0)
-    push = Gaussian(Vec3(A, 0.0, -A), 4.0, 1.0 / sigma, ZERO)
+    push = GaussianPush(Vec3(A, 0.0, -A), 4.0, 1.0 / sigma, ZERO)
     m = answered(a, lambda t: gaussian_force(push, t), 20.0, 0.001)
     d = sigma * math.sqrt(2.0 * math.log(A / threshold))
     impulse = A * sigma * math.sqrt(2.0 * math.pi) * math.erf(d / (sigma * math.sqrt(2.0)))
@@ -149,7 +149,7 @@ def test_reanchoring_lets_the_reference_coast_to_the_end_of_its_motion():
     m, far, dt = AT_REST, 0.0, 0.01
     for k in range(4000):
         F = gate(a.gate, Vec3(5.0, 0.0, 0.0) if k * dt < 0.5 else ZERO)
-        m = hold(a, m, F, yield_to(a, m, F), dt)
+        m = admittance_step(a, m, F, admittance_response(a, m, F), dt)
         far = max(far, m.position.x)
     assert far > 0.5
     assert m.position.x == pytest.approx(far, abs=0.5 * dt)
@@ -158,7 +158,7 @@ def test_reanchoring_lets_the_reference_coast_to_the_end_of_its_motion():
 
 @given(numbers(), numbers())
 def test_the_anchor_stays_while_a_force_comes_through_or_where_reanchoring_is_off(position, velocity):
-    m = Yielding(Vec3(position, 0.0, 0.0), Vec3(velocity, 0.0, 0.0), ZERO)
+    m = AdmittanceState(Vec3(position, 0.0, 0.0), Vec3(velocity, 0.0, 0.0), ZERO)
     now = Trajectory(m.position, m.velocity, ZERO)
-    assert hold(admittance(reanchor=1.0), m, Vec3(1.0, 1.0, 1.0), now, 0.01).anchor == ZERO
-    assert hold(admittance(reanchor=0.0), m, ZERO, now, 0.01).anchor == ZERO
+    assert admittance_step(admittance(reanchor=1.0), m, Vec3(1.0, 1.0, 1.0), now, 0.01).anchor == ZERO
+    assert admittance_step(admittance(reanchor=0.0), m, ZERO, now, 0.01).anchor == ZERO

@@ -9,13 +9,21 @@ from hypothesis import strategies as st
 from scipy.linalg import null_space
 from scipy.optimize import minimize
 
-from tandemlift.errors import InputError
-from tandemlift.laws.allocation import Constrained, allocate, beyond, commanded, limits_at, wrench
-from tandemlift.laws.body import Wrench
-from tandemlift.laws.rotors import Faults
+from tandemlift.algebra.vector import each, vec3
+from tandemlift.common.errors import InputError
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.allocation import (
+    ConstrainedAllocation,
+    allocate,
+    beyond,
+    commanded,
+    limits_at,
+    mixer_from,
+    wrench,
+)
+from tandemlift.laws.rotors.dynamics import RotorFaults
 from tandemlift.missions import load_mission
-from tandemlift.pilot.start import mixer_value, start_pilot
-from tandemlift.vector import each, vec3
+from tandemlift.pilot.assemble import start_pilot
 from tandemlift.vehicle import Vehicle
 
 from .helpers import paper_vehicle, random_vehicle, seeds
@@ -91,10 +99,10 @@ def test_weights_that_do_not_fit_the_vehicle_are_refused():
 def test_the_laws_are_the_matrices(count, seed):
     rng, v, weights, wanted = random_case(seed, count)
     inverse, effect = v.allocation(weights), v.effect
-    thrusts = allocate(mixer_value(inverse.T), Wrench(float(wanted[0]), vec3(wanted[1:])))
+    thrusts = allocate(mixer_from(inverse.T), Wrench(float(wanted[0]), vec3(wanted[1:])))
     assert np.array(thrusts) == pytest.approx(inverse @ wanted, abs=1e-11)
     given_thrusts = rng.uniform(0.0, 7.0, 4 * count)
-    made = wrench(mixer_value(effect), each(4 * count)(*map(float, given_thrusts)))
+    made = wrench(mixer_from(effect), each(4 * count)(*map(float, given_thrusts)))
     assert [made.thrust, *made.moment] == pytest.approx(effect @ given_thrusts, abs=1e-12)
 
 
@@ -115,12 +123,12 @@ def test_roll_is_within_reach_only_if_the_quadrotors_share_it_by_their_thrusts()
     assert reachable(v, ONE, 3) == pytest.approx(1.33, abs=0.005)
 
 
-def constrained(limits, times, efficiency) -> Constrained:
+def constrained(limits, times, efficiency) -> ConstrainedAllocation:
     """Allocation within limits [N] for rotors whose faults the pilot knows from certain times [s] on."""
     cls = each(len(limits))
-    none = mixer_value(np.zeros((4, len(limits))))
-    faults = Faults(cls(*times), cls(*efficiency))
-    return Constrained(none, none, Wrench(0.0, vec3((0.0, 0.0, 0.0))), cls(*limits), faults)
+    none = mixer_from(np.zeros((4, len(limits))))
+    faults = RotorFaults(cls(*times), cls(*efficiency))
+    return ConstrainedAllocation(none, none, Wrench(0.0, vec3((0.0, 0.0, 0.0))), cls(*limits), faults)
 
 
 @given(seeds)

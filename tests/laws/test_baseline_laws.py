@@ -9,19 +9,19 @@ from scipy import signal
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.controllers.geometric import (
-    Moved,
+from tandemlift.algebra.vector import ZERO, Mat3, Quat, vec3
+from tandemlift.controllers.geometric import (
+    Derivatives,
     attitude_along,
     attitude_error,
     heading,
     zxy_angles,
 )
-from tandemlift.laws.controllers.pid import Stage, Staged, drawn_back, pid_of
-from tandemlift.laws.controllers.smc import layer_reaching_time, linear, switched_acceleration
-from tandemlift.laws.controllers.super_twisting import twist, twisting
-from tandemlift.laws.lowpass import Smoothed, low_pass
-from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.vector import ZERO, Mat3, Quat, vec3
+from tandemlift.controllers.pid import PIDGains, PIDStageState, drawn_back, pid_of
+from tandemlift.controllers.smc import layer_reaching_time, linear, switched_acceleration
+from tandemlift.controllers.super_twisting import twist, twisting
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 
 from .helpers import array, random_attitude, seeds
 
@@ -58,7 +58,7 @@ def path(rng):
     def yaw(t):
         return psi + turn * np.sin(t), turn * np.cos(t), -turn * np.sin(t)
 
-    return lambda t: attitude_along(Moved(*map(vec3, force(t))), heading(*map(float, yaw(t)))), force, yaw
+    return lambda t: attitude_along(Derivatives(*map(vec3, force(t))), heading(*map(float, yaw(t)))), force, yaw
 
 
 @given(seeds)
@@ -92,10 +92,10 @@ def test_its_rates_and_accelerations_are_those_of_differences(seed):
 
 def stage(p=0.0, i=0.0, d=0.0, limit=100.0, bandwidth=30.0):
     """A stage with the same gains on all axes, sampled every STEP."""
-    return Stage(vec3([p] * 3), vec3([i * STEP] * 3), vec3([d] * 3), vec3([limit] * 3), low_pass(bandwidth, STEP))
+    return PIDGains(vec3([p] * 3), vec3([i * STEP] * 3), vec3([d] * 3), vec3([limit] * 3), low_pass(bandwidth, STEP))
 
 
-REST = Staged(ZERO, Smoothed(ZERO, ZERO))
+REST = PIDStageState(ZERO, LowPassState(ZERO, ZERO))
 
 
 def test_the_answer_to_a_constant_error_is_p_plus_a_ramp_plus_a_filtered_pulse():

@@ -8,13 +8,13 @@ from hypothesis import given
 from scipy.linalg import solve_continuous_are
 
 import tandemlift as tl
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.admittance import Trajectory
-from tandemlift.laws.body import State
-from tandemlift.laws.controllers import CONTROLLERS, Disturbance, Measured, Reference, control, controller
-from tandemlift.laws.controllers.lqr import LQRSettings, chain, regulator
-from tandemlift.laws.rotation import quaternion_from_euler, rotation_from_quaternion
-from tandemlift.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.controllers import CONTROLLERS, Disturbance, Measured, Reference, control, controller
+from tandemlift.controllers.lqr import LQRSettings, chain, regulator
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
+from tandemlift.laws.signals.trajectories import Trajectory
 
 from .helpers import array, paper_vehicle, seeds
 

@@ -8,23 +8,23 @@ from hypothesis import given
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.body import Body, State, Wrench, motion, rk4
-from tandemlift.laws.inertia import gyroscopic, inertia_value, turn_by
-from tandemlift.laws.push import CentralPush, Gaussian, Hand, PointPush, push_of
-from tandemlift.vector import ZERO, Mat3, Quat, Vec3, mat3, vec3
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, mat3, vec3
+from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, motion, rk4
+from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
+from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush, PushSamples, push_of
 
 from .helpers import array, free_body, order_of, random_state, random_vec3, seeds, tensor
 
-STILL = Hand(*[CentralPush(ZERO)] * 3)
+STILL = PushSamples(*[CentralPush(ZERO)] * 3)
 FREE = Wrench(0.0, ZERO)
 FULL = np.array([[0.5, 0.05, -0.1], [0.05, 0.8, 0.07], [-0.1, 0.07, 0.6]])
 DIAGONAL = np.diag([0.5, 0.8, 0.6])
-PUSH = Gaussian(Vec3(3.0, -2.0, 1.0), 0.5, 1.0 / 0.2, Vec3(0.1, 0.4, -0.2))
+PUSH = GaussianPush(Vec3(3.0, -2.0, 1.0), 0.5, 1.0 / 0.2, Vec3(0.1, 0.4, -0.2))
 NO_PUSH = PointPush(ZERO, mat3(np.zeros((3, 3))))
 
 
-def flown(s: State, u: Wrench, body: Body, duration: float, steps: int) -> State:
+def flown(s: State, u: Wrench, body: RigidBody, duration: float, steps: int) -> State:
     for _ in range(steps):
         s = rk4(body, s, motion(body, s, u, STILL.start), u, STILL, duration / steps)
     return s
@@ -34,7 +34,9 @@ def numbers_of(s: State) -> np.ndarray:
     return np.concatenate([array(part) for part in s])
 
 
-def scipy_flight(s: State, u: Wrench, body: Body, duration: float, pushes: tuple[Gaussian, ...] = ()) -> np.ndarray:
+def scipy_flight(
+    s: State, u: Wrench, body: RigidBody, duration: float, pushes: tuple[GaussianPush, ...] = ()
+) -> np.ndarray:
     """The same flight by Newton and Euler in NumPy and DOP853: (13,)."""
     m, J = 1.0 / body.inverse_mass, tensor(body.inertia)
 
@@ -55,7 +57,7 @@ def scipy_flight(s: State, u: Wrench, body: Body, duration: float, pushes: tuple
     return y
 
 
-def loaded_body(J: np.ndarray) -> tuple[Body, Wrench]:
+def loaded_body(J: np.ndarray) -> tuple[RigidBody, Wrench]:
     """A body with drag and a constant disturbance, and a wrench on it."""
     body = free_body(2.0, J)._replace(
         drag_force=Vec3(0.1, 0.2, 0.3),
@@ -159,7 +161,7 @@ def test_the_runge_kutta_step_is_of_order_four_under_a_continuous_push(J):
     for n in counts:
         x, h = s, 1.0 / n
         for k in range(n):
-            hand = Hand(*[push_of(NO_PUSH, PUSH, (k + part) * h) for part in (0.0, 0.5, 1.0)])
+            hand = PushSamples(*[push_of(NO_PUSH, PUSH, (k + part) * h) for part in (0.0, 0.5, 1.0)])
             x = rk4(body, x, motion(body, x, u, hand.start), u, hand, h)
         errors.append(np.abs(numbers_of(x) - exact).max())
     assert order_of(1.0 / counts, errors) == pytest.approx(4.0, abs=0.15)

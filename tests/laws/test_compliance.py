@@ -5,29 +5,29 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.laws.compliance import DeadBand, Hearing, comply, hear
-from tandemlift.laws.phases import GUIDED, Orders
-from tandemlift.laws.reference import Ramp
-from tandemlift.laws.rotors import Sound
-from tandemlift.laws.tank import Filled, Tank, damp
-from tandemlift.laws.turning import turn
-from tandemlift.pilot.guided import start_guided
-from tandemlift.pilot.start import admittance_of
-from tandemlift.vector import ZERO, Vec3, vec3
+from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.laws.guidance.compliance import DeadBand, DeadBandState, compliance_step, dead_band
+from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
+from tandemlift.laws.guidance.phases import GUIDED, PhaseOutput
+from tandemlift.laws.guidance.yaw_compliance import yaw_step
+from tandemlift.laws.rotors.dynamics import NoFaults
+from tandemlift.laws.signals.trajectories import SmoothStep
+from tandemlift.pilot.assemble import admittance_from
+from tandemlift.pilot.guidance import start_hand_guidance
 from tandemlift.vehicle import Vehicle
 
 H = 1e-3
 BAND = DeadBand(0.3, 0.2, 0.016, 1.0 / 20.0)
-DEAF = Hearing(0.0, 0.0, 0.0, 0.0, 0.0)
-RAMP = Ramp(1.0, 0.0, 0.0)
-STEERED = Orders(GUIDED, 0.0, 1.0, 1.0, 1.0, RAMP, RAMP, 0.0, 1.0)
+DEAF = DeadBandState(0.0, 0.0, 0.0, 0.0, 0.0)
+RAMP = SmoothStep(1.0, 0.0, 0.0)
+STEERED = PhaseOutput(GUIDED, 0.0, 1.0, 1.0, 1.0, RAMP, RAMP, 0.0, 1.0)
 
 
 def heard(force, seconds, band=BAND, memory=DEAF):
     """What is heard of a force f(t) [N] at every step, and the memory at the end."""
     out = []
     for i in range(round(seconds / H)):
-        beyond, memory = hear(band, memory, force(i * H), 1.0, H)
+        beyond, memory = dead_band(band, memory, force(i * H), 1.0, H)
         out.append(beyond)
     return np.array(out), memory
 
@@ -35,7 +35,9 @@ def heard(force, seconds, band=BAND, memory=DEAF):
 def guided(changes=None):
     """The compliance of mission one-push, and its memory."""
     mission = tl.load_mission("one-push", {"pilot.guidance": "hand", "admittance.gate": "soft", **(changes or {})})
-    return start_guided(mission, Vehicle.from_settings(mission.vehicle), admittance_of(mission.admittance), Sound())
+    return start_hand_guidance(
+        mission, Vehicle.from_settings(mission.vehicle), admittance_from(mission.admittance), NoFaults()
+    )
 
 
 def motion(push, seconds, changes=None, across=100.0):
@@ -43,7 +45,7 @@ def motion(push, seconds, changes=None, across=100.0):
     g, m = guided(changes)
     k, m, out = g.compliance, m.compliant, []
     for i in range(round(seconds / H)):
-        m = comply(k, m, vec3(push(i * H)), 1.0, 0.0, across, H)
+        m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, H)
         out.append([*m.position, *m.velocity, *m.acceleration, *m.jerk])
     return np.array(out).reshape(-1, 4, 3).swapaxes(0, 1)
 
@@ -119,8 +121,8 @@ def test_acceleration_keeps_within_what_the_rotors_can_still_give():
 
 
 def test_a_feel_is_what_the_trajectory_does():
-    changes = {"admittance.feel": {"force": 1.3, "speed": 0.6, "time": 0.5}, "compliance.easing": 2000.0}
-    _, velocity, *_ = motion(lambda t: (1.3, 0.0, 0.0), 4.0, changes | {"compliance.hearing": 2000.0})
+    changes = {"admittance.feel": {"force": 1.3, "speed": 0.6, "time": 0.5}, "compliance.output_bandwidth": 2000.0}
+    _, velocity, *_ = motion(lambda t: (1.3, 0.0, 0.0), 4.0, changes | {"compliance.input_bandwidth": 2000.0})
     assert velocity[-1, 0] == pytest.approx(0.6, rel=1e-3)
     after = np.flatnonzero(velocity[:, 0] > 0.95 * 0.6)[0] * H
     assert after == pytest.approx(0.5, abs=0.15)  # the dwell, and the jerk that is allowed
@@ -130,7 +132,7 @@ def test_yaw_comes_to_the_rate_at_which_damping_carries_the_moment():
     g, m = guided({"compliance.yaw.model": "yielding"})
     heading, yaw = m.heading, 0.0
     for _ in range(12000):
-        course, heading = turn(g.heading, heading, 1.0, yaw, STEERED, 0.0, H)
+        course, heading = yaw_step(g.heading, heading, 1.0, yaw, STEERED, 0.0, H)
         yaw = course.angle
     assert heading.rate == pytest.approx((1.0 - 0.15) / 1.6, rel=0.01)
 
@@ -141,7 +143,7 @@ def test_beyond_the_yaw_authority_it_yields_and_brakes_with_no_more_than_that():
     heading, yaw, asked = m.heading, 0.0, []
     for i in range(14000):
         moment = 3.0 if i < 2000 else 0.0
-        course, heading = turn(g.heading, heading, moment, yaw, STEERED, 0.0, H)
+        course, heading = yaw_step(g.heading, heading, moment, yaw, STEERED, 0.0, H)
         yaw = course.angle
         asked.append(J * heading.acceleration - heading.eased.value)  # what the rotors are to give
     assert abs(heading.rate) < 0.05
@@ -150,21 +152,25 @@ def test_beyond_the_yaw_authority_it_yields_and_brakes_with_no_more_than_that():
 
 
 def test_a_heading_waits_for_a_vehicle_that_cannot_turn():
-    g, m = guided({"compliance.yaw.model": "yielding", "compliance.yaw.leash": 0.3})
+    g, m = guided({"compliance.yaw.model": "yielding", "compliance.yaw.max_lead_angle": 0.3})
     heading = m.heading
     for _ in range(5000):
-        _, heading = turn(g.heading, heading, 1.0, 0.0, STEERED, 0.0, H)
+        _, heading = yaw_step(g.heading, heading, 1.0, 0.0, STEERED, 0.0, H)
     assert heading.angle == pytest.approx(0.3)
 
 
 def swing(tank, seconds=20.0):
     """The largest swing in the last second of a vehicle that follows late and is held by a spring [m]."""
     late, stiffness, M, C = 120, 60.0, 1.0, 1.6
-    history, v, x, m, far = [0.02] * (late + 1), 0.0, 0.02, Filled(2.0, 0.0), []
+    history, v, x, m, far = [0.02] * (late + 1), 0.0, 0.02, EnergyTankState(2.0, 0.0), []
     for i in range(round(seconds / H)):
         force = -stiffness * history[-late]
         actual = (history[-late] - history[-late - 1]) / H
-        extra, m = damp(tank, m, Vec3(force, 0.0, 0.0), Vec3(actual, 0.0, 0.0), C * v * v, H) if tank else (0.0, m)
+        extra, m = (
+            passivity_damping(tank, m, Vec3(force, 0.0, 0.0), Vec3(actual, 0.0, 0.0), C * v * v, H)
+            if tank
+            else (0.0, m)
+        )
         v += (force - (C + extra) * v) / M * H
         x += v * H
         history.append(x)
@@ -173,9 +179,9 @@ def swing(tank, seconds=20.0):
 
 
 def test_energy_that_runs_out_adds_the_damping_that_keeps_a_stiff_hand_from_swinging_it_up():
-    tank = Tank(2.0, 1.0, 40.0, 0.0, 0.5)
+    tank = EnergyTank(2.0, 1.0, 40.0, 0.0, 0.5)
     free, kept = swing(None, 6.0), swing(tank, 40.0)
     assert free > 1.0  # without, two centimetres become metres within six seconds
     assert kept < 0.5
-    energy = [damp(tank, Filled(e, 0.0), ZERO, ZERO, 0.0, H)[0] for e in (2.0, 1.0, 0.5, 0.0)]
+    energy = [passivity_damping(tank, EnergyTankState(e, 0.0), ZERO, ZERO, 0.0, H)[0] for e in (2.0, 1.0, 0.5, 0.0)]
     assert energy == [0.0, 0.0, 20.0, 40.0]

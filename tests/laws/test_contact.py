@@ -10,10 +10,12 @@ from hypothesis import given
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from tandemlift.constants import GRAVITY
-from tandemlift.law import law
-from tandemlift.laws.body import Body, State, Wrench, rigid_body_motion
-from tandemlift.laws.contact import (
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import sqrt
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
+from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, rigid_body_motion
+from tandemlift.laws.mechanics.contact import (
     Floor,
     floor,
     may_touch,
@@ -22,21 +24,19 @@ from tandemlift.laws.contact import (
     soles_below,
     spring_damper,
     standing_height,
-    start_grip,
+    start_foot_grip,
     touch,
 )
-from tandemlift.laws.loads import Frame, Load, Loads, frame_of, resultant
-from tandemlift.laws.push import CentralPush
-from tandemlift.ops import sqrt
+from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, parts_layout, resultant
+from tandemlift.laws.mechanics.push import CentralPush
 from tandemlift.trace import flat, unflat
-from tandemlift.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.vehicle import Vehicle
 
 from .helpers import BEAM, array, free_body, paper_vehicle, quadrotor, random_state, random_vehicle, seeds
 from .machine_code import Loop, answers
 
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
-UNTOUCHED = Load(ZERO, ZERO)
+UNTOUCHED = PartLoad(ZERO, ZERO)
 DEPTH = 0.18
 STEP = 0.001
 
@@ -56,8 +56,8 @@ class World(NamedTuple):
     """What does not change in a flight; `force` [N, world axes] acts at the centre of mass."""
 
     floor: Floor
-    frame: Frame
-    body: Body
+    frame: PartsLayout
+    body: RigidBody
     force: Vec3
 
 
@@ -68,7 +68,7 @@ class Moving(NamedTuple):
 
 @law
 def motion(world, grip, s):
-    load = resultant(world.frame, s.attitude, Loads(UNTOUCHED, touch(world.floor, grip, world.frame, s)))
+    load = resultant(world.frame, s.attitude, PartLoads(UNTOUCHED, touch(world.floor, grip, world.frame, s)))
     return rigid_body_motion(world.body, s, Wrench(0.0, load.moment), CentralPush(load.force + world.force))
 
 
@@ -99,12 +99,12 @@ def step_of(world, x, given):
 @pytest.fixture(scope="module")
 def flown():
     """flown(start, duration, floor, force, step): a flight of the paper's vehicle from a state, one row a step."""
-    frame, begin = frame_of(VEHICLE), State(ZERO, ZERO, LEVEL, ZERO)
-    loop = Loop(step_of, World(FLOOR, frame, BODY, ZERO), Moving(begin, start_grip(FLOOR, begin)), Given(STEP))
+    frame, begin = parts_layout(VEHICLE), State(ZERO, ZERO, LEVEL, ZERO)
+    loop = Loop(step_of, World(FLOOR, frame, BODY, ZERO), Moving(begin, start_foot_grip(FLOOR, begin)), Given(STEP))
 
     def fly(start: State, duration: float, floor=FLOOR, force=(0.0, 0.0, 0.0), step=STEP) -> Flight:
         steps = np.full((round(duration / step), 1), step)
-        first = Moving(start, start_grip(floor, start))
+        first = Moving(start, start_foot_grip(floor, start))
         rows = loop(World(floor, frame, BODY, vec3(force)), first, steps)
         return Flight(np.vstack([flat(first), rows]), floor)
 
@@ -206,14 +206,14 @@ def test_a_floor_without_friction_takes_no_momentum_along_it(flown):
     assert flight.velocity[:, :2] == pytest.approx(np.tile([1.0, -2.0], (1001, 1)), abs=1e-12)
 
 
-def near_floor(rng: np.random.Generator, count: int) -> tuple[Floor, Frame, Any, State]:
+def near_floor(rng: np.random.Generator, count: int) -> tuple[Floor, PartsLayout, Any, State]:
     """Some feet in the floor and some in the air, in a random state; the grip is that of a state close by."""
     vehicle = random_vehicle(rng, count)
     ground = floor_of(vehicle, height=rng.uniform(-1.0, 1.0), friction=rng.uniform(0.1, 1.0))
     s = random_state(rng)
     s = s._replace(position=s.position._replace(z=ground.height + rng.uniform(-0.1, 0.5)))
     before = s._replace(position=s.position + vec3(1e-3 * rng.standard_normal(3)))
-    return ground, frame_of(vehicle), slip(ground, start_grip(ground, before), before), s
+    return ground, parts_layout(vehicle), slip(ground, start_foot_grip(ground, before), before), s
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
@@ -240,10 +240,10 @@ def test_in_the_air_nothing_acts_and_the_grip_follows_the_foot(seed):
     rng = np.random.default_rng(seed)
     s = random_state(rng)
     s = s._replace(position=s.position._replace(z=FLOOR.reach + 1e-9))
-    load = touch(FLOOR, start_grip(FLOOR, random_state(rng)), frame_of(VEHICLE), s)
+    load = touch(FLOOR, start_foot_grip(FLOOR, random_state(rng)), parts_layout(VEHICLE), s)
     assert all(x == 0.0 for x in flat(load))
     R = Rotation.from_quat(array(s.attitude), scalar_first=True).as_matrix()
-    for grip, feet in zip(slip(FLOOR, start_grip(FLOOR, random_state(rng)), s), FLOOR.feet, strict=True):
+    for grip, feet in zip(slip(FLOOR, start_foot_grip(FLOOR, random_state(rng)), s), FLOOR.feet, strict=True):
         places = array(s.position)[:, None] + R @ np.array(feet)
         assert np.array(grip[:2]) == pytest.approx(places[:2], abs=1e-12)
 
@@ -264,7 +264,7 @@ def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(count, see
         held = np.where(depth > 0.0, ((places[:, :2] - anchors) ** 2).sum(1), 0.0)
         return 0.5 * float((ground.stiffness * depth**2 + ground.tangential_stiffness * held).sum())
 
-    load = resultant(frame, s.attitude, Loads(UNTOUCHED, touch(ground, grip, frame, s)))
+    load = resultant(frame, s.attitude, PartLoads(UNTOUCHED, touch(ground, grip, frame, s)))
     h = 1e-6
     slope = [(energy(h * e) - energy(-h * e)) / (2.0 * h) for e in np.eye(6)]
     assert np.array(flat(load)) == pytest.approx(-np.array(slope), abs=1e-4, rel=1e-5)
@@ -291,7 +291,7 @@ def test_no_motion_on_the_feet_is_too_fast_for_the_step(step, places):
     ground = floor_of(vehicle, step, friction=1e6)
     s = State(vec3([0.0, 0.0, standing_height(ground, vehicle.weight)]), ZERO, LEVEL, ZERO)
     body = free_body(vehicle.mass, vehicle.inertia)
-    world, grip = World(ground, frame_of(vehicle), body, ZERO), start_grip(ground, s)
+    world, grip = World(ground, parts_layout(vehicle), body, ZERO), start_foot_grip(ground, s)
 
     def rate(y: np.ndarray) -> np.ndarray:
         return np.array(flat(motion(world, grip, unflat(y, s))))
@@ -323,7 +323,7 @@ def test_no_foot_touches_while_it_is_said_that_none_may(flown):
 
 
 class Answer(NamedTuple):
-    load: Load
+    load: PartLoad
     grip: Any
 
 

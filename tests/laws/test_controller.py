@@ -8,12 +8,19 @@ from hypothesis import given
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.admittance import Trajectory
-from tandemlift.laws.body import State
-from tandemlift.laws.controllers import Measured, Reference, control
-from tandemlift.laws.controllers.nftsmc import (
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Quat, Vec3
+from tandemlift.controllers import Measured, Reference, control
+from tandemlift.controllers.attitude_reference import (
+    AttitudeReference,
+    CommandFilter,
+    CommandFilterState,
+    Unfiltered,
+    command_filter,
+    shape,
+)
+from tandemlift.controllers.equations_of_motion import GeneralizedVector, euler_dynamics, expanded_dynamics
+from tandemlift.controllers.nftsmc import (
     NFTSMC,
     BodyRates,
     ExactRates,
@@ -21,23 +28,16 @@ from tandemlift.laws.controllers.nftsmc import (
     euler_rates,
     position_law,
 )
-from tandemlift.laws.controllers.shaping import (
-    AttitudeReference,
-    CommandFilter,
-    Filtered,
-    Unfiltered,
-    command_filter,
-    shape,
-)
-from tandemlift.laws.expanded import Axes, euler_dynamics, expanded_dynamics
-from tandemlift.laws.rotation import (
+from tandemlift.controllers.sliding_surface import Saturation, sliding_surface, switching, wanted_acceleration
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation import (
     euler_from_quaternion,
     euler_rates_from_rates,
     quaternion_from_euler,
     turned_least,
 )
-from tandemlift.laws.sliding import Saturation, sliding_surface, switching, wanted_acceleration
-from tandemlift.vector import ZERO, Quat, Vec3
+from tandemlift.laws.signals.trajectories import Trajectory
+from tandemlift.simulation.assemble import assemble
 
 from .helpers import IRIS, array, free_body, random_state, random_vec3, seeds
 
@@ -69,7 +69,7 @@ def test_the_position_law_makes_the_model_accelerate_as_the_surface_wants(seed):
     rng = np.random.default_rng(seed)
     state, desired = random_state(rng), random_reference(rng)
     u = position_law(K, state, desired, ZERO)
-    moved = expanded_dynamics(BODY, state.velocity, ZERO, Axes(u, ZERO)).position
+    moved = expanded_dynamics(BODY, state.velocity, ZERO, GeneralizedVector(u, ZERO)).position
     wanted = wanted_acceleration(K.position, desired.position - state.position, desired.velocity - state.velocity)
     scale = 1.0 + np.abs(array(wanted)).max()
     assert array(moved) == pytest.approx(array(desired.acceleration + wanted), abs=1e-13 * scale)
@@ -92,7 +92,7 @@ def test_the_attitude_law_makes_the_model_turn_as_the_surface_wants(seed):
     rates = random_vec3(rng)
     desired = AttitudeReference(*(random_vec3(rng) for _ in range(3)))
     moment = attitude_law(K, e, rates, desired)
-    moved = expanded_dynamics(BODY, ZERO, rates, Axes(ZERO, moment)).attitude
+    moved = expanded_dynamics(BODY, ZERO, rates, GeneralizedVector(ZERO, moment)).attitude
     error = turned_least(desired.angles - e.angles)
     wanted = wanted_acceleration(K.attitude, error, desired.rates - rates)
     scale = 1.0 + np.abs(array(wanted)).max()
@@ -156,7 +156,7 @@ def test_the_command_filter_is_exact_for_a_held_command(seed):
     """Against ẍ = ω_f²(Θ_d − x) − 2ω_f ẋ by SciPy, over one step."""
     rng = np.random.default_rng(seed)
     bandwidth, step = float(rng.uniform(5.0, 80.0)), 0.01
-    memory, desired = Filtered(random_vec3(rng), random_vec3(rng)), random_vec3(rng)
+    memory, desired = CommandFilterState(random_vec3(rng), random_vec3(rng)), random_vec3(rng)
     tracked, after = shape(command_filter(bandwidth, step), memory, desired)
 
     def rate(t, y):
@@ -171,9 +171,9 @@ def test_the_command_filter_is_exact_for_a_held_command(seed):
 
 
 def test_without_a_filter_the_attitude_reference_is_at_rest():
-    tracked, memory = shape(Unfiltered(), Filtered(ZERO, ZERO), Vec3(0.1, 0.2, 0.3))
+    tracked, memory = shape(Unfiltered(), CommandFilterState(ZERO, ZERO), Vec3(0.1, 0.2, 0.3))
     assert tracked == AttitudeReference(Vec3(0.1, 0.2, 0.3), ZERO, ZERO)
-    assert memory == Filtered(ZERO, ZERO)
+    assert memory == CommandFilterState(ZERO, ZERO)
 
 
 def test_the_settings_pick_the_types():

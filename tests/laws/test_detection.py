@@ -6,19 +6,19 @@ import numpy as np
 import pytest
 from scipy.signal import StateSpace, lsim
 
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.body import State
-from tandemlift.laws.detection import confirmed, left_of, watch, with_trials
-from tandemlift.laws.guidance import Heard
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, vec3
+from tandemlift.laws.estimation.rotor_loss_detection import confirmed, detection_step, left_of, with_trials
+from tandemlift.laws.guidance.guidance import PilotInput
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.rotors.allocation import mixer_from
 from tandemlift.missions import load_mission
-from tandemlift.pilot.start import mixer_value
-from tandemlift.pilot.watching import start_detection
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each, vec3
+from tandemlift.pilot.rotor_loss_detection import start_detection
 from tandemlift.vehicle import Vehicle
 
 MISSION = load_mission("iris", {"detection.model": "residual", "actuators.start": "hover"})
 VEHICLE = Vehicle.from_settings(MISSION.vehicle)
-DETECTION, START = start_detection(MISSION, VEHICLE, mixer_value(VEHICLE.effect))
+DETECTION, START = start_detection(MISSION, VEHICLE, mixer_from(VEHICLE.effect))
 DT, LEVEL, EIGHT = 1e-3, Quat(1.0, 0.0, 0.0, 0.0), each(8)
 HOVER = VEHICLE.weight / 8.0
 SETTLED = START._replace(scatter=START.scatter._replace(value=START.scatter.value * 0.0))
@@ -58,9 +58,9 @@ def watched(motion, memory, since=0, commands=None):
     seen, before = [], 0
     for k, row in enumerate(motion, since):
         thrusts = EIGHT(*(HOVER * (np.ones(8) if commands is None else commands[k - since])))
-        heard = Heard(State(ZERO, Vec3(0.0, 0.0, float(row[0])), LEVEL, vec3(row[1:])), ZERO, ZERO, 0.0, Nothing())
+        heard = PilotInput(State(ZERO, Vec3(0.0, 0.0, float(row[0])), LEVEL, vec3(row[1:])), ZERO, ZERO, 0.0, Nothing())
         thrusts = EIGHT(*map(float, np.array(thrusts) * left_array(memory)))
-        memory = watch(DETECTION, memory, heard, thrusts, 1.0, k * DT, DT)
+        memory = detection_step(DETECTION, memory, heard, thrusts, 1.0, k * DT, DT)
         number = int(np.dot(memory.verdict.lost, np.arange(1, 9)))
         if number != before:
             seen.append((k * DT, number))
@@ -159,4 +159,4 @@ def test_without_detection_nothing_is_left_out_or_tried():
     commands = EIGHT(*range(8))
     assert left_of(Nothing(), Nothing()) == 1.0
     assert with_trials(Nothing(), Nothing(), commands, 0.0) is commands
-    assert watch(Nothing(), Nothing(), None, commands, 1.0, 0.0, DT) == Nothing()
+    assert detection_step(Nothing(), Nothing(), None, commands, 1.0, 0.0, DT) == Nothing()

@@ -10,7 +10,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from tandemlift import ops
+from tandemlift.algebra import ops
 from tandemlift.trace.functions import compiled as machine_code
 
 COUNT = 4000

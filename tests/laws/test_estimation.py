@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from tandemlift.errors import InputError
-from tandemlift.laws.estimation import (
+from tandemlift.algebra.vector import Vec3, vec3
+from tandemlift.common.errors import InputError
+from tandemlift.laws.estimation.push_estimate import (
     PushEstimator,
     estimate,
     moment_on_payload,
@@ -22,19 +23,18 @@ from tandemlift.laws.estimation import (
     sides,
     start_push,
 )
-from tandemlift.laws.meters import Grade
-from tandemlift.laws.sensing import sensors
-from tandemlift.vector import Vec3, vec3
+from tandemlift.laws.sensors.readings import sensors
+from tandemlift.laws.sensors.sensor_errors import SensorGrade
 
 from .helpers import array, random_attitude, seeds
 from .newton_euler import Flight, Given, Parts, flown, paper_parts, random_parts, solved, unit
 from .perceived import STEP, happening, onboard, perceived, rows
 
 NOISE = {
-    "force": Grade(noise=0.05),
-    "torque": Grade(noise=0.01),
-    "accelerometer": Grade(noise=0.03),
-    "gyroscope": Grade(noise=0.001),
+    "force": SensorGrade(noise=0.05),
+    "torque": SensorGrade(noise=0.01),
+    "accelerometer": SensorGrade(noise=0.03),
+    "gyroscope": SensorGrade(noise=0.001),
 }
 
 
@@ -73,14 +73,14 @@ def test_a_push_on_the_beam_is_found_where_it_acts(seed, y):
     R, w, x = moment(rng, 2)
     x = x._replace(at=np.array([0.0, y, 0.0]))
     answer = solved(p, R, w, x)
-    k, said = estimator(p, length=2.0, least_force=0.01), unit(R, w, answer)
+    k, said = estimator(p, length=2.0, min_force=0.01), unit(R, w, answer)
     push = R.inv().apply(x.push)
     at = point_of_application(k, vec3(push), moment_on_payload(k, said, vec3(answer.angular)))
     assert at == pytest.approx(y, abs=1e-9 / np.hypot(push[0], push[2]) ** 2)
 
 
 def test_a_point_is_held_on_the_beam_and_not_given_for_small_forces():
-    k = estimator(paper_parts(), length=2.0, least_force=0.5)
+    k = estimator(paper_parts(), length=2.0, min_force=0.5)
     assert point_of_application(k, Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, -7.0)) == 1.0
     assert point_of_application(k, Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 7.0)) == -1.0
     assert point_of_application(k, Vec3(0.3, 5.0, -0.39), Vec3(0.2, 0.0, 0.3)) == 0.0
@@ -202,10 +202,10 @@ def test_the_point_stays_right_while_force_and_vehicle_turn():
 
 
 BIASED = {
-    "force": Grade(noise=0.05, bias=[[0.3, -0.2, 0.4], [-0.1, 0.25, -0.3]]),
-    "torque": Grade(noise=0.01, bias=[[0.05, 0.02, -0.04], [0.1, -0.03, 0.02]]),
-    "accelerometer": Grade(noise=0.03, bias=(0.05, -0.04, 0.03)),
-    "gyroscope": Grade(noise=0.001, bias=(0.01, 0.0, -0.01)),
+    "force": SensorGrade(noise=0.05, bias=[[0.3, -0.2, 0.4], [-0.1, 0.25, -0.3]]),
+    "torque": SensorGrade(noise=0.01, bias=[[0.05, 0.02, -0.04], [0.1, -0.03, 0.02]]),
+    "accelerometer": SensorGrade(noise=0.03, bias=(0.05, -0.04, 0.03)),
+    "gyroscope": SensorGrade(noise=0.001, bias=(0.01, 0.0, -0.01)),
 }
 
 

@@ -6,12 +6,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.body import State, Wrench, motion
-from tandemlift.laws.expanded import Axes, drift, euler_dynamics, expanded_dynamics, response
-from tandemlift.laws.push import CentralPush
-from tandemlift.laws.rotation import euler_from_quaternion, euler_rates_from_rates, quaternion_from_euler
-from tandemlift.vector import ZERO, Vec3, vec3
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.controllers.equations_of_motion import (
+    GeneralizedVector,
+    drift,
+    euler_dynamics,
+    expanded_dynamics,
+    response,
+)
+from tandemlift.laws.mechanics.body import State, Wrench, motion
+from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, quaternion_from_euler
 
 from .helpers import array, attitudes, free_body, order_of, random_vec3, seeds, vectors
 
@@ -36,7 +42,7 @@ def exact(state: State, u: Wrench) -> np.ndarray:
     return (euler_rates(state + rate * h) - euler_rates(state + rate * -h)) / (2.0 * h)
 
 
-def expanded(state: State, u: Wrench) -> Axes:
+def expanded(state: State, u: Wrench) -> GeneralizedVector:
     e = euler_from_quaternion(state.attitude)
     return euler_dynamics(BODY, e, state.velocity, euler_rates_from_rates(e, state.rates), u)
 
@@ -56,7 +62,7 @@ def test_the_lines_of_position_are_exact_at_any_attitude(angles, velocity, rates
 def test_every_line_is_drift_plus_disturbance_plus_response(velocity, seed):
     """Against the six printed lines with the virtual inputs, in NumPy."""
     rng = np.random.default_rng(seed)
-    rates, u, m, J = random_vec3(rng), Axes(random_vec3(rng), random_vec3(rng)), 3.5, np.array(INERTIA)
+    rates, u, m, J = random_vec3(rng), GeneralizedVector(random_vec3(rng), random_vec3(rng)), 3.5, np.array(INERTIA)
     w = array(rates)
     linear = (array(u.position) + array(BODY.force) - array(BODY.drag_force) * array(velocity)) / m
     turning = array(u.attitude) + array(BODY.moment) - array(BODY.drag_moment) * w - np.cross(w, J * w)
@@ -66,7 +72,7 @@ def test_every_line_is_drift_plus_disturbance_plus_response(velocity, seed):
 
 
 def test_an_input_acts_by_one_over_mass_and_inertia_and_nothing_else_does():
-    one = response(BODY, Axes(Vec3(1.0, 1.0, 1.0), Vec3(1.0, 1.0, 1.0)))
+    one = response(BODY, GeneralizedVector(Vec3(1.0, 1.0, 1.0), Vec3(1.0, 1.0, 1.0)))
     assert array(one.position) == pytest.approx(np.full(3, 1.0 / 3.5))
     assert array(one.attitude) == pytest.approx(1.0 / np.array(INERTIA))
     still = drift(BODY, ZERO, ZERO)

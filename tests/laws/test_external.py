@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.laws.external import External, pushed, thrusts_of
-from tandemlift.laws.push import CentralPush, Hand, PointPush, moment_of
-from tandemlift.loop import move
-from tandemlift.prepared import Prepared
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, mat3, vec3
+from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, moment_of
+from tandemlift.laws.person.caller_inputs import CallerInput, pushed, thrusts_of
+from tandemlift.loop.step import step_flight
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import flat
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each, mat3, vec3
 
 FORCE, POINT = Vec3(1.0, -2.0, 0.5), Vec3(0.1, 0.8, -0.06)
 TILTED = Quat(0.8, 0.36, -0.48, 0.0)
@@ -20,12 +20,12 @@ DT = 0.001
 
 
 def external(force=ZERO, point=ZERO, thrusts=None):
-    return External(force, point, ROTORS(*(thrusts or [0.0] * 8)), 0.0 if thrusts is None else 1.0)
+    return CallerInput(force, point, ROTORS(*(thrusts or [0.0] * 8)), 0.0 if thrusts is None else 1.0)
 
 
 @pytest.mark.parametrize("own", [CENTRAL, AT_POINTS])
 def test_an_added_push_adds_its_force_and_its_moment_at_start_middle_and_end(own):
-    hand = pushed(external(FORCE, POINT), Hand(own, own, own))
+    hand = pushed(external(FORCE, POINT), PushSamples(own, own, own))
     alone = moment_of(PointPush(FORCE, mat3(np.outer(FORCE, POINT))), TILTED)
     for push in hand:
         assert push.force == own.force + FORCE
@@ -34,7 +34,7 @@ def test_an_added_push_adds_its_force_and_its_moment_at_start_middle_and_end(own
 
 @pytest.mark.parametrize("attitude", [TILTED, Quat(-0.5, 0.5, -0.5, 0.5)])
 def test_without_a_force_the_moment_of_a_central_push_is_zero_and_never_minus_zero(attitude):
-    hand = pushed(external(point=Vec3(-0.3, 0.8, -0.1)), Hand(CENTRAL, CENTRAL, CENTRAL))
+    hand = pushed(external(point=Vec3(-0.3, 0.8, -0.1)), PushSamples(CENTRAL, CENTRAL, CENTRAL))
     moment = moment_of(hand.start, attitude)
     assert moment == ZERO
     assert not any(np.signbit(v) for v in moment)
@@ -51,9 +51,9 @@ def test_thrusts_are_the_pilots_unless_they_are_overridden():
 @pytest.mark.parametrize("point", [[0.0, 0.0, 0.0], [0.0, -0.5, 0.1]])
 def test_plain_python_takes_the_same_step_as_machine_code(point):
     mission = tl.load_mission("one-push", {"pushes.0.point": point, "pushes.0.time": 40.0})
-    p, sim = Prepared(mission, interactive=True), tl.Simulation(mission)
+    p, sim = FlightPlan(mission, interactive=True), tl.Simulation(mission)
     thrusts = [4.0, 5.0, 4.5, 4.2, 4.8, 4.1, 4.4, 4.6]
-    added = External(vec3([0.6, -0.3, 0.4]), vec3([0.0, 0.7, 0.05]), ROTORS(*thrusts), 1.0)
-    moving, _ = move(p.flying, p.given._replace(external=added), 0.0, DT)
+    added = CallerInput(vec3([0.6, -0.3, 0.4]), vec3([0.0, 0.7, 0.05]), ROTORS(*thrusts), 1.0)
+    moving, _ = step_flight(p.flying, p.given._replace(external=added), 0.0, DT)
     state = sim.step(added.force, thrusts, point=added.point)
     np.testing.assert_allclose(state, flat(moving.state), rtol=1e-13, atol=1e-15)

@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from tandemlift.laws.allocation import Mixer
-from tandemlift.laws.body import Wrench
-from tandemlift.laws.limits import given_share, share_scale
-from tandemlift.vector import each, vec3
+from tandemlift.algebra.vector import each, vec3
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.allocation import Mixer
+from tandemlift.laws.rotors.thrust_limits import given_share, share_scale
 
 from .bounded import EVERY, Craft, craft, outside, problems, solve
 from .helpers import flat, rebuilt

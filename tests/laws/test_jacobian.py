@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.loop import move
-from tandemlift.vector import Quat, Vec3
+from tandemlift.algebra.vector import Quat, Vec3
+from tandemlift.loop.step import step_flight
+from tandemlift.simulation.assemble import assemble
 
 from .helpers import flat, rebuilt
 
@@ -42,7 +42,7 @@ class Hover:
         size = len(flat(self.like[0]))
         state, memory = rebuilt(values[:size], self.like[0]), rebuilt(values[size:], self.like[1])
         moving = self.flying.moving._replace(state=state, memory=memory)
-        after, _ = move(self.flying._replace(moving=moving), self.given, 40.0, 0.001)
+        after, _ = step_flight(self.flying._replace(moving=moving), self.given, 40.0, 0.001)
         return flat((after.state, after.memory))
 
     def differences(self) -> np.ndarray:

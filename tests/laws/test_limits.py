@@ -7,8 +7,8 @@ import pytest
 from scipy.optimize import linprog
 
 from tandemlift.kernels.context import aligned
-from tandemlift.laws.allocation import Working
-from tandemlift.laws.limits import limited, weighted_rows, weights_of
+from tandemlift.laws.rotors.allocation import AllocationState
+from tandemlift.laws.rotors.thrust_limits import limited, weighted_rows, weights_of
 
 from .bounded import (
     EVERY,
@@ -182,7 +182,7 @@ def test_a_limit_that_is_no_limit_is_zero():
         p = problem(c, [c.vehicle.weight, 1.0, 0.0, 0.0])
         p.limits[3] = none
         found = solve(c, p._replace(limits=np.where(np.arange(8) == 3, 0.0, p.limits)))
-        bare = compiled(asked(c, p), Working(set_of(np.zeros(8)), set_of(np.zeros(8))), 64)[0]
+        bare = compiled(asked(c, p), AllocationState(set_of(np.zeros(8)), set_of(np.zeros(8))), 64)[0]
         assert bare.thrusts[3] == 0.0
         assert np.array_equal(bare.thrusts, found.f)
 
@@ -228,7 +228,7 @@ def test_eight_different_problems_at_once_are_solved_as_each_alone(count, layout
     for _ in range(20):
         eight = list(problems(c, 8, seed=int(rng.integers(1 << 30))))
         alone, block = (code_of(asked(c, eight[0]), lanes, rolls_from) for lanes in (1, 8))
-        starts = [Working(set_of(rng.integers(-1, 2, n)), set_of(rng.uniform(-5.0, 15.0, n))) for _ in eight]
+        starts = [AllocationState(set_of(rng.integers(-1, 2, n)), set_of(rng.uniform(-5.0, 15.0, n))) for _ in eight]
         rows = np.array([alone.numbers(asked(c, p), start) for p, start in zip(eight, starts, strict=True)])
         rows[3, -1] = 1.0
         together = aligned(rows.size)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from tandemlift.laws.lowpass import Smoothed, low_pass, smooth
-from tandemlift.vector import ZERO, Vec3, each
+from tandemlift.algebra.vector import ZERO, Vec3, each
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass, smooth
 
 
 def response(bandwidth: float, step: float, inputs: np.ndarray) -> np.ndarray:
-    k, memory, out = low_pass(bandwidth, step), Smoothed(0.0, 0.0), []
+    k, memory, out = low_pass(bandwidth, step), LowPassState(0.0, 0.0), []
     for u in inputs:
         memory = smooth(k, memory, u)
         out.append(memory.value)
@@ -43,9 +43,9 @@ def test_white_noise_comes_down_as_the_bandwidth_says():
 
 def test_vectors_and_sets_are_smoothed_component_by_component():
     k = low_pass(10.0, 1e-2)
-    alone = smooth(k, Smoothed(0.0, 0.0), 2.0)
-    three = smooth(k, Smoothed(ZERO, ZERO), Vec3(0.0, 2.0, 4.0))
+    alone = smooth(k, LowPassState(0.0, 0.0), 2.0)
+    three = smooth(k, LowPassState(ZERO, ZERO), Vec3(0.0, 2.0, 4.0))
     pair = each(2)
-    two = smooth(k, Smoothed(pair(0.0, 0.0), pair(0.0, 0.0)), pair(2.0, -2.0))
+    two = smooth(k, LowPassState(pair(0.0, 0.0), pair(0.0, 0.0)), pair(2.0, -2.0))
     assert three.value == (0.0, alone.value, 2.0 * alone.value)
     assert two.rate == (alone.rate, -alone.rate)

@@ -10,9 +10,8 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.laws.rotation import euler_from_quaternion, euler_rates_from_rates
-from tandemlift.laws.sliding import (
+from tandemlift.algebra.vector import Quat, Vec3
+from tandemlift.controllers.sliding_surface import (
     Cubic,
     Power,
     Saturation,
@@ -26,7 +25,8 @@ from tandemlift.laws.sliding import (
     surface_rate,
     wanted_acceleration,
 )
-from tandemlift.vector import Quat, Vec3
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
+from tandemlift.simulation.assemble import assemble
 
 from .helpers import numbers, seeds
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.body import State
-from tandemlift.laws.meters import Grade
-from tandemlift.laws.navigation import Navigator, navigator
-from tandemlift.laws.sensing import Sensors, sensors
-from tandemlift.laws.turns import turned
-from tandemlift.vector import Vec3, vec3
+from tandemlift.algebra.vector import Vec3, vec3
+from tandemlift.laws.estimation.navigation import Navigator, navigator
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.sensors.readings import Sensors, sensors
+from tandemlift.laws.sensors.sensor_errors import SensorGrade
 
 from .helpers import array
 from .perceived import STEP, happening, onboard, perceived, rows
@@ -114,14 +114,14 @@ def test_a_constant_bias_is_learnt_and_leaves_no_error():
     """From rest at e = 0 with ė = b: e = b t exp(−ω t)."""
     truth, t = steady(8.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), times(8.0)
     k = navigator(CENTRE, STEP, motion_period=2, position_bandwidth=3.0, attitude_bandwidth=2.0)
-    devices = sensors(2, STEP, accelerometer=Grade(bias=(0.0, 0.0, 0.05)), motion_period=2)
+    devices = sensors(2, STEP, accelerometer=SensorGrade(bias=(0.0, 0.0, 0.05)), motion_period=2)
     seen = estimated(truth, k, devices)
     R = Rotation.from_quat(truth[0, 6:10], scalar_first=True)
     found = R.inv().apply(errors(seen, truth)["velocity"])
     assert found[:, 2] == pytest.approx(0.05 * t * np.exp(-3.0 * t), abs=2e-4)
     assert rows(seen.navigation.accelerometer_bias)[-1] == pytest.approx([0.0, 0.0, 0.05], abs=1e-6)
     bias = (0.02, -0.01, 0.015)
-    seen = estimated(truth, k, sensors(2, STEP, gyroscope=Grade(bias=bias), motion_period=2))
+    seen = estimated(truth, k, sensors(2, STEP, gyroscope=SensorGrade(bias=bias), motion_period=2))
     off = errors(seen, truth)
     assert off["turn"] == pytest.approx(np.array(bias) * (t * np.exp(-2.0 * t))[:, None], abs=1e-4)
     assert rows(seen.navigation.gyroscope_bias)[-1] == pytest.approx(np.array(bias), abs=1e-5)
@@ -134,8 +134,8 @@ def test_noise_is_smaller_than_measured_and_bias_is_gone_in_excited_flight(motio
     devices = sensors(
         2,
         STEP,
-        accelerometer=Grade(noise=0.03, bias=(0.05, -0.03, 0.04)),
-        gyroscope=Grade(noise=0.01, bias=(0.02, -0.01, 0.015)),
+        accelerometer=SensorGrade(noise=0.03, bias=(0.05, -0.03, 0.04)),
+        gyroscope=SensorGrade(noise=0.01, bias=(0.02, -0.01, 0.015)),
         motion_period=motion_period,
         **RAW,
     )
@@ -152,7 +152,7 @@ def test_noise_is_smaller_than_measured_and_bias_is_gone_in_excited_flight(motio
 def test_it_finds_its_way_from_far_off():
     """Half a radian, a metre and a metre per second wrong, with biased and noisy sensors."""
     truth = swaying(20.0)
-    devices = sensors(2, STEP, gyroscope=Grade(noise=0.003, bias=(0.02, 0.0, -0.02)), motion_period=10, **RAW)
+    devices = sensors(2, STEP, gyroscope=SensorGrade(noise=0.003, bias=(0.02, 0.0, -0.02)), motion_period=10, **RAW)
 
     def lost(s: State) -> State:
         return State(s.position + vec3([1.0, -1.0, 1.0]), s.velocity - vec3([1.0, 1.0, 1.0]),

@@ -7,11 +7,11 @@ import pytest
 from scipy.signal import StateSpace, lsim
 
 import tandemlift as tl
-from tandemlift.laws.body import State
-from tandemlift.laws.observer import correction, growth, observe
-from tandemlift.pilot.observing import start_observer
-from tandemlift.pilot.start import mixer_value
-from tandemlift.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.laws.estimation.disturbance_observer import correction, growth, observer_step
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.rotors.allocation import mixer_from
+from tandemlift.pilot.disturbance_observer import start_observer
 from tandemlift.vehicle import Vehicle
 
 H = 1e-3
@@ -28,7 +28,7 @@ def started(**keys):
     changes = {f"observer.{key}": value for key, value in keys.items()}
     mission = tl.load_mission("iris", {"vehicle.drag.force": 0.0, "vehicle.drag.moment": 0.0, **changes})
     vehicle = Vehicle.from_settings(mission.vehicle)
-    return vehicle, *start_observer(mission, vehicle, mixer_value(vehicle.effect))
+    return vehicle, *start_observer(mission, vehicle, mixer_from(vehicle.effect))
 
 
 def hover(vehicle):
@@ -43,7 +43,7 @@ def estimates(force, steps, push=ZERO, **keys):
     thrusts, velocity, found = hover(vehicle), np.zeros(3), []
     for i in range(steps):
         told = Told(State(ZERO, vec3(velocity), LEVEL, ZERO), push, ZERO)
-        unknown, memory = observe(k, memory, told, thrusts, 1.0, 1.0, H)
+        unknown, memory = observer_step(k, memory, told, thrusts, 1.0, 1.0, H)
         found.append(unknown.force)
         velocity = velocity + (force(i * H) + np.array(push)) / vehicle.mass * H
     return np.array(found)
@@ -98,7 +98,7 @@ def test_nothing_is_estimated_on_the_ground():
     vehicle, k, memory = started(model="super-twisting")
     for _ in range(100):
         told = Told(State(ZERO, Vec3(1.0, 0.0, 0.0), LEVEL, ZERO), ZERO, ZERO)
-        unknown, memory = observe(k, memory, told, hover(vehicle) * 0.0, 0.0, 1.0, H)
+        unknown, memory = observer_step(k, memory, told, hover(vehicle) * 0.0, 0.0, 1.0, H)
         assert unknown.force == ZERO
         assert unknown.moment == ZERO
 
@@ -109,7 +109,7 @@ def test_a_disturbing_moment_is_found_about_every_axis():
     J, moment, rates = vehicle.inertia, np.array([0.4, -0.03, 0.2]), np.zeros(3)
     for _ in range(1500):
         told = Told(State(ZERO, ZERO, LEVEL, vec3(rates)), ZERO, ZERO)
-        unknown, memory = observe(k, memory, told, hover(vehicle), 1.0, 1.0, H)
+        unknown, memory = observer_step(k, memory, told, hover(vehicle), 1.0, 1.0, H)
         rates = rates + np.linalg.solve(J, moment - np.cross(rates, J @ rates)) * H
     assert np.array(unknown.moment) == pytest.approx(moment, rel=0.02, abs=1e-3)
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.loop import Flying, Inputs, move
+from tandemlift.loop.step import FlightModel, StepInputs, step_flight
+from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import leaves
 
 from .helpers import flat, rebuilt
@@ -68,8 +68,8 @@ T, DT = 5.0, 0.001
 class Step(NamedTuple):
     """What a step depends on, apart from its time."""
 
-    flying: Flying
-    given: Inputs
+    flying: FlightModel
+    given: StepInputs
 
 
 class Case:
@@ -92,7 +92,7 @@ class Case:
     def step(self, numbers: Any) -> list[Any]:
         """The numbers of (Moving, Sample) after a step."""
         step = rebuilt(numbers, self.like)
-        return flat(move(step.flying, step.given, T, DT))
+        return flat(step_flight(step.flying, step.given, T, DT))
 
     def agrees(self, found: Any) -> None:
         """Every number is that of plain Python to 1e-12 of the largest in its row."""
@@ -114,9 +114,9 @@ def case(request):
 
 def test_variants_differ_in_type():
     """So that the tests below fly different loops."""
-    from tandemlift.prepared import Prepared
+    from tandemlift.simulation.plan import FlightPlan
 
-    assert len({Prepared(tl.load_mission(*variant)).variant for variant in VARIANTS.values()}) == len(VARIANTS)
+    assert len({FlightPlan(tl.load_mission(*variant)).variant for variant in VARIANTS.values()}) == len(VARIANTS)
 
 
 def test_numpy_broadcasts_the_step(case):
@@ -146,7 +146,7 @@ def test_casadi_traces_the_step_of_a_vehicle_whose_parameters_are_numbers(case, 
 
 
 def compiled_step(flying, given):
-    return move(flying, given, T, DT)
+    return step_flight(flying, given, T, DT)
 
 
 @pytest.mark.parametrize("lanes", [1, 8])

@@ -8,32 +8,30 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tandemlift.laws import (
-    admittance,
-    allocation,
-    contact,
-    detection,
-    expanded,
-    guidance,
-    limits,
-    loads,
-    lowpass,
-    parts,
-    reference,
-    rotation,
-    rotors,
-    sliding,
-    verdict,
-    virtual,
-    walls,
-    windage,
+from tandemlift.algebra.ops import power
+from tandemlift.algebra.vector import (
+    Mat3,
+    Nothing,
+    Quarters,
+    Quat,
+    Vec3,
+    apply,
+    apply_transposed,
+    cross,
+    each,
+    hamilton,
+    outer,
 )
-from tandemlift.laws.body import Body, State, Wrench, motion
-from tandemlift.laws.inertia import gyroscopic
-from tandemlift.laws.push import PointPush
-from tandemlift.laws.rectangle import Wall
-from tandemlift.ops import power
-from tandemlift.vector import Mat3, Nothing, Quarters, Quat, Vec3, apply, apply_transposed, cross, each, hamilton, outer
+from tandemlift.controllers import equations_of_motion, sliding_surface
+from tandemlift.laws.estimation import fault_decision, rotor_loss_detection
+from tandemlift.laws.guidance import admittance, guidance
+from tandemlift.laws.mechanics import air_drag, contact, loads, parts, rotation, tilt, walls
+from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, motion
+from tandemlift.laws.mechanics.inertia import gyroscopic
+from tandemlift.laws.mechanics.push import PointPush
+from tandemlift.laws.mechanics.rectangle import Wall
+from tandemlift.laws.rotors import allocation, dynamics, thrust_limits
+from tandemlift.laws.signals import low_pass, trajectories
 
 from .helpers import flat, rebuilt, record
 from .machine_code import answers
@@ -42,33 +40,37 @@ V = Vec3(0.0, 0.0, 0.0)
 M = Mat3(V, V, V)
 Q = Quat(0.0, 0.0, 0.0, 0.0)
 EULER = rotation.Euler(V, *[0.0] * 7)
-BODY = Body(0.0, V, V, V, V, V, V)
+BODY = RigidBody(0.0, V, V, V, V, V, V)
 JOINT = parts.Joint(V, V)
-SURFACE = sliding.Surface(V, V, sliding.Power(V), V, V, sliding.Tanh(V))
-AXES = expanded.Axes(V, V)
+SURFACE = sliding_surface.Surface(V, V, sliding_surface.Power(V), V, V, sliding_surface.Tanh(V))
+AXES = equations_of_motion.GeneralizedVector(V, V)
 STATE = State(V, V, Q, V)
 TWO, EIGHT = each(2)(0.0, 0.0), each(8)(*[0.0] * 8)  # a value of every quadrotor, and of every rotor
 VV, FOUR = Vec3(TWO, TWO, TWO), Quarters(TWO, TWO, TWO, TWO)
-FRAME = loads.Frame(V, VV, VV, TWO, VV, FOUR, FOUR, FOUR)
-LOADS = loads.Loads(loads.Load(V, V), loads.Load(VV, VV))
-FELT = loads.Felt(V, VV, VV, V)
+FRAME = loads.PartsLayout(V, VV, VV, TWO, VV, FOUR, FOUR, FOUR)
+LOADS = loads.PartLoads(loads.PartLoad(V, V), loads.PartLoad(VV, VV))
+FELT = loads.PerfectReadings(V, VV, VV, V)
 FLOOR = contact.Floor(*[0.0] * 7, Quarters(VV, VV, VV, VV), V, 0.0)
-GRIP = Quarters(*[contact.Grip(TWO, TWO, TWO)] * 4)
+GRIP = Quarters(*[contact.FootGrip(TWO, TWO, TWO)] * 4)
 WALLS = walls.Walls(*[0.0] * 4, TWO, walls.Beam(0.0, TWO), 0.0)
 UPRIGHT, UPRIGHTS = Wall(*[0.0] * 6), Wall(*[TWO] * 6)
-NEAR = walls.Near(UPRIGHTS, UPRIGHTS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT, UPRIGHT))
-LAG, MIXER = rotors.Lag(EIGHT, EIGHT, EIGHT), allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
-SURFACES = rotors.GroundEffect(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, 0.0)
-ROTORS = rotors.Rotors(EIGHT, EIGHT, EIGHT, LAG, LAG, rotors.Faults(EIGHT, EIGHT), SURFACES, 0.0, Wrench(0.0, V))
-FOURS, LOW = each(4)(*[0.0] * 4), lowpass.LowPass(*[0.0] * 4)
-SMOOTH, SMOOTHS = lowpass.Smoothed(FOURS, FOURS), lowpass.Smoothed(EIGHT, EIGHT)
-DETECTION = detection.Detection(
-    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, verdict.Rules(*[0.0] * 6)
+NEAR = walls.NearWalls(UPRIGHTS, UPRIGHTS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT, UPRIGHT))
+LAG, MIXER = dynamics.Lag(EIGHT, EIGHT, EIGHT), allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
+SURFACES = dynamics.GroundEffect(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, 0.0)
+ROTORS = dynamics.Rotors(
+    EIGHT, EIGHT, EIGHT, LAG, LAG, dynamics.RotorFaults(EIGHT, EIGHT), SURFACES, 0.0, Wrench(0.0, V)
 )
-WATCHING = detection.Watching(*[SMOOTHS] * 2, *[SMOOTH] * 4, verdict.Verdict(EIGHT, 0.0, 0.0, EIGHT, 0.0))
-HEARD = guidance.Heard(STATE, V, V, 0.0, Nothing())
-BLOWN = windage.Blown(V, 0.0, lowpass.Smoothed(V, V))
-CONSTRAINED = allocation.Constrained(MIXER, MIXER, Wrench(0.0, V), EIGHT, rotors.Faults(EIGHT, EIGHT))
+FOURS, LOW = each(4)(*[0.0] * 4), low_pass.LowPass(*[0.0] * 4)
+SMOOTH, SMOOTHS = low_pass.LowPassState(FOURS, FOURS), low_pass.LowPassState(EIGHT, EIGHT)
+DETECTION = rotor_loss_detection.RotorLossDetection(
+    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, fault_decision.DecisionRules(*[0.0] * 6)
+)
+WATCHING = rotor_loss_detection.DetectionState(
+    *[SMOOTHS] * 2, *[SMOOTH] * 4, fault_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
+)
+HEARD = guidance.PilotInput(STATE, V, V, 0.0, Nothing())
+BLOWN = air_drag.PayloadDragState(V, 0.0, low_pass.LowPassState(V, V))
+CONSTRAINED = allocation.ConstrainedAllocation(MIXER, MIXER, Wrench(0.0, V), EIGHT, dynamics.RotorFaults(EIGHT, EIGHT))
 
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "cross": (cross, (V, V)),
@@ -89,27 +91,30 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "joint wrench, full": (parts.joint_wrench, (0.0, M, V, 0.0, V, V, parts.Acceleration(V, V))),
     "joint on payload": (parts.joint_on_payload, (M, V, JOINT)),
     "payload acceleration": (parts.payload_acceleration, (0.0, V, V, JOINT)),
-    "virtual inputs": (virtual.virtual_inputs, (EULER, 0.0)),
-    "total thrust": (virtual.total_thrust, (EULER, V)),
-    "tilt, exact": (virtual.desired_orientation, (virtual.TiltZXY(), V, EULER, 0.0)),
-    "tilt, printed": (virtual.desired_orientation, (virtual.TiltPrinted(), V, EULER, 0.0)),
-    "smooth step": (reference.smoothstep, (0.0, 0.0, 0.0)),
+    "virtual inputs": (tilt.virtual_inputs, (EULER, 0.0)),
+    "total thrust": (tilt.total_thrust, (EULER, V)),
+    "tilt, exact": (tilt.desired_orientation, (tilt.TiltZXY(), V, EULER, 0.0)),
+    "tilt, printed": (tilt.desired_orientation, (tilt.TiltPrinted(), V, EULER, 0.0)),
+    "smooth step": (trajectories.smoothstep, (0.0, 0.0, 0.0)),
     "soft gate": (admittance.gate, (admittance.SoftGate(V), V)),
-    "sliding surface": (sliding.sliding_surface, (SURFACE, V, V)),
-    "surface rate": (sliding.surface_rate, (SURFACE, V, V, V)),
-    "wanted acceleration": (sliding.wanted_acceleration, (SURFACE, V, V)),
-    "Lyapunov": (sliding.lyapunov, (V,)),
-    "Lyapunov rate": (sliding.lyapunov_rate, (V, V)),
-    "bound of the Lyapunov rate": (sliding.lyapunov_rate_bound, (V, V, V, V)),
-    "reaching time": (sliding.reaching_time, (V, V, V, V)),
-    "expanded dynamics": (expanded.expanded_dynamics, (BODY, V, V, AXES)),
-    "Euler dynamics": (expanded.euler_dynamics, (BODY, EULER, V, V, Wrench(0.0, V))),
-    "thrusts of rotors": (rotors.drive, (ROTORS, rotors.Spinning(EIGHT, EIGHT), EIGHT, STATE, 0.0)),
+    "sliding surface": (sliding_surface.sliding_surface, (SURFACE, V, V)),
+    "surface rate": (sliding_surface.surface_rate, (SURFACE, V, V, V)),
+    "wanted acceleration": (sliding_surface.wanted_acceleration, (SURFACE, V, V)),
+    "Lyapunov": (sliding_surface.lyapunov, (V,)),
+    "Lyapunov rate": (sliding_surface.lyapunov_rate, (V, V)),
+    "bound of the Lyapunov rate": (sliding_surface.lyapunov_rate_bound, (V, V, V, V)),
+    "reaching time": (sliding_surface.reaching_time, (V, V, V, V)),
+    "expanded dynamics": (equations_of_motion.expanded_dynamics, (BODY, V, V, AXES)),
+    "Euler dynamics": (equations_of_motion.euler_dynamics, (BODY, EULER, V, V, Wrench(0.0, V))),
+    "thrusts of rotors": (dynamics.drive, (ROTORS, dynamics.RotorState(EIGHT, EIGHT), EIGHT, STATE, 0.0)),
     "commands to weak rotors": (allocation.commanded, (CONSTRAINED, EIGHT, 0.0)),
-    "watching for a lost rotor": (detection.watch, (DETECTION, WATCHING, HEARD, EIGHT, 0.0, 0.0, 0.0)),
-    "wind on the payload": (windage.blown, (windage.Windage(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0)),
-    "share of a wrench": (limits.given_share, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
-    "what joints feel": (loads.feel, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
+    "watching for a lost rotor": (
+        rotor_loss_detection.detection_step,
+        (DETECTION, WATCHING, HEARD, EIGHT, 0.0, 0.0, 0.0),
+    ),
+    "wind on the payload": (air_drag.blown, (air_drag.PayloadDrag(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0)),
+    "share of a wrench": (thrust_limits.given_share, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
+    "what joints feel": (loads.perfect_readings, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
     "what joints pass on": (loads.under, (LOADS.quadrotors, FRAME, Q, FELT)),
     "loads together": (loads.resultant, (FRAME, Q, LOADS)),
     "feet on the floor": (contact.touch, (FLOOR, GRIP, FRAME, STATE)),

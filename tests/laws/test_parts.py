@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from tandemlift.constants import GRAVITY
-from tandemlift.laws.body import State, Wrench, motion
-from tandemlift.laws.parts import (
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.laws.mechanics.body import State, Wrench, motion
+from tandemlift.laws.mechanics.parts import (
     Acceleration,
     Joint,
     Point,
@@ -21,9 +22,8 @@ from tandemlift.laws.parts import (
     point_on_body,
     quadrotor_acceleration,
 )
-from tandemlift.laws.push import CentralPush
-from tandemlift.laws.rotation import body_z_axis, rotation_from_quaternion
-from tandemlift.vector import ZERO, Vec3, vec3
+from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.mechanics.rotation import body_z_axis, rotation_from_quaternion
 from tandemlift.vehicle import Vehicle, mixer, mixer_inverse
 
 from .helpers import array, free_body, quadrotor, random_state, random_vehicle, seeds

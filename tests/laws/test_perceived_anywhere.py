@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tandemlift.laws.estimation import push_estimator
-from tandemlift.laws.loads import Felt
-from tandemlift.laws.meters import Grade
-from tandemlift.laws.navigation import navigator
-from tandemlift.laws.sensing import sensors
+from tandemlift.algebra.vector import ZERO, spread
+from tandemlift.laws.estimation.navigation import navigator
+from tandemlift.laws.estimation.push_estimate import push_estimator
+from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.sensors.readings import sensors
+from tandemlift.laws.sensors.sensor_errors import SensorGrade
 from tandemlift.trace import flat as floats
-from tandemlift.vector import ZERO, spread
 
 from .helpers import flat, random_state, random_vec3, rebuilt
 from .newton_euler import paper_parts
@@ -21,7 +21,7 @@ from .perceived import HISS, STEP, Happening, Onboard, onboard, perceived, step
 
 BATCH = 6
 P = paper_parts()
-COARSE = Grade(noise=0.05, bias=0.1, drift=0.2, resolution=0.02, limit=30.0, misalignment=0.02)
+COARSE = SensorGrade(noise=0.05, bias=0.1, drift=0.2, resolution=0.02, limit=30.0, misalignment=0.02)
 DEVICES = sensors(2, STEP, COARSE, COARSE, COARSE, COARSE, 0.003, 0.01, 0.002, unit_period=2, motion_period=3)
 PUSHES = push_estimator(
     P.mass, P.inertia, P.joints, P.quadrotors, P.masses, STEP, unit_period=2, length=2.0,
@@ -33,7 +33,10 @@ OBSERVER = navigator(P.centre, STEP, 2, 3, rates_bandwidth=300.0, age=0.004)
 def happenings(count: int) -> list[Happening]:
     rng = np.random.default_rng(5)
     pairs = 4.0 * rng.standard_normal((count, 2, 2, 3))
-    return [Happening(random_state(rng), Felt(random_vec3(rng, 9.0), spread(f), spread(t), ZERO)) for f, t in pairs]
+    return [
+        Happening(random_state(rng), PerfectReadings(random_vec3(rng, 9.0), spread(f), spread(t), ZERO))
+        for f, t in pairs
+    ]
 
 
 def started() -> Onboard:

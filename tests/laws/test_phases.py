@@ -2,8 +2,8 @@
 
 import pytest
 
-from tandemlift.laws.body import State
-from tandemlift.laws.phases import (
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.guidance.phases import (
     GUIDED,
     HOLD,
     IDLE,
@@ -12,22 +12,22 @@ from tandemlift.laws.phases import (
     NAMES,
     SETTLE,
     STOPPED,
-    Bounds,
-    Phase,
-    Phasing,
+    PhaseBounds,
+    PhaseSettings,
+    PhaseState,
     follow,
     later,
     more,
-    orders_of,
+    phase_output,
     wants_lift,
 )
-from tandemlift.laws.requests import NOBODY, Asked, Operator, Requests, also, asked_until
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.guidance.requests import NOBODY, OperatorRequest, RequestCounts, RequestSchedule, also, asked_until
+from tandemlift.laws.mechanics.body import State
 
-FREE = Bounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+FREE = PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEVEL, DT, NEVER = Quat(1.0, 0.0, 0.0, 0.0), 0.05, 1e18
-PHASING = Phasing(1.0, 1.0, 0.5, NEVER, 0.5, 0.03, 0.3, 0.0, 10.0, Nothing())
-BEFORE = Phase(IDLE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLE)
+PHASING = PhaseSettings(1.0, 1.0, 0.5, NEVER, 0.5, 0.03, 0.3, 0.0, 10.0, Nothing())
+BEFORE = PhaseState(IDLE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLE)
 
 
 def flown(until, k=PHASING, bounds=lambda t: FREE, operator=lambda t: NOBODY, land=lambda t: 0.0, height=0.0):
@@ -43,7 +43,7 @@ def flown(until, k=PHASING, bounds=lambda t: FREE, operator=lambda t: NOBODY, la
         if after.phase != m.phase:
             story.append((round(t, 2), NAMES[int(after.phase)]))
         m = after
-    return story, m, orders_of(k, m, t)
+    return story, m, phase_output(k, m, t)
 
 
 def names(story):
@@ -69,7 +69,7 @@ def test_a_landing_that_is_asked_for_on_the_ground_takes_back_a_lift_that_was_re
 
 def requests(*asked):
     cls = each(len(asked))
-    return Requests(
+    return RequestSchedule(
         cls(*[t for t, _ in asked]),
         *[cls(*[float(a == what) for _, a in asked]) for what in ("lift", "land", "stop")],
         cls(*[{"enable": 1.0, "disable": -1.0}.get(a, 0.0) for _, a in asked]),
@@ -97,14 +97,14 @@ def test_disabled_it_holds_and_does_not_listen_and_enabled_it_does():
 
 
 def test_an_operator_beside_the_clock_enables_and_stops():
-    story, _, orders = flown(8.0, operator=lambda t: Operator(0.0, float(5.0 <= t < 5.1), float(t < 4.0)))
+    story, _, orders = flown(8.0, operator=lambda t: OperatorRequest(0.0, float(5.0 <= t < 5.1), float(t < 4.0)))
     assert story[2:] == [(4.0, "hold"), (5.0, "stopped")]
     assert (orders.running, orders.flying, orders.grounded) == (0.0, 0.0, 1.0)
 
 
 def test_an_operator_lifts_without_the_clock():
     k = PHASING._replace(lift_start=NEVER)
-    assert flown(5.0, k, operator=lambda t: Operator(float(t > 2.0), 0.0, 1.0))[0][0] == (2.05, "lift")
+    assert flown(5.0, k, operator=lambda t: OperatorRequest(float(t > 2.0), 0.0, 1.0))[0][0] == (2.05, "lift")
 
 
 @pytest.mark.parametrize("phase", ["idle", "lift", "hold", "guided", "land"])
@@ -152,5 +152,5 @@ def test_hovering_counts_from_steady_flight():
 
 
 def test_nobody_asks_for_nothing():
-    assert asked_until(Nothing(), 1.0) == Asked(0.0, 0.0, 0.0, 1.0)
+    assert asked_until(Nothing(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
     assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED} == set(map(float, range(len(NAMES))))

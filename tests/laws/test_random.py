@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from tandemlift.laws.random import MASK, Words, keys_of, normals, philox, radius
+from tandemlift.laws.signals.random_numbers import MASK, Words, keys_of, normals, philox, radius
 from tandemlift.trace.functions import compiled, written
 
 from .machine_code import answers

@@ -7,13 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tandemlift.laws.admittance import Trajectory
-from tandemlift.laws.reference import Phases, reference, smoothstep
-from tandemlift.vector import ZERO, Vec3
+from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.laws.signals.trajectories import ScheduledPhases, Trajectory, reference, smoothstep
 
 from .helpers import array, vectors
 
-PHASES = Phases(height=1.0, lift_start=2.0, lift_rate=1.0 / 6.0, land_start=70.0, land_rate=1.0 / 12.0)
+PHASES = ScheduledPhases(height=1.0, lift_start=2.0, lift_rate=1.0 / 6.0, land_start=70.0, land_rate=1.0 / 12.0)
 AT_REST = Trajectory(ZERO, ZERO, ZERO)
 
 

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.rotation import (
+from tandemlift.algebra.vector import Quat, Vec3, apply, apply_transposed, cross, dot, hamilton, mat3, outer
+from tandemlift.laws.mechanics.rotation import (
     body_z_axis,
     euler_from_quaternion,
     euler_rates_from_rates,
@@ -18,7 +19,6 @@ from tandemlift.laws.rotation import (
     rotation_from_quaternion,
     sine_of_roll,
 )
-from tandemlift.vector import Quat, Vec3, apply, apply_transposed, cross, dot, hamilton, mat3, outer
 
 from .helpers import array, attitudes, numbers, random_attitude, seeds, vectors
 

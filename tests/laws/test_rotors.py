@@ -6,21 +6,21 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tandemlift.laws.body import State
-from tandemlift.laws.limits import share_scale
-from tandemlift.laws.rotors import (
-    Faults,
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.rotors.dynamics import (
     FreeAir,
     IdealRotors,
-    Sound,
-    Spinning,
+    NoFaults,
+    RotorFaults,
+    RotorState,
     drive,
     ground_effect,
     near_ground,
-    rotors_of,
+    rotors_from,
 )
+from tandemlift.laws.rotors.thrust_limits import share_scale
 from tandemlift.missions import load_mission
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.vehicle import Vehicle
 
 VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)
@@ -31,12 +31,14 @@ EIGHT = each(8)
 
 def rotors(step=0.001, *, late=False, faults=None, surface=None):
     scale = share_scale(VEHICLE.effect)
-    return rotors_of(VEHICLE, step, late=late, faults=faults or Sound(), surface=surface or FreeAir(), per_reach=scale)
+    return rotors_from(
+        VEHICLE, step, late=late, faults=faults or NoFaults(), surface=surface or FreeAir(), per_reach=scale
+    )
 
 
 def spun(command, speed, steps, step=0.001):
     """Thrusts and speeds over steps under a held command [N], all rotors alike."""
-    r, memory = rotors(step), Spinning(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
+    r, memory = rotors(step), RotorState(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
     thrusts, speeds = [], []
     for k in range(steps):
         thrust, memory = drive(r, memory, EIGHT(*(command,) * 8), LEVEL, k * step)
@@ -82,8 +84,8 @@ def test_a_stopped_rotor_ends_at_rest_and_not_in_denormal_numbers():
 def test_a_late_command_is_the_one_that_arrives():
     r = rotors(late=True)
     arriving, given = EIGHT(*(5.0,) * 8), EIGHT(*(1.0,) * 8)
-    late, after = drive(r, Spinning(EIGHT(*(800.0,) * 8), arriving), given, LEVEL, 0.0)
-    at_once, _ = drive(rotors(), Spinning(EIGHT(*(800.0,) * 8), given), arriving, LEVEL, 0.0)
+    late, after = drive(r, RotorState(EIGHT(*(800.0,) * 8), arriving), given, LEVEL, 0.0)
+    at_once, _ = drive(rotors(), RotorState(EIGHT(*(800.0,) * 8), given), arriving, LEVEL, 0.0)
     assert late == at_once
     assert after.arriving == given
 
@@ -94,7 +96,7 @@ def test_a_rotor_fails_at_its_time_and_keeps_its_share():
         EIGHT(*[0.3 if i == 4 else 1.0 for i in range(8)]),
     )
     speed = math.sqrt(4.0 / CONSTANT)
-    r, memory = rotors(faults=Faults(times, left)), Spinning(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
+    r, memory = rotors(faults=RotorFaults(times, left)), RotorState(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
     before, _ = drive(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 1.999)
     after, _ = drive(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 2.0)
     assert list(before) == pytest.approx([4.0] * 8, rel=1e-12)

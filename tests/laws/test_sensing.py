@@ -10,26 +10,26 @@ from hypothesis import given
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.body import State
-from tandemlift.laws.loads import Felt
-from tandemlift.laws.meters import Grade
-from tandemlift.laws.sensing import Hiss, Readings, Sensors, sense, sensors, start_sensing
-from tandemlift.vector import ZERO, Quat, Vec3, each, spread, vec3
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, spread, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.sensors.readings import Readings, SensorNoise, Sensors, sense, sensors, start_sensing
+from tandemlift.laws.sensors.sensor_errors import SensorGrade
 
 from .helpers import array, flat, random_attitude, random_state, random_vec3, rebuilt, seeds
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
-HISS = Hiss(ZERO, ZERO, SETS, SETS, ZERO, ZERO, ZERO)
+HISS = SensorNoise(ZERO, ZERO, SETS, SETS, ZERO, ZERO, ZERO)
 AT_REST = State(Vec3(1.0, 2.0, 3.0), ZERO, Quat(1.0, 0.0, 0.0, 0.0), Vec3(0.1, 0.2, -0.3))
-FELT = Felt(Vec3(0.1, -0.2, 9.8), spread([[0.1, 0.2, 2.4], [0.3, -0.1, 2.5]]), spread(np.eye(3)[:2]), ZERO)
+FELT = PerfectReadings(Vec3(0.1, -0.2, 9.8), spread([[0.1, 0.2, 2.4], [0.3, -0.1, 2.5]]), spread(np.eye(3)[:2]), ZERO)
 NOISY = sensors(
     2,
     STEP,
-    force=Grade(noise=0.05, bias=[[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]], drift=0.2),
-    torque=Grade(noise=0.01, drift=0.1),
-    accelerometer=Grade(noise=0.03, drift=0.3),
-    gyroscope=Grade(noise=0.002, drift=0.05),
+    force=SensorGrade(noise=0.05, bias=[[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]], drift=0.2),
+    torque=SensorGrade(noise=0.01, drift=0.1),
+    accelerometer=SensorGrade(noise=0.03, drift=0.3),
+    gyroscope=SensorGrade(noise=0.002, drift=0.05),
     position_noise=0.003,
     velocity_noise=0.01,
     attitude_noise=0.02,
@@ -38,12 +38,12 @@ NOISY = sensors(
 )
 
 
-def random_felt(rng: np.random.Generator) -> Felt:
+def random_felt(rng: np.random.Generator) -> PerfectReadings:
     force, torque = rng.standard_normal((2, 2, 3))
-    return Felt(random_vec3(rng), spread(force), spread(torque), ZERO)
+    return PerfectReadings(random_vec3(rng), spread(force), spread(torque), ZERO)
 
 
-def hiss(rng: np.random.Generator, size: Any = None) -> Hiss:
+def hiss(rng: np.random.Generator, size: Any = None) -> SensorNoise:
     """Standard normals for a step, of one flight or of many at once."""
     shape = (27,) if size is None else (27, size)
     return rebuilt(list(rng.standard_normal(shape)), HISS)

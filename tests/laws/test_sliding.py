@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tandemlift.laws.body import Body
-from tandemlift.laws.expanded import Axes, drift, expanded_dynamics, response
-from tandemlift.laws.sliding import (
+from tandemlift.algebra.vector import Vec3, vec3
+from tandemlift.controllers.equations_of_motion import GeneralizedVector, drift, expanded_dynamics, response
+from tandemlift.controllers.sliding_surface import (
     Cubic,
     Power,
     Saturation,
@@ -30,7 +30,7 @@ from tandemlift.laws.sliding import (
     terminal_slope,
     wanted_acceleration,
 )
-from tandemlift.vector import Vec3, vec3
+from tandemlift.laws.mechanics.body import RigidBody
 
 from .helpers import array, free_body, numbers, random_vec3, seeds, vectors
 
@@ -135,31 +135,31 @@ class Case:
 
     def __init__(self, seed: int, known: bool) -> None:
         rng = np.random.default_rng(seed)
-        self.body: Body = free_body(3.5, np.diag([3.2, 0.06, 3.3]))._replace(
+        self.body: RigidBody = free_body(3.5, np.diag([3.2, 0.06, 3.3]))._replace(
             drag_force=Vec3(0.1, 0.2, 0.3),
             drag_moment=Vec3(0.4, 0.5, 0.6),
             force=random_vec3(rng),
             moment=random_vec3(rng, 0.1),
         )
         self.k = surface(Cubic())
-        self.e, self.de = (Axes(random_vec3(rng), random_vec3(rng)) for _ in range(2))
+        self.e, self.de = (GeneralizedVector(random_vec3(rng), random_vec3(rng)) for _ in range(2))
         self.velocity, self.rates = random_vec3(rng), random_vec3(rng)
-        self.wanted = Axes(random_vec3(rng), random_vec3(rng))  # χ̈_d
-        self.delta = response(self.body, Axes(self.body.force, self.body.moment))
-        self.believed = self.delta if known else Axes(vec3(np.zeros(3)), vec3(np.zeros(3)))
+        self.wanted = GeneralizedVector(random_vec3(rng), random_vec3(rng))  # χ̈_d
+        self.delta = response(self.body, GeneralizedVector(self.body.force, self.body.moment))
+        self.believed = self.delta if known else GeneralizedVector(vec3(np.zeros(3)), vec3(np.zeros(3)))
 
-    def input(self, *extra: Axes) -> Axes:
+    def input(self, *extra: GeneralizedVector) -> GeneralizedVector:
         """u = (χ̈_d − Ϝ − δ̂ + …)/b."""
         total = self.wanted
         F = drift(self.body, self.velocity, self.rates)
         for part, factor in ((F, -1.0), (self.believed, -1.0), *((x, 1.0) for x in extra)):
-            total = total + Axes(part.position * factor, part.attitude * factor)
-        return Axes(total.position / self.body.inverse_mass, total.attitude / self.body.inverse_inertia)
+            total = total + GeneralizedVector(part.position * factor, part.attitude * factor)
+        return GeneralizedVector(total.position / self.body.inverse_mass, total.attitude / self.body.inverse_inertia)
 
-    def each(self, f) -> Axes:
-        return Axes(*(f(self.k, e, de) for e, de in zip(self.e, self.de, strict=True)))
+    def each(self, f) -> GeneralizedVector:
+        return GeneralizedVector(*(f(self.k, e, de) for e, de in zip(self.e, self.de, strict=True)))
 
-    def surface_rate(self, u: Axes) -> np.ndarray:
+    def surface_rate(self, u: GeneralizedVector) -> np.ndarray:
         moved = expanded_dynamics(self.body, self.velocity, self.rates, u)
         return np.concatenate(
             [

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.turns import normalised, quaternion_of_turn, turn_left, turned
-from tandemlift.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.laws.mechanics.rotation_vectors import normalised, quaternion_of_turn, turn_left, turned
 
 from .helpers import array, random_attitude, seeds
 

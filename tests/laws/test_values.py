@@ -10,11 +10,25 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from tandemlift.law import choice, elementwise
-from tandemlift.laws.body import State
-from tandemlift.laws.sliding import Cubic, switching
-from tandemlift.ops import absolute, atan2, atan_ratio, clip, exp, log, maximum, minimum, power, sin, sqrt, tanh, where
-from tandemlift.vector import ZERO, Mat3, Quat, Vec3, dot, each, mat3, vec3
+from tandemlift.algebra.law import choice, elementwise
+from tandemlift.algebra.ops import (
+    absolute,
+    atan2,
+    atan_ratio,
+    clip,
+    exp,
+    log,
+    maximum,
+    minimum,
+    power,
+    sin,
+    sqrt,
+    tanh,
+    where,
+)
+from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, dot, each, mat3, vec3
+from tandemlift.controllers.sliding_surface import Cubic, switching
+from tandemlift.laws.mechanics.body import State
 
 from .helpers import array, numbers, random_state, vectors
 
@@ -99,7 +113,7 @@ def test_rotor_sets_are_one_class_for_each_number_of_rotors_and_survive_pickling
     assert eight + eight == eight * 2.0
     assert dot(eight, eight) == 140.0
     with pytest.raises(AttributeError, match="Each"):
-        __import__("tandemlift.vector", fromlist=["x"]).EachOfDoom  # noqa: B018
+        __import__("tandemlift.algebra.vector", fromlist=["x"]).EachOfDoom  # noqa: B018
 
 
 def test_values_are_made_from_any_numbers_as_floats():

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.vehicle import Vehicle, mixer, mixer_inverse
 
 from .helpers import BEAM, HEIGHT, paper_vehicle, quadrotor, random_vehicle, seeds

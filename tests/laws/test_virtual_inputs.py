@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from tandemlift.laws.rotation import euler_from_quaternion, quaternion_from_euler, rotation_from_euler
-from tandemlift.laws.virtual import TiltPrinted, TiltZXY, desired_orientation, total_thrust, virtual_inputs
-from tandemlift.vector import Vec3
+from tandemlift.algebra.vector import Vec3
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, quaternion_from_euler, rotation_from_euler
+from tandemlift.laws.mechanics.tilt import TiltPrinted, TiltZXY, desired_orientation, total_thrust, virtual_inputs
 
 from .helpers import PI, array, attitudes, numbers
 

@@ -5,21 +5,37 @@ import math
 import numpy as np
 import pytest
 
-from tandemlift.laws.body import State
-from tandemlift.laws.health import FROZEN, NO_NUMBER, OUT_OF_RANGE, Alike, Health, Ranges, judged
-from tandemlift.laws.sensing import Motion, Readings, Unit
-from tandemlift.laws.sensor_faults import SOUND, SensorFaults, Silence, Spoiling, sensor_fault, spoil, together
-from tandemlift.laws.turns import turned
-from tandemlift.laws.watchdog import Predicted, Watchdog, start_watching, watch
-from tandemlift.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.sensors.health import (
+    FROZEN,
+    NO_NUMBER,
+    OUT_OF_RANGE,
+    FrozenLimits,
+    ReadingRanges,
+    SensorHealth,
+    judged,
+)
+from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
+from tandemlift.laws.sensors.sensor_faults import (
+    SOUND,
+    DeviceSilence,
+    SensorFaults,
+    SensorFaultState,
+    apply_faults,
+    sensor_fault,
+    together,
+)
+from tandemlift.laws.sensors.watchdog import PredictedReadings, Watchdog, start_watchdog, watchdog_step
 
 DT, NEVER = 0.005, 1e18
 LEVEL, TWO = Quat(1.0, 0.0, 0.0, 0.0), each(2)
 DOG = Watchdog(
     stale=0.1,
     invalid=0.05,
-    ranges=Ranges(100.0, 20.0, 80.0, 15.0, 100.0, 20.0),
-    alike=Alike(25.0, 25.0, 25.0, 25.0, 25.0, 25.0),
+    ranges=ReadingRanges(100.0, 20.0, 80.0, 15.0, 100.0, 20.0),
+    alike=FrozenLimits(25.0, 25.0, 25.0, 25.0, 25.0, 25.0),
     forgets=DT / 0.5,
     attitude=0.1,
     way=0.1,
@@ -28,7 +44,9 @@ DOG = Watchdog(
     way_share=1.0 - math.exp(-10.0 * DT),
     per_interval=1.0 / DT,
 )
-NO_FAULTS = SensorFaults(Silence(NEVER, NEVER), Silence(NEVER, NEVER), together([SOUND, SOUND]), *[SOUND] * 5)
+NO_FAULTS = SensorFaults(
+    DeviceSilence(NEVER, NEVER), DeviceSilence(NEVER, NEVER), together([SOUND, SOUND]), *[SOUND] * 5
+)
 SENSORS = ("joints", "accelerometer", "gyroscope", "position", "velocity", "attitude")
 SIZES = {
     "joints": 200.0,
@@ -52,22 +70,24 @@ def stream(seconds, rates=ZERO, velocity=ZERO, seed=1):
 
     for _ in range(round(seconds / DT)):
         attitude, position = turned(attitude, rates * DT), position + velocity * DT
-        unit = Unit(Vec3(0.0, 0.0, 9.81) + noise(0.03), rates + noise(0.0025), joints(0.05), joints(0.005), LEVEL, 1.0)
+        unit = ImuReading(
+            Vec3(0.0, 0.0, 9.81) + noise(0.03), rates + noise(0.0025), joints(0.05), joints(0.005), LEVEL, 1.0
+        )
         yield Readings(
-            unit, Motion(position + noise(0.003), velocity + noise(0.01), turned(attitude, noise(0.002)), 1.0)
+            unit, MotionReading(position + noise(0.003), velocity + noise(0.01), turned(attitude, noise(0.002)), 1.0)
         )
 
 
 def watched(samples, faults=NO_FAULTS, predicted=None):
     """(clean readings, report) after every sample."""
-    expected = predicted or Predicted(State(ZERO, ZERO, LEVEL, ZERO), ZERO, ZERO)
+    expected = predicted or PredictedReadings(State(ZERO, ZERO, LEVEL, ZERO), ZERO, ZERO)
     memory = spoiling = None
     for sample in samples:
         if memory is None:
             still = Readings(sample.unit._replace(fresh=0.0), sample.motion._replace(fresh=0.0))
-            memory, spoiling = start_watching(still), Spoiling(still, 0.0)
-        given, spoiling = spoil(faults, spoiling, sample)
-        clean, report, memory = watch(DOG, memory, given, expected, DT)
+            memory, spoiling = start_watchdog(still), SensorFaultState(still, 0.0)
+        given, spoiling = apply_faults(faults, spoiling, sample)
+        clean, report, memory = watchdog_step(DOG, memory, given, expected, DT)
         yield clean, report
 
 
@@ -108,9 +128,9 @@ def test_each_fault_of_each_sensor_is_found_in_time_and_no_other_and_never_gets_
     assert biggest < 15.0
 
 
-@pytest.mark.parametrize("device", ["unit", "motion"])
+@pytest.mark.parametrize("device", ["imu", "motion"])
 def test_a_device_that_sends_nothing_is_stale_after_its_time(device):
-    faults = NO_FAULTS._replace(**{device: Silence(200.0, 300.0)})
+    faults = NO_FAULTS._replace(**{device: DeviceSilence(200.0, 300.0)})
     reports = [r for _, r in watched(stream(2.0), faults)]
     assert found_at(reports, device)[0] == pytest.approx(1.1, abs=2 * DT)
     assert getattr(reports[-1], device) == 0.0  # it has come back
@@ -118,7 +138,7 @@ def test_a_device_that_sends_nothing_is_stale_after_its_time(device):
 
 def test_the_count_of_samples_alike_is_that_of_numpy():
     values = np.random.default_rng(0).integers(0, 3, 500)
-    health, counted, run = Health(0.0, 0.0, 0.0), [], 0
+    health, counted, run = SensorHealth(0.0, 0.0, 0.0), [], 0
     for i, value in enumerate(values):
         alike = float(i > 0 and value == values[i - 1])
         health = judged(health, 1.0, 0.0, 0.0, alike, DT)
@@ -131,17 +151,17 @@ def test_the_count_of_samples_alike_is_that_of_numpy():
 @pytest.mark.parametrize(
     ("sensor", "size", "name", "late"),
     [
-        ("gyroscope", 0.4, "attitude_apart", True),
-        ("attitude", 0.15, "attitude_apart", False),
-        ("velocity", 0.4, "velocity_apart", True),
-        ("position", 0.3, "velocity_apart", False),
-        ("accelerometer", 1.0, "speed_apart", True),
+        ("gyroscope", 0.4, "attitude_inconsistent", True),
+        ("attitude", 0.15, "attitude_inconsistent", False),
+        ("velocity", 0.4, "velocity_inconsistent", True),
+        ("position", 0.3, "velocity_inconsistent", False),
+        ("accelerometer", 1.0, "speed_inconsistent", True),
     ],
 )
 def test_measurements_that_disagree_are_found_as_the_window_has_it(sensor, size, name, late):
     """A jump at once; a constant error b after −τ ln(1 − d / b τ)."""
     reports = [r for _, r in watched(stream(3.0), failing(sensor, "bias", size / math.sqrt(3.0)))]
-    limit = {"attitude_apart": 0.1, "velocity_apart": 0.1, "speed_apart": 0.3}[name]
+    limit = {"attitude_inconsistent": 0.1, "velocity_inconsistent": 0.1, "speed_inconsistent": 0.3}[name]
     wait = 0.0
     if late:
         wait = -0.5 * math.log(1.0 - limit / (size * 0.5))
@@ -151,7 +171,7 @@ def test_measurements_that_disagree_are_found_as_the_window_has_it(sensor, size,
 def test_measurements_agree_while_the_vehicle_turns_and_moves():
     still = Vec3(0.0, 0.0, 0.8)  # about the vertical, so that the accelerometer's reading stays
     reports = [r for _, r in watched(stream(6.0, rates=still, velocity=Vec3(1.0, -0.5, 0.2)))]
-    assert not any(r.attitude_apart + r.velocity_apart + r.speed_apart for r in reports)
+    assert not any(r.attitude_inconsistent + r.velocity_inconsistent + r.speed_inconsistent for r in reports)
 
 
 def test_the_attitude_stands_in_for_a_lost_gyroscope():
@@ -169,15 +189,17 @@ def test_the_position_stands_in_for_a_lost_velocity():
 
 
 def test_what_is_predicted_stands_in_for_a_lost_motion_measurement():
-    expected = Predicted(State(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), Quat(0.0, 0.0, 0.0, 1.0), ZERO), ZERO, ZERO)
-    faults = NO_FAULTS._replace(motion=Silence(200.0, NEVER))
+    expected = PredictedReadings(
+        State(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), Quat(0.0, 0.0, 0.0, 1.0), ZERO), ZERO, ZERO
+    )
+    faults = NO_FAULTS._replace(motion=DeviceSilence(200.0, NEVER))
     clean, _ = list(watched(stream(2.0), faults, expected))[-1]
     assert clean.motion == (*expected.state[:3], 0.0)
 
 
 def test_a_lost_accelerometer_reads_as_if_nothing_accelerated():
     tilted = turned(LEVEL, Vec3(0.3, 0.0, 0.0))
-    expected = Predicted(State(ZERO, ZERO, tilted, ZERO), ZERO, Vec3(0.1, 0.0, 0.0))
+    expected = PredictedReadings(State(ZERO, ZERO, tilted, ZERO), ZERO, Vec3(0.1, 0.0, 0.0))
     clean, _ = list(watched(stream(2.0), failing("accelerometer", "nan"), expected))[-1]
     assert clean.unit.specific_force == pytest.approx((0.1, 9.81 * math.sin(0.3), 9.81 * math.cos(0.3)))
 
@@ -185,17 +207,17 @@ def test_a_lost_accelerometer_reads_as_if_nothing_accelerated():
 def test_sensors_that_are_sound_give_what_they_read_to_the_last_bit():
     spoiling = None
     for sample in stream(0.5):
-        spoiling = spoiling or Spoiling(sample, 0.0)
-        given, spoiling = spoil(NO_FAULTS, spoiling, sample)
+        spoiling = spoiling or SensorFaultState(sample, 0.0)
+        given, spoiling = apply_faults(NO_FAULTS, spoiling, sample)
         assert given == sample
 
 
 def test_a_fault_ends_when_it_is_over():
     fault = sensor_fault("bias", 10.0, 20.0, Vec3(1.0, 2.0, 3.0))
     samples = list(stream(0.2))
-    spoiling, off = Spoiling(samples[0], 0.0), []
+    spoiling, off = SensorFaultState(samples[0], 0.0), []
     for sample in samples:
-        given, spoiling = spoil(NO_FAULTS._replace(position=fault), spoiling, sample)
+        given, spoiling = apply_faults(NO_FAULTS._replace(position=fault), spoiling, sample)
         off.append(given.motion.position - sample.motion.position)
     assert [i for i, o in enumerate(off) if any(o)] == list(range(10, 20))
     assert off[10] == pytest.approx((1.0, 2.0, 3.0))

@@ -18,35 +18,35 @@ from scipy.linalg import expm, solve_continuous_lyapunov
 from scipy.signal import welch
 from scipy.spatial.transform import Rotation
 
-from tandemlift.laws.body import State
-from tandemlift.laws.loads import frame_of
-from tandemlift.laws.random import keys_of, normals
-from tandemlift.laws.wind import (
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import parts_layout
+from tandemlift.laws.mechanics.wind import (
     AirDrag,
-    Calm,
     Dryden,
-    Eddies,
     Gust,
-    Still,
-    Whiffs,
+    NoTurbulence,
+    StillAir,
+    TurbulenceState,
     Wind,
+    WindNoise,
     air_loads,
-    blow,
     dryden,
-    first_eddies,
     gust_velocity,
     pass_by,
+    start_turbulence,
     swirl,
+    wind_step,
 )
-from tandemlift.vector import ZERO, Nothing, Vec3
+from tandemlift.laws.signals.random_numbers import keys_of, normals
 
 from .helpers import flat, numbers, paper_vehicle, random_state, random_vec3, rebuilt
 from .machine_code import Loop, answers
 from .test_air_drag import drag_of
 
 FOOT = 0.3048
-NO_EDDIES, NO_WHIFFS = Eddies(*[0.0] * 5), Whiffs(*[0.0] * 5)
-STEADY = Wind(Vec3(4.0, -2.0, 0.5), Calm())
+NO_EDDIES, NO_WHIFFS = TurbulenceState(*[0.0] * 5), WindNoise(*[0.0] * 5)
+STEADY = Wind(Vec3(4.0, -2.0, 0.5), NoTurbulence())
 X = (1.0, 0.0, 0.0)
 
 
@@ -81,9 +81,9 @@ class Linear(NamedTuple):
 
 def linear(d: Dryden) -> Linear:
     unit = np.eye(5).tolist()
-    F = np.transpose([pass_by(d, Eddies(*e), NO_WHIFFS) for e in unit])
-    L = np.transpose([pass_by(d, NO_EDDIES, Whiffs(*e)) for e in unit])
-    return Linear(F, L, np.transpose([swirl(d, Eddies(*e)) for e in unit]))
+    F = np.transpose([pass_by(d, TurbulenceState(*e), NO_WHIFFS) for e in unit])
+    L = np.transpose([pass_by(d, NO_EDDIES, WindNoise(*e)) for e in unit])
+    return Linear(F, L, np.transpose([swirl(d, TurbulenceState(*e)) for e in unit]))
 
 
 STEPS = pytest.mark.parametrize("step", [1e-4, 1e-3, 1e-2, 0.1, 3.0])
@@ -104,7 +104,7 @@ def test_five_normal_numbers_are_the_stationary_memory_at_any_step(step):
     d = dryden(8.0, 6.0, 4.0, X, step)
     F, L, _ = linear(d)
     assert np.eye(5) == pytest.approx(F @ F.T + L @ L.T, abs=1e-14)
-    assert first_eddies(d, [0.1, 0.2, 0.3, 0.4, 0.5]) == Eddies(0.1, 0.2, 0.3, 0.4, 0.5)
+    assert start_turbulence(d, [0.1, 0.2, 0.3, 0.4, 0.5]) == TurbulenceState(0.1, 0.2, 0.3, 0.4, 0.5)
 
 
 @STEPS
@@ -186,9 +186,9 @@ class Step(NamedTuple):
     number: Any
 
 
-def blown(fixed: Blowing, eddies: Eddies, given: Step) -> Any:
+def blown(fixed: Blowing, eddies: TurbulenceState, given: Step) -> Any:
     x, y = normals(given.number, 0, fixed.key0, fixed.key1), normals(given.number, 1, fixed.key0, fixed.key1)
-    return blow(fixed.wind, eddies, ZERO, Whiffs(x.first, x.second, x.third, x.fourth, y.first))
+    return wind_step(fixed.wind, eddies, ZERO, WindNoise(x.first, x.second, x.third, x.fourth, y.first))
 
 
 @pytest.fixture(scope="module")
@@ -198,7 +198,7 @@ def flown() -> tuple[np.ndarray, float, float]:
     wind = Wind(ZERO, dryden(8.0, 6.0, V, X, step))
     fixed, (x, y) = Blowing(wind, *keys_of(1)), (normals(0, draw, *keys_of(1)) for draw in (2, 3))
     loop = Loop(blown, fixed, NO_EDDIES, Step(0.0))
-    return loop(fixed, Eddies(*x, y.first), np.arange(count)[:, None]).T, step, V
+    return loop(fixed, TurbulenceState(*x, y.first), np.arange(count)[:, None]).T, step, V
 
 
 @pytest.mark.parametrize("axis", range(3), ids="uvw")
@@ -228,17 +228,17 @@ def test_the_variance_of_a_long_flight_is_that_of_the_standard(flown):
 
 def test_calm_wind_is_steady_and_still_air_does_not_move():
     gust = Vec3(1.0, 2.0, 3.0)
-    assert blow(STEADY, Nothing(), gust, Nothing()) == (Vec3(5.0, 0.0, 3.5), Nothing())
-    assert blow(Still(), Nothing(), gust, Nothing()) == (ZERO, Nothing())
-    assert first_eddies(Calm(), [0.0] * 5) == Nothing()
+    assert wind_step(STEADY, Nothing(), gust, Nothing()) == (Vec3(5.0, 0.0, 3.5), Nothing())
+    assert wind_step(StillAir(), Nothing(), gust, Nothing()) == (ZERO, Nothing())
+    assert start_turbulence(NoTurbulence(), [0.0] * 5) == Nothing()
 
 
 def test_the_air_moves_by_the_eddies_of_now_and_whiffs_move_those_of_the_next_step():
     wind = Wind(Vec3(4.0, 0.0, 0.0), dryden(8.0, 6.0, 4.0, X, 1e-3))
-    whiffs = Whiffs(1.0, -1.0, 1.0, -1.0, 1.0)
-    air, eddies = blow(wind, NO_EDDIES, ZERO, whiffs)
+    whiffs = WindNoise(1.0, -1.0, 1.0, -1.0, 1.0)
+    air, eddies = wind_step(wind, NO_EDDIES, ZERO, whiffs)
     assert air == Vec3(4.0, 0.0, 0.0)
-    assert blow(wind, eddies, ZERO, whiffs)[0] != air
+    assert wind_step(wind, eddies, ZERO, whiffs)[0] != air
 
 
 durations = st.floats(0.05, 5.0)
@@ -274,9 +274,9 @@ class Given(NamedTuple):
     """Arguments of all laws of the wind."""
 
     dryden: Wind
-    eddies: Eddies
+    eddies: TurbulenceState
     gust: Gust
-    whiffs: Whiffs
+    whiffs: WindNoise
     drag: AirDrag
     state: State
     time: Any
@@ -284,9 +284,9 @@ class Given(NamedTuple):
 
 def everything(x: Given, frame: Any) -> Any:
     gust = gust_velocity(x.gust, x.time)
-    air, eddies = blow(x.dryden, x.eddies, gust, x.whiffs)
-    steady, none = blow(Wind(gust, Calm()), Nothing(), gust, Nothing())
-    still, _ = blow(Still(), Nothing(), gust, Nothing())
+    air, eddies = wind_step(x.dryden, x.eddies, gust, x.whiffs)
+    steady, none = wind_step(Wind(gust, NoTurbulence()), Nothing(), gust, Nothing())
+    still, _ = wind_step(StillAir(), Nothing(), gust, Nothing())
     return air, eddies, steady, none, still, air_loads(x.drag, frame, x.state, air)
 
 
@@ -296,9 +296,9 @@ def random_given(rng: np.random.Generator) -> Given:
     gust = Gust(random_vec3(rng, 3.0), 1.0, float(rng.uniform(0.2, 2.0)), 1.0)
     return Given(
         wind,
-        Eddies(*five[0]),
+        TurbulenceState(*five[0]),
         gust,
-        Whiffs(*five[1]),
+        WindNoise(*five[1]),
         drag_of(rng),
         random_state(rng),
         float(rng.uniform(0.0, 5.0)),
@@ -309,12 +309,12 @@ def random_given(rng: np.random.Generator) -> Given:
 def many() -> tuple[list[Given], np.ndarray]:
     """Arguments, and what the laws make of them in plain Python (cases × numbers)."""
     cases = [random_given(np.random.default_rng(seed)) for seed in range(20)]
-    return cases, np.array([flat(everything(case, frame_of(paper_vehicle()))) for case in cases])
+    return cases, np.array([flat(everything(case, parts_layout(paper_vehicle()))) for case in cases])
 
 
 def test_machine_code_equals_plain_python(many):
     cases, wanted = many
-    frame = frame_of(paper_vehicle())
+    frame = parts_layout(paper_vehicle())
     rows = [flat(case) + flat(frame) for case in cases]
     for lanes in (1, 8):
         assert answers(everything, (cases[0], frame), rows, lanes) == pytest.approx(wanted, abs=1e-12, rel=1e-12)
@@ -322,7 +322,7 @@ def test_machine_code_equals_plain_python(many):
 
 def test_numpy_jax_and_casadi_evaluate_the_same_laws(many, jax, casadi):
     cases, wanted = many
-    table, frame = np.transpose([flat(case) for case in cases]), frame_of(paper_vehicle())
+    table, frame = np.transpose([flat(case) for case in cases]), parts_layout(paper_vehicle())
 
     def answers(numbers: Any) -> list[Any]:
         return flat(everything(rebuilt(numbers, cases[0]), frame))

@@ -118,7 +118,7 @@ def rude(count: int, seed: int) -> Iterator[str]:
         (lambda: {"type": "force", "force": far(1e3), "point": far(0.2)}, 20),
         (lambda: {"type": "release"}, 10),
         (lambda: {"type": "set", "key": "admittance.mass", "value": [r.uniform(0.3, 20.0)] * r.choice((1, 3, 64))}, 2),
-        (lambda: {"type": "set", "key": r.choice(["wind.velocity", "partner.stiffness"]), "value": r.random()}, 2),
+        (lambda: {"type": "set", "key": r.choice(["wind.velocity", "person.stiffness"]), "value": r.random()}, 2),
         (lambda: {"type": "kill", "rotor": r.choice((8, 255))}, 1),
         (lambda: {"type": "enable", "on": r.random() < 0.5}, 2),
         (lambda: {"type": "ping", "t": r.choice((-1e12, 0, 1e12))}, 2),

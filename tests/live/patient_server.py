@@ -21,7 +21,7 @@ def make_patient(put: Callable[[Any, str, Any], None] = setattr) -> None:
 
 
 if __name__ == "__main__":
-    from tandemlift.cli import main
+    from tandemlift.cli.main import main
 
     make_patient()
     main()

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from patience import PATIENCE, joined
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.wire.frames import layout_for, pack_frames
 from tandemlift.live.wire.page_messages import (
     ForceMessage,

@@ -21,7 +21,7 @@ from patience import PATIENCE, said
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.cli import cli
+from tandemlift.cli.main import cli
 from tandemlift.live import page_files as pages
 from tandemlift.live.page_files import page_files
 from tandemlift.live.replay import replay_files, replay_html, scene_and_frames
@@ -327,7 +327,7 @@ def test_the_address_is_printed_and_ctrl_c_ends_it_well(verb, flight, page, tmp_
     flight.save(tmp_path / "flight.npz")
     code = f"""
         import pathlib, sys, types
-        from tandemlift.cli import main
+        from tandemlift.cli.main import main
         from tandemlift.live import page_files as pages
         from standin import StandIn
         pages.PAGE_FOLDER = pathlib.Path({str(page)!r})

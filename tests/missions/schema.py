@@ -1,7 +1,8 @@
 """All keys of a mission, by walking its tables."""
 
-from tandemlift.laws.controllers import CONTROLLERS
-from tandemlift.missions.explain import keys_of, table_in
+from tandemlift.controllers import CONTROLLERS
+from tandemlift.missions.bounds import table_in
+from tandemlift.missions.refusals import keys_of
 from tandemlift.settings import Mission
 
 
@@ -30,7 +31,7 @@ EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and
     "requests": [{"time": 60.0, "action": "land"}],
     "sensor_faults": [{"sensor": "joints", "quadrotor": 1, "kind": "bias", "time": 60.0, "until": 61.0}],
     "walls": [{"start": [20.0, -3.0], "end": [20.0, 3.0]}],
-    "partner": {"path": [{"point": [1.0, 0.0], "heading": 0.0}]},
+    "person": {"path": [{"point": [1.0, 0.0], "heading": 0.0}]},
     "changes": [{"time": 5.0, "key": "admittance.damping", "value": 4.0}],
 }
 SCHEMA = dict(reversed(list(schema_keys())))  # of `controller.name`, what every mission asks for

@@ -8,11 +8,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.laws.partner import LEG
+from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.missions import check, tables_of
 from tandemlift.settings import wall_tables
 from tandemlift.settings.corridor import CorridorTable
+from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import unflat
 
 LINE = ((0.0, 0.0), (5.0, 0.0), (10.0, 3.0), (15.0, 0.0))
@@ -73,7 +73,7 @@ def test_the_file_keeps_the_centreline_and_the_loop_gets_walls_and_legs():
     changes = {
         **WALKED,
         "corridor.centreline": LINE,
-        "partner.model": "steer",
+        "person.model": "steer",
         "walls": [{"start": [0, 9], "end": [9, 9]}],
     }
     mission = tl.load_mission("hover", changes)
@@ -82,7 +82,7 @@ def test_the_file_keeps_the_centreline_and_the_loop_gets_walls_and_legs():
     assert wall_tables(tables) == [w.model_dump(mode="json") for w in mission.all_walls]
     assembled = assemble(mission)
     assert len(assembled.tables.walls) == 1 + 6
-    legs = [unflat(row, LEG) for row in assembled.tables.legs]
+    legs = [unflat(row, PATH_LEG) for row in assembled.tables.legs]
     assert [(leg.end.x, leg.end.y) for leg in legs] == list(LINE)
     assert [leg.number for leg in legs] == [0.0, 1.0, 2.0, 3.0]
     assert check(tables) == mission
@@ -96,11 +96,11 @@ def test_the_file_keeps_the_centreline_and_the_loop_gets_walls_and_legs():
         ({"corridor.centreline": [[0.0, 0.0], [5.0, 0.0], [1.0, 0.1]]}, "150°"),
         ({"corridor.centreline": [[0.0, 0.0], [5.0, 0.0], [5.0, 1.0], [0.0, 1.0]]}, "farther apart"),
         ({"corridor.centreline": LINE, "ground.model": "none"}, "ground.model"),
-        ({"partner.model": "steer"}, "[[partner.path]]"),
-        ({"partner.model": "pull", "partner.grip": 1.2, "corridor.centreline": LINE}, "within ±1 m"),
-        ({"partner.delay": 1.5}, "partner.delay"),
-        ({"partner.model": "push"}, '"two-hands"'),
-        ({"mission.step": 1e-5, "partner.delay": 0.9, "mission.duration": 1.0}, "10000 steps"),
+        ({"person.model": "steer"}, "[[person.path]]"),
+        ({"person.model": "pull", "person.grip": 1.2, "corridor.centreline": LINE}, "within ±1 m"),
+        ({"person.delay": 1.5}, "person.delay"),
+        ({"person.model": "push"}, '"two-hands"'),
+        ({"mission.step": 1e-5, "person.delay": 0.9, "mission.duration": 1.0}, "10000 steps"),
     ],
 )
 def test_what_cannot_be_is_refused_with_the_key_and_what_is_allowed(changes, said):
@@ -109,9 +109,9 @@ def test_what_cannot_be_is_refused_with_the_key_and_what_is_allowed(changes, sai
 
 
 def test_a_person_who_pushes_during_the_tare_or_asks_in_vain_is_warned_of():
-    partner = {"partner.model": "steer", "partner.path": [{"point": [1.0, 0.0]}], "partner.start": 2.0}
+    partner = {"person.model": "steer", "person.path": [{"point": [1.0, 0.0]}], "person.start_time": 2.0}
     with pytest.warns(tl.FlightWarning) as told:
         tl.load_mission("iris", {**partner, "pilot.guidance": "clock"})
     said = " ".join(str(w.message) for w in told)
-    assert "partner.start = 2.0 is before the tare ends at 12 s" in said
+    assert "person.start_time = 2.0 is before the tare ends at 12 s" in said
     assert "asks to land in vain" in said

@@ -10,7 +10,9 @@ from schema import EVERYTHING
 
 import tandemlift as tl
 from tandemlift.missions import built_in, load_mission, tables_of
-from tandemlift.missions.explain import keys_of, table_in, value_at
+from tandemlift.missions.bounds import table_in
+from tandemlift.missions.refusals import keys_of
+from tandemlift.missions.values import value_at
 from tandemlift.settings import Mission
 
 JARGON = (

@@ -11,8 +11,8 @@ from schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
 from tandemlift.missions import built_in, check, load_mission, tables_of
-from tandemlift.missions.explain import value_at
-from tandemlift.missions.surroundings import standing_of
+from tandemlift.missions.surroundings_checks import standing_of
+from tandemlift.missions.values import value_at
 from tandemlift.settings import Mission
 
 LEVEL = {"initial.euler": 0.0, "ground.model": "floor"}
@@ -75,7 +75,7 @@ def test_the_template_is_a_mission_with_all_that_it_keeps_out_as_well():
     tables |= {"actuators": {"model": "rotors"}, "ground": tables["ground"] | {"model": "floor"}}
     tables["wind"]["model"], tables["allocation"]["method"] = "air", "constrained"
     tables["initial"]["euler"] = 0.0
-    del tables["partner"]["recording"]  # no such file
+    del tables["person"]["recording"]  # no such file
     tables["pilot"]["guidance"], tables["sensors"]["model"] = "hand", "simulated"
     with warnings.catch_warnings():
         warnings.simplefilter("error")

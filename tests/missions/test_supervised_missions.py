@@ -3,12 +3,13 @@
 import pytest
 
 import tandemlift as tl
-from tandemlift.laws.alarms import CHECKS, FAULTS, Faults, alarm_name
+from tandemlift.laws.guidance.fault_reactions import CHECKS, FAULTS, ActiveFaults, alarm_name
 from tandemlift.missions import load_mission
-from tandemlift.pilot.supervised import start_requests
+from tandemlift.pilot.supervision import start_requests
 from tandemlift.settings.supervision import ReactionsTable
 
 BY_HAND = {"pilot.guidance": "hand"}
+WATCHED = {**BY_HAND, "supervision.model": "watch"}
 BY_CLOCK = {"pilot.guidance": "clock"}
 FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
 
@@ -25,15 +26,15 @@ FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
             "sensors.model",
         ),
         ({"sensor_faults": [FROZEN, FROZEN]}, "fails already in sensor_faults.0"),
-        ({"sensor_faults": [FROZEN, {**FROZEN, "sensor": "unit", "kind": "nan"}]}, "fails already in sensor_faults.0"),
+        ({"sensor_faults": [FROZEN, {**FROZEN, "sensor": "imu", "kind": "nan"}]}, "fails already in sensor_faults.0"),
         ({"sensor_faults": [{**FROZEN, "kind": "stale"}]}, "must be of a device"),
-        ({"sensor_faults": [{**FROZEN, "sensor": "unit", "kind": "bias"}]}, "must be of a sensor"),
+        ({"sensor_faults": [{**FROZEN, "sensor": "imu", "kind": "bias"}]}, "must be of a sensor"),
         ({"sensor_faults": [{**FROZEN, "quadrotor": 1}]}, 'unless the sensor is "joints"'),
         ({"sensor_faults": [{**FROZEN, "sensor": "joints", "quadrotor": 3}]}, "must be from 1 to 2"),
         ({"sensor_faults": [{**FROZEN, "until": 5.0}]}, "must be after sensor_faults.0.time"),
         ({**BY_HAND, "supervision": {"model": "watch", "fence": {"low": 2.0, "high": 1.0}}}, "supervision.fence.low"),
-        ({**BY_HAND, "supervision": {"model": "watch", "watch": {"stale": 0.004}}}, "supervision.watch.stale = 0.004"),
-        ({**BY_HAND, "supervision": {"model": "watch", "checks": {"payload_least": 3.0}}}, "payload_least = 3.0"),
+        ({**WATCHED, "supervision.watchdog.stale_time": 0.004}, "supervision.watchdog.stale_time = 0.004"),
+        ({**WATCHED, "supervision.checks.min_payload_ratio": 3.0}, "min_payload_ratio = 3.0"),
     ],
 )
 def test_what_cannot_be_is_refused(changes, message):
@@ -47,7 +48,7 @@ def test_two_joints_may_fail_each_on_its_own_and_a_device_be_silent_besides():
     faults = [
         {**joint, "quadrotor": 1},
         {**joint, "quadrotor": 2, "time": 6.0},
-        {**FROZEN, "sensor": "unit", "kind": "stale"},
+        {**FROZEN, "sensor": "imu", "kind": "stale"},
     ]
     assert len(load_mission("iris", {"sensor_faults": faults}).sensor_faults) == 3
 
@@ -70,8 +71,8 @@ def test_whatever_is_asked_the_vehicle_is_enabled_or_not():
 
 
 def test_every_fault_has_a_name_and_a_reaction_and_every_alarm_is_told_in_words():
-    assert len(FAULTS) == len(Faults._fields) == 20
-    assert set(ReactionsTable.model_fields) == set(Faults._fields)
+    assert len(FAULTS) == len(ActiveFaults._fields) == 20
+    assert set(ReactionsTable.model_fields) == set(ActiveFaults._fields)
     assert alarm_name(41.0) == "gyroscope frozen"
     assert alarm_name(62.0) == "position not a number"
     assert alarm_name(190.0) == "rotor lost"

@@ -11,7 +11,8 @@ from schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
 from tandemlift.missions import DATA, built_in, format_toml, load_mission, merge, tables_of, to_toml
-from tandemlift.missions.explain import allowed, value_at
+from tandemlift.missions.bounds import allowed
+from tandemlift.missions.values import value_at
 from tandemlift.settings import Mission
 
 BUILT_IN = [

@@ -5,9 +5,9 @@ from collections import defaultdict
 
 from rosbags.typesys import Stores, get_typestore
 
-from tandemlift.export.messages import Types, modern
+from tandemlift.export.messages import MessageTypes, modern
 from tandemlift.live.session.session import Session
-from tandemlift.ros.front import Front
+from tandemlift.ros.node import FlightNode
 
 STORE = get_typestore(Stores.ROS2_HUMBLE)
 
@@ -33,7 +33,7 @@ class Channel:
 
 class Middleware:
     def __init__(self):
-        self.types = Types(message_class, numbered=False)
+        self.types = MessageTypes(message_class, numbered=False)
         self.channels, self.kinds, self.latched = defaultdict(Channel), {}, set()
         self.heeding, self.services, self.set, self.kept, self.over = {}, {}, {}, {}, False
 
@@ -86,7 +86,7 @@ class Trial:
         self.session, self.middleware = Session(mission, out=folder), middleware or Middleware()
         self.session.prepare()
         self.session.start = lambda: None
-        self.front = Front(self.session, self.middleware)
+        self.front = FlightNode(self.session, self.middleware)
         self.front.start()
         self.heed = self.middleware.heeding["/tandemlift/push"]
 

@@ -15,9 +15,9 @@ from patience import completed, ended
 from processes import node, started
 
 import tandemlift as tl
-from tandemlift.cli import main
+from tandemlift.cli.main import main
 from tandemlift.export.reading import read_bag
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 
 pytestmark = pytest.mark.ros
 HERE = Path(__file__).parent

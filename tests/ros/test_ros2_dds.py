@@ -12,14 +12,14 @@ from processes import node
 from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
 
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed")
 
 from tandemlift.export.frames import vehicle_of
-from tandemlift.export.messages import Types, maker_of, modern
+from tandemlift.export.messages import MessageTypes, maker_of, modern
 from tandemlift.export.topics import topics_of
-from tandemlift.ros.dds_types import Classes
+from tandemlift.ros.dds_types import DdsTypes
 from tandemlift.ros.ros2 import _domain, _value
 
 pytestmark = pytest.mark.ros
@@ -32,7 +32,7 @@ KINDS = [
 
 @pytest.fixture(scope="module")
 def types():
-    return Types(Classes(), numbered=False)
+    return MessageTypes(DdsTypes(), numbered=False)
 
 
 def filled(types, kind, definitions, numbers):
@@ -76,7 +76,7 @@ def test_what_is_on_the_wire_is_what_another_reader_of_cdr_reads(types, kind):
 
 def test_every_topic_of_a_flight_can_be_put_on_the_wire(types):
     flight, store = flight_of("iris"), get_typestore(Stores.ROS2_HUMBLE)
-    bag = Types(lambda name: store.types[modern(name)], numbered=False, numbers=np.array)
+    bag = MessageTypes(lambda name: store.types[modern(name)], numbered=False, numbers=np.array)
     for topic in topics_of(flight, vehicle_of(flight)):
         row = topic.rows[7].tolist()
         message, other = (maker_of(one, topic)(5, row) for one in (types, bag))

@@ -4,6 +4,7 @@ import os
 import re
 import sys
 import time
+import tomllib
 from pathlib import Path
 from types import SimpleNamespace
 from xml.etree import ElementTree
@@ -13,10 +14,11 @@ import pytest
 from click.testing import CliRunner
 from patience import completed
 
-from tandemlift.cli import cli
-from tandemlift.errors import InputError
+from tandemlift.cli.main import cli, main
+from tandemlift.common.errors import InputError
 from tandemlift.live.session.pacing import MOST_BEHIND
 from tandemlift.ros.clock import Clock
+from tandemlift.ros.dds_types import PACKAGES
 from tandemlift.ros.package import folder
 
 
@@ -72,7 +74,7 @@ def test_the_document_names_every_topic_request_and_parameter(trial):
 
 def python(code, path, *folders):
     """What a Python prints that looks for rospy in these folders."""
-    code = f"import tandemlift.noetic as noetic\nnoetic.FOLDERS = {tuple(map(str, folders))}\n{code}"
+    code = f"import tandemlift.engines.rospy as noetic\nnoetic.FOLDERS = {tuple(map(str, folders))}\n{code}"
     source = str(Path(__file__).parents[2] / "src")
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([source, *map(str, path)])}
     return completed([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
@@ -135,6 +137,74 @@ def test_without_rospy_it_is_told_what_to_install(somewhere):
     assert "apt-get install python3-tf2-msgs" in done.stderr
     done = python("noetic.import_rospy()\nnoetic.message_type('few_msgs/Sentence')", [], somewhere)
     assert "few_msgs has no Sentence" in done.stderr
+
+
+# which ROS
+
+
+@pytest.fixture
+def machine(monkeypatch, somewhere):
+    """Make this machine one with rospy, or with what ROS 2 needs, or not; nothing is connected to."""
+
+    def make(*, rospy, dds):
+        monkeypatch.setattr("tandemlift.engines.rospy.FOLDERS", (str(somewhere),) if rospy else ())
+        if not rospy:
+            monkeypatch.setitem(sys.modules, "rospy", None)  # wherever else it may be
+        if not dds:
+            monkeypatch.setitem(sys.modules, "cyclonedds", None)
+
+    def connect(version):
+        def refuse(*_):
+            raise InputError(f"connected to ROS {version}")
+
+        return refuse
+
+    monkeypatch.setattr("tandemlift.ros.ros1.Ros1", connect("1"))
+    monkeypatch.setattr("tandemlift.ros.ros2.Ros2", connect("2"))
+    return make
+
+
+@pytest.mark.parametrize(
+    ("rospy", "dds", "arguments", "taken"),
+    [
+        (True, True, [], "1"),
+        (True, False, [], "1"),
+        (False, True, [], "2"),
+        (True, True, ["--version", "2"], "2"),
+        (False, True, ["--version", "1"], "1"),
+        (False, True, ["--rviz"], "1"),
+    ],
+)
+def test_the_ros_that_is_there_is_taken_unless_one_is_asked_for(rospy, dds, arguments, taken, machine):
+    machine(rospy=rospy, dds=dds)
+    result = CliRunner().invoke(cli, ["ros", "hover", *arguments])
+    assert str(result.exception).startswith(f"connected to ROS {taken}")
+
+
+def test_without_any_ros_the_command_that_installs_one_is_named(machine, monkeypatch, capsys):
+    machine(rospy=False, dds=False)
+    monkeypatch.setattr(sys, "argv", ["tandemlift", "ros", "hover"])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 2
+    printed = capsys.readouterr().err
+    assert "error: no ROS is found" in printed
+    assert "pip install 'tandemlift[ros2]'" in printed
+    assert "apt-get install python3-rospy" in printed
+
+
+def test_a_ros_1_that_does_not_run_is_told_with_the_other_if_nobody_asked_for_it(machine):
+    machine(rospy=True, dds=True)
+    assert "--version 2" in str(CliRunner().invoke(cli, ["ros", "hover"]).exception)
+    assert "--version 2" not in str(CliRunner().invoke(cli, ["ros", "hover", "--version", "1"]).exception)
+    machine(rospy=True, dds=False)
+    assert "--version 2" not in str(CliRunner().invoke(cli, ["ros", "hover"]).exception)
+
+
+def test_the_extra_installs_what_ros_2_needs():
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text("utf-8"))["project"]
+    extra = [re.match(r"[\w-]+", requirement)[0] for requirement in project["optional-dependencies"]["ros2"]]
+    assert sorted(extra) == sorted(PACKAGES)
 
 
 # stamps

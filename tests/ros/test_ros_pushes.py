@@ -123,13 +123,13 @@ def test_a_push_goes_on_while_messages_come_and_ends_by_a_zero(up):
 def test_a_push_is_cut_to_what_the_hand_has_and_that_is_told(up):
     up.heed(wrench("base_world", (30.0, 40.0, 0.0)))
     assert up.session.flight.hand.force == pytest.approx((2.4, 3.2, 0.0))
-    assert "push cut: 50 N is more than partner.max_force = 4 N" in up.said()
+    assert "push cut: 50 N is more than person.max_force = 4 N" in up.said()
 
 
 def test_the_same_words_are_told_once_a_second_at_most(up, monkeypatch):
     now = [1000.0]
     clocks = SimpleNamespace(monotonic=lambda: now[0], time_ns=time.time_ns)
-    monkeypatch.setattr("tandemlift.ros.telling.time", clocks)
+    monkeypatch.setattr("tandemlift.ros.diagnostics.time", clocks)
     for times in (1, 2):
         for _ in range(50):
             up.heed(wrench("mars"))

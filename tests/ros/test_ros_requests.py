@@ -9,13 +9,13 @@ from ros_trial import GUIDED, UP, Middleware, Trial
 import tandemlift as tl
 from tandemlift.missions import tables_of
 from tandemlift.ros.parameters import DAMPING, RATIO
-from tandemlift.ros.requests import REQUESTS, Requests
+from tandemlift.ros.requests import REQUESTS, RequestServices
 
 
 @pytest.fixture
 def asked(trial):
     """Services whose waiting is flying."""
-    requests = Requests(trial.session, nap=trial.fly)
+    requests = RequestServices(trial.session, nap=trial.fly)
     trial.fly(UP)
     return requests.answer
 
@@ -72,7 +72,7 @@ def test_parameters_begin_as_the_mission_has_them(trial):
     assert kept["admittance.mass"] == mission["admittance"]["mass"]
     assert kept["controller.name"] == "nftsmc"
     assert kept[RATIO] == [0.0, 0.0, 0.0]
-    assert not {"partner.stiffness", "partner.damping"} & set(kept)
+    assert not {"person.stiffness", "person.damping"} & set(kept)
 
 
 def test_what_is_set_before_the_start_is_flown_from_the_start(tmp_path):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
 from tandemlift.kernels import COMMAND
-from tandemlift.laws.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
 from tandemlift.trace import flat, leaves, unflat
 from tandemlift.trace.functions import compiled
 

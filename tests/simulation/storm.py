@@ -29,7 +29,7 @@ STORM: dict[str, Any] = {
     "phases.height": 0.6,
     "phases.land_start": 3.6,
     "phases.land_duration": 1.2,
-    "compliance.max_descent": 1.0,
+    "compliance.max_descent_speed": 1.0,
     "observer.force_bandwidth": [0.1, 20.0, 18.0],  # rad/s; slow along x, so that the wind presses against the wall
     "estimator.tare_start": 2.0,
     "estimator.tare_duration": 0.4,

@@ -5,8 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.laws.grab import NOBODY_HOLDS
-from tandemlift.recording import WIDTH, Recording, read_recording, write_recording
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
+from tandemlift.missions.recording import WIDTH, Recording, read_recording, write_recording
 from tandemlift.trace import flat
 
 LONG_PUSH = [{"force": [2.0, 0.0, 0.0], "time": 10.0, "sigma": 1e6}]
@@ -28,7 +28,7 @@ def hand(held=0.0, grip=(0, 0, 0), target=(0, 0, 0), force=(0, 0, 0)):
 def recorded(path, rows):
     steps, hands = zip(*rows, strict=True)
     write_recording(path, Recording(np.array(steps), np.array(hands, dtype=float)))
-    return {"partner.model": "grab", "partner.recording": str(path), "pushes": []}
+    return {"person.model": "grab", "person.recording": str(path), "pushes": []}
 
 
 def test_a_ramped_damping_gives_the_reference_that_scipy_integrates():
@@ -106,7 +106,7 @@ def test_a_change_that_cannot_be_is_refused_with_its_key(changes, words):
 def test_a_hand_pulls_the_beam_to_its_target_less_threshold_over_stiffness(tmp_path):
     rows = [(0, hand()), (1000, hand(1.0, target=(0.6, 0.0, 0.0)))]
     slow = FREE | {"admittance.threshold": 1.0, "admittance.damping": 40.0, "admittance.gate": "soft"}
-    spring = {"partner.stiffness": 10.0, "partner.damping": 4.0, "partner.lag": 0.02, "mission.duration": 100.0}
+    spring = {"person.stiffness": 10.0, "person.damping": 4.0, "person.lag": 0.02, "mission.duration": 100.0}
     mission = load(name="hover", **slow, **recorded(tmp_path / "hand.npz", rows), **spring)
     flight = tl.fly(mission)
     short = 0.6 - flight["position"][-1, 0]
@@ -115,7 +115,7 @@ def test_a_hand_pulls_the_beam_to_its_target_less_threshold_over_stiffness(tmp_p
 
 def test_a_hand_lets_go_and_the_beam_comes_to_rest(tmp_path):
     rows = [(0, hand()), (1000, hand(force=(2.0, 0.0, 0.0))), (3000, hand())]
-    flight = tl.fly(load(**recorded(tmp_path / "hand.npz", rows), **{"partner.lag": 0.05}))
+    flight = tl.fly(load(**recorded(tmp_path / "hand.npz", rows), **{"person.lag": 0.05}))
     push = flight["push_force"][:, 0]
     assert push[flight.time < 1.0].max() == 0.0
     np.testing.assert_allclose(push[(flight.time > 2.5) & (flight.time < 3.0)], 2.0, atol=1e-6)
@@ -124,7 +124,7 @@ def test_a_hand_lets_go_and_the_beam_comes_to_rest(tmp_path):
 
 def test_a_spring_is_let_go_of_as_smoothly_as_it_was_taken(tmp_path):
     rows = [(0, hand()), (500, hand(1.0, target=(0.5, 0.0, 0.5))), (1500, hand())]
-    keys = {"partner.lag": 0.05, "mission.log_interval": 0.001, "mission.duration": 3.0, "admittance.threshold": 3.0}
+    keys = {"person.lag": 0.05, "mission.log_interval": 0.001, "mission.duration": 3.0, "admittance.threshold": 3.0}
     flight = tl.fly(load(name="hover", **recorded(tmp_path / "hand.npz", rows), **keys))
     push = np.linalg.norm(flight["push_force"], axis=1)
     held = push[flight.time < 1.5][-1]
@@ -135,7 +135,7 @@ def test_a_spring_is_let_go_of_as_smoothly_as_it_was_taken(tmp_path):
 
 def test_a_hand_never_pushes_harder_than_its_most_force(tmp_path):
     rows = [(0, hand(1.0, target=(0.0, 50.0, 20.0)))]
-    flight = tl.fly(load(**recorded(tmp_path / "hand.npz", rows), **{"partner.max_force": 3.0}))
+    flight = tl.fly(load(**recorded(tmp_path / "hand.npz", rows), **{"person.max_force": 3.0}))
     assert np.linalg.norm(flight["push_force"], axis=1).max() == pytest.approx(3.0, abs=1e-9)
 
 
@@ -164,8 +164,8 @@ def test_a_recording_comes_back_as_it_was_written(tmp_path):
 def test_a_mission_finds_its_recording_beside_its_file(tmp_path):
     recorded(tmp_path / "hand.npz", [(0, hand())])
     file = tmp_path / "mine.toml"
-    file.write_text('extends = "one-push"\n[partner]\nmodel = "grab"\nrecording = "hand.npz"\n', "utf-8")
-    assert tl.load_mission(file).partner.recording == str((tmp_path / "hand.npz").resolve())
+    file.write_text('extends = "one-push"\n[person]\nmodel = "grab"\nrecording = "hand.npz"\n', "utf-8")
+    assert tl.load_mission(file).person.recording == str((tmp_path / "hand.npz").resolve())
 
 
 @pytest.mark.parametrize(
@@ -183,9 +183,9 @@ def test_a_file_that_is_no_recording_is_refused(tmp_path, arrays, words):
     if arrays is not None:
         np.savez(path, **arrays)
     with pytest.raises(tl.InputError, match=words):
-        load(**{"partner.model": "grab", "partner.recording": str(path)})
+        load(**{"person.model": "grab", "person.recording": str(path)})
 
 
 def test_a_recording_without_a_hand_is_refused(tmp_path):
     with pytest.raises(tl.InputError, match="must be left out where"):
-        load(**{"partner.recording": "hand.npz"})
+        load(**{"person.recording": "hand.npz"})

@@ -12,10 +12,10 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
+from tandemlift.algebra.law import LAWS
 from tandemlift.kernels import LANES
-from tandemlift.law import LAWS
 from tandemlift.missions import built_in
-from tandemlift.prepared import Prepared
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import key, machine
 from tandemlift.trace.key import key_of, sources
 
@@ -58,13 +58,13 @@ print(len(made), flight["thrust"].sum().hex(), tl.__file__)
     assert [first[0], second[0]] == ["1", "0"]
     assert first[1:] == second[1:]
     assert first[2].startswith(str(copy))
-    with (copy / "tandemlift" / "laws" / "rotation.py").open("a") as law:
+    with (copy / "tandemlift" / "laws" / "mechanics" / "rotation.py").open("a") as law:
         law.write("# an edit\n")
     assert python(code, **environment) == ["1", *first[1:]]
 
 
 def test_an_edit_of_any_source_changes_the_key(monkeypatch):
-    value = Prepared(tl.load_mission("one-push")).flying
+    value = FlightPlan(tl.load_mission("one-push")).flying
     before, content = key_of(value), key.content
     assert len(sources(value)) > 80
     for path in sources(value):
@@ -81,11 +81,11 @@ def test_the_key_is_of_the_sources_that_run_even_if_they_are_edited_meanwhile(tm
     code = """
 import sys, tandemlift as tl
 from pathlib import Path
-from tandemlift.prepared import Prepared
+from tandemlift.simulation.plan import Prepared
 from tandemlift.trace.key import key_of
 flying = Prepared(tl.load_mission("one-push")).flying
 print(key_of(flying))
-with (Path(tl.__file__).parent / "laws" / "rotation.py").open("a") as law:
+with (Path(tl.__file__).parent / "laws" / "mechanics" / "rotation.py").open("a") as law:
     law.write("# an edit")
 print(key_of(flying))
 """
@@ -96,7 +96,7 @@ print(key_of(flying))
 
 def test_other_versions_another_processor_and_another_layout_have_other_keys(monkeypatch):
     changes = {"controller.switching": "saturation"}
-    paper, other = (Prepared(tl.load_mission("paper", c)).flying for c in ({}, changes))
+    paper, other = (FlightPlan(tl.load_mission("paper", c)).flying for c in ({}, changes))
     keys = [key_of(paper), key_of(other), key_of(paper, "loop", 8)]
     monkeypatch.setattr(machine, "processor", lambda: ("another", "+fma"))
     keys.append(key_of(paper))
@@ -113,7 +113,7 @@ def test_two_variants_whose_parameters_are_equal_tuples_fly_differently():
 
 def text_of(name, lanes):
     """The module of a built-in mission's loop."""
-    return Prepared(tl.load_mission(name)).kernels._written("loop", lanes).text
+    return FlightPlan(tl.load_mission(name)).kernels._written("loop", lanes).text
 
 
 @pytest.mark.parametrize("name", built_in())

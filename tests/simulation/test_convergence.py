@@ -5,12 +5,12 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.laws.allocation import wrench
-from tandemlift.laws.body import State, motion
-from tandemlift.laws.push import CentralPush
-from tandemlift.pilot import Heard, decide
-from tandemlift.vector import ZERO, Nothing, Quat, Vec3, hamilton
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, hamilton
+from tandemlift.laws.mechanics.body import State, motion
+from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.rotors.allocation import wrench
+from tandemlift.pilot.pilot import PilotInput, decide
+from tandemlift.simulation.assemble import assemble
 
 DURATION = 6.0  # s: the lift of `paper`, from 2 to 8 s
 
@@ -39,7 +39,7 @@ def continuous():
 
     def rate(t, y):
         state = State(Vec3(*y[0:3]), Vec3(*y[3:6]), Quat(*y[6:10]), Vec3(*y[10:13]))
-        decision, _ = decide(flying.pilot, flying.moving.memory, Heard(state, ZERO, ZERO, 0.0, Nothing()), t, 1.0)
+        decision, _ = decide(flying.pilot, flying.moving.memory, PilotInput(state, ZERO, ZERO, 0.0, Nothing()), t, 1.0)
         u = wrench(flying.plant.effect, decision.thrusts)
         return np.concatenate(motion(flying.plant.body, state, u, CentralPush(ZERO)))
 

@@ -8,7 +8,7 @@ import pytest
 from storm import DT, storm
 
 import tandemlift as tl
-from tandemlift.engines import ENGINES
+from tandemlift.engines.registry import ENGINES
 
 HALF_MINUTE = {"mission.duration": 30.0}
 WEAK = {
@@ -126,7 +126,7 @@ def test_an_engine_that_is_not_known_is_refused_with_those_that_are():
 
 def test_without_the_package_the_error_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    for name in ("tandemlift.engines.mujoco", "tandemlift.engines.mujoco_model"):
+    for name in ("tandemlift.engines.mujoco", "tandemlift.models.mujoco_bodies"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs the package mujoco: pip install 'tandemlift\["):
         tl.fly(tl.load_mission("hover", {"mission.duration": 1.0}), engine="mujoco")

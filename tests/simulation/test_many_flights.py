@@ -7,7 +7,7 @@ import pytest
 from patience import joined
 
 import tandemlift as tl
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 SHORT = {"mission.duration": 20.0}
 FOUR_IDEAL = {"controller.attitude_reference_derivatives": "zero", "admittance.gate": "hard"}

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.figures.clearances import clearances
-from tandemlift.kernels import place
-from tandemlift.laws.partner import Sight
-from tandemlift.prepared import Prepared
-from tandemlift.stepwise import Stepper, fly_stepwise
-from tandemlift.vector import vec3
+from tandemlift.algebra.vector import vec3
+from tandemlift.figures.drawing.clearances import clearances
+from tandemlift.kernels import leaf_offset
+from tandemlift.laws.person.person import PersonView
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.stepping import Stepper, fly_stepwise
 
 LEAST = {"zigzag": 0.4, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m
-SHORT = {"mission.duration": 9.5, "partner.start": 4.0, "estimator.tare_start": 3.0, "estimator.tare_duration": 0.9}
+SHORT = {"mission.duration": 9.5, "person.start_time": 4.0, "estimator.tare_start": 3.0, "estimator.tare_duration": 0.9}
 
 
 def persons(count: int, **changes: Any) -> list[tl.Mission]:
@@ -27,9 +27,9 @@ def persons(count: int, **changes: Any) -> list[tl.Mission]:
                 "mission.seed": i,
                 "mission.duration": 90.0,
                 "disturbance.force": [*rng.uniform(-0.7, 0.7, 2).tolist(), 0.0],
-                "partner.grip": rng.uniform(-1.0, 1.0),
-                **{f"partner.{k}": v * rng.uniform(0.7, 1.3) for k, v in {"gain": 4.0, "stiffness": 10.0}.items()},
-                "partner.path": [{"point": p} for p in LINE[i % 2 :]],
+                "person.grip": rng.uniform(-1.0, 1.0),
+                **{f"person.{k}": v * rng.uniform(0.7, 1.3) for k, v in {"gain": 4.0, "stiffness": 10.0}.items()},
+                "person.path": [{"point": p} for p in LINE[i % 2 :]],
                 **changes,
             },
         )
@@ -46,10 +46,10 @@ def flown():
 
 
 def assert_through_and_landed(metrics: dict[str, Any], mission: tl.Mission) -> None:
-    end = [w.point for w in mission.partner.path] or list(mission.corridor.centreline)
+    end = [w.point for w in mission.person.path] or list(mission.corridor.centreline)
     x, y, z = metrics["final_position_m"]
     assert metrics["wall_contact"] is False
-    assert np.hypot(x - end[-1][0], y - end[-1][1]) < 0.6 + (mission.partner.model == "pull")  # led by its end
+    assert np.hypot(x - end[-1][0], y - end[-1][1]) < 0.6 + (mission.person.model == "pull")  # led by its end
     assert z == pytest.approx(mission.initial.position[2], abs=0.01)
 
 
@@ -61,7 +61,7 @@ def test_a_person_brings_the_vehicle_through_without_touching_and_it_lands(flown
     assert metrics["clearance_min_m"] > LEAST[name]
     assert_through_and_landed(metrics, mission)
     assert flight["phase"].ravel()[-1] == 0.0  # idle again, rotors off
-    assert np.abs(flight["push_force"]).max() < mission.partner.max_force
+    assert np.abs(flight["push_force"]).max() < mission.person.max_force
     assert np.abs(flight["contact_force"][(flight.time > 2.0) & (flight["position"][:, 2] > 0.1)]).max() == 0.0
 
 
@@ -92,26 +92,28 @@ def test_alone_in_a_block_and_step_by_step_a_flight_with_a_person_is_the_same_to
     for mission, block in zip(missions, blocks, strict=True):
         alone = tl.fly(mission)
         assert [name for name in alone if not np.array_equal(alone[name], block[name])] == []
-    p = Prepared(missions[0])
+    p = FlightPlan(missions[0])
     steps = fly_stepwise(p, p.steps // p.every + 1, p.every)
     assert np.abs(blocks[0]["push_force"]).max() > 0.5
-    at = [n for n, span in ((n, place(p.sample, n)) for n in ("position", "push_force", "push_moment")) if span.size]
+    at = [
+        n for n, span in ((n, leaf_offset(p.sample, n)) for n in ("position", "push_force", "push_moment")) if span.size
+    ]
     for name in at:
-        span = place(p.sample, name)
+        span = leaf_offset(p.sample, name)
         assert np.array_equal(steps.log[:, span.at : span.at + span.size], blocks[0][name]), name
 
 
 def test_what_a_person_sees_is_what_was_exactly_their_delay_ago():
     mission = persons(1, **SHORT)[0]
-    p = Prepared(mission)
-    stepper, span = Stepper(p), place(p.flying, "moving", "partner", "seen")
-    at = span.at + place(Sight(*[vec3([0.0] * 3)] * 4, 0.0, 0.0), "position").at
+    p = FlightPlan(mission)
+    stepper, span = Stepper(p), leaf_offset(p.flying, "moving", "partner", "seen")
+    at = span.at + leaf_offset(PersonView(*[vec3([0.0] * 3)] * 4, 0.0, 0.0), "position").at
     was, seen = [], []
     for k in range(1500):
         was.append(stepper.a[:3].copy())
         seen.append(stepper.a[at : at + 3].copy())
         stepper.step(k)
-    late = round(mission.partner.delay / mission.mission.step)
+    late = round(mission.person.delay / mission.mission.step)
     assert late == 200
     assert np.ptp(np.array(was)[:, 2]) > 0.05
     assert np.array_equal(seen[late:], was[:-late])

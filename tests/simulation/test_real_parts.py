@@ -7,19 +7,19 @@ import pytest
 from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
+from tandemlift.algebra.vector import ZERO
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN
-from tandemlift.laws.allocation import Working
-from tandemlift.laws.push import Hand, push_of
-from tandemlift.laws.random import normals
-from tandemlift.laws.rectangle import WALL
-from tandemlift.laws.sensing import Readings
-from tandemlift.laws.walls import consider
-from tandemlift.laws.wind import gust_velocity
-from tandemlift.loop import Inputs, finish, joined, think
-from tandemlift.pilot import with_allocation
+from tandemlift.laws.mechanics.push import PushSamples, push_of
+from tandemlift.laws.mechanics.rectangle import WALL
+from tandemlift.laws.mechanics.walls import consider
+from tandemlift.laws.mechanics.wind import gust_velocity
+from tandemlift.laws.rotors.allocation import AllocationState
+from tandemlift.laws.sensors.readings import Readings
+from tandemlift.laws.signals.random_numbers import normals
+from tandemlift.loop.step import StepInputs, finish_step, run_pilot, with_person
+from tandemlift.pilot.pilot import with_allocation
+from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import leaves, unflat
-from tandemlift.vector import ZERO
 
 
 def different(a: tl.Flight, b: tl.Flight) -> list[str]:
@@ -62,7 +62,7 @@ def test_step_by_step_with_a_controller_in_python_it_is_the_same_to_the_last_bit
     assert different(tl.fly(storm(by_hand)), tl.fly(storm())) == []
 
 
-def given_at(k: int, like: Inputs, tables: Any, seeds: Any) -> Inputs:
+def given_at(k: int, like: StepInputs, tables: Any, seeds: Any) -> StepInputs:
     """What step k is given, in plain Python."""
 
     def push(t):
@@ -75,8 +75,11 @@ def given_at(k: int, like: Inputs, tables: Any, seeds: Any) -> Inputs:
     for row in tables.gusts:
         gust = gust + gust_velocity(unflat(row, GUST), k * DT)
     chance = [x for group in range(-(-leaves(like.noise) // 4)) for x in normals(k, group, *seeds)]
-    return Inputs(
-        Hand(push(k * DT), push((k + 0.5) * DT), push((k + 1) * DT)), gust, unflat(chance, like.noise), like.partner
+    return StepInputs(
+        PushSamples(push(k * DT), push((k + 0.5) * DT), push((k + 1) * DT)),
+        gust,
+        unflat(chance, like.noise),
+        like.partner,
     )
 
 
@@ -95,11 +98,11 @@ def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
             for row in tables.walls:
                 near = consider(plant.walls, unflat(row, WALL), near, plant.frame, flying.moving.state)
             flying = flying._replace(moving=flying.moving._replace(near=near))
-        given = joined(flying, given_at(k, like, tables, seeds), k * DT, DT)
-        thought = think(flying, given.hand.start, k * DT, DT)
+        given = with_person(flying, given_at(k, like, tables, seeds), k * DT, DT)
+        thought = run_pilot(flying, given.hand.start, k * DT, DT)
         wished = thought.decision.thrusts
-        thought = thought._replace(memory=with_allocation(thought.memory, Working(wished * 0.0, wished)))
-        moving, sample = finish(flying, thought, given, k * DT, DT)
+        thought = thought._replace(memory=with_allocation(thought.memory, AllocationState(wished * 0.0, wished)))
+        moving, sample = finish_step(flying, thought, given, k * DT, DT)
         units.append(moving.readings.unit)
         motions.append(moving.readings.motion)
         commands.append(moving.rotors.arriving)
@@ -128,7 +131,7 @@ def test_its_first_steps_are_those_of_plain_python():
         "phases.lift_start": 0.0,
         "phases.lift_duration": 0.02,
         "phases.height": 0.0,
-        "compliance.spool": 0.02,  # s: then it observes, and from 0.04 s it listens
+        "compliance.spin_up_time": 0.02,  # s: then it observes, and from 0.04 s it listens
         "phases.rotors": "flight",
         "initial.euler": [0.01, -0.01, 0.02],
         "initial.velocity": [0.1, 0.0, -0.05],
@@ -152,7 +155,7 @@ def test_its_first_steps_are_those_of_plain_python():
     samples = in_plain_python(storm(changes), 120)
     commands = flight["rotor_commands"]
     assert commands.min() > 0.0
-    assert commands.max() < 7.06  # N: no limit is met, so laws.limits has nothing to do
+    assert commands.max() < 7.06  # N: no limit is met, so laws.rotors.thrust_limits has nothing to do
     assert flight["contact_force"][:, 0].min() < -0.1
     assert flight["contact_force"][:, 2].max() > 0.1
     for name in flight:

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.assembly import assemble
-from tandemlift.laws.alarms import CHECKS, FAULTS, REACTIONS, alarm_name
-from tandemlift.laws.guidance import Heard, attend, guide
-from tandemlift.laws.observer import NONE
-from tandemlift.laws.phases import NAMES
-from tandemlift.laws.requests import NOBODY, UNAWARE
+from tandemlift.algebra.vector import ZERO, Nothing
+from tandemlift.laws.estimation.disturbance_observer import NONE
+from tandemlift.laws.guidance.fault_reactions import CHECKS, FAULTS, REACTIONS, alarm_name
+from tandemlift.laws.guidance.guidance import PilotInput, checked_input, guide
+from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
 from tandemlift.settings.supervision import SupervisionTable
-from tandemlift.vector import ZERO, Nothing
+from tandemlift.simulation.assemble import assemble
 
 TEXT = (Path(__file__).parents[2] / "docs" / "safety.md").read_text("utf-8")
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle
@@ -134,12 +134,12 @@ def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
 @pytest.mark.parametrize(
     ("changes", "check"),
     [
-        ({"sensor_faults": [{"sensor": "unit", "kind": "stale", "time": 0.0}]}, 1),
+        ({"sensor_faults": [{"sensor": "imu", "kind": "stale", "time": 0.0}]}, 1),
         ({"sensor_faults": [{"sensor": "accelerometer", "kind": "frozen", "time": 0.1}]}, 3),
-        ({"supervision.checks.thrust_share": 0.5}, 4),
+        ({"supervision.checks.thrust_fraction": 0.5}, 4),
         ({"supervision.checks.tilt": 1e-7}, 5),
         ({"supervision.checks.rates": 1e-5}, 6),
-        ({"supervision.checks.payload_least": 1.5}, 9),
+        ({"supervision.checks.min_payload_ratio": 1.5}, 9),
     ],
 )
 def test_a_check_that_fails_refuses(changes, check, fly):
@@ -153,13 +153,13 @@ def test_a_check_that_fails_refuses(changes, check, fly):
 
 def in_plain_python(seconds, heard_at):
     """Names of the phases of a guidance by hand that is told a state at rest, and what `heard_at` makes of it."""
-    changes = {**FLOWN, "supervision.limits.error": 100.0}  # the state at rest does not follow the lift
+    changes = {**FLOWN, "supervision.limits.tracking_error": 100.0}  # the state at rest does not follow the lift
     flying = assemble(tl.load_mission("iris", changes)).flying
     guidance, memory, dt, names = flying.pilot.guidance, flying.moving.memory.guidance, 0.01, []
     for i in range(round(seconds / dt)):
-        heard = Heard(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
+        heard = PilotInput(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
         heard, lost = heard_at(heard, i * dt)
-        heard = attend(guidance, memory, heard, 0.0, lost)
+        heard = checked_input(guidance, memory, heard, 0.0, lost)
         decided, memory = guide(guidance, memory, heard, NONE, lost, i * dt, dt)
         names.append(NAMES[int(decided.shown.phase)])
     return list(dict.fromkeys(names)), memory

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.flown import flight_of
 from tandemlift.kernels import LANES
 from tandemlift.missions import built_in
-from tandemlift.prepared import Prepared
-from tandemlift.simulate import _jobs
-from tandemlift.stepwise import fly_stepwise
+from tandemlift.simulation.fly import _jobs
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import flight_of
+from tandemlift.simulation.stepping import fly_stepwise
 
 LOST = {5: 60.0, 7: -90.0}  # lanes, and what throws them over [N m]
 IDEAL = 1000.0  # times as much is needed, where thrusts have no limit
@@ -28,7 +28,7 @@ def lanes(name, **changes):
         own = {**short, **changes, "mission.seed": i, "plant.mass_scale": 1.0 + 0.01 * i}
         if mission.ground.model != "floor":
             own["initial.position"] = [0.05 * i, -0.3, 0.01 * i]
-        if mission.partner.model == "none":
+        if mission.person.model == "none":
             own["pushes"] = [{"force": [1.0 + 0.2 * j, 0.0, 0.5], "time": 0.5 + j, "sigma": 0.2} for j in range(i % 4)]
         if mission.actuators.model == "rotors":
             own["faults"] = [{"quadrotor": 1, "rotor": i % 4 + 1, "time": 0.4 + 0.25 * i if i != 1 else 50.0}]
@@ -52,7 +52,7 @@ def different(a, b):
 
 
 def step_by_step(mission):
-    p = Prepared(mission)
+    p = FlightPlan(mission)
     return flight_of(p, fly_stepwise(p, p.steps // p.every + 1, p.every))
 
 

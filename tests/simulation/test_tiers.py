@@ -8,9 +8,9 @@ from patience import COMPILING
 from test_same_bits import different, lanes
 
 import tandemlift as tl
-from tandemlift import prepared, simulate
-from tandemlift.kernels import LANES, Memory
-from tandemlift.prepared import Prepared
+from tandemlift.kernels import LANES, FlightMemory
+from tandemlift.simulation import fly, plan
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import code, leaves, store
 
 
@@ -18,13 +18,13 @@ from tandemlift.trace import code, leaves, store
 def empty(tmp_path, monkeypatch):
     """No code on disk and none in this process; none is optimised unless it is asked for."""
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(prepared, "KERNELS", {})
+    monkeypatch.setattr(plan, "KERNELS", {})
     monkeypatch.setenv("TANDEMLIFT_OPTIMISE", "0")
 
 
 def optimised(mission, count):
     """The code of a mission's loop, once the optimised one is in its place."""
-    found = Prepared(mission).kernels.loop(count)
+    found = FlightPlan(mission).kernels.loop(count)
     assert not found.is_best
     thread = found.optimise()
     assert found.optimise() is None  # it is being made
@@ -48,8 +48,8 @@ def test_optimised_code_gives_the_bits_of_quick_code(name, empty):
 def test_code_is_exchanged_in_the_middle_of_a_flight(empty):
     mission = lanes("iris")[2]
     whole = tl.fly(mission)
-    p = Prepared(mission)
-    memory = Memory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    p = FlightPlan(mission)
+    memory = FlightMemory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
     assert memory.fly(700) == 700
     optimised(mission, 1)
     assert memory.fly(p.steps + 1) == p.steps
@@ -59,7 +59,7 @@ def test_code_is_exchanged_in_the_middle_of_a_flight(empty):
 
 def log_of(p):
     """The log of a flight in one go, but for its first column."""
-    memory = Memory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    memory = FlightMemory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
     memory.fly(p.steps + 1)
     return memory.log[0][:, 1:]
 
@@ -67,23 +67,23 @@ def log_of(p):
 def test_a_long_flight_has_its_code_optimised_and_the_next_process_finds_it(empty, monkeypatch):
     monkeypatch.delenv("TANDEMLIFT_OPTIMISE")
     monkeypatch.setattr(code, "PAYS", 0.0)
-    monkeypatch.setattr(simulate, "FIRST_STRETCH", 100)
+    monkeypatch.setattr(fly, "FIRST_STRETCH", 100)
     mission = tl.load_mission("one-push", {"mission.duration": 1.0})
-    found = Prepared(mission).kernels.loop(1)
+    found = FlightPlan(mission).kernels.loop(1)
     tl.fly(mission)
     for thread in threading.enumerate():
         if thread.name == "optimising":
             thread.join(COMPILING)
     assert found.is_best
     assert sorted(f.name.split("-")[1] for f in store.folder().iterdir()) == ["best.o", "quick.o"]
-    prepared.KERNELS.clear()
-    assert Prepared(mission).kernels.loop(1).is_best
+    plan.KERNELS.clear()
+    assert FlightPlan(mission).kernels.loop(1).is_best
 
 
 def test_without_optimised_code_the_quick_one_flies_on(empty, monkeypatch):
     mission = tl.load_mission("one-push", {"mission.duration": 0.5})
     before = tl.fly(mission)
-    found = Prepared(mission).kernels.loop(1)
+    found = FlightPlan(mission).kernels.loop(1)
     monkeypatch.setattr(code, "optimised_beside", lambda *given: None)
     found.optimise().join(COMPILING)
     assert not found.is_best

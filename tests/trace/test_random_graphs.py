@@ -14,13 +14,13 @@ import numpy as np
 import pytest
 from exact import EXACT
 
+from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
+from tandemlift.algebra.vector import each
 from tandemlift.kernels.context import aligned
-from tandemlift.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.trace import Function, Graph, Module, Place, Symbol
 from tandemlift.trace.elementary import floor
 from tandemlift.trace.machine import BEST, QUICK, Loaded, compiled
 from tandemlift.trace.symbol import fma
-from tandemlift.vector import each
 
 LANES, INPUTS, SHARED, OPERATIONS, ROWS = 8, 5, 2, 60, 24
 TRACED: dict[str, Callable[..., Any]] = {

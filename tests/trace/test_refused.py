@@ -9,18 +9,18 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.law import LAWS, law
-from tandemlift.laws.controllers import CONTROLLERS, load_controller
+from tandemlift.algebra.law import LAWS, law
+from tandemlift.algebra.vector import Vec3
+from tandemlift.controllers import CONTROLLERS, load_controller
 from tandemlift.trace import TraceError, graph
 from tandemlift.trace.functions import compiled, written
-from tandemlift.vector import Vec3
 
 GUIDE = (Path(__file__).parents[2] / "docs" / "controllers.md").read_text("utf-8")
 LAW, _ = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
 HERE = "    attitude = euler_from_quaternion(state.attitude)\n"
 LINE = LAW[: LAW.index(HERE)].count("\n") + 1
-TWO_WAYS = "choose by where(condition, a, b), minimum, maximum, clip of tandemlift.ops"
-NO_NUMBER = "takes a plain number out of its data: use the functions of tandemlift.ops"
+TWO_WAYS = "choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra.ops"
+NO_NUMBER = "takes a plain number out of its data: use the functions of tandemlift.algebra.ops"
 FAILS = "fails on symbols, TypeError: "
 
 LEVEL = np.eye(1, 16, 6)[0]
@@ -35,8 +35,8 @@ WRONG = {  # what stands in the law, and why it is refused
     "an assertion": ("assert e.x < 1e9", f"branches on data: {TWO_WAYS}"),
     "a plain number": ("e = e * float(e.x)", NO_NUMBER),
     "a function of math": ("import math; e = e * math.sin(e.x)", NO_NUMBER),
-    "a helper that makes plain numbers": ("import tandemlift.vector as v; e = v.mat3([e, e, e]).x", NO_NUMBER),
-    "a power": ("e = e * e.x**2", "takes a power by **: write a product, or power(x, p) of tandemlift.ops"),
+    "a helper that makes plain numbers": ("import tandemlift.algebra.vector as v; e = v.mat3([e, e, e]).x", NO_NUMBER),
+    "a power": ("e = e * e.x**2", "takes a power by **: write a product, or power(x, p) of tandemlift.algebra.ops"),
     "a power of a number": ("e = e * 2.0**e.x", "takes a power by **: write a product, or power(x, p) of tandemlift"),
     "a number taken apart": ("e = e * (sum(e.x) if hasattr(e.x, 'node') else 1.0)", "takes a number apart as if it"),
     "bits of a number": ("e = e * ((e.x & e.y) if hasattr(e.x, 'node') else 1.0)", "joins a number and a number bit"),
@@ -161,7 +161,9 @@ def test_a_law_of_this_package_is_named_itself_and_no_other_way_is_offered(ours)
     scope = ours(
         "def helper(x):\n    return float(x)\n\n\n@law\ndef wrong(x):\n    y = x + 1.0\n    return helper(y)\n"
     )
-    with pytest.raises(TraceError, match=r"imagined\.py, line 8: wrong\(\) takes a plain number .* tandemlift\.ops$"):
+    with pytest.raises(
+        TraceError, match=r"imagined\.py, line 8: wrong\(\) takes a plain number .* tandemlift\.algebra\.ops$"
+    ):
         compiled(scope["wrong"], 0.0)
 
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.kernels import traced
-from tandemlift.law import elementwise, law
-from tandemlift.ops import absolute, clip, exp, greatest, maximum, sqrt, tanh, where
-from tandemlift.prepared import KERNELS
+from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.ops import absolute, clip, exp, greatest, maximum, sqrt, tanh, where
+from tandemlift.algebra.vector import Vec3, cross, dot, each, quarters, set_of, total
+from tandemlift.kernels import traced_step
+from tandemlift.simulation.plan import KERNELS
 from tandemlift.trace.functions import compiled
 from tandemlift.trace.machine import BEST, QUICK
-from tandemlift.vector import Vec3, cross, dot, each, quarters, set_of, total
 
 ROWS = 13
 
@@ -108,7 +108,7 @@ def test_many_quadrotors_fly_alike_in_loops_and_written_out(mission, count, monk
     together, alone = tl.fly_many(missions), [tl.fly(missions[i]) for i in (0, 7)]
     assert same(alone[0], together[0])
     assert same(alone[1], together[7])
-    monkeypatch.setattr(traced, "MANY", 1000)
+    monkeypatch.setattr(traced_step, "MANY", 1000)
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path))
     known = dict(KERNELS)
     KERNELS.clear()

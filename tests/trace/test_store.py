@@ -20,7 +20,7 @@ import pytest
 from patience import PATIENCE
 
 import tandemlift as tl
-from tandemlift import prepared
+from tandemlift.simulation import plan
 from tandemlift.trace import code, machine, store
 
 CHANGES = {"mission.duration": 0.5}
@@ -37,7 +37,7 @@ def cache(tmp_path, monkeypatch):
     """An empty cache, for this process and others, and no code in this process; nothing is optimised unasked."""
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("TANDEMLIFT_OPTIMISE", "0")
-    monkeypatch.setattr(prepared, "KERNELS", {})
+    monkeypatch.setattr(plan, "KERNELS", {})
     return tmp_path / "cache"
 
 
@@ -112,7 +112,7 @@ def test_after_a_process_is_killed_at_any_moment_the_next_one_flies(cache, right
 
 def here():
     """A flight in this process, by what is on disk now."""
-    prepared.KERNELS.clear()
+    plan.KERNELS.clear()
     flight = tl.fly(tl.load_mission("one-push", CHANGES))
     here.first = getattr(here, "first", flight)
     return flight
@@ -228,10 +228,10 @@ def test_an_entry_that_cannot_be_trusted_is_made_anew(way, cache, monkeypatch):
 @pytest.mark.parametrize("way", WAYS)
 def test_a_module_on_disk_that_cannot_be_trusted_is_traced_again(way, cache):
     first, mission = here(), tl.load_mission("one-push", CHANGES)
-    prepared.KERNELS.clear()
+    plan.KERNELS.clear()
     (text,) = cache.glob("code/*-text.o")
     damaged(text, way)
-    found = prepared.Prepared(mission).kernels.loop(1)
+    found = plan.FlightPlan(mission).kernels.loop(1)
     found.optimise().join(PATIENCE)
     assert found.is_best
     assert np.array_equal(tl.fly(mission)["thrust"], first["thrust"])
@@ -348,7 +348,7 @@ class Full:
 def test_a_full_disk_is_no_reason_not_to_optimise(cache, monkeypatch):
     monkeypatch.setattr(store.os, "replace", fails(errno.ENOSPC))
     mission = tl.load_mission("one-push", CHANGES)
-    first, found = here(), prepared.Prepared(mission).kernels.loop(1)
+    first, found = here(), plan.FlightPlan(mission).kernels.loop(1)
     thread = found.optimise()
     assert thread is not None
     thread.join(PATIENCE)

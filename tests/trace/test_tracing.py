@@ -12,14 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from test_random_graphs import any_number, bits
 
-from tandemlift.law import Elementwise, choice, elementwise, law
-from tandemlift.ops import clip, maximum, minimum, where
+from tandemlift.algebra.law import Elementwise, choice, elementwise, law
+from tandemlift.algebra.ops import clip, maximum, minimum, where
+from tandemlift.algebra.vector import Vec3, dot
 from tandemlift.trace import Graph, Symbol, elementary, symbols, traced
 from tandemlift.trace.functions import compiled, written
 from tandemlift.trace.fused import fused
 from tandemlift.trace.machine import BEST, QUICK
 from tandemlift.trace.symbol import once_rounded
-from tandemlift.vector import Vec3, dot
 
 FUSED = "llvm.fma"
 ANY = st.floats(allow_nan=True, allow_infinity=True)

@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.cli.notices import compile_notices
 from tandemlift.cli.results import bar, results_in
-from tandemlift.cli.run import DIVERGED, chosen_controller, load, parse_setting, say
-from tandemlift.cli.telling import teller
-from tandemlift.errors import InputError
-from tandemlift.files import whole
+from tandemlift.cli.run import DIVERGED, chosen_controller, echo, load, parse_setting
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
-    from tandemlift.comparison import Entrant, Entry
-    from tandemlift.laws.controllers import Controller
+    from tandemlift.controllers import Controller
+    from tandemlift.flight.record import Flight
+    from tandemlift.studies.controller_comparison import Entrant, Entry, ScoredPart
 
 FILES = ("compare.html", "compare.json")
 OF_ENGINES = ("engines.html", "engines.json")
@@ -69,8 +70,8 @@ def compare(
             raise InputError("--engines, --controllers: give one of them")
         _compare_engines(mission, _names("--engines", engines, "compiled,mujoco"), settings, out)
         return
-    from tandemlift.comparison import entrants
-    from tandemlift.engines import engine_named
+    from tandemlift.engines.registry import engine_named
+    from tandemlift.studies.controller_comparison import entrants
 
     engine_named(engine)
     changes = dict(map(parse_setting, settings))
@@ -78,9 +79,9 @@ def compare(
     name = next(e.mission.mission.name for e in entered if e.mission)
     with results_in(out, Path("out") / name, FILES) as folder:
         entries = _fly(entered, engine)
-        _print_table(name, entries)
+        _print_tables(name, entries)
         _write(entries, folder, name, engine)
-        say(f"  page: {folder / 'compare.html'}")
+        echo(f"  page: {folder / 'compare.html'}")
     lost = {e.name: e.flight.divergence for e in entries if e.flight and e.flight.divergence}
     for controller, divergence in lost.items():
         click.echo(f"{controller}: {divergence}", err=True)
@@ -112,55 +113,75 @@ def _names(option: str, given: str, example: str) -> list[str]:
 
 
 def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
-    from tandemlift.comparison import compare
+    from tandemlift.studies.controller_comparison import compare
 
     count = sum(e.mission is not None for e in entered)
-    with teller.together(), bar("Flying", count, shown=sys.stderr.isatty()) as progress:
+    with compile_notices.together(), bar("Flying", count, shown=sys.stderr.isatty()) as progress:
         return compare(entered, engine, progress)
 
 
-def _cells(entry: Entry) -> list[str]:
-    from tandemlift.comparison import scores
-
-    if entry.flight is None:
-        return [entry.name, *[""] * 7, f"not flown: {entry.refusal}"]
-    s = scores(entry.flight)
-    return [
-        entry.name,
-        *(f"{1e3 * v:.2f}" for v in s["position_rmse_m"] or ()),
-        *([""] * (0 if s["position_rmse_m"] else 3)),
-        _printed(s["position_max_error_m"], 1e3, 1),
-        _printed(s["effort_n_m"], 1.0, 3),
-        _printed(s["rotor_saturated_share"], 1e2, 2),
-        _printed(s["step_ns"], 1.0, 0),
-        s["diverged"] or "",
-    ]
+HEADS = ("RMSE x", "y", "z (mm)", "most (mm)", "effort (N m)")
+OF_A_FLIGHT = ("saturated (%)", "ns/step")
 
 
 def _printed(value: float | None, scale: float, digits: int) -> str:
     return "" if value is None else f"{scale * value:.{digits}f}"
 
 
-def _print_table(name: str, entries: Sequence[Entry]) -> None:
-    """Print a row for each controller, and under it why it diverged or did not fly."""
-    from tandemlift.comparison import scores
+def _scores(flight: Flight, part: ScoredPart) -> list[str]:
+    """The cells of `HEADS`."""
+    from tandemlift.studies.controller_comparison import scores
 
-    late = any(scores(e.flight)["after_s"] for e in entries if e.flight)
-    say(f"{name}: position errors {'after 10 s' if late else 'of the whole flight'}")
-    heads = ("", "RMSE x", "y", "z (mm)", "most (mm)", "effort (N m)", "saturated (%)", "ns/step")
-    rows = [_cells(entry) for entry in entries]
-    width = max(len(row[0]) for row in rows) + 2
-    say("  " + heads[0].ljust(width) + "  ".join(head.rjust(max(9, len(head))) for head in heads[1:]))
-    for row in rows:
-        cells = (cell.rjust(max(9, len(head))) for cell, head in zip(row[1:-1], heads[1:], strict=True))
-        say(f"  {row[0].ljust(width)}{'  '.join(cells)}".rstrip())
-        if row[-1]:
-            say(f"  {'':{width}}{row[-1]}")
+    s = scores(flight, part)
+    errors = [_printed(value, 1e3, 3) for value in s["position_rmse_m"] or (None, None, None)]
+    return [*errors, _printed(s["position_max_error_m"], 1e3, 3), _printed(s["effort_n_m"], 1.0, 3)]
+
+
+def _run(flight: Flight) -> list[str]:
+    """The cells of `OF_A_FLIGHT`."""
+    from tandemlift.studies.controller_comparison import run_of
+
+    found = run_of(flight)
+    return [_printed(found["rotor_saturated_share"], 1e2, 2), _printed(found["step_ns"], 1.0, 0)]
+
+
+def _print_rows(heads: Sequence[str], rows: Sequence[tuple[str, list[str], str]]) -> None:
+    """Print a table: rows of a name, its cells, and what is to be said under them."""
+    width = max(len(name) for name, _, _ in rows) + 2
+    echo("  " + " " * width + "  ".join(head.rjust(max(9, len(head))) for head in heads))
+    for name, cells, note in rows:
+        filled = (cell.rjust(max(9, len(head))) for cell, head in zip(cells, heads, strict=False))
+        echo(f"  {name.ljust(width)}{'  '.join(filled)}".rstrip())
+        if note:
+            echo(f"  {'':{width}}{note}")
+
+
+def _print_tables(name: str, entries: Sequence[Entry]) -> None:
+    """Print a table for each part of the mission; in the first also how each flight ended, or why there was none."""
+    from tandemlift.studies.controller_comparison import moving_axes, parts_of
+
+    flights = {e.name: e.flight for e in entries if e.flight}
+    counts, *others = parts_of(flights.values())
+    rows = []
+    for entry in entries:
+        if entry.flight:
+            cells = [*_scores(entry.flight, counts), *_run(entry.flight)]
+            rows.append((entry.name, cells, str(entry.flight.divergence or "")))
+        else:
+            rows.append((entry.name, [], f"not flown: {entry.refusal}"))
+    echo(f"{name}: position errors {counts.words}")
+    _print_rows((*HEADS, *OF_A_FLIGHT), rows)
+    for part in others:
+        if any(moving_axes(flights.values(), part)):
+            echo(f"{name}: position errors {part.words}")
+            _print_rows(HEADS, [(controller, _scores(flight, part), "") for controller, flight in flights.items()])
+        else:
+            echo(f"  {part.words.capitalize()} every position error is below 1 µm.")
 
 
 def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> None:
-    from tandemlift.comparison import summary_of
-    from tandemlift.report.comparison import write_comparison
+    from tandemlift.report.controller_comparison import write_comparison
+    from tandemlift.studies.controller_comparison import summary_of
 
     found: dict[str, Any] = {"mission": name, "engine": engine, "controllers": summary_of(entries)}
     _write_json(found, folder / "compare.json")
@@ -168,23 +189,23 @@ def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> No
 
 
 def _write_json(found: Any, path: Path) -> None:
-    with whole(path) as partial:
+    with atomic_write(path) as partial:
         partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
 
 
 def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], out: str | None) -> None:
     """Fly a mission in several engines, print how far they are apart, and write the page."""
-    from tandemlift.apart import fly_in, summary_of
-    from tandemlift.report.engines import write_engines
+    from tandemlift.report.engine_comparison import write_engines
+    from tandemlift.studies.engine_comparison import fly_in, summary_of
 
     loaded = load(mission, settings)
     with results_in(out, Path("out") / loaded.mission.name, OF_ENGINES) as folder:
-        with teller.together(), bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
+        with compile_notices.together(), bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
             flights = fly_in(loaded, names, progress)
         found = summary_of(flights)
         _print_differences(loaded.mission.name, found)
         _write_json({"mission": loaded.mission.name, "engines": found}, folder / "engines.json")
-        say(f"  page: {write_engines(flights, folder / 'engines.html')}")
+        echo(f"  page: {write_engines(flights, folder / 'engines.html')}")
     lost = [row for row in found if row["diverged"]]
     for row in lost:
         click.echo(f"{row['engine']}: {row['diverged']}", err=True)
@@ -194,14 +215,14 @@ def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], 
 
 def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:
     """Print a row for each engine: how far it is from the first at most, and how fast it was."""
-    from tandemlift.apart import QUANTITIES
+    from tandemlift.studies.engine_comparison import QUANTITIES
 
     shown = [q for q in QUANTITIES if q in found[0]["apart"]]
     heads = [f"{q.replace('_', ' ')} ({QUANTITIES[q]})" for q in shown] + ["steps/s"]
     width = max(len(row["engine"]) for row in found) + 2
-    say(f"{name}: largest difference from {found[0]['engine']}")
-    say("  " + " " * width + "  ".join(head.rjust(18) for head in heads))
+    echo(f"{name}: largest difference from {found[0]['engine']}")
+    echo("  " + " " * width + "  ".join(head.rjust(18) for head in heads))
     for row in found:
         cells = [f"{row['apart'][q]:.1e}" if row is not found[0] else "" for q in shown]
         line = "  ".join(cell.rjust(18) for cell in [*cells, f"{row['steps_per_s']:,.0f}"])
-        say(f"  {row['engine'].ljust(width)}{line}")
+        echo(f"  {row['engine'].ljust(width)}{line}")

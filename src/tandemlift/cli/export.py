@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.results import flight_file
-from tandemlift.cli.run import parse_setting, say
-from tandemlift.errors import InputError
+from tandemlift.cli.run import echo, parse_setting
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
     from tandemlift.settings import Mission
 
 
@@ -38,7 +38,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
       tandemlift export zigzag --out zigzag.sdf
       tandemlift export four --set initial.euler=0.0 --out four.xml
     """
-    from tandemlift import export as exporting
+    from tandemlift.export import write as exporting
 
     path = Path(out)
     model = exporting.is_model(path)
@@ -52,11 +52,11 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
     what = _flight(saved) if saved else _mission(flight_or_mission, settings)
     exporting.export(what, path, plugin=int(plugin) if plugin and plugin.isdecimal() else plugin)
     size = path.stat().st_size
-    say(f"{_name(what)}: {path} ({f'{size / 1e3:.0f} kB' if model else f'{size / 1e6:.1f} MB'})")
+    echo(f"{_name(what)}: {path} ({f'{size / 1e3:.0f} kB' if model else f'{size / 1e6:.1f} MB'})")
 
 
 def _flight(saved: Path) -> Flight:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
     return Flight.load(saved)
 

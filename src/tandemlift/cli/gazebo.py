@@ -14,14 +14,14 @@ import click
 
 from tandemlift.cli.live import DEFAULT
 from tandemlift.cli.results import bar, keep_recording, results_in, write_results
-from tandemlift.cli.run import DIVERGED, load, say, say_report, summarise
-from tandemlift.errors import InputError
+from tandemlift.cli.run import DIVERGED, echo, load, say_report, summarise
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tandemlift.flight import Flight
-    from tandemlift.gazebo.flying import Gazebo, Photo
+    from tandemlift.flight.record import Flight
+    from tandemlift.gazebo_app.flying import GazeboSession, Photo
     from tandemlift.settings import Mission
 
 
@@ -86,7 +86,7 @@ def gazebo(
 
 
 def _has_display() -> bool:
-    from tandemlift.gazebo.flying import has_display
+    from tandemlift.gazebo_app.flying import has_display
 
     if not has_display():
         click.echo("No window: DISPLAY is not set", err=True)
@@ -95,9 +95,9 @@ def _has_display() -> bool:
 
 def _as_it_is(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Figure | None]:
     """Fly a mission to its end; the flight, and its pictures if they are wanted."""
-    from tandemlift.gazebo.flying import opened
-    from tandemlift.gazebo.views import shots_of
-    from tandemlift.simulate import fly
+    from tandemlift.gazebo_app.camera_views import shots_of
+    from tandemlift.gazebo_app.flying import opened
+    from tandemlift.simulation.fly import fly
 
     shots, step = shots_of(fly(mission)) if pictures else [], mission.mission.step
     with opened(mission, shots, window=window, real_time=real_time) as gazebo:
@@ -114,7 +114,7 @@ def _as_it_is(mission: Mission, window: bool, real_time: bool, pictures: bool) -
 
 
 def _views(photos: Sequence[Photo]) -> Figure | None:
-    from tandemlift.figures.views import draw_views
+    from tandemlift.gazebo_app.photographs import draw_views
 
     if not photos:
         return None
@@ -123,7 +123,7 @@ def _views(photos: Sequence[Photo]) -> Figure | None:
 
 def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
     """Fly a mission that nobody but Gazebo's topic pushes, until Ctrl-C."""
-    from tandemlift.gazebo.flying import opened
+    from tandemlift.gazebo_app.flying import opened
     from tandemlift.live.session.interactive_mission import interactive_mission
     from tandemlift.live.session.recorded_flight import RecordedFlight
 
@@ -131,7 +131,7 @@ def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
     with opened(mission, window=window, real_time=True) as gazebo, _until_stopped() as stopped:
         recorded = RecordedFlight(mission, "gazebo")
         _tell_how_to_push(mission, gazebo)
-        say("  Ctrl-C ends it")
+        echo("  Ctrl-C ends it")
         while not (stopped() or recorded.over):
             recorded.advance()
         return recorded.snapshot().alone(), None
@@ -149,10 +149,10 @@ def _until_stopped() -> Iterator[Callable[[], bool]]:
             signal.signal(number, handler)
 
 
-def _tell_how_to_push(mission: Mission, gazebo: Gazebo) -> None:
+def _tell_how_to_push(mission: Mission, gazebo: GazeboSession) -> None:
     from tandemlift.engines.gazebo_server import by_yourself
 
     push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
-    say(f"{mission.mission.name}, in Gazebo; to push it, in another terminal:")
-    say(f"  {by_yourself(gazebo.master, push)}")
+    echo(f"{mission.mission.name}, in Gazebo; to push it, in another terminal:")
+    echo(f"  {by_yourself(gazebo.master, push)}")
     sys.stdout.flush()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.leaving import leave
+from tandemlift.cli.interrupts import leave
 from tandemlift.cli.run import load
 from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
 
@@ -48,7 +48,7 @@ def live(
       0   ended by Ctrl-C
       2   bad input: one message, nothing is flown
     """
-    from tandemlift.engines import engine_named
+    from tandemlift.engines.registry import engine_named
 
     needs_live()
     engine_named(engine)

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.results import bar, flight_file
-from tandemlift.cli.run import parse_setting, say
-from tandemlift.errors import InputError
+from tandemlift.cli.run import echo, parse_setting
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
     from tandemlift.rendering import Shot
 
 CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres"
@@ -95,15 +95,15 @@ def _size(text: str | None) -> tuple[int, int] | None:
 
 
 def _load(path: Path) -> Flight:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
     return Flight.load(path)
 
 
 def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
-    from tandemlift.engines import engine_named
+    from tandemlift.engines.registry import engine_named
     from tandemlift.missions import load_mission
-    from tandemlift.simulate import fly
+    from tandemlift.simulation.fly import fly
 
     engine_named(engine)
     loaded = load_mission(mission, dict(map(parse_setting, settings)))
@@ -120,4 +120,4 @@ def _draw(flight: Flight, path: Path, shot: Shot) -> None:
         count = len(rendering.Animation(flight, shot))
         with bar("Drawing", count, shown=sys.stderr.isatty()) as progress:
             rendering.render(flight, path, shot, progress)
-    say(f"{flight.name}: {path}")
+    echo(f"{flight.name}: {path}")

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.results import flight_file
-from tandemlift.cli.run import say
+from tandemlift.cli.run import echo
 from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
-from tandemlift.errors import InputError
-from tandemlift.files import whole
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
 
 @click.command()
@@ -37,7 +37,7 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
       0   ended by Ctrl-C, or the page is written
       2   bad input: one message, nothing is written
     """
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
     _, saved = flight_file(flight)
     if saved is None:
@@ -62,9 +62,9 @@ def _write(path: Path, flight: Flight) -> None:
     if path.is_dir():
         raise InputError(f"--html {path}: is a folder, not a file")
     text = replay_html(flight, page_files())
-    with whole(path) as partial:
+    with atomic_write(path) as partial:
         partial.write_text(text, "utf-8")
-    say(f"{flight.name}: {path}")
+    echo(f"{flight.name}: {path}")
 
 
 def _serve(flight: Flight, port: int, *, browser: bool) -> None:

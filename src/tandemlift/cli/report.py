@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.results import flight_file, results_in, write_results
-from tandemlift.cli.run import say
-from tandemlift.errors import InputError
+from tandemlift.cli.run import echo
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
 BAGS = (".bag", ".mcap")
 
@@ -43,9 +43,9 @@ def report(flight: str, out: str | None, no_figures: bool) -> None:
     """
     loaded, default = _load(flight)
     with results_in(out, default) as folder:
-        say(repr(loaded).strip("<>"))
+        echo(repr(loaded).strip("<>"))
         write_results(loaded, folder, figures=not no_figures)
-        say(f"  report: {folder / 'report.html'}")
+        echo(f"  report: {folder / 'report.html'}")
 
 
 def _load(given: str) -> tuple[Flight, Path]:
@@ -55,7 +55,7 @@ def _load(given: str) -> tuple[Flight, Path]:
         InputError: there is none.
     """
     from tandemlift.export.reading import read_bag
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
 
     path = Path(given)
     if path.suffix.lower() in BAGS or (path / "metadata.yaml").exists():

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.telling import teller
-from tandemlift.errors import InputError
-from tandemlift.files import whole
+from tandemlift.cli.notices import compile_notices
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tandemlift.flight import Flight
+    from tandemlift.flight.record import Flight
     from tandemlift.settings import Mission
 
 FILES = ("mission.toml", "flight.npz", "metrics.json", "report.html")
@@ -72,15 +72,15 @@ def _check_room(folder: Path, files: Sequence[str]) -> None:
 
 def write_results(flight: Flight, folder: Path, *, figures: bool, views: Figure | None = None) -> None:
     """Write all that `tandemlift run` leaves behind, and photographs if given, replacing what an earlier run left."""
-    from tandemlift.figures import FIGURES, VIEWS, figures_of, save_figures
-    from tandemlift.figures.style import save
+    from tandemlift.figures.drawing.style import save
+    from tandemlift.figures.registry import FIGURES, VIEWS, figures_of, save_figures
     from tandemlift.missions import format_toml
-    from tandemlift.report import write_report
+    from tandemlift.report.flight_report import write_report
 
-    with whole(folder / "mission.toml") as partial:
+    with atomic_write(folder / "mission.toml") as partial:
         partial.write_text(format_toml(flight.mission), "utf-8")
     flight.save(folder / "flight.npz")
-    with whole(folder / "metrics.json") as partial:
+    with atomic_write(folder / "metrics.json") as partial:
         partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
     for name in (*FIGURES, VIEWS):
         for kind in ("png", "pdf"):
@@ -96,10 +96,10 @@ def write_results(flight: Flight, folder: Path, *, figures: bool, views: Figure 
 
 def keep_recording(mission: Mission, folder: Path) -> None:
     """Put the recording of a mission, if it has one, beside its file, so that the folder flies again wherever it is."""
-    if mission.partner.recording is None:
+    if mission.person.recording is None:
         return
-    source = Path(mission.partner.recording)
-    with whole(folder / source.name) as partial:
+    source = Path(mission.person.recording)
+    with atomic_write(folder / source.name) as partial:
         shutil.copyfile(source, partial)
 
 
@@ -119,5 +119,5 @@ def bar(label: str, length: int, *, shown: bool = True) -> Iterator[Callable[[in
     if not shown:
         yield None
         return
-    with teller.together(), click.progressbar(length=length, label=label, file=sys.stderr) as bar:
+    with compile_notices.together(), click.progressbar(length=length, label=label, file=sys.stderr) as bar:
         yield lambda done, total: bar.update(done - bar.pos)

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import DEFAULT, session_of
-from tandemlift.cli.run import DIVERGED, load, say
-from tandemlift.errors import InputError
+from tandemlift.cli.run import DIVERGED, echo, load
+from tandemlift.common.errors import InputError
+from tandemlift.ros.sample_queue import every_of
 
 if TYPE_CHECKING:
     from tandemlift.live.session.session import Session
@@ -24,7 +25,7 @@ BAD_ENDS = ("lost", "failed")
 @click.command()
 @click.argument("words", nargs=-1, metavar="[MISSION] [NAME:=VALUE]...")
 @click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
-@click.option("--version", type=click.Choice(["1", "2"]), default="1", show_default=True, help="Of ROS.")
+@click.option("--version", type=click.Choice(["1", "2"]), help="Of ROS.  [default: 1 if there is rospy, else 2]")
 @click.option("--rate", type=float, default=100.0, show_default=True, help="Of samples [Hz].")
 @click.option("--save", metavar="DIR", help="Where to save the flight at its end; it flies again from there.")
 @click.option("--rviz", is_flag=True, help="Start ROS 1's RViz beside it, which shows everything.")
@@ -33,18 +34,19 @@ BAD_ENDS = ("lost", "failed")
 def ros(
     words: tuple[str, ...],
     engine: str,
-    version: str,
+    version: str | None,
     rate: float,
     save: str | None,
     rviz: bool,
     folder: bool,
     settings: tuple[str, ...],
 ) -> None:
-    """Fly MISSION in real time, tell it in ROS, and let it be pushed by messages.
+    """Fly MISSION in real time as a node of ROS, and let it be pushed by messages.
 
     MISSION is the name of a built-in mission (see `tandemlift missions`) or the path of a .toml file; zigzag if none is
     given. Its pushes and its person are left out: who publishes on /tandemlift/push pushes. ROS 1 needs rospy and a
-    running roscore; ROS 2 needs no installed ROS. Topics, services and parameters: docs/ros.md. Ctrl-C ends it.
+    running roscore; ROS 2 needs no installed ROS, but pip install 'tandemlift[ros2]'. Without --version it is the one
+    that is installed. Topics, services and parameters: docs/ros.md. Ctrl-C ends it.
 
     \b
     Examples:
@@ -59,25 +61,26 @@ def ros(
       2   bad input: one message, nothing is flown
       3   the vehicle was lost
     """
-    from tandemlift.engines import engine_named
-    from tandemlift.ros.feed import every_of
+    from tandemlift.engines.registry import engine_named
     from tandemlift.ros.package import folder as package
+    from tandemlift.ros.selection import middleware_of, version_for
 
     if folder:
-        say(str(package()))
+        echo(str(package()))
         return
-    if rviz and version != "1":
+    if rviz and version == "2":
         raise InputError("--rviz: its file is for ROS 1")
     mission, arguments = _words(words)
     engine_named(engine)
     loaded = load(mission, settings)
     every_of(rate, loaded.mission.step)
-    middleware = _middleware(version, arguments)
+    spoken = version_for("1" if rviz else version)
+    middleware = middleware_of(spoken, arguments, asked=rviz or version is not None)
     try:
         session = session_of(loaded, engine)
         session.prepare()
         session.flight.optimise()
-        end = _fly(session, middleware, rate, f"{mission} in ROS {version}", rviz=rviz)
+        end = _fly(session, middleware, rate, f"{mission} in ROS {spoken}", rviz=rviz)
     finally:
         middleware.shutdown()
     _save(session, save)
@@ -95,32 +98,22 @@ def _words(words: tuple[str, ...]) -> tuple[str, list[str]]:
     return missions[0], arguments
 
 
-def _middleware(version: str, arguments: list[str]) -> Middleware:
-    if version == "1":
-        from tandemlift.ros.ros1 import Ros1
-
-        return Ros1(arguments)
-    from tandemlift.ros.ros2 import Ros2
-
-    return Ros2()
-
-
 def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
     """Fly until it ends; the phase that it ends in."""
-    from tandemlift.ros.front import Front
+    from tandemlift.ros.node import FlightNode
     from tandemlift.ros.package import start_rviz
 
     beside = start_rviz() if rviz else None
-    front = Front(session, middleware, rate)
+    front = FlightNode(session, middleware, rate)
     for number in (signal.SIGINT, signal.SIGTERM):  # from roslaunch too, which may have had them ignored
         signal.signal(number, signal.default_int_handler)
     try:
         front.start()
-        say(f"{what}: topics below /tandemlift, pushes by /tandemlift/push; Ctrl-C ends it")
+        echo(f"{what}: topics below /tandemlift, pushes by /tandemlift/push; Ctrl-C ends it")
         sys.stdout.flush()
         return front.spin()
     except KeyboardInterrupt:
-        say("stopped")
+        echo("stopped")
         return "stopped"
     finally:
         front.stop()
@@ -129,10 +122,10 @@ def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rv
 
 
 def _save(session: Session, save: str | None) -> None:
-    from tandemlift.errors import FlightWarning
+    from tandemlift.common.errors import FlightWarning
 
     if save:
         with warnings.catch_warnings():  # of what may go badly with rotors that may fail
             warnings.simplefilter("ignore", FlightWarning)
             session.flight.snapshot().save(Path(save))
-        say(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")
+        echo(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")

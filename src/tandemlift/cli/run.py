@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.cli.results import bar, keep_recording, results_in, write_results
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight import Flight
-    from tandemlift.laws.controllers import Controller
+    from tandemlift.controllers import Controller
+    from tandemlift.flight.record import Flight
     from tandemlift.settings import Mission
 
 DIVERGED = 3
@@ -73,7 +73,7 @@ def run(
       2   bad input: one message, nothing is written
       3   diverged: the flight until then is written
     """
-    from tandemlift.engines import engine_named
+    from tandemlift.engines.registry import engine_named
 
     began = time.perf_counter()
     if engine is not None:
@@ -97,7 +97,7 @@ def chosen_controller(given: str) -> Controller:
     Raises:
         InputError: there is none, or the file has none.
     """
-    from tandemlift.laws.controllers import controller, load_controller
+    from tandemlift.controllers import controller, load_controller
 
     return load_controller(given) if given.endswith(".py") or "/" in given else controller(given)
 
@@ -136,9 +136,9 @@ def parse_setting(text: str) -> tuple[str, Any]:
 
 
 def _fly(mission: Mission, engine: str | None, controller: Controller | None) -> Flight:
-    from tandemlift.laws.controllers import file_of, told
-    from tandemlift.prepared import takes_long
-    from tandemlift.simulate import fly
+    from tandemlift.controllers import error_text, file_of
+    from tandemlift.simulation.fly import fly
+    from tandemlift.simulation.plan import takes_long
 
     try:
         with bar("Flying", mission.mission.steps, shown=takes_long(mission)) as progress:
@@ -148,12 +148,12 @@ def _fly(mission: Mission, engine: str | None, controller: Controller | None) ->
     except Exception as error:
         if controller is None or controller.start.__module__.startswith("tandemlift."):
             raise
-        raise InputError(f"controller {controller.name!r} fails: {told(error, file_of(controller))}") from error
+        raise InputError(f"controller {controller.name!r} fails: {error_text(error, file_of(controller))}") from error
 
 
 def say_report(folder: Path, seconds: float) -> None:
     """Print where the report is, and how long [s] all of it took: compiling, flying and writing."""
-    say(f"  report: {folder / 'report.html'} ({seconds:.2f} s in all)")
+    echo(f"  report: {folder / 'report.html'} ({seconds:.2f} s in all)")
 
 
 def summarise(flight: Flight) -> None:
@@ -170,12 +170,12 @@ def summarise(flight: Flight) -> None:
         ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (least, most)"),
         ("human work", _list([m["human_work_j"]], 2), "J"),
     ]
-    say(f"{flight.name}: {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms")
+    echo(f"{flight.name}: {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms")
     for label, value, unit in rows:
         if value:
-            say(f"  {label:36}{value} {unit}")
+            echo(f"  {label:36}{value} {unit}")
     for at, what in m["events"]:
-        say(f"  {at:.2f} s: {what}")
+        echo(f"  {at:.2f} s: {what}")
 
 
 def _list(values: list[float | None] | None, digits: int, scale: float = 1.0) -> str:
@@ -185,7 +185,7 @@ def _list(values: list[float | None] | None, digits: int, scale: float = 1.0) ->
     return "  ".join(f"{round(v * scale, digits) + 0.0:8.{digits}f}" for v in values if v is not None)
 
 
-def say(text: str, *, nl: bool = True) -> None:
+def echo(text: str, *, nl: bool = True) -> None:
     """Print to standard output, and go on without one if it is closed (`| head`)."""
     try:
         click.echo(text, nl=nl)

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.run import say
-from tandemlift.errors import InputError
+from tandemlift.cli.run import echo
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.live.server import PageServer
@@ -36,8 +36,8 @@ def serve_here(server: PageServer, what: str, *, browser: bool) -> None:
     from tandemlift.live.server import serve_until_stopped
 
     def opened(address: str) -> None:
-        say(f"{what}: {address}")
-        say("  Ctrl-C ends it")
+        echo(f"{what}: {address}")
+        echo("  Ctrl-C ends it")
         sys.stdout.flush()
         if "token=" in address:
             click.echo("warning: any machine that can reach this one and knows this address can push", err=True)
@@ -47,7 +47,7 @@ def serve_here(server: PageServer, what: str, *, browser: bool) -> None:
     try:
         asyncio.run(serve_until_stopped(server, opened))
     except KeyboardInterrupt:
-        say("stopped")
+        echo("stopped")
 
 
 def _has_display() -> bool:

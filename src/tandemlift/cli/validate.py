@@ -27,18 +27,18 @@ def validate(engine: str, draws: int | None, chapters: tuple[str, ...], out: str
       tandemlift validate
       tandemlift validate --chapter tracking --engine mujoco
     """
-    from tandemlift.cli.run import say
-    from tandemlift.cli.telling import teller
-    from tandemlift.engines import engine_named
-    from tandemlift.validation import Bench, chosen, rows_of, table
+    from tandemlift.cli.notices import compile_notices
+    from tandemlift.cli.run import echo
+    from tandemlift.engines.registry import engine_named
+    from tandemlift.studies.validation import Bench, chosen, rows_of, table
 
     engine_named(engine)
     names = chosen(list(chapters))
     bench = Bench(engine, draws or (200 if engine == "compiled" else 10))
-    with teller.together():
+    with compile_notices.together():
         rows = rows_of(bench, names, lambda name: click.echo(f"flying {name} …", err=True))
     text = table(rows)
-    say(text)
+    echo(text)
     if out:
         Path(out).write_text(text + "\n", encoding="utf-8")
     if any(row.met is False for row in rows):

@@ -11,52 +11,62 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.law import choice, law
-from tandemlift.laws.allocation import Mixer, wrench
-from tandemlift.laws.body import Body, State, motion, rigid_body_motion, rk4
-from tandemlift.laws.contact import Floor, slip, touch
-from tandemlift.laws.inertia import inertia_value, turn_by
-from tandemlift.laws.loads import Felt, Frame, Load, Loads, feel, frame_of, of_quadrotors, plus_zero, resultant, under
-from tandemlift.laws.parts import Acceleration
-from tandemlift.laws.push import Hand
-from tandemlift.laws.rotation import quaternion_from_euler
-from tandemlift.laws.walls import Walls, press
-from tandemlift.pilot.start import mixer_value
+from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.vector import ZERO, Nothing, vec3
+from tandemlift.laws.mechanics.body import RigidBody, State, motion, rigid_body_motion, rk4
+from tandemlift.laws.mechanics.contact import Floor, slip, touch
+from tandemlift.laws.mechanics.inertia import inertia_value, turn_by
+from tandemlift.laws.mechanics.loads import (
+    PartLoad,
+    PartLoads,
+    PartsLayout,
+    PerfectReadings,
+    of_quadrotors,
+    parts_layout,
+    perfect_readings,
+    plus_zero,
+    resultant,
+    under,
+)
+from tandemlift.laws.mechanics.parts import Acceleration
+from tandemlift.laws.mechanics.push import PushSamples
+from tandemlift.laws.mechanics.rotation import quaternion_from_euler
+from tandemlift.laws.mechanics.walls import Walls, press
+from tandemlift.laws.rotors.allocation import Mixer, mixer_from, wrench
 from tandemlift.settings import Mission, VehicleTable
-from tandemlift.vector import ZERO, Nothing, vec3
 from tandemlift.vehicle import Vehicle
 
-NO_LOAD = Load(ZERO, ZERO)
+NO_LOAD = PartLoad(ZERO, ZERO)
 
 
-class Plant(NamedTuple):
+class CompiledPlant(NamedTuple):
     """The body as it really is: what rotor thrusts do to it, how it moves, its parts, the floor and the walls."""
 
     effect: Mixer
-    body: Body
-    frame: Frame
+    body: RigidBody
+    frame: PartsLayout
     floor: Any
     walls: Any
 
 
-class Surrounded(NamedTuple):
+class BodySurroundings(NamedTuple):
     """The body during a step: its state at the start, the air's loads, the feet's grip, the nearest walls."""
 
-    plant: Plant
+    plant: CompiledPlant
     air: Any
     grip: Any
     near: Any
 
 
-class Moved(NamedTuple):
+class BodyStep(NamedTuple):
     """What a step of the body comes to: the state after it, what was felt at its start, the feet's grip after it."""
 
     state: State
-    felt: Felt
+    felt: PerfectReadings
     grip: Any
 
 
-class Above(NamedTuple):
+class DistantFloor(NamedTuple):
     """A floor out of reach for some steps: the same numbers, and no force."""
 
     floor: Floor
@@ -68,21 +78,21 @@ class DistantWalls(NamedTuple):
     walls: Walls
 
 
-class Clear(NamedTuple):
+class ZeroLoad(NamedTuple):
     """The load of what is out of reach: zero, and added like any other, so that no bit of a flight depends on it."""
 
 
-def untouched(plant: Plant) -> Plant:
+def untouched(plant: CompiledPlant) -> CompiledPlant:
     """The same body where nothing can touch floor or walls."""
     floor, walls = plant.floor, plant.walls
     return plant._replace(
-        floor=floor if isinstance(floor, Nothing) else Above(floor),
+        floor=floor if isinstance(floor, Nothing) else DistantFloor(floor),
         walls=walls if isinstance(walls, Nothing) else DistantWalls(walls),
     )
 
 
 @choice
-def of_floor(floor: Any, b: Surrounded, s: State) -> Any:
+def of_floor(floor: Any, b: BodySurroundings, s: State) -> Any:
     """Loads of the floor on the quadrotors, or `Nothing`."""
 
 
@@ -91,9 +101,9 @@ def _no_floor(floor, b, s):
     return floor
 
 
-@of_floor.register(Above)
+@of_floor.register(DistantFloor)
 def _out_of_reach(floor, b, s):
-    return Clear()
+    return ZeroLoad()
 
 
 @of_floor.register(Floor)
@@ -102,7 +112,7 @@ def _floor(floor, b, s):
 
 
 @choice
-def of_walls(walls: Any, b: Surrounded, s: State) -> Any:
+def of_walls(walls: Any, b: BodySurroundings, s: State) -> Any:
     """Loads of the walls on all parts, or `Nothing`."""
 
 
@@ -113,7 +123,7 @@ def _no_walls(walls, b, s):
 
 @of_walls.register(DistantWalls)
 def _walls_out_of_reach(walls, b, s):
-    return Clear()
+    return ZeroLoad()
 
 
 @of_walls.register(Walls)
@@ -122,7 +132,7 @@ def _walls(walls, b, s):
 
 
 @choice
-def summed(load: Any, frame: Frame, attitude: Any) -> Any:
+def summed(load: Any, frame: PartsLayout, attitude: Any) -> Any:
     """A load about the centre of mass: of everything, of the quadrotors (vectors of sets), or `Nothing`."""
 
 
@@ -131,23 +141,23 @@ def _none(load, frame, attitude):
     return load
 
 
-@summed.register(Loads)
+@summed.register(PartLoads)
 def _of_all(load, frame, attitude):
     return resultant(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
 
 
-@summed.register(Load)
+@summed.register(PartLoad)
 def _of_quadrotors(load, frame, attitude):
     return of_quadrotors(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
 
 
-@summed.register(Clear)
+@summed.register(ZeroLoad)
 def _no_contact(load, frame, attitude):
     return NO_LOAD
 
 
 @choice
-def moved_by(load: Any, body: Body, rate: State) -> Any:
+def moved_by(load: Any, body: RigidBody, rate: State) -> Any:
     """The motion under a further load about the centre of mass."""
 
 
@@ -156,13 +166,13 @@ def _as_before(load, body, rate):
     return rate
 
 
-@moved_by.register(Load)
+@moved_by.register(PartLoad)
 def _pressed(load, body, rate):
     turned = turn_by(body.inverse_inertia, load.moment)
     return State(rate.position, rate.velocity + load.force * body.inverse_mass, rate.attitude, rate.rates + turned)
 
 
-@motion.register(Surrounded)
+@motion.register(BodySurroundings)
 def surrounded_motion(b, s, u, push):
     """The motion of the body among its surroundings."""
     plant, q = b.plant, s.attitude
@@ -181,28 +191,30 @@ def _on_none(loads):
     return loads
 
 
-@on_quadrotors.register(Loads)
+@on_quadrotors.register(PartLoads)
 def _on_each(loads):
     return loads.quadrotors
 
 
-@on_quadrotors.register(Load)
+@on_quadrotors.register(PartLoad)
 def _on_each_alone(loads):
     return loads
 
 
-@on_quadrotors.register(Clear)
+@on_quadrotors.register(ZeroLoad)
 def _on_none_yet(loads):
     return loads
 
 
-@under.register(Clear)
+@under.register(ZeroLoad)
 def _unloaded(load, frame, attitude, felt):
-    return Felt(felt.specific_force, plus_zero(felt.joint_force), plus_zero(felt.joint_torque), felt.contact_force)
+    return PerfectReadings(
+        felt.specific_force, plus_zero(felt.joint_force), plus_zero(felt.joint_torque), felt.contact_force
+    )
 
 
 @choice
-def touched_by(load: Any, felt: Felt) -> Any:
+def touched_by(load: Any, felt: PerfectReadings) -> Any:
     """`felt`, with the force of a contact about the centre of mass."""
 
 
@@ -211,17 +223,17 @@ def _untouched(load, felt):
     return felt
 
 
-@touched_by.register(Load)
+@touched_by.register(PartLoad)
 def _touched(load, felt):
-    return Felt(felt.specific_force, felt.joint_force, felt.joint_torque, felt.contact_force + load.force)
+    return PerfectReadings(felt.specific_force, felt.joint_force, felt.joint_torque, felt.contact_force + load.force)
 
 
 @law
-def felt_in(b: Surrounded, s: State, k1: State, air: Any, thrusts: Any) -> Felt:
+def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any) -> PerfectReadings:
     """What is felt in state `s`, whose motion is `k1`, under thrusts [N] and the air's loads on the parts."""
     frame, q = b.plant.frame, s.attitude
     floor, walls = of_floor(b.plant.floor, b, s), of_walls(b.plant.walls, b, s)
-    felt = under(on_quadrotors(air), frame, q, feel(frame, s, Acceleration(k1.velocity, k1.rates), thrusts))
+    felt = under(on_quadrotors(air), frame, q, perfect_readings(frame, s, Acceleration(k1.velocity, k1.rates), thrusts))
     felt = under(on_quadrotors(floor), frame, q, felt)
     felt = under(on_quadrotors(walls), frame, q, felt)
     return touched_by(summed(walls, frame, q), touched_by(summed(floor, frame, q), felt))
@@ -237,7 +249,7 @@ def _no_feet(floor, grip, s):
     return grip
 
 
-@gripping.register(Above)
+@gripping.register(DistantFloor)
 def _in_the_air(floor, grip, s):
     return grip
 
@@ -248,37 +260,43 @@ def _feet(floor, grip, s):
 
 
 @law
-def first_motion(plant: Plant, s: State, grip: Any, near: Any, thrusts: Any, air: Any, hand: Hand) -> State:
+def first_motion(
+    plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, air: Any, hand: PushSamples
+) -> State:
     """The motion at the start of a step."""
-    b = Surrounded(plant, summed(air, plant.frame, s.attitude), grip, near)
+    b = BodySurroundings(plant, summed(air, plant.frame, s.attitude), grip, near)
     return motion(b, s, wrench(plant.effect, thrusts), hand.start)
 
 
 @law
-def advance(plant: Plant, s: State, grip: Any, near: Any, thrusts: Any, air: Any, hand: Hand, dt: Any) -> Moved:
+def advance(
+    plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, air: Any, hand: PushSamples, dt: Any
+) -> BodyStep:
     """One step of dt [s] with rotor thrusts [N] and the air's loads held, and the push continuous."""
-    b, u = Surrounded(plant, summed(air, plant.frame, s.attitude), grip, near), wrench(plant.effect, thrusts)
+    b, u = BodySurroundings(plant, summed(air, plant.frame, s.attitude), grip, near), wrench(plant.effect, thrusts)
     k1 = motion(b, s, u, hand.start)
     after = rk4(b, s, k1, u, hand, dt)
-    return Moved(after, felt_in(b, s, k1, air, thrusts), gripping(plant.floor, grip, after))
+    return BodyStep(after, readings_in(b, s, k1, air, thrusts), gripping(plant.floor, grip, after))
 
 
-def felt_at_rest(plant: Plant, s: State, grip: Any, near: Any, thrusts: Any, hand: Hand) -> Felt:
+def readings_at_rest(
+    plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, hand: PushSamples
+) -> PerfectReadings:
     """What is felt in still air in state `s` under rotor thrusts [N]."""
-    b, air = Surrounded(plant, Nothing(), grip, near), Nothing()
-    return felt_in(b, s, motion(b, s, wrench(plant.effect, thrusts), hand.start), air, thrusts)
+    b, air = BodySurroundings(plant, Nothing(), grip, near), Nothing()
+    return readings_in(b, s, motion(b, s, wrench(plant.effect, thrusts), hand.start), air, thrusts)
 
 
 @lru_cache(maxsize=64)
 def _effect(vehicle: VehicleTable) -> Mixer:
-    return mixer_value(Vehicle.from_settings(vehicle).effect)
+    return mixer_from(Vehicle.from_settings(vehicle).effect)
 
 
-def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Plant:
+def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> CompiledPlant:
     """The body of a mission, on a floor and between walls, or `Nothing`."""
     scale = np.diag(np.sqrt(mission.plant.inertia_scale))
     J = scale @ vehicle.inertia @ scale
-    body = Body(
+    body = RigidBody(
         inverse_mass=1.0 / (vehicle.mass * mission.plant.mass_scale),
         inertia=inertia_value(J),
         inverse_inertia=inertia_value(np.linalg.inv(J)),
@@ -287,7 +305,7 @@ def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> P
         force=vec3(mission.disturbance.force),
         moment=vec3(mission.disturbance.moment),
     )
-    return Plant(_effect(mission.vehicle), body, frame_of(vehicle), floor, walls)
+    return CompiledPlant(_effect(mission.vehicle), body, parts_layout(vehicle), floor, walls)
 
 
 def start_state(mission: Mission) -> State:

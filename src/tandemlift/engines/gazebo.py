@@ -9,7 +9,6 @@ one; `TANDEMLIFT_GAZEBO_REAL_TIME=1` keeps the world to real time, to watch and 
 
 from __future__ import annotations
 
-import importlib
 import os
 import socket
 import time
@@ -20,17 +19,16 @@ from typing import Any, Protocol
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.engines.gazebo_server import Server, free_port
-from tandemlift.engines.gazebo_wire import STATE, Told, Wire
-from tandemlift.errors import InputError
-from tandemlift.laws.rotation import quaternion_from_euler
+from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.engines.gazebo_server import GazeboServer, free_port
+from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire
+from tandemlift.laws.mechanics.rotation import quaternion_from_euler
+from tandemlift.models import sdf
 from tandemlift.settings import Mission
-from tandemlift.vector import Nothing, vec3
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none
@@ -41,19 +39,19 @@ CLOSE = 1e-9  # relative, of the world's step and mass
 PORT, REAL_TIME = "TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_REAL_TIME"
 
 
-class Line(Protocol):
+class PluginLink(Protocol):
     """A pilot's end of the way to the plugin; see `gazebo_wire.Wire`."""
 
     patience: float
     thrusts: Array
     wrench: Array
     loads: Array
-    told: Told
+    told: PluginAnswer
 
-    def hello(self, dt: float, rotors: Array, state: Array | None, real_time: bool) -> Told:
+    def hello(self, dt: float, rotors: Array, state: Array | None, real_time: bool) -> PluginAnswer:
         """Begin a session."""
 
-    def advance(self) -> Told:
+    def advance(self) -> PluginAnswer:
         """Send the step, and wait until the world has taken it."""
 
     def keep(self) -> None:
@@ -63,7 +61,7 @@ class Line(Protocol):
         """Say goodbye, and hang up."""
 
 
-def _dial(mission: Mission, vehicle: Vehicle) -> tuple[Server | None, Line]:
+def _dial(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, PluginLink]:
     """The plugin over UDP: of a server that is started, unless a port is named."""
     server, port = _find(mission)
     return server, Wire(port, vehicle.count, STEPPING, server.check if server else None)
@@ -75,8 +73,8 @@ class GazeboBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance`, `ground` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `laws.contact.Floor` to stand on, or `Nothing`.
-        walls: a `laws.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        floor: a `laws.mechanics.contact.Floor` to stand on, or `Nothing`.
+        walls: a `laws.mechanics.walls.Walls` that says how the mission's walls press, or `Nothing`.
         dial: finds or starts a server, and calls its plugin.
 
     Attributes:
@@ -95,13 +93,15 @@ class GazeboBody:
         vehicle: Vehicle,
         floor: Any = NONE,
         walls: Any = NONE,
-        dial: Callable[[Mission, Vehicle], tuple[Server | None, Line]] = _dial,
+        dial: Callable[[Mission, Vehicle], tuple[GazeboServer | None, PluginLink]] = _dial,
     ) -> None:
         self.server, self._wire = dial(mission, vehicle)
         wire = self._wire
         self._closing = weakref.finalize(self, _close, wire, self.server)
         real_time = os.environ.get(REAL_TIME, "0") not in ("", "0")
-        self._hello = partial(wire.hello, mission.mission.step, rotors_of(vehicle), start_of(mission), real_time)
+        self._hello = partial(
+            wire.hello, mission.mission.step, sdf.rotors_of(vehicle), start_state_of(mission), real_time
+        )
         self._begun, self._rested = False, 0.0
         self._meet(mission, vehicle)
         told = wire.told
@@ -164,18 +164,18 @@ class GazeboBody:
         self._closing()
 
 
-def _close(wire: Line, server: Server | None) -> None:
+def _close(wire: PluginLink, server: GazeboServer | None) -> None:
     if server:
         server.close()
     wire.close()
 
 
-def _find(mission: Mission) -> tuple[Server | None, int]:
+def _find(mission: Mission) -> tuple[GazeboServer | None, int]:
     """The server and the port of its plugin: started, unless one that runs is named."""
     given = os.environ.get(PORT)
     if not given:
         port = free_port(socket.SOCK_DGRAM)
-        return Server(world_of(mission, port)), port
+        return GazeboServer(world_of(mission, port)), port
     if not given.isdecimal() or not 0 < int(given) < 65536:
         raise InputError(f"{PORT} = {given}: must be a UDP port, 1 to 65535")
     return None, int(given)
@@ -183,8 +183,7 @@ def _find(mission: Mission) -> tuple[Server | None, int]:
 
 def world_of(mission: Mission, plugin: int | str, **more: str) -> str:
     """The world of a mission for a flight of its own: it waits for its pilot, as long as it takes, and ends with it."""
-    exported = importlib.import_module("tandemlift.export.sdf")  # by name, as exports stand above the engines
-    top = ElementTree.fromstring(exported.world(mission, plugin).encode())
+    top = ElementTree.fromstring(sdf.world(mission, plugin).encode())
     settings = top.find(".//plugin[@name='tandemlift']")
     assert settings is not None
     for name, text in {"wait": "true", "patience": "0", "stay": "false", **more}.items():
@@ -192,7 +191,7 @@ def world_of(mission: Mission, plugin: int | str, **more: str) -> str:
     return ElementTree.tostring(top, "unicode")
 
 
-def start_of(mission: Mission) -> Array:
+def start_state_of(mission: Mission) -> Array:
     """The state (13,) that a mission starts in."""
     initial = mission.initial
     attitude = quaternion_from_euler(vec3(initial.euler))
@@ -201,14 +200,7 @@ def start_of(mission: Mission) -> Array:
     return state
 
 
-def rotors_of(vehicle: Vehicle) -> Array:
-    """(3, 4N) of every rotor: x and y [m] from its quadrotor's centre of mass, signed torque over thrust [m]."""
-    places = np.array([place for q in vehicle.quadrotors for place in q.rotors])
-    torques = [q.torque_per_thrust * spin for q in vehicle.quadrotors for spin in q.spins]
-    return np.array([*places.T, torques])
-
-
-def _check(told: Told, mission: Mission, vehicle: Vehicle) -> None:
+def _check(told: PluginAnswer, mission: Mission, vehicle: Vehicle) -> None:
     """Refuse a world that is not the mission's."""
     _, step, mass = told.clock
     true_mass = vehicle.mass * mission.plant.mass_scale

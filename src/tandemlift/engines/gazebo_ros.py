@@ -14,18 +14,18 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.engines.gazebo import NONE, STEPPING, GazeboBody, world_of
-from tandemlift.engines.gazebo_master import environment, joined, node
-from tandemlift.engines.gazebo_server import Server
-from tandemlift.engines.gazebo_wire import Told
-from tandemlift.errors import InputError
-from tandemlift.noetic import message_type
+from tandemlift.engines.gazebo_server import GazeboServer
+from tandemlift.engines.gazebo_wire import PluginAnswer
+from tandemlift.engines.ros_master import environment, joined, node
+from tandemlift.engines.rospy import message_type
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
-Array = NDArray[np.float64]
 Stamp = tuple[int, int]  # s, ns
 ROOT = "/tandemlift/gazebo"
 PLACES = (ROOT, *(f"{ROOT}_{k}" for k in range(2, 100)))  # of servers of this process, one beside the other
@@ -42,13 +42,13 @@ def over_ros(mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any =
     return GazeboBody(mission, vehicle, floor, walls, _dial)
 
 
-def _dial(mission: Mission, vehicle: Vehicle) -> tuple[Server | None, RosWire]:
+def _dial(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, RosWire]:
     node()
     if joined() == "world":
         return None, RosWire(vehicle.count, STEPPING)
     place = next(place for place in PLACES if place not in _taken)
     _taken.add(place)
-    server = Server(world_of(mission, "ros", namespace=place), environment(), ENDING)
+    server = GazeboServer(world_of(mission, "ros", namespace=place), environment(), ENDING)
     return server, RosWire(vehicle.count, STEPPING, server.check, place)
 
 
@@ -66,7 +66,7 @@ class RosWire:
         self, count: int, patience: float = 5.0, alive: Callable[[], None] | None = None, place: str = ROOT
     ) -> None:
         self._rospy, self._alive, self._place = node(), alive or (lambda: None), place
-        self.count, self.patience, self.told = count, patience, Told(count)
+        self.count, self.patience, self.told = count, patience, PluginAnswer(count)
         self.thrusts, self.wrench, self.loads = np.zeros(4 * count), np.zeros(6), np.zeros(6 + 6 * count)
         self._name, self._over = self._rospy.get_name(), False
         self._found: Stamp | None = None  # the state in which this pilot began
@@ -91,7 +91,9 @@ class RosWire:
         step.wrench = [message_type("geometry_msgs/Wrench")() for _ in step.joint_names]
         return step, np.zeros((len(step.joint_names), 6))
 
-    def hello(self, dt: float, rotors: ArrayLike, state: ArrayLike | None = None, real_time: bool = False) -> Told:
+    def hello(
+        self, dt: float, rotors: ArrayLike, state: ArrayLike | None = None, real_time: bool = False
+    ) -> PluginAnswer:
         """Begin a session; see `gazebo_wire.Wire.hello`. The rotors are those of the world.
 
         Raises:
@@ -112,7 +114,7 @@ class RosWire:
         self.told.clock[1:] = step, mass
         return self.told
 
-    def advance(self) -> Told:
+    def advance(self) -> PluginAnswer:
         """Send the step, and wait until the world has taken it.
 
         Raises:

@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 ROOT = "TANDEMLIFT_GAZEBO_ROOT"
 MASTER = "GAZEBO_MASTER_URI"
@@ -69,7 +69,7 @@ def free_port(kind: socket.SocketKind) -> int:
         return int(s.getsockname()[1])
 
 
-class Server:
+class GazeboServer:
     """A gzserver.
 
     Args:

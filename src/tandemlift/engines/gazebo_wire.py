@@ -17,11 +17,9 @@ from collections.abc import Callable
 from enum import IntEnum, IntFlag
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from tandemlift.errors import InputError
-
-Array = NDArray[np.float64]
+from tandemlift.common.errors import InputError
 
 MAGIC, VERSION = 0x5A474C54, 1
 HEADER = struct.Struct("<IHHIIQ")
@@ -33,7 +31,7 @@ LARGEST = 65536  # bytes
 FIRST_RESEND, SLOWEST_RESEND = 0.02, 0.5  # s
 
 
-class Kind(IntEnum):
+class MessageKind(IntEnum):
     """What a message is."""
 
     HELLO = 1
@@ -44,7 +42,7 @@ class Kind(IntEnum):
     REFUSE = 6
 
 
-class Ask(IntFlag):
+class HelloRequest(IntFlag):
     """What a hello asks for: to place the vehicle at a state, to go on in real time."""
 
     NOTHING = 0
@@ -61,7 +59,7 @@ REFUSALS = {
 }
 
 
-class Told:
+class PluginAnswer:
     """What the plugin tells, as views of one array that the next answer overwrites.
 
     Attributes:
@@ -72,7 +70,7 @@ class Told:
     """
 
     def __init__(self, count: int) -> None:
-        self.numbers = np.zeros(told_size(count))
+        self.numbers = np.zeros(answer_size(count))
         self.clock, self.state, self.felt, self.pushed = np.split(self.numbers, [3, 3 + STATE, -6])
 
 
@@ -86,7 +84,7 @@ def step_size(count: int) -> int:
     return 10 * count + 12
 
 
-def told_size(count: int) -> int:
+def answer_size(count: int) -> int:
     """Numbers of a WELCOME or STATE of N quadrotors."""
     return 3 + STATE + 6 + 6 * count + 6
 
@@ -102,24 +100,26 @@ class Wire:
 
     Attributes:
         thrusts, wrench, loads: parts of the next STEP, to be filled in: thrusts (4N,) [N]; force [N, world axes] and
-            moment [N·m, body axes] at the vehicle's centre of mass (6,); the numbers of a `laws.loads.Loads` (6 + 6N,).
+            moment [N·m, body axes] at the vehicle's centre of mass (6,); the numbers of a `Loads` (6 + 6N,).
         told: the last answer.
     """
 
     def __init__(self, port: int, count: int, patience: float = 5.0, alive: Callable[[], None] | None = None) -> None:
-        self.port, self.count, self.patience, self.told = port, count, patience, Told(count)
+        self.port, self.count, self.patience, self.told = port, count, patience, PluginAnswer(count)
         self._alive = alive or (lambda: None)
         self._session, self._sequence = 0, 0
         self._step = bytearray(HEADER.size + DOUBLE * step_size(count))
         step = np.frombuffer(self._step, dtype=np.float64, offset=HEADER.size)
         self.thrusts, self.wrench, self.loads = np.split(step, [4 * count, 4 * count + 6])
         self._heard = bytearray(LARGEST)
-        self._answer = HEADER.size + DOUBLE * told_size(count)
-        self._numbers = np.frombuffer(self._heard, dtype=np.float64, offset=HEADER.size, count=told_size(count))
+        self._answer = HEADER.size + DOUBLE * answer_size(count)
+        self._numbers = np.frombuffer(self._heard, dtype=np.float64, offset=HEADER.size, count=answer_size(count))
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.connect(("127.0.0.1", port))
 
-    def hello(self, dt: float, rotors: ArrayLike, state: ArrayLike | None = None, real_time: bool = False) -> Told:
+    def hello(
+        self, dt: float, rotors: ArrayLike, state: ArrayLike | None = None, real_time: bool = False
+    ) -> PluginAnswer:
         """Begin a session.
 
         Args:
@@ -132,16 +132,18 @@ class Wire:
             InputError: the plugin refuses.
             TimeoutError: nothing answers.
         """
-        asked = (Ask.NOTHING if state is None else Ask.PLACE) | (Ask.REAL_TIME if real_time else Ask.NOTHING)
+        asked = (HelloRequest.NOTHING if state is None else HelloRequest.PLACE) | (
+            HelloRequest.REAL_TIME if real_time else HelloRequest.NOTHING
+        )
         place = np.array([0.0] * 6 + [1.0] + [0.0] * 6) if state is None else state
         said = np.concatenate([[float(asked), dt], np.ravel(place), np.ravel(rotors)])
         assert said.size == hello_size(self.count)
         self._session, self._sequence = secrets.randbits(32), 0
-        self._ask(self._head(Kind.HELLO) + said.tobytes(), Kind.WELCOME)
-        self._step[: HEADER.size] = self._head(Kind.STEP)
+        self._ask(self._head(MessageKind.HELLO) + said.tobytes(), MessageKind.WELCOME)
+        self._step[: HEADER.size] = self._head(MessageKind.STEP)
         return self.told
 
-    def advance(self) -> Told:
+    def advance(self) -> PluginAnswer:
         """Send the step, and wait until the world has taken it.
 
         Raises:
@@ -150,7 +152,7 @@ class Wire:
         """
         self._sequence += 1
         SEQUENCE.pack_into(self._step, AT_SEQUENCE, self._sequence)
-        self._ask(self._step, Kind.STATE)
+        self._ask(self._step, MessageKind.STATE)
         return self.told
 
     def keep(self) -> None:
@@ -163,13 +165,13 @@ class Wire:
     def close(self) -> None:
         """Say goodbye, and hang up."""
         with contextlib.suppress(OSError):  # it is gone already
-            self._socket.send(self._head(Kind.BYE))
+            self._socket.send(self._head(MessageKind.BYE))
         self._socket.close()
 
-    def _head(self, kind: Kind) -> bytes:
+    def _head(self, kind: MessageKind) -> bytes:
         return HEADER.pack(MAGIC, VERSION, kind, self._session, self.count, self._sequence)
 
-    def _ask(self, message: bytes | bytearray, answer: Kind) -> None:
+    def _ask(self, message: bytes | bytearray, answer: MessageKind) -> None:
         """Send a message, again and again, until its answer is in `told`."""
         wait, deadline = FIRST_RESEND, time.monotonic() + self.patience
         while time.monotonic() < deadline:
@@ -188,10 +190,10 @@ class Wire:
             self._alive()
         raise TimeoutError(
             f"engine 'gazebo': the plugin on UDP port {self.port} did not answer within {self.patience:g} s "
-            f"({Kind(message[AT_KIND]).name} {self._sequence}); is the world paused, or Gazebo gone?"
+            f"({MessageKind(message[AT_KIND]).name} {self._sequence}); is the world paused, or Gazebo gone?"
         )
 
-    def _hears(self, answer: Kind) -> bool:
+    def _hears(self, answer: MessageKind) -> bool:
         """Take one message off the wire; whether it is the answer."""
         size = self._socket.recv_into(self._heard)
         if size < HEADER.size:
@@ -199,7 +201,7 @@ class Wire:
         magic, version, kind, session, count, sequence = HEADER.unpack_from(self._heard)
         if magic != MAGIC or session != self._session:
             return False
-        if kind == Kind.REFUSE:
+        if kind == MessageKind.REFUSE:
             self._refused(version, count, sequence)
         return bool(version == VERSION and kind == answer and sequence == self._sequence and size == self._answer)
 

@@ -9,15 +9,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.engines.mujoco_model import model_of, mujoco
-from tandemlift.laws.rotation import quaternion_from_euler
+from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.common.types import Array
+from tandemlift.laws.mechanics.rotation import quaternion_from_euler
+from tandemlift.models.mujoco_bodies import model_of, mujoco
 from tandemlift.settings import Mission
-from tandemlift.vector import Nothing, vec3
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 NONE = Nothing()
 UNSOUND = 1e8  # N: a command beyond it is none, and MuJoCo would take one beyond 1e10 for zero
@@ -29,8 +27,8 @@ class MuJoCoBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `laws.contact.Floor` to stand on, or `Nothing`.
-        walls: a `laws.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        floor: a `laws.mechanics.contact.Floor` to stand on, or `Nothing`.
+        walls: a `laws.mechanics.walls.Walls` that says how the mission's walls press, or `Nothing`.
     """
 
     def __init__(self, mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:

@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.export.frames import fixed, vehicle_of
-from tandemlift.export.messages import SECOND, Transforms, Types, diagnostics_of, maker_of, modern
+from tandemlift.export.messages import SECOND, MessageTypes, Transforms, diagnostics_of, maker_of, modern
 from tandemlift.export.topics import ROOT, topics_of
-from tandemlift.flight import Flight
-from tandemlift.laws.phases import NAMES
+from tandemlift.flight.record import Flight
+from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.missions import format_toml
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ CALLER, NAME = "/tandemlift", "flight"  # what a ROS 1 bag says published, and w
 Items = Iterable[tuple[int, Any]]  # times [ns] and messages
 
 
-class Stream(NamedTuple):
+class TopicStream(NamedTuple):
     """A topic, its type as ROS 1 calls it, and its messages by time; who listens late gets the last if `latched`."""
 
     topic: str
@@ -46,7 +46,7 @@ def stamp(time: float) -> int:
     return START + round(time * SECOND)
 
 
-def streams_of(flight: Flight, types: Types) -> list[Stream]:
+def streams_of(flight: Flight, types: MessageTypes) -> list[TopicStream]:
     """Everything of a flight that goes into a bag.
 
     Raises:
@@ -59,11 +59,11 @@ def streams_of(flight: Flight, types: Types) -> list[Stream]:
     place = np.hstack([flight["position"], flight["attitude"]])
     happened = [(stamp(at), diagnose(stamp(at), what)) for at, what in events_of(flight)]
     return [
-        Stream(f"{ROOT}/mission", "std_msgs/String", [(START, Text(format_toml(flight.mission)))], latched=True),
-        Stream("/tf_static", "tf2_msgs/TFMessage", [(START, transforms.fixed(START, list(fixed(vehicle))))], True),
-        Stream("/tf", "tf2_msgs/TFMessage", _made(stamps, place, transforms.moving)),
-        *[Stream("/diagnostics", "diagnostic_msgs/DiagnosticArray", happened)] * bool(happened),
-        *(Stream(t.name, t.kind, _made(stamps, t.rows, maker_of(types, t))) for t in topics),
+        TopicStream(f"{ROOT}/mission", "std_msgs/String", [(START, Text(format_toml(flight.mission)))], latched=True),
+        TopicStream("/tf_static", "tf2_msgs/TFMessage", [(START, transforms.fixed(START, list(fixed(vehicle))))], True),
+        TopicStream("/tf", "tf2_msgs/TFMessage", _made(stamps, place, transforms.moving)),
+        *[TopicStream("/diagnostics", "diagnostic_msgs/DiagnosticArray", happened)] * bool(happened),
+        *(TopicStream(t.name, t.kind, _made(stamps, t.rows, maker_of(types, t))) for t in topics),
     ]
 
 
@@ -102,9 +102,9 @@ def rosbags(part: str) -> ModuleType:
         ) from error
 
 
-def _types_of(store: Any, *, numbered: bool) -> Types:
+def _types_of(store: Any, *, numbered: bool) -> MessageTypes:
     """The classes that `rosbags` has of the messages of one ROS."""
-    return Types(lambda name: store.types[modern(name)], numbered=numbered, numbers=np.array)
+    return MessageTypes(lambda name: store.types[modern(name)], numbered=numbered, numbers=np.array)
 
 
 def write_mcap(flight: Flight, path: Path) -> None:
@@ -162,7 +162,7 @@ def _frame_that_ros_reads(chunk: bytes) -> bytes:
     return lz4.frame.compress(chunk, block_linked=False, content_checksum=True, store_size=False)
 
 
-def _write(bag: Any, streams: list[Stream], connections: list[Any], pack: Callable[[Any, str], Any]) -> None:
+def _write(bag: Any, streams: list[TopicStream], connections: list[Any], pack: Callable[[Any, str], Any]) -> None:
     """Write all messages in the order of time; of those at the same time, in the order of the topics."""
     numbered = (zip(itertools.repeat(i), s.items) for i, s in enumerate(streams))
     for i, (at, message) in heapq.merge(*numbered, key=lambda item: (item[1][0], item[0])):

@@ -14,16 +14,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.errors import InputError
-from tandemlift.flight import Flight
-from tandemlift.laws.rotation import euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion
+from tandemlift.algebra.vector import Mat3, Quat, Vec3, apply, apply_transposed
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.flight.record import Flight
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion
 from tandemlift.settings import VehicleTable
-from tandemlift.vector import Mat3, Quat, Vec3, apply, apply_transposed
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 WORLD, BASE, ALIGNED, PAYLOAD = "world", "base_link", "base_world", "payload"
 

@@ -9,7 +9,8 @@ import itertools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array
+from tandemlift.common.types import Array
+from tandemlift.export.frames import ALIGNED, BASE, WORLD
 from tandemlift.export.recipes import IMU, ODOMETRY, POINT, POSE, ROTORS, VECTOR, WRENCH, Recipe, Topic
 
 About = Topic | Recipe  # of which a maker reads frame and labels
@@ -18,7 +19,7 @@ SECOND = 1_000_000_000  # ns
 OK, WARN, ERROR = 0, 1, 2  # levels of diagnostic_msgs/DiagnosticStatus
 
 
-class Types:
+class MessageTypes:
     """The classes of message types by their ROS 1 names; each takes the values of its fields in their order.
 
     Args:
@@ -59,7 +60,7 @@ def modern(name: str) -> str:
     return f"{package}/msg/{kind}"
 
 
-def _odometry(types: Types, topic: About) -> Maker:
+def _odometry(types: MessageTypes, topic: About) -> Maker:
     Odometry, Pose, Twist = types[ODOMETRY], types["geometry_msgs/Pose"], types["geometry_msgs/Twist"]
     Placed, Moving = types["geometry_msgs/PoseWithCovariance"], types["geometry_msgs/TwistWithCovariance"]
     header, untold = types.headers(topic.frame), types.numbers([0.0] * 36)
@@ -72,27 +73,27 @@ def _odometry(types: Types, topic: About) -> Maker:
     return make
 
 
-def _pose(types: Types, topic: About) -> Maker:
+def _pose(types: MessageTypes, topic: About) -> Maker:
     Stamped, Pose, header = types[POSE], types["geometry_msgs/Pose"], types.headers(topic.frame)
     return lambda stamp, v: Stamped(header(stamp), Pose(types.Point(*v[:3]), types.quaternion(v[3:])))
 
 
-def _vector(types: Types, topic: About) -> Maker:
+def _vector(types: MessageTypes, topic: About) -> Maker:
     Stamped, header = types[VECTOR], types.headers(topic.frame)
     return lambda stamp, v: Stamped(header(stamp), types.Vector(*v))
 
 
-def _point(types: Types, topic: About) -> Maker:
+def _point(types: MessageTypes, topic: About) -> Maker:
     Stamped, header = types[POINT], types.headers(topic.frame)
     return lambda stamp, v: Stamped(header(stamp), types.Point(*v))
 
 
-def _wrench(types: Types, topic: About) -> Maker:
+def _wrench(types: MessageTypes, topic: About) -> Maker:
     Stamped, Wrench, header = types[WRENCH], types["geometry_msgs/Wrench"], types.headers(topic.frame)
     return lambda stamp, v: Stamped(header(stamp), Wrench(types.Vector(*v[:3]), types.Vector(*v[3:])))
 
 
-def _rotors(types: Types, topic: About) -> Maker:
+def _rotors(types: MessageTypes, topic: About) -> Maker:
     State, header, none = types[ROTORS], types.headers(topic.frame), types.numbers([])
     names = list(topic.labels)
     if not topic.frame:  # numbers of any kind, which plotters look for in the first of the three
@@ -100,7 +101,7 @@ def _rotors(types: Types, topic: About) -> Maker:
     return lambda stamp, v: State(header(stamp), names, none, none, types.numbers(v))
 
 
-def _imu(types: Types, topic: About) -> Maker:
+def _imu(types: MessageTypes, topic: About) -> Maker:
     Imu, header, zero = types[IMU], types.headers(topic.frame), types.numbers([0.0] * 9)
     unknown, unturned = types.numbers([-1.0, *zero[1:]]), types.quaternion((1.0, 0.0, 0.0, 0.0))
 
@@ -110,7 +111,7 @@ def _imu(types: Types, topic: About) -> Maker:
     return make
 
 
-MAKERS: dict[str, Callable[[Types, About], Maker]] = {
+MAKERS: dict[str, Callable[[MessageTypes, About], Maker]] = {
     ODOMETRY: _odometry,
     POSE: _pose,
     VECTOR: _vector,
@@ -147,7 +148,7 @@ NUMBERS: dict[str, Numbers] = {
 }
 
 
-def maker_of(types: Types, topic: About) -> Maker:
+def maker_of(types: MessageTypes, topic: About) -> Maker:
     """What makes the messages of a topic."""
     return MAKERS[topic.kind](types, topic)
 
@@ -155,7 +156,7 @@ def maker_of(types: Types, topic: About) -> Maker:
 class Transforms:
     """Messages of `/tf` and `/tf_static`."""
 
-    def __init__(self, types: Types) -> None:
+    def __init__(self, types: MessageTypes) -> None:
         self._types, self._header = types, types.headers(WORLD)
         self._TFMessage = types["tf2_msgs/TFMessage"]
         self._Stamped, self._Transform = types["geometry_msgs/TransformStamped"], types["geometry_msgs/Transform"]
@@ -177,7 +178,7 @@ class Transforms:
         )
 
 
-def diagnostics_of(types: Types) -> Callable[[int, str], Any]:
+def diagnostics_of(types: MessageTypes) -> Callable[[int, str], Any]:
     """What makes a message of `/diagnostics` from an event: its time [ns] and what happened."""
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header = types.headers("")
@@ -189,7 +190,7 @@ def diagnostics_of(types: Types) -> Callable[[int, str], Any]:
     return make
 
 
-def status_of(types: Types) -> Callable[[int, bool, str, Mapping[str, str]], Any]:
+def status_of(types: MessageTypes) -> Callable[[int, bool, str, Mapping[str, str]], Any]:
     """What makes one from how a flight goes: time [ns], whether it is well, a summary, and more by name."""
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header, Value = types.headers(""), types["diagnostic_msgs/KeyValue"]

@@ -15,14 +15,15 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
 from tandemlift.export.bags import rosbags
-from tandemlift.export.frames import Array, eulers, vehicle_of
+from tandemlift.export.frames import eulers, vehicle_of
 from tandemlift.export.messages import NUMBERS, SECOND
-from tandemlift.export.recipes import Recipe, Seen
+from tandemlift.export.recipes import MeasuredPose, Recipe
 from tandemlift.export.topics import ALWAYS, PILOT, ROOT, SOMETIMES, all_recipes, topics_of
-from tandemlift.flight import CHANNELS, Flight
-from tandemlift.tally import LATE
+from tandemlift.flight.record import CHANNELS, Flight
+from tandemlift.loop.running_metrics import LATE
 from tandemlift.vehicle import Vehicle
 
 BASE, MISSION, EVENTS = f"{ROOT}/odometry", f"{ROOT}/mission", "/diagnostics"
@@ -122,7 +123,7 @@ def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict
     there |= {"measured_joint_force", "measured_joint_torque"} if said[f"{ROOT}/joint_1/measured"] else set()
     there |= {name.partition(".")[0] for m in list(said[f"{ROOT}/pilot"].values())[:1] for name in m.name} & {*PILOT}
     parts: dict[str, list[Array]] = defaultdict(list)
-    seen = Seen(np.zeros((0, 4)), vehicle)
+    seen = MeasuredPose(np.zeros((0, 4)), vehicle)
     for recipe in all_recipes(there, vehicle):
         if not said[f"{ROOT}/{recipe.name}"]:
             continue

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.errors import InputError
-from tandemlift.export.frames import ALIGNED, BASE, PAYLOAD, WORLD, Array, eulers, joint, quaternions, to_body, to_world
-from tandemlift.flight import Flight
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.export.frames import ALIGNED, BASE, PAYLOAD, WORLD, eulers, joint, quaternions, to_body, to_world
+from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle
 
 ODOMETRY, POSE, IMU = "nav_msgs/Odometry", "geometry_msgs/PoseStamped", "sensor_msgs/Imu"
@@ -72,14 +73,14 @@ class Source:
         return 3 * self.vehicle.count if "joint_" in name else WIDTHS.get(name, 3)
 
 
-class Seen(NamedTuple):
+class MeasuredPose(NamedTuple):
     """What turns numbers of messages back into channels: the attitudes (T, 4) of the vehicle meanwhile, and itself."""
 
     attitude: Array
     vehicle: Vehicle
 
 
-Back = Callable[[Array, Seen], dict[str, Array]]
+Back = Callable[[Array, MeasuredPose], dict[str, Array]]
 
 
 class Recipe(NamedTuple):
@@ -104,10 +105,10 @@ class Recipe(NamedTuple):
     labels: tuple[str, ...] = ()
 
 
-def as_told(name: str, kind: str, frame: str, *channels: str) -> Recipe:
+def as_recorded(name: str, kind: str, frame: str, *channels: str) -> Recipe:
     """A topic of channels side by side, all as wide as each other."""
 
-    def back(rows: Array, _: Seen) -> dict[str, Array]:
+    def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
         return dict(zip(channels, np.split(rows, len(channels), axis=1), strict=True))
 
     return Recipe(name, kind, frame, channels, lambda take: np.hstack([take(c) for c in channels]), back)
@@ -130,7 +131,7 @@ def odometry(name: str, prefix: str = "") -> Recipe:
         position, attitude, velocity, rates = map(take, needs)
         return np.hstack([position, attitude, to_body(attitude, velocity), rates])
 
-    def back(rows: Array, _: Seen) -> dict[str, Array]:
+    def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
         attitude = rows[:, 3:7]
         found = rows[:, :3], attitude, to_world(attitude, rows[:, 7:10]), rows[:, 10:]
         return dict(zip(needs, found, strict=True))
@@ -151,7 +152,7 @@ def wrench(name: str, force: str, moment: str, at: Callable[[Vehicle], Array] | 
         f, m, attitude = map(take, (force, moment, "attitude"))
         return np.hstack([f, to_world(attitude, m) + lever(attitude, take.vehicle, f)])
 
-    def back(rows: Array, seen: Seen) -> dict[str, Array]:
+    def back(rows: Array, seen: MeasuredPose) -> dict[str, Array]:
         f, m = rows[:, :3], rows[:, 3:]
         return {force: f, moment: to_body(seen.attitude, m - lever(seen.attitude, seen.vehicle, f))}
 
@@ -164,7 +165,7 @@ def command(name: str, thrust: str, moment: str) -> Recipe:
     def rows(take: Source) -> Array:
         return np.hstack([np.pad(take(thrust), ((0, 0), (2, 0))), take(moment)])
 
-    def back(rows: Array, _: Seen) -> dict[str, Array]:
+    def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
         return {thrust: rows[:, 2], moment: rows[:, 3:]}
 
     return Recipe(name, WRENCH, BASE, (thrust, moment), rows, back)
@@ -178,7 +179,7 @@ def joint_wrench(number: int, name: str, force: str, torque: str) -> Recipe:
     def rows(take: Source) -> Array:
         return np.hstack([take(force)[:, own], take(torque)[:, own]])
 
-    def back(rows: Array, _: Seen) -> dict[str, Array]:
+    def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
         return {force: rows[:, :3], torque: rows[:, 3:]}
 
     return Recipe(f"{frame}/{name}", WRENCH, frame, (force, torque), rows, back)
@@ -191,7 +192,7 @@ def pose_of_reference(name: str) -> Recipe:
     def rows(take: Source) -> Array:
         return np.hstack([take(needs[0]), quaternions(take(needs[1]))])
 
-    def back(rows: Array, _: Seen) -> dict[str, Array]:
+    def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
         return {needs[0]: rows[:, :3], needs[1]: eulers(rows[:, 3:])}
 
     return Recipe(name, POSE, WORLD, needs, rows, back)
@@ -211,7 +212,7 @@ def values(name: str, channels: tuple[str, ...]) -> Recipe:
     widths = [WIDTHS.get(c, 3) for c in channels]
     labels = tuple(f"{c}.{axis}" if w > 1 else c for c, w in zip(channels, widths, strict=True) for axis in "xyz"[:w])
 
-    def back(rows: Array, _: Seen) -> dict[str, Array]:
+    def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
         parts = np.split(rows, np.cumsum(widths)[:-1], axis=1)
         return {c: part[:, 0] if w == 1 else part for c, part, w in zip(channels, parts, widths, strict=True)}
 

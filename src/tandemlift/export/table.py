@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from tandemlift.flight import Flight
-from tandemlift.tables import ROTORS, dimensions
+from tandemlift.flight.record import Flight
+from tandemlift.flight.tables import ROTORS, dimensions
 
 
 def components(name: str, frame: str, count: int) -> Sequence[str]:

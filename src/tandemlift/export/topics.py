@@ -17,7 +17,7 @@ from tandemlift.export.recipes import (
     Recipe,
     Source,
     Topic,
-    as_told,
+    as_recorded,
     command,
     force,
     joint_wrench,
@@ -27,25 +27,25 @@ from tandemlift.export.recipes import (
     values,
     wrench,
 )
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle
 
 ROOT = "/tandemlift"
 ALWAYS = (
     odometry("odometry"),
     pose_of_reference("reference/pose"),
-    as_told("reference/velocity", VECTOR, WORLD, "reference_velocity"),
-    as_told("reference/acceleration", VECTOR, WORLD, "reference_acceleration"),
-    as_told("admittance/position", POINT, WORLD, "admittance_position"),
-    as_told("admittance/velocity", VECTOR, WORLD, "admittance_velocity"),
-    as_told("admittance/acceleration", VECTOR, WORLD, "admittance_acceleration"),
+    as_recorded("reference/velocity", VECTOR, WORLD, "reference_velocity"),
+    as_recorded("reference/acceleration", VECTOR, WORLD, "reference_acceleration"),
+    as_recorded("admittance/position", POINT, WORLD, "admittance_position"),
+    as_recorded("admittance/velocity", VECTOR, WORLD, "admittance_velocity"),
+    as_recorded("admittance/acceleration", VECTOR, WORLD, "admittance_acceleration"),
     wrench("push/true", "push_force", "push_moment"),
     force("push/gated", "admittance_force"),
     command("command/wrench", "thrust", "moment"),
-    as_told("rotors/thrusts", ROTORS, BASE, "rotor_thrusts"),
+    as_recorded("rotors/thrusts", ROTORS, BASE, "rotor_thrusts"),
 )
 SOMETIMES = (
-    as_told("rotors/commands", ROTORS, BASE, "rotor_commands"),
+    as_recorded("rotors/commands", ROTORS, BASE, "rotor_commands"),
     command("command/allocated", "allocated_thrust", "allocated_moment"),
     force("push/measured", "push_measured"),
     wrench("push/estimated", "push_estimate", "push_moment_estimate", lambda v: -v.center_of_mass),
@@ -53,9 +53,9 @@ SOMETIMES = (
     point_on_beam("push/point", "push_point_estimate"),
     wrench("disturbance", "disturbance_force", "disturbance_moment"),
     odometry("measured/odometry", "measured_"),
-    as_told("measured/imu", IMU, PAYLOAD, "measured_rates", "measured_specific_force"),
+    as_recorded("measured/imu", IMU, PAYLOAD, "measured_rates", "measured_specific_force"),
     odometry("estimated/odometry", "estimated_"),
-    as_told("wind/velocity", VECTOR, WORLD, "wind_velocity"),
+    as_recorded("wind/velocity", VECTOR, WORLD, "wind_velocity"),
     force("wind/force", "wind_force"),
     force("contact/force", "contact_force"),
 )

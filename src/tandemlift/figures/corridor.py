@@ -14,19 +14,17 @@ from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch
-from numpy.typing import NDArray
 
-from tandemlift.figures.clearances import clearances, grips
-from tandemlift.figures.panels import extent, line, value_ticks
+from tandemlift.common.types import Array
+from tandemlift.figures.drawing.clearances import clearances, grips
+from tandemlift.figures.drawing.panels import extent, line, value_ticks
+from tandemlift.figures.drawing.series import decimate, drawable
+from tandemlift.figures.drawing.skeleton import skeleton
+from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, VERMILLION, journal
+from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.figures.path import pushes
-from tandemlift.figures.series import drawable, telling
-from tandemlift.figures.skeleton import skeleton
-from tandemlift.figures.style import BLACK, BLUE, GREY, PAGE, VERMILLION, journal
-from tandemlift.figures.vehicle import vehicle_of
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
-
-Array = NDArray[np.float64]
 
 ROUND = 1.2  # m, shown around the way and the vehicle
 SPACING = 1.1  # vehicle spans of way from one vehicle drawn to the next
@@ -88,7 +86,7 @@ def _pushes(ax: Any, found: list[tuple[Array, Array]]) -> None:
 
 def _wanted(flight: Flight) -> Array:
     """The corners (n, 2) of the path that the person was to follow [m]; none without one."""
-    partner, corridor = flight.mission.get("partner", {}), flight.mission.get("corridor", {})
+    partner, corridor = flight.mission.get("person", {}), flight.mission.get("corridor", {})
     own = [w["point"] for w in partner.get("path", [])] or corridor.get("centreline", [])
     return np.array(own if partner.get("model", "none") not in ("none", "grab") else []).reshape(-1, 2)
 
@@ -108,7 +106,7 @@ def _from_above(ax: Any, flight: Flight, shown: list[int], found: list[tuple[Arr
     for k in shown:
         _vehicle(ax, flight, k, BLACK if k in (shown[0], shown[-1]) else FAINT)
     path = flight["position"]
-    thin = path[np.unique(np.concatenate([telling(coordinate) for coordinate in path[:, :2].T]))]
+    thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path[:, :2].T]))]
     ax.plot(*thin[:, :2].T, color=BLUE, lw=1.2, zorder=5, gid="path")
     _pushes(ax, found)
     ax.set_aspect("equal")

@@ -9,13 +9,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from tandemlift.figures.panels import components, fit, line, shade, time_axis
-from tandemlift.figures.style import BLACK, COLUMN, COMPONENTS, GREY, journal
-from tandemlift.flight import Flight
-
-Array = NDArray[np.float64]
+from tandemlift.common.types import Array
+from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
+from tandemlift.figures.drawing.style import BLACK, COLUMN, COMPONENTS, GREY, journal
+from tandemlift.flight.record import Flight
 
 GUIDED = 2.0  # the phase in which a person steers
 

@@ -13,13 +13,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from tandemlift.figures.panels import fit, line, time_axis
-from tandemlift.figures.start import START, is_disturbed
-from tandemlift.figures.style import BLACK, BLUE, GREY, PAGE, journal
-from tandemlift.figures.vehicle import weight_of
-from tandemlift.flight import Flight
-
-Array = NDArray[np.float64]
+from tandemlift.figures.drawing.panels import fit, line, time_axis
+from tandemlift.figures.drawing.start import START, is_disturbed
+from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, journal
+from tandemlift.figures.drawing.vehicle import weight_of
+from tandemlift.flight.record import Flight
 
 LEAST = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
 LABELS = ("$U_1$ (N)", "$U_2$ (N m)", "$U_3$ (N m)", "$U_4$ (N m)")

@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from tandemlift.figures.panels import extent, line, shade, time_axis, value_ticks
-from tandemlift.figures.style import BLACK, BLUE, COLUMN, PALE, VERMILLION, journal
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.panels import extent, line, shade, time_axis, value_ticks
+from tandemlift.figures.drawing.style import BLACK, BLUE, COLUMN, PALE, VERMILLION, journal
+from tandemlift.flight.record import Flight
 
 LEAST_PUSH = 0.1  # N, half the least span of the axis
 LEAST_REFERENCE = 0.01  # m

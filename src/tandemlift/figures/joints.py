@@ -8,18 +8,14 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
-from tandemlift.figures.fleet import fleet_figure
-from tandemlift.figures.panels import components, fit, line, time_axis
-from tandemlift.figures.start import START, is_disturbed
-from tandemlift.figures.style import COMPONENTS, GREY, journal
-from tandemlift.flight import Flight
-
-Array = NDArray[np.float64]
+from tandemlift.figures.drawing.fleet import fleet_figure
+from tandemlift.figures.drawing.panels import components, fit, line, time_axis
+from tandemlift.figures.drawing.start import START, is_disturbed
+from tandemlift.figures.drawing.style import COMPONENTS, GREY, journal
+from tandemlift.flight.record import Flight
 
 AROUND = 0.9  # in, above and below the rows
 COLUMNS = (("joint_force", "f", "N", 0.2), ("joint_torque", "t", "N m", 0.05))  # channel, symbol, unit, least span

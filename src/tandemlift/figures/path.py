@@ -15,20 +15,18 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch
-from numpy.typing import NDArray
 
-from tandemlift.figures.ground import floor_height
-from tandemlift.figures.scene import NEAR, Scene, on_paper
-from tandemlift.figures.series import drawable, telling
-from tandemlift.figures.skeleton import Skeleton, skeleton
-from tandemlift.figures.style import BLACK, BLUE, GREY, VERMILLION, journal
-from tandemlift.figures.walls import EDGE, GLASS, Wall, draw_walls, walls_near
-from tandemlift.flight import Flight
-from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.algebra.vector import Quat
+from tandemlift.common.types import Array
+from tandemlift.figures.drawing.ground import floor_height
+from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
+from tandemlift.figures.drawing.series import decimate, drawable
+from tandemlift.figures.drawing.skeleton import Skeleton, skeleton
+from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, VERMILLION, journal
+from tandemlift.figures.drawing.walls import EDGE, GLASS, WallOutline, draw_walls, walls_near
+from tandemlift.flight.record import Flight
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings import wall_tables
-from tandemlift.vector import Quat
-
-Array = NDArray[np.float64]
 
 MOST = 6  # vehicles drawn
 SPACING = 1.2  # vehicle spans of path from one vehicle drawn to the next, at least
@@ -38,14 +36,14 @@ DEEP = 0.5  # of the longest side of the scene: a floor farther below is not dra
 FAINT = "#6e6e6e"
 
 
-class Push(NamedTuple):
+class PushArrow(NamedTuple):
     """A push at the time of its peak: where it acted (3) [m] and its force (3) [N], world axes."""
 
     point: Array
     force: Array
 
 
-def pushes(flight: Flight) -> list[Push]:
+def pushes(flight: Flight) -> list[PushArrow]:
     """The pushes whose peak lies within the time flown."""
     found = []
     for push in flight.mission.get("pushes", []):
@@ -53,7 +51,7 @@ def pushes(flight: Flight) -> list[Push]:
             continue
         k = int(np.argmin(np.abs(flight.time - push["time"])))
         R = np.array(rotation_from_quaternion(Quat(*map(float, flight["attitude"][k]))))
-        found.append(Push(flight["position"][k] + R @ push["point"], np.array(push["force"])))
+        found.append(PushArrow(flight["position"][k] + R @ push["point"], np.array(push["force"])))
     return [p for p in found if np.isfinite(p.point).all() and p.force.any()]
 
 
@@ -67,7 +65,7 @@ def instants(path: Array, span: float) -> list[int]:
     return [0, *map(int, between), len(path) - 1]
 
 
-def _draw_vehicle(scene: Scene, body: Skeleton, color: str, order: float) -> None:
+def _draw_vehicle(scene: Scene3D, body: Skeleton, color: str, order: float) -> None:
     """Draw one vehicle: rotor discs, arms, struts and payload."""
     common: dict[str, Any] = {"zorder": order, "clip_on": False}
     discs = PolyCollection(
@@ -80,7 +78,7 @@ def _draw_vehicle(scene: Scene, body: Skeleton, color: str, order: float) -> Non
     scene.line(body.beam, color=color, zorder=order, gid="payload", **look)
 
 
-def _draw_pushes(scene: Scene, found: list[Push], tips: Array) -> None:
+def _draw_pushes(scene: Scene3D, found: list[PushArrow], tips: Array) -> None:
     """Draw the arrows, each with a thin line down to the floor that shows where above it the push acted."""
     floor = scene.box[2, 0]
     look: Any = {"arrowstyle": "-|>,head_length=4,head_width=2", "mutation_scale": 1.0, "shrinkA": 0, "shrinkB": 0}
@@ -91,7 +89,7 @@ def _draw_pushes(scene: Scene, found: list[Push], tips: Array) -> None:
         scene.axes.add_patch(arrow)
 
 
-def _legend(scene: Scene, found: list[Push], walls: list[Wall], handles: list[Any]) -> None:
+def _legend(scene: Scene3D, found: list[PushArrow], walls: list[WallOutline], handles: list[Any]) -> None:
     labels = ["path", "its shadow on the floor", "start", "end"]
     if found:
         strongest = max(float(np.linalg.norm(p.force)) for p in found)
@@ -103,9 +101,9 @@ def _legend(scene: Scene, found: list[Push], walls: list[Wall], handles: list[An
     scene.figure.legend(handles, labels, loc="upper left", ncols=len(labels), columnspacing=1.2)
 
 
-def _draw_path(scene: Scene, path: Array) -> list[Any]:
+def _draw_path(scene: Scene3D, path: Array) -> list[Any]:
     """Draw the path (T, 3) [m], its shadow, start and end; returns the handles for the legend."""
-    thin = path[np.unique(np.concatenate([telling(coordinate) for coordinate in path.T]))]
+    thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path.T]))]
     shadow = np.column_stack([thin[:, :2], np.full(len(thin), scene.box[2, 0])])
     ends: Any = {"color": BLUE, "mfc": "white", "ms": 4, "ls": "none", "zorder": 41}
     return [
@@ -141,7 +139,7 @@ def draw(flight: Flight) -> Figure:
 
     tables = wall_tables(flight.mission)
     reach = np.concatenate([around, *(wall.rim for wall in walls_near(tables, around))])
-    scene = Scene(reach, _floor(flight, around))
+    scene = Scene3D(reach, _floor(flight, around))
     handles = _draw_path(scene, path)
     for order, k in enumerate(sorted(range(len(shown)), key=lambda k: float(path[shown[k]] @ NEAR))):
         _draw_vehicle(scene, vehicles[k], BLACK if shown[k] in (0, len(path) - 1) else FAINT, 4.0 + order)

@@ -11,17 +11,15 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
-from tandemlift.figures.panels import fit, line, shade, time_axis
-from tandemlift.figures.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
-from tandemlift.figures.vehicle import payload_mass_of, vehicle_of
-from tandemlift.flight import Flight
-from tandemlift.laws.rotation import rotation_from_quaternion
-from tandemlift.settings.pilot import Estimator
-from tandemlift.vector import Quat, Vec3, apply_transposed
-
-Array = NDArray[np.float64]
+from tandemlift.algebra.vector import Quat, Vec3, apply_transposed
+from tandemlift.common.types import Array
+from tandemlift.figures.drawing.panels import fit, line, shade, time_axis
+from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
+from tandemlift.figures.drawing.vehicle import payload_mass_of, vehicle_of
+from tandemlift.flight.record import Flight
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.settings.pilot import EstimatorTable
 
 TRUE: dict[str, Any] = {"color": BLUE, "lw": 1.2}
 ESTIMATE: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (4, 1.6))}
@@ -34,7 +32,7 @@ BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to ea
 
 def places(flight: Flight) -> list[Array]:
     """Where on body y each push acts (T) [m from the payload's centre of mass], NaN while it is too small to tell."""
-    least = Estimator.model_validate(flight.mission.get("estimator", {})).least_force
+    least = EstimatorTable.model_validate(flight.mission.get("estimator", {})).min_force
     R = rotation_from_quaternion(Quat(*flight["attitude"].T))
     center = vehicle_of(flight).center_of_mass[1]
     found = []
@@ -46,7 +44,7 @@ def places(flight: Flight) -> list[Array]:
     return found
 
 
-def _shadings(ax: Any, flight: Flight, estimator: Estimator) -> None:
+def _shadings(ax: Any, flight: Flight, estimator: EstimatorTable) -> None:
     shade(ax, flight.time, flight["push_usable"] == 0.0)
     if estimator.tare_start is not None:
         end = estimator.tare_start + estimator.tare_duration
@@ -103,7 +101,7 @@ def _disagreement(ax: Any, flight: Flight, limit: float) -> None:
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw the push [N, world axes] true, measured and estimated, where it acts [m], mass [kg] and disagreement [N]."""
-    estimator = Estimator.model_validate(flight.mission.get("estimator", {}))
+    estimator = EstimatorTable.model_validate(flight.mission.get("estimator", {}))
     figure = Figure(figsize=(PAGE, 6.6), layout="constrained")
     grid = figure.add_gridspec(5, 2, height_ratios=ROWS)
     axes = [figure.add_subplot(grid[row, :]) for row in range(4)]

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from tandemlift.figures.panels import fit, line, time_axis
-from tandemlift.figures.series import drawable, normalised
-from tandemlift.figures.style import ACTUAL, GREY, PAGE, VERMILLION, journal
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.panels import fit, line, time_axis
+from tandemlift.figures.drawing.series import drawable, normalised
+from tandemlift.figures.drawing.style import ACTUAL, GREY, PAGE, VERMILLION, journal
+from tandemlift.flight.record import Flight
 
 ROWS = (
     ("admittance_position", "$T_r$ (m)", 0.02),

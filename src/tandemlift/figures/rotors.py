@@ -13,15 +13,12 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
-from tandemlift.figures.fleet import fleet_figure
-from tandemlift.figures.panels import extent, line, time_axis, value_ticks
-from tandemlift.figures.style import BLACK, BLUE, GREY, TAN, VERMILLION, journal
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.fleet import fleet_figure
+from tandemlift.figures.drawing.panels import extent, line, time_axis, value_ticks
+from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, TAN, VERMILLION, journal
+from tandemlift.flight.record import Flight
 from tandemlift.settings import VehicleTable
-
-Array = NDArray[np.float64]
 
 AROUND, SHARE = 2.0, 0.85  # in: above and below the rows of rotors, and of that, the panel of the share
 MARGIN = 0.12  # of the largest thrust, beyond the limits

@@ -13,11 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tandemlift.figures.ground import clearance, floor_height
-from tandemlift.figures.panels import components, fit, line, shade, time_axis
-from tandemlift.figures.style import BLACK, BLUE, COMPONENTS, GREY, PAGE, PALE, journal
-from tandemlift.figures.vehicle import weight_of
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.ground import clearance, floor_height
+from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
+from tandemlift.figures.drawing.style import BLACK, BLUE, COMPONENTS, GREY, PAGE, PALE, journal
+from tandemlift.figures.drawing.vehicle import weight_of
+from tandemlift.flight.record import Flight
 
 ROW, AROUND = 1.35, 0.85  # in: height of a panel, and above and below them all
 VECTORS = (  # channel, label, least span of the axis

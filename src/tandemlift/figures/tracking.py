@@ -13,13 +13,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter
 
-from tandemlift.figures.panels import fit, line, time_axis
-from tandemlift.figures.series import drawable, normalised
-from tandemlift.figures.style import ACTUAL, COMPONENTS, DESIRED, GREY, PAGE, journal
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.panels import fit, line, time_axis
+from tandemlift.figures.drawing.series import drawable, normalised
+from tandemlift.figures.drawing.style import ACTUAL, COMPONENTS, DESIRED, GREY, PAGE, journal
+from tandemlift.flight.record import Flight
 
 
-class Column(NamedTuple):
+class FigureColumn(NamedTuple):
     """A column of the figure: its channels, its components' symbols, unit and scale, and the least span of an axis."""
 
     title: str
@@ -33,7 +33,7 @@ class Column(NamedTuple):
 
 
 COLUMNS = (
-    Column(
+    FigureColumn(
         "Orientation",
         "reference_euler",
         "euler",
@@ -43,8 +43,8 @@ COLUMNS = (
         float(np.degrees(1.0)),
         0.2,
     ),
-    Column("Position", "reference_position", "position", "position_error", ("x", "y", "z"), "m", 1.0, 0.02),
-    Column(
+    FigureColumn("Position", "reference_position", "position", "position_error", ("x", "y", "z"), "m", 1.0, 0.02),
+    FigureColumn(
         "Velocity",
         "reference_velocity",
         "velocity",
@@ -65,7 +65,7 @@ def size_of(value: float, unit: str) -> str:
     return rf"${digits}\times10^{{{int(power)}}}$°" if power else f"{digits}°"
 
 
-def _trajectories(axes: Any, flight: Flight, column: Column) -> list[Any]:
+def _trajectories(axes: Any, flight: Flight, column: FigureColumn) -> list[Any]:
     """Fill the three upper panels of a column; returns the handles of the actual and the desired line."""
     handles = []
     for i, ax in enumerate(axes):
@@ -77,7 +77,7 @@ def _trajectories(axes: Any, flight: Flight, column: Column) -> list[Any]:
     return handles
 
 
-def _errors(ax: Any, flight: Flight, column: Column) -> None:
+def _errors(ax: Any, flight: Flight, column: FigureColumn) -> None:
     """Fill the bottom panel of a column with the errors over their largest absolute values."""
     for i, look in enumerate(COMPONENTS):
         error, peak = normalised(drawable(flight[column.error][:, i]))

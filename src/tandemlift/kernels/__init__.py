@@ -1,6 +1,6 @@
 """The compiled loops over steps: one flight, a block of flights, and the parts of a step around Python.
 
-A flight is a flat array of the numbers of a `Flying`; a block holds LANES of them interleaved, so that the same
+A flight is a flat array of the numbers of a `FlightModel`; a block holds LANES of them interleaved, so that the same
 instruction serves all of them. The laws are the same, and so is every bit of the result.
 """
 
@@ -10,16 +10,16 @@ import threading
 from collections.abc import Callable
 from functools import cached_property
 
-from tandemlift.events import always
-from tandemlift.kernels.likes import COMMAND, GIVEN, Aside, Likes, likes_of
-from tandemlift.kernels.loops import Step
-from tandemlift.kernels.memory import Grid, Memory, Start
-from tandemlift.kernels.outside import GAUSSIAN, GUST, HALVES, LANES, SPAN, Tables
-from tandemlift.kernels.places import place, stretches_of
-from tandemlift.kernels.traced import Traced
-from tandemlift.loop import Flying, Inputs
+from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, HALVES, LANES, SPAN, InputTables
+from tandemlift.kernels.loops import LoopWriter
+from tandemlift.kernels.memory import FlightMemory, FlightStart, TimeGrid
+from tandemlift.kernels.offsets import delayed_spans, leaf_offset
+from tandemlift.kernels.templates import COMMAND, GIVEN, PythonController, Templates, templates_from
+from tandemlift.kernels.traced_step import TracedStep
+from tandemlift.loop.step import FlightModel, StepInputs
 from tandemlift.trace import machine
 from tandemlift.trace.code import Code, Written
+from tandemlift.trace.compile_events import always
 from tandemlift.trace.key import key_of
 
 __all__ = [
@@ -30,33 +30,33 @@ __all__ = [
     "HALVES",
     "LANES",
     "SPAN",
-    "Aside",
-    "Grid",
+    "FlightMemory",
+    "FlightStart",
+    "InputTables",
     "Kernels",
-    "Likes",
-    "Memory",
-    "Start",
-    "Tables",
-    "place",
+    "PythonController",
+    "Templates",
+    "TimeGrid",
+    "leaf_offset",
 ]
 
 
 class Kernels:
     """The compiled loops for flights like `flying` with inputs like `given`; each compiles when first asked for."""
 
-    def __init__(self, flying: Flying, given: Inputs) -> None:
-        self.likes = likes_of(flying, given)
-        self.lines = stretches_of(self.likes.flying)
+    def __init__(self, flying: FlightModel, given: StepInputs) -> None:
+        self.likes = templates_from(flying, given)
+        self.lines = delayed_spans(self.likes.flying)
         self._lock, self._codes = threading.RLock(), dict[tuple[str, int], Code]()
 
     @cached_property
     def asks(self) -> bool:
         """Whether a controller in Python is asked in the middle of a step."""
-        return isinstance(self.likes.flying.pilot.controller, Aside)
+        return isinstance(self.likes.flying.pilot.controller, PythonController)
 
     @cached_property
-    def _traced(self) -> Traced:
-        return Traced(self.likes, self.asks)
+    def _traced(self) -> TracedStep:
+        return TracedStep(self.likes, self.asks)
 
     def loop(self, lanes: int, going: Callable[[], bool] = always) -> Code:
         """`fly`, the loop over steps, for one flight or for a block of LANES; it is compiled while `going`.
@@ -82,7 +82,7 @@ class Kernels:
 
     def _written(self, kind: str, number: int) -> Written:
         with self._lock:
-            step = Step(self._traced, number if kind == "loop" else 1)
+            step = LoopWriter(self._traced, number if kind == "loop" else 1)
             text = step.write_loop() if kind == "loop" else step.write_parts(bool(number))
             rooms = {name: room for name, room in step.rooms.at.items() if "_" not in name}
             return Written(text, {"size": step.rooms.size, "rooms": rooms})

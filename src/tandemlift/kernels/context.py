@@ -16,7 +16,7 @@ POINTERS = WORDS[:11]
 MEMORY = "ptr noalias %c, ptr noalias %flying, ptr noalias %work"  # what inner functions are handed
 
 
-class Rooms:
+class ScratchLayout:
     """Stretches of the scratch memory, in numbers of one flight: where each begins, its size, and the size of all."""
 
     def __init__(self) -> None:

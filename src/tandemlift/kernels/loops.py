@@ -6,28 +6,28 @@ next waits in memory. What does not change within a flight is computed before it
 
 from __future__ import annotations
 
-from tandemlift.kernels.ahead import write_draw, write_feel, write_gust, write_surroundings
-from tandemlift.kernels.context import AT, MEMORY, POINTERS, Rooms
-from tandemlift.kernels.outside import HALVES, SPAN
-from tandemlift.kernels.places import place, stretches_of
-from tandemlift.kernels.solving import write_limits, write_solver
-from tandemlift.kernels.traced import Symbols, Traced
-from tandemlift.kernels.waiting import Waiting, steady
+from tandemlift.kernels.context import AT, MEMORY, POINTERS, ScratchLayout
+from tandemlift.kernels.external_inputs import HALVES, SPAN
+from tandemlift.kernels.limit_solver import write_limits, write_solver
+from tandemlift.kernels.offsets import delayed_spans, leaf_offset
+from tandemlift.kernels.precompute import write_draw, write_gust, write_push, write_surroundings
+from tandemlift.kernels.scratch import ScratchValues, steady
+from tandemlift.kernels.traced_step import Symbols, TracedStep
 from tandemlift.trace import Function, Module, Place, Symbol, double, leaves
 
 HANDED = "ptr %c, ptr %flying, ptr %work"
 UNIFORM = ("t", "dt", "when", "opens", "closes", "number")
 
 
-class Step:
+class LoopWriter:
     """The functions of a flight's loop, for so many lanes."""
 
-    def __init__(self, traced: Traced, lanes: int) -> None:
+    def __init__(self, traced: TracedStep, lanes: int) -> None:
         self.traced, self.likes, self.graph, self.lanes = traced, traced.likes, traced.graph, lanes
-        self.module, self.rooms = Module(), Rooms()
+        self.module, self.rooms = Module(), ScratchLayout()
         self.width, self.draws = leaves(self.likes.given.hand.start), 0
         self.moving = leaves(self.likes.flying.moving)
-        self.lines = stretches_of(self.likes.flying)
+        self.lines = delayed_spans(self.likes.flying)
         g, roots = self.graph, [s.node for s in self.everything]
         self.blows = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
         self._take_rooms()
@@ -218,7 +218,7 @@ class Step:
 
     def write_outside(self) -> None:
         """The functions of what a step is given from outside."""
-        write_feel(self)
+        write_push(self)
         if self.draws:
             write_draw(self)
         if self.blows:
@@ -240,7 +240,7 @@ class Step:
         f.do(f"br i1 {f.op(f'icmp slt i64 %k, {stop}')}, label %sound, label %over")
         f.lines.append("sound:")
         if self.lanes == 1:
-            lost = f.load("%flying", place(self.likes.flying, "moving", "lost").at)
+            lost = f.load("%flying", leaf_offset(self.likes.flying, "moving", "lost").at)
             f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
             f.lines.append("step:")
         self.begin(f, "%k")
@@ -306,9 +306,9 @@ class Step:
         needs = self.traced.limits
         return [needs.beyond, *needs.problem, *needs.plain, *needs.search] if needs else []
 
-    def settle(self, f: Function, k: str, roots: Symbols) -> Waiting:
+    def settle(self, f: Function, k: str, roots: Symbols) -> ScratchValues:
         """Where a flight begins or has changed: the tables for step k, and what will not change, which waits."""
-        waiting = Waiting(self.graph, self.rooms)
+        waiting = ScratchValues(self.graph, self.rooms)
         nodes = steady(self.graph, roots, self.moving)
         f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))
         with f.when(f.op(f"icmp ne i64 {self.word(f, 'fresh')}, 0")):

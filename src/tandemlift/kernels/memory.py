@@ -8,28 +8,28 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.kernels.context import AT, WORDS, aligned
-from tandemlift.kernels.outside import GAUSSIAN, GUST, Tables
-from tandemlift.laws.partner import LEG
-from tandemlift.laws.rectangle import WALL
+from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
+from tandemlift.laws.mechanics.rectangle import WALL
+from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.trace import flat
 from tandemlift.trace.code import Code
 
-Array = NDArray[np.float64]
-IDLE = Tables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL, LEG)  # rows without effect
+IDLE = InputTables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL, PATH_LEG)  # rows without effect
 COUNTS = ("push_count", "gust_count", "wall_count", "leg_count")
 
 
-class Start(NamedTuple):
+class FlightStart(NamedTuple):
     """A flight at its first step: its numbers, tables, delay line (rows × numbers) and the key of chance."""
 
     numbers: Array
-    tables: Tables
+    tables: InputTables
     ring: Array
     keys: Array
 
 
-class Grid(NamedTuple):
+class TimeGrid(NamedTuple):
     """Steps in all, steps between logged samples, rows of the log, length of a step [s], delays in steps."""
 
     steps: int
@@ -39,7 +39,7 @@ class Grid(NamedTuple):
     delays: NDArray[np.int64]
 
 
-class Memory:
+class FlightMemory:
     """What a loop works on.
 
     Args:
@@ -54,7 +54,7 @@ class Memory:
         k: the next step.
     """
 
-    def __init__(self, code: Code, starts: Sequence[Start], grid: Grid, columns: int) -> None:
+    def __init__(self, code: Code, starts: Sequence[FlightStart], grid: TimeGrid, columns: int) -> None:
         self.code, self.grid, self.k, lanes = code, grid, 0, len(starts)
         self.numbers, self.ring = _woven([s.numbers for s in starts]), _woven([s.ring.ravel() for s in starts])
         self.keys = _woven([s.keys for s in starts])

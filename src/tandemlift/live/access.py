@@ -17,7 +17,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from websockets.http11 import Request
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 HOST, PORT = "127.0.0.1", 8710
 LOCAL = ("127.0.0.1", "localhost", "[::1]")

@@ -7,7 +7,7 @@ import logging
 from collections.abc import Sequence
 from typing import Protocol
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.viewers import Viewer, Viewers
 from tandemlift.live.wire.page_messages import (
     KillMessage,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 PAGE_FOLDER = Path(__file__).resolve().parent.parent / "data" / "page"
 MEDIA_TYPES = {

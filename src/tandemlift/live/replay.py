@@ -15,17 +15,16 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.errors import InputError
-from tandemlift.flight import Flight
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.flight.record import Flight
 from tandemlift.live.wire.frame_values import field_values
 from tandemlift.live.wire.frames import RATE, layout_for, pack_frames
 from tandemlift.live.wire.scene import FlightScene, SceneReplay
 from tandemlift.live.wire.scene_builder import scene_of_tables
-from tandemlift.rendering.stage import Stage
+from tandemlift.rendering.stage import FlightStage
 from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 MAX_FRAMES = 36_000  # ten minutes at the full rate; a longer flight has fewer frames a second
 OFFLINE = (
@@ -42,7 +41,7 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
     Raises:
         InputError: nothing of the flight can be shown.
     """
-    stage = Stage(flight)
+    stage = FlightStage(flight)
     vehicle = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
     shown = np.flatnonzero(np.isin(flight.time, stage.time))
     shown = shown[:: _stride(flight.time[shown])]

@@ -8,13 +8,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from tandemlift.common.types import Array
 from tandemlift.rendering.mesh import Mesh, ball, box, disc, ring, rod, together, turned
 from tandemlift.settings import Quadrotor
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 CARBON, METAL, SHELL, WOOD = "#2b2f36", "#8d949e", "#d9dce0", "#c2853f"
 FRONT, REAR, JOINT, GUARD = "#e8641b", "#2f6fb0", "#f0b429", "#5b636e"

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from tandemlift.errors import InputError, unknown
-
-Array = NDArray[np.float64]
+from tandemlift.common.errors import InputError, unknown
+from tandemlift.common.types import Array
 
 NEAR = 0.05  # m: what is nearer is not drawn
 ANGLE = np.radians(30.0)  # of view, from the lower to the upper edge

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -12,18 +12,15 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from tandemlift.errors import InputError
-from tandemlift.files import whole
-from tandemlift.flight import Flight
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Array, Progress
+from tandemlift.flight.record import Flight
 from tandemlift.rendering.camera import CAMERAS, Camera, View, look_at
-from tandemlift.rendering.stage import Stage
+from tandemlift.rendering.stage import FlightStage
 from tandemlift.rendering.studio import shown
-
-Array = NDArray[np.float64]
-Progress = Callable[[int, int], None]
 
 PICTURE, FILM = (1280, 720), (640, 360)  # pixels
 SAMPLES = {".png": 3, ".gif": 2}  # each way, of a pixel
@@ -68,7 +65,7 @@ class Film:
     def __init__(self, flight: Flight, camera: Camera, size: tuple[int, int], samples: int) -> None:
         if not (min(size) >= 16 and size[0] * size[1] <= LARGEST):
             raise InputError(f"size {size[0]}x{size[1]} must be at least 16x16 and of at most 3840x2160 pixels")
-        self.stage, self._camera = Stage(flight), camera
+        self.stage, self._camera = FlightStage(flight), camera
         self._size, self._samples = size, samples
         self._smooth = _smoothed(self.stage.time, self.stage.path)
 
@@ -219,7 +216,7 @@ def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progr
     if kind not in SAMPLES:
         raise InputError(f"{path}: a picture's name ends in .png, an animation's in .gif")
     drawn = picture(flight, shot) if kind == ".png" else Animation(flight, shot)
-    with whole(path) as partial:
+    with atomic_write(path) as partial:
         if isinstance(drawn, Animation):
             drawn.save(partial, progress)
         else:

@@ -10,8 +10,9 @@ import itertools
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.common.types import Array
 from tandemlift.rendering.camera import View
 from tandemlift.rendering.light import HAZE, SKYLIGHT, SUN, SUNLIGHT, ZENITH, Shadow
 from tandemlift.rendering.mesh import linear
@@ -19,9 +20,6 @@ from tandemlift.rendering.pixels import LANES, Pixels, array, columns, store_whe
 from tandemlift.trace import Function, Graph, flat, rebuilt
 from tandemlift.trace.elementary import exp, maximum, minimum, sqrt, where, whole
 from tandemlift.trace.elementary import floor as rounded_down
-from tandemlift.vector import ZERO, Vec3
-
-Array = NDArray[np.float64]
 
 FLOOR, LINE = linear("#d2d5d8"), linear("#a3abb3")
 THIN, THICK = 0.018, 0.04  # width over distance of the lines of every cell, and of every fifth

@@ -8,10 +8,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.rendering.mesh import linear
 from tandemlift.rendering.raster import nearest
-
-Array = NDArray[np.float64]
 
 SUN = np.array([0.35, -0.42, 0.84]) / np.linalg.norm([0.35, -0.42, 0.84])  # the direction it stands in
 SUNLIGHT, SKYLIGHT, FLOORLIGHT = np.array([0.82, 0.78, 0.71]), np.array([0.30, 0.34, 0.40]), np.array([0.2, 0.19, 0.18])

@@ -20,7 +20,7 @@ from tandemlift.trace.key import PACKAGE, key_of
 
 LANES = 8  # columns that one instruction serves
 RAMP = f"<{', '.join(f'i64 {j}' for j in range(LANES))}>"
-FILES = [*Path(__file__).parent.glob("*.py"), *(PACKAGE / f"{name}.py" for name in ("law", "ops", "vector"))]
+FILES = [*Path(__file__).parent.glob("*.py"), *(PACKAGE / "algebra").glob("*.py")]
 
 
 class Pixels:

@@ -12,11 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.rendering.pixels import Pixels, array, columns, load_where, store_where
 from tandemlift.trace import Function, Graph
 from tandemlift.trace.elementary import floor, maximum, minimum, where, whole
-
-Array = NDArray[np.float64]
 
 UNIFORM = ("corner", "row", "height", "width")
 

@@ -6,19 +6,17 @@ import itertools
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.errors import InputError
-from tandemlift.flight import Flight
-from tandemlift.laws.rotation import rotation_from_quaternion
+from tandemlift.algebra.vector import Quat
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.flight.record import Flight
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.rendering.aircraft import aircraft
 from tandemlift.rendering.mesh import Mesh, linear, panel, rod, together
-from tandemlift.rendering.studio import Line, Pane, Scene
+from tandemlift.rendering.studio import Pane, Scene, SceneLine
 from tandemlift.settings import VehicleTable, wall_tables
-from tandemlift.vector import Quat
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 PUSH, PATH, AHEAD, GROUND = "#d5281b", "#1f5fbf", "#9db7d6", "#8a9097"
 WALL, FRAME = "#7f8fa3", "#4d5a6b"
@@ -30,7 +28,7 @@ PANEL = 1.0  # m, largest side of a part of a wall
 BLUR, GLASS = 0.3, 0.35  # opacity of rotors and of walls
 
 
-class Stage:
+class FlightStage:
     """A flight to look at.
 
     Attributes:
@@ -119,14 +117,14 @@ class Stage:
         lines = [*self._path_lines(time, position, per_pixel), *edges]
         return Scene(together(solid), lines, panes + walls, self.floor, cell)
 
-    def _path_lines(self, time: float, position: Array, per_pixel: float) -> list[Line]:
+    def _path_lines(self, time: float, position: Array, per_pixel: float) -> list[SceneLine]:
         """The way flown, the way ahead, and the shadow of the way flown on the floor."""
         flown = self.time < time
         past = np.vstack([_thinned(self.path[flown], 2.0 * per_pixel), position])
         future = np.vstack([position, _thinned(self.path[~flown], 2.0 * per_pixel)])
-        lines = [Line(past, 3.0, _tint(PATH, past)), Line(future, 1.2, _tint(AHEAD, future))]
+        lines = [SceneLine(past, 3.0, _tint(PATH, past)), SceneLine(future, 1.2, _tint(AHEAD, future))]
         fall = np.column_stack([past[:, :2], np.full(len(past), self.floor)])
-        return [*lines, Line(fall, 1.6, _tint(GROUND, fall))]
+        return [*lines, SceneLine(fall, 1.6, _tint(GROUND, fall))]
 
     def _arrow(self, time: float, position: Array, R: Array) -> Mesh:
         """The person's push, from where it acts, as long as it is strong."""
@@ -167,7 +165,7 @@ def _tint(color: str, points: Array) -> Array:
     return np.tile(linear(color), (len(points), 1))
 
 
-def _wall(wall: dict[str, Any], floor: float) -> tuple[list[Mesh], list[Line]]:
+def _wall(wall: dict[str, Any], floor: float) -> tuple[list[Mesh], list[SceneLine]]:
     """The panels of a wall, and the lines of its frame."""
     foot = [np.array([*wall[end], floor]) for end in ("start", "end")]
     head = [np.array([*wall[end], wall["top"]]) for end in ("start", "end")]
@@ -177,4 +175,4 @@ def _wall(wall: dict[str, Any], floor: float) -> tuple[list[Mesh], list[Line]]:
     corners = [foot[0] + i * along + j * up for i in range(count[0]) for j in range(count[1])]
     # in short pieces, since a line that begins behind the eye is not drawn
     pieces = [a + (b - a) * np.linspace(0.0, 1.0, 9)[:, None] for a, b in itertools.pairwise(frame)]
-    return [panel(c, along, up, WALL) for c in corners], [Line(p, 2.0, _tint(FRAME, p)) for p in pieces]
+    return [panel(c, along, up, WALL) for c in corners], [SceneLine(p, 2.0, _tint(FRAME, p)) for p in pieces]

@@ -11,20 +11,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.rendering.camera import ANGLE, View
 from tandemlift.rendering.ground import background
 from tandemlift.rendering.light import Shadow, coded, lit
 from tandemlift.rendering.mesh import NOTHING, Mesh
 from tandemlift.rendering.raster import glaze, nearest
 
-Array = NDArray[np.float64]
-
 FOCAL = 360.0 / np.tan(ANGLE / 2.0)  # length [pixels] in a picture of 720 rows
 AT_ONCE = 1_500_000  # samples: a large picture is drawn in strips, which take less memory
 CLOSER = 1.002  # lines are drawn as if nearer by so much, or they would sink into what they lie on
 
 
-class Line(NamedTuple):
+class SceneLine(NamedTuple):
     """A line through points (n, 3) [m], of a width [pixels of a picture of 720 rows] and colours (n, 3)."""
 
     points: Array
@@ -43,7 +42,7 @@ class Scene(NamedTuple):
     """What is in a picture: solid parts, lines, panes, the floor's height [m], and the cell of its grid [m]."""
 
     solid: Mesh
-    lines: list[Line]
+    lines: list[SceneLine]
     panes: list[Pane]
     floor: float
     cell: float
@@ -110,7 +109,7 @@ def _lay_panes(panes: list[Pane], view: View, depth: Array, picture: Array) -> N
         glaze(view.seen(corners[i]), colors, depth, picture)
 
 
-def _ribbon(line: Line, view: View) -> Mesh:
+def _ribbon(line: SceneLine, view: View) -> Mesh:
     """A line as triangles in pixels, of one width wherever it is; its corners are as from `View.seen`."""
     seen, width = view.seen(line.points), line.width * view.focal / FOCAL
     seen[:, 2] *= CLOSER

@@ -34,6 +34,7 @@ td:last-child, thead th:last-child { text-align: left; }
 .setup td, .setup td:last-child { white-space: normal; text-align: left; }
 .setup th:first-child { width: 11rem; }
 .compared td:last-child { white-space: normal; min-width: 9rem; }
+.part td:last-child, .part thead th:last-child { min-width: 0; text-align: right; }
 .compared thead small { color: var(--soft); font-weight: 400; }
 td.one { text-align: center; white-space: normal; }
 td small { color: var(--soft); }

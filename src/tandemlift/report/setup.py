@@ -5,23 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TypeVar
 
-from tandemlift.figures.ground import floor_height
+from tandemlift.figures.drawing.ground import floor_height
 from tandemlift.flight import Flight
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
 from tandemlift.settings import (
     ChangeTable,
     ComplianceTable,
     DetectionTable,
-    PartnerTable,
+    PersonTable,
     Quadrotor,
     Table,
     VehicleTable,
     wall_tables,
 )
 from tandemlift.settings.guided import ObserverTable
-from tandemlift.settings.pilot import AllocationTable, Estimator, PilotTable
+from tandemlift.settings.pilot import AllocationTable, EstimatorTable, PilotTable
+from tandemlift.settings.sensors import SensorsTable
 from tandemlift.settings.supervision import SupervisionTable
-from tandemlift.settings.world import Actuators, Disturbance, Fault, Ground, Plant, Sensors, WindTable
+from tandemlift.settings.surroundings import GroundTable, WindTable
+from tandemlift.settings.world import ActuatorsTable, DisturbanceTable, FaultTable, PlantTable
 
 Row = tuple[str, str]
 Settings = TypeVar("Settings", bound=Table)
@@ -37,19 +39,19 @@ def _table(flight: Flight, name: str, model: type[Settings]) -> Settings:
     return model.model_validate(flight.mission.get(name, {}))
 
 
-def say(value: float, unit: str = "", scale: float = 1.0) -> str:
+def describe(value: float, unit: str = "", scale: float = 1.0) -> str:
     """A number in at most four digits, with its unit."""
     return f"{scale * value:.4g} {unit}".rstrip().replace("-", "−")
 
 
 def _vector(values: Iterable[float], unit: str) -> str:
-    return f"({', '.join(say(v) for v in values)}) {unit}"
+    return f"({', '.join(describe(v) for v in values)}) {unit}"
 
 
 def _spread(values: Iterable[float], unit: str, scale: float = 1.0) -> str:
     """One value, or the least to the largest of several."""
     ordered = sorted(values)
-    return " to ".join(dict.fromkeys(say(v, scale=scale) for v in (ordered[0], ordered[-1]))) + f" {unit}"
+    return " to ".join(dict.fromkeys(describe(v, scale=scale) for v in (ordered[0], ordered[-1]))) + f" {unit}"
 
 
 def _vehicle(flight: Flight) -> Iterator[Row]:
@@ -57,11 +59,11 @@ def _vehicle(flight: Flight) -> Iterator[Row]:
     count, payload = len(table.quadrotors), table.payload.mass
     mass = payload + sum(q.mass for q in table.quadrotors)
     fleet = f"{count} quadrotor{'s' if count > 1 else ''}"
-    yield "Vehicle", f"{fleet} and a payload of {say(payload, 'kg')}, {say(mass, 'kg')} in all"
-    plant, push = _table(flight, "plant", Plant), _table(flight, "disturbance", Disturbance)
+    yield "Vehicle", f"{fleet} and a payload of {describe(payload, 'kg')}, {describe(mass, 'kg')} in all"
+    plant, push = _table(flight, "plant", PlantTable), _table(flight, "disturbance", DisturbanceTable)
     unknown = []
     if plant.mass_scale != 1.0:
-        unknown.append(f"its mass is {say(plant.mass_scale * mass, 'kg')}")
+        unknown.append(f"its mass is {describe(plant.mass_scale * mass, 'kg')}")
     if plant.inertia_scale != (1.0, 1.0, 1.0):
         unknown.append(f"its inertia is {_vector(plant.inertia_scale, 'times as large')}")
     if any(push.force):
@@ -81,7 +83,7 @@ def _guidance(flight: Flight) -> Iterator[Row]:
     if _table(flight, "pilot", PilotTable).guidance == "clock":
         yield "Guidance", "by the clock: lift and landing at set times, the paper’s admittance between"
         return
-    c, estimator = _table(flight, "compliance", ComplianceTable), _table(flight, "estimator", Estimator)
+    c, estimator = _table(flight, "compliance", ComplianceTable), _table(flight, "estimator", EstimatorTable)
     caps = f"up to {_spread(c.max_speed, 'm/s')}, {_spread(c.max_acceleration, 'm/s²')}, {_spread(c.max_jerk, 'm/s³')}"
     yaw = "turns with a push at an end" if c.yaw.model == "yielding" else "heading held"
     tank = "; an energy tank adds damping" if c.tank.model != "none" else ""
@@ -91,7 +93,10 @@ def _guidance(flight: Flight) -> Iterator[Row]:
 
 def _watch(flight: Flight) -> Iterator[Row]:
     observer, detection = _table(flight, "observer", ObserverTable), _table(flight, "detection", DetectionTable)
-    yield "Disturbance", "not estimated" if observer.model == "none" else f"estimated by {OBSERVERS[observer.model]}"
+    yield (
+        "DisturbanceTable",
+        "not estimated" if observer.model == "none" else f"estimated by {OBSERVERS[observer.model]}",
+    )
     if detection.model != "none":
         yield "Lost rotor", "found from what the rotors as modelled do not explain of the motion, and landed with"
     if _table(flight, "supervision", SupervisionTable).model != "none":
@@ -100,8 +105,8 @@ def _watch(flight: Flight) -> Iterator[Row]:
             "checks before a lift, watchdogs on every sensor, limits and a fence, each with its reaction",
         )
     for change in (ChangeTable.model_validate(c) for c in flight.mission.get("changes", [])[:MOST_CHANGES]):
-        over = f" within {say(change.duration, 's')}" if change.duration else ""
-        yield "Change", f"{change.key} = {shown(change.value)} from {say(change.time, 's')} on{over}"
+        over = f" within {describe(change.duration, 's')}" if change.duration else ""
+        yield "Change", f"{change.key} = {shown(change.value)} from {describe(change.time, 's')} on{over}"
     more = len(flight.mission.get("changes", [])) - MOST_CHANGES
     if more > 0:
         yield "Change", f"and {more} more"
@@ -113,66 +118,69 @@ def _lag(quadrotors: tuple[Quadrotor, ...]) -> str:
 
 
 def _rotors(flight: Flight) -> Iterator[Row]:
-    actuators, quadrotors = _table(flight, "actuators", Actuators), _table(flight, "vehicle", VehicleTable).quadrotors
+    actuators, quadrotors = (
+        _table(flight, "actuators", ActuatorsTable),
+        _table(flight, "vehicle", VehicleTable).quadrotors,
+    )
     method = _table(flight, "allocation", AllocationTable).method
     if actuators.model == "ideal":
         yield "Rotors", f"ideal: every command is given at once and exactly; {method} allocation"
         return
     most = _spread([q.max_thrust for q in quadrotors], "N")
-    late = f"commands {say(actuators.delay, 'ms', 1e3)} late" if actuators.delay else "commands without delay"
+    late = f"commands {describe(actuators.delay, 'ms', 1e3)} late" if actuators.delay else "commands without delay"
     start = {"hover": "turning as in hover at the start", "stopped": "stopped at the start"}[actuators.start]
     yield "Rotors", f"0 to {most} each; {_lag(quadrotors)}; {late}; {start}; {method} allocation"
-    faults = [Fault.model_validate(f) for f in flight.mission.get("faults", [])]
+    faults = [FaultTable.model_validate(f) for f in flight.mission.get("faults", [])]
     for fault in (f for f in faults if f.time <= flight.mission["mission"]["duration"]):
-        known = "never known" if fault.known_after is None else f"known {say(fault.known_after, 's')} later"
-        left = f"{say(fault.efficiency, '%', 100.0)} of the thrust left"
+        known = "never known" if fault.known_after is None else f"known {describe(fault.known_after, 's')} later"
+        left = f"{describe(fault.efficiency, '%', 100.0)} of the thrust left"
         yield (
-            "Fault",
-            f"rotor {fault.rotor} of quadrotor {fault.quadrotor}: {left} from {say(fault.time, 's')} on, {known}",
+            "FaultTable",
+            f"rotor {fault.rotor} of quadrotor {fault.quadrotor}: {left} from {describe(fault.time, 's')} on, {known}",
         )
 
 
 def _errors(unit: str, **sizes: tuple[float, str]) -> str:
     """The errors that are not zero, each by its name, with its unit."""
-    said = [f"{name} {say(size, f'{unit}{per}')}" for name, (size, per) in sizes.items() if size]
+    said = [f"{name} {describe(size, f'{unit}{per}')}" for name, (size, per) in sizes.items() if size]
     return ", ".join(said) or "exact"
 
 
 def _every(interval: float, delay: float) -> str:
-    often = f"every {say(interval, 'ms', 1e3)}" if interval else "every step"
-    late = f"{say(delay, 'ms', 1e3)} and " if delay else ""
+    often = f"every {describe(interval, 'ms', 1e3)}" if interval else "every step"
+    late = f"{describe(delay, 'ms', 1e3)} and " if delay else ""
     return f"{often}, known {late}a step later"
 
 
 def _sensors(flight: Flight) -> Iterator[Row]:
-    s = _table(flight, "sensors", Sensors)
+    s = _table(flight, "sensors", SensorsTable)
     if s.model == "none":
-        yield "Sensors", "none: the pilot reads what is true"
+        yield "SensorsTable", "none: the pilot reads what is true"
         return
     drawn = "noise, bias and turns are given as standard deviations; biases and turns are drawn from the seed"
     yield "Sensors on board", f"{_every(s.interval, s.delay)}; {drawn}"
     for kind, (unit, name) in JOINTS.items():
         noise, bias, drift, step = (getattr(s.joints, f"{kind}_{x}") for x in ("noise", "bias", "drift", "resolution"))
         errors = _errors(unit, noise=(noise, ""), bias=(bias, ""), drift=(drift, "/√s"), steps=(step, ""))
-        turned = f", turned by {say(s.joints.misalignment, 'rad')}" if s.joints.misalignment else ""
-        yield name, f"{errors}{turned}; up to ±{say(getattr(s.joints, f'{kind}_range'), unit)}"
+        turned = f", turned by {describe(s.joints.misalignment, 'rad')}" if s.joints.misalignment else ""
+        yield name, f"{errors}{turned}; up to ±{describe(getattr(s.joints, f'{kind}_range'), unit)}"
     for meter, unit, name in ((s.accelerometer, "m/s²", "Accelerometer"), (s.gyroscope, "rad/s", "Gyroscope")):
         errors = _errors(unit, noise=(meter.noise, ""), bias=(meter.bias, ""), drift=(meter.drift, "/√s"))
-        yield name, f"{errors}; up to ±{say(meter.range, unit)}"
+        yield name, f"{errors}; up to ±{describe(meter.range, unit)}"
     m = s.motion
     noises = ((m.position_noise, "m"), (m.velocity_noise, "m/s"), (m.attitude_noise, "rad"))
-    noise = ", ".join(say(size, unit) for size, unit in noises if size)
+    noise = ", ".join(describe(size, unit) for size, unit in noises if size)
     yield "Motion", f"{_every(m.interval, m.delay)}; " + (f"noise {noise}" if noise else "exact")
-    yield "Estimate of the push", _estimate(_table(flight, "estimator", Estimator))
+    yield "Estimate of the push", _estimate(_table(flight, "estimator", EstimatorTable))
 
 
-def _estimate(e: Estimator) -> str:
+def _estimate(e: EstimatorTable) -> str:
     tare = "no tare"
     if e.tare_start is not None:
-        tare = f"tare from {say(e.tare_start)} to {say(e.tare_start + e.tare_duration, 's')}"
+        tare = f"tare from {describe(e.tare_start)} to {describe(e.tare_start + e.tare_duration, 's')}"
         tare += ", which also finds the payload’s mass" if e.identify_mass else ""
-    trust = f"not used while sensors disagree by {say(e.disagreement_limit, 'N')} or more"
-    return f"low-pass of {say(e.push_bandwidth, 'rad/s')}; {tare}; {trust}"
+    trust = f"not used while sensors disagree by {describe(e.disagreement_limit, 'N')} or more"
+    return f"low-pass of {describe(e.push_bandwidth, 'rad/s')}; {tare}; {trust}"
 
 
 def _surroundings(flight: Flight) -> Iterator[Row]:
@@ -181,14 +189,14 @@ def _surroundings(flight: Flight) -> Iterator[Row]:
     if wind.model == "air":
         parts = [f"mean {_vector(wind.velocity, 'm/s')}"]
         if wind.turbulence:
-            parts.append(f"Dryden turbulence of {say(wind.turbulence, 'm/s')} at 20 ft")
-        parts += [f"gust of {_vector(g.velocity, 'm/s')} from {say(g.start, 's')} on" for g in wind.gusts]
+            parts.append(f"Dryden turbulence of {describe(wind.turbulence, 'm/s')} at 20 ft")
+        parts += [f"gust of {_vector(g.velocity, 'm/s')} from {describe(g.start, 's')} on" for g in wind.gusts]
         said = "; ".join(parts)
     yield "Wind", said
-    ground, height = _table(flight, "ground", Ground), floor_height(flight)
+    ground, height = _table(flight, "ground", GroundTable), floor_height(flight)
     if height is not None:
         effect = "; rotors give more near it" if ground.effect else ""
-        yield "Floor", f"at z = {say(height, 'm')}; friction {say(ground.friction)}{effect}"
+        yield "Floor", f"at z = {describe(height, 'm')}; friction {describe(ground.friction)}{effect}"
     else:
         yield "Floor", "none"
     if walls := wall_tables(flight.mission):
@@ -204,17 +212,21 @@ LEADS = {
 
 
 def _company(flight: Flight) -> Iterator[Row]:
-    p = _table(flight, "partner", PartnerTable)
+    p = _table(flight, "person", PersonTable)
     if p.model == "none":
         return
     if p.model == "grab":
-        spring = f"{say(p.stiffness, 'N/m')} and {say(p.damping, 'N s/m')}, up to {say(p.max_force, 'N')}"
+        spring = (
+            f"{describe(p.stiffness, 'N/m')} and {describe(p.damping, 'N s/m')}, up to {describe(p.max_force, 'N')}"
+        )
         yield "Person", f"a hand moved from outside, on a spring of {spring}"
         return
-    where = "" if p.model == "two-hands" else f", {say(p.grip, 'm')} along the beam from the payload’s centre"
-    arm = f"arm of {say(p.stiffness, 'N/m')} and {say(p.damping, 'N s/m')}, up to {say(p.max_force, 'N')}"
-    late = f"{say(p.delay, 'ms', 1e3)} after seeing, muscles of twice {say(p.lag, 'ms', 1e3)}"
-    yield "Person", f"{LEADS[p.model]}{where}; {late}; {arm}; tremor {say(p.tremor, 'N')}"
+    where = "" if p.model == "two-hands" else f", {describe(p.grip, 'm')} along the beam from the payload’s centre"
+    arm = (
+        f"arm of {describe(p.stiffness, 'N/m')} and {describe(p.damping, 'N s/m')}, up to {describe(p.max_force, 'N')}"
+    )
+    late = f"{describe(p.delay, 'ms', 1e3)} after seeing, muscles of twice {describe(p.lag, 'ms', 1e3)}"
+    yield "Person", f"{LEADS[p.model]}{where}; {late}; {arm}; tremor {describe(p.tremor, 'N')}"
 
 
 def setup_of(flight: Flight) -> list[Row]:

@@ -10,13 +10,19 @@ import importlib.util
 from collections.abc import Callable
 from typing import Any
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.export.messages import modern
 
+PACKAGES = ("cyclonedds", "rosbags")
 NUMBERS = {"byte": "uint8", "char": "uint8"}  # what IDL calls otherwise
 PYTHON = {"bool": bool, "string": str}
 SINGLE, NESTED, ARRAY, SEQUENCE = 1, 2, 3, 4  # kinds of fields, as `rosbags.interfaces.Nodetype` numbers them
 Default = Callable[[], Any]
+
+
+def missing_packages() -> list[str]:
+    """Which packages of the extra `ros2` are not installed; nothing is imported."""
+    return [name for name in PACKAGES if importlib.util.find_spec(name) is None]
 
 
 def check_installed() -> None:
@@ -25,12 +31,11 @@ def check_installed() -> None:
     Raises:
         InputError: a package is missing.
     """
-    for name in ("cyclonedds", "rosbags"):
-        if importlib.util.find_spec(name) is None:
-            raise InputError(f"ROS 2 needs the package {name}: pip install 'tandemlift[ros2]'")
+    for name in missing_packages():
+        raise InputError(f"ROS 2 needs the package {name}: pip install 'tandemlift[ros2]'")
 
 
-class Classes:
+class DdsTypes:
     """The classes of ROS 2's messages, by their names in ROS 1."""
 
     def __init__(self) -> None:

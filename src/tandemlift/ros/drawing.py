@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.export.frames import Array
-from tandemlift.export.looks import LEVEL, Shape
-from tandemlift.export.messages import Types
+from tandemlift.common.types import Array
+from tandemlift.export.messages import MessageTypes
+from tandemlift.models.visuals import LEVEL, VisualShape
 
 MARKER, MARKERS = "visualization_msgs/Marker", "visualization_msgs/MarkerArray"
 ARROW, CUBE, SPHERE, CYLINDER, LINES, TEXT = 0, 1, 2, 3, 5, 9
@@ -27,7 +27,7 @@ def quaternion_of(R: Array) -> tuple[float, float, float, float]:
     return w, x, y, z
 
 
-class Pencil:
+class MarkerWriter:
     """Draws markers of one namespace in a frame, each with a number of its own.
 
     Args:
@@ -37,12 +37,12 @@ class Pencil:
         locked: whether markers move with the frame once they are drawn.
     """
 
-    def __init__(self, types: Types, frame: str, name: str, *, locked: bool = False) -> None:
+    def __init__(self, types: MessageTypes, frame: str, name: str, *, locked: bool = False) -> None:
         self._types, self._name, self._locked = types, name, locked
         self._header, self._Marker = types.headers(frame), types[MARKER]
         self._Pose, self._Color = types["geometry_msgs/Pose"], types["std_msgs/ColorRGBA"]
 
-    def shape(self, number: int, shape: Shape, stamp: int = 0) -> Any:
+    def shape(self, number: int, shape: VisualShape, stamp: int = 0) -> Any:
         """A box, sphere or cylinder."""
         size = shape.size
         edges = {"box": size, "sphere": 3 * (2.0 * size[0],), "cylinder": (2.0 * size[0],) * 2 + size[1:]}[shape.kind]

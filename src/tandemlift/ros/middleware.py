@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
-from tandemlift.export.messages import Types
+from tandemlift.export.messages import MessageTypes
 
 Answer = tuple[bool, str]  # whether it is done, and what there is to say
 
 
-class Channel(Protocol):
+class TopicPublisher(Protocol):
     """A topic to publish on."""
 
     @property
@@ -28,13 +28,13 @@ class Middleware(Protocol):
         types: the classes of its messages.
     """
 
-    types: Types
+    types: MessageTypes
 
     @property
     def over(self) -> bool:
         """Whether it has been shut down from outside."""
 
-    def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> Channel:
+    def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> TopicPublisher:
         """A topic to publish on, by its whole name and its type as ROS 1 calls it.
 
         Args:

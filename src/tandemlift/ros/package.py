@@ -6,7 +6,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 FOLDER = Path(__file__).resolve().parent.parent / "data" / "ros"
 SHOWN = "tandemlift.rviz"

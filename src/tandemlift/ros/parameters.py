@@ -12,17 +12,17 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from tandemlift.errors import InputError, unknown
+from tandemlift.common.errors import InputError, unknown
 from tandemlift.live.session.session import Session
 from tandemlift.live.session.tunable_parameters import parameters_of
 from tandemlift.live.wire.page_messages import SetMessage
-from tandemlift.missions.explain import shown
+from tandemlift.missions.values import shown
+from tandemlift.ros.diagnostics import Tell
 from tandemlift.ros.middleware import Middleware
-from tandemlift.ros.telling import Tell
 from tandemlift.settings import Mission
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
-SPRING = ("partner.stiffness", "partner.damping")  # of a page's hand; here pushes are forces
+SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces
 LAST = (DAMPING, RATIO)  # are set after mass and stiffness, of which they are formed
 
 

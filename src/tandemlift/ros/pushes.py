@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.errors import InputError
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array, fixed, to_body, to_world
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.export.frames import ALIGNED, BASE, WORLD, fixed, to_body, to_world
 from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.live.session.session import Session
 from tandemlift.live.wire.page_messages import ForceMessage
-from tandemlift.ros.telling import Tell
+from tandemlift.ros.diagnostics import Tell
 from tandemlift.vehicle import Vehicle
 
 HELD = 0.5  # s of the flight, for which a push acts without another message
@@ -90,10 +91,10 @@ class Pushes:
 
     def _bounded(self, force: Array) -> Array:
         """A force of the same direction that the flight's hand has at most."""
-        most, size = self._session.flight.now.partner.max_force, float(np.linalg.norm(force))
+        most, size = self._session.flight.now.person.max_force, float(np.linalg.norm(force))
         if size <= most:
             return force if size >= LEAST else np.zeros(3)
-        self._tell(f"push cut: {size:.3g} N is more than partner.max_force = {most:g} N")
+        self._tell(f"push cut: {size:.3g} N is more than person.max_force = {most:g} N")
         return force * (most / size)
 
     def _point(self, frame: str, force: Array, torque: Array) -> Array:

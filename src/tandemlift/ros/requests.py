@@ -6,9 +6,9 @@ import time
 from collections.abc import Callable
 from typing import Literal
 
-from tandemlift.errors import InputError
-from tandemlift.laws.alarms import CHECKS, alarm_name
-from tandemlift.laws.phases import NAMES
+from tandemlift.common.errors import InputError
+from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
+from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.live.session.session import Session
 from tandemlift.live.wire.page_messages import AskMessage, TareMessage
 from tandemlift.ros.middleware import Answer
@@ -21,7 +21,7 @@ PATIENCE, NAP = 1.0, 0.02  # s, for the pilot to do it, and between looks
 What = Literal["lift", "land", "stop"]
 
 
-class Requests:
+class RequestServices:
     """Asks a session's pilot.
 
     Args:

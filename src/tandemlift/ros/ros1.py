@@ -6,10 +6,10 @@ import contextlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from tandemlift.errors import InputError
-from tandemlift.export.messages import Types
-from tandemlift.noetic import import_rospy, message_type
-from tandemlift.ros.middleware import Answer, Channel
+from tandemlift.common.errors import InputError
+from tandemlift.engines.rospy import import_rospy, message_type
+from tandemlift.export.messages import MessageTypes
+from tandemlift.ros.middleware import Answer, TopicPublisher
 
 NAME = "tandemlift"
 OLD = {"builtin_interfaces/Time": "Time"}  # what has no message in ROS 1: of the package genpy
@@ -32,7 +32,7 @@ class Ros1:
         if not rosgraph.is_master_online():
             raise InputError(f"no ROS master at {rosgraph.get_master_uri()}: start roscore, or set ROS_MASTER_URI")
         rospy.init_node(NAME, argv=["tandemlift", *arguments], disable_signals=True)
-        self.types = Types(self._class_of, numbered=True)
+        self.types = MessageTypes(self._class_of, numbered=True)
         self._seen: dict[str, Any] = {}
         self._kept: dict[str, Any] = {}
         self._own: set[str] = set()  # parameters that nobody else has set
@@ -45,7 +45,7 @@ class Ros1:
         """Whether the node has been told to end."""
         return self._rospy.is_shutdown()
 
-    def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> Channel:
+    def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> TopicPublisher:
         """A topic to publish on, without Nagle's delay."""
         make, of = self._rospy.Publisher, message_type(kind)
         return _Publisher(make(topic, of, queue_size=depth, latch=latched, tcp_nodelay=True), latched)

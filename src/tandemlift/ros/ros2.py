@@ -15,11 +15,11 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from tandemlift.errors import InputError, unknown
-from tandemlift.export.messages import Types
+from tandemlift.common.errors import InputError, unknown
+from tandemlift.export.messages import MessageTypes
 from tandemlift.export.topics import ROOT
-from tandemlift.ros.dds_types import Classes, check_installed
-from tandemlift.ros.middleware import Answer, Channel
+from tandemlift.ros.dds_types import DdsTypes, check_installed
+from tandemlift.ros.middleware import Answer, TopicPublisher
 
 REQUEST, ANSWER, TEXT = f"{ROOT}/request", f"{ROOT}/answer", "std_msgs/String"
 PARAMETER, PAIR = f"{ROOT}/parameter", "diagnostic_msgs/KeyValue"
@@ -47,7 +47,7 @@ class Ros2:
         from cyclonedds.domain import DomainParticipant
 
         self._participant = DomainParticipant(_domain() if domain is None else domain)
-        self.types, self.over = Types(Classes(), numbered=False), False
+        self.types, self.over = MessageTypes(DdsTypes(), numbered=False), False
         self._heed: list[tuple[Any, Callable[[Any], object]]] = []
         self._services: dict[str, Callable[[], Answer]] = {}
         self._set: dict[str, Any] = {}
@@ -58,7 +58,7 @@ class Ros2:
         self._listener = threading.Thread(target=self._listen, name="dds", daemon=True)
         self._listener.start()
 
-    def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> Channel:
+    def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> TopicPublisher:
         """A topic to publish on: reliable, ten or more may wait; of a latched one, who comes late gets the last."""
         from cyclonedds.pub import DataWriter
 

@@ -7,14 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, Array, to_world
-from tandemlift.export.looks import Shape, payload_shapes, quadrotor_shapes
-from tandemlift.export.messages import Types
-from tandemlift.laws.rotation import rotation_from_euler
+from tandemlift.algebra.vector import Vec3
+from tandemlift.common.types import Array
+from tandemlift.export.frames import ALIGNED, BASE, WORLD, to_world
+from tandemlift.export.messages import MessageTypes
+from tandemlift.laws.mechanics.rotation import rotation_from_euler
 from tandemlift.live.wire.frame_values import points_of
+from tandemlift.models.visuals import VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.stage import GLASS, PUSH, WALL
-from tandemlift.ros.drawing import MARKERS, Pencil
-from tandemlift.vector import Vec3
+from tandemlift.ros.drawing import MARKERS, MarkerWriter
 from tandemlift.vehicle import Vehicle
 
 GROUND, LINE = "#ffffff", "#c3c9d1"
@@ -27,19 +28,25 @@ ABOVE = np.array([0.0, 0.0, TEXT])  # m
 FAINTEST = 0.05  # N
 
 
-def still(types: Types, scene: Mapping[str, Any], vehicle: Vehicle) -> Any:
+def still(types: MessageTypes, scene: Mapping[str, Any], vehicle: Vehicle) -> Any:
     """The markers of vehicle, floor and walls; the vehicle's move with its frame."""
-    body, world = Pencil(types, BASE, "vehicle", locked=True), Pencil(types, WORLD, "surroundings", locked=True)
+    body, world = (
+        MarkerWriter(types, BASE, "vehicle", locked=True),
+        MarkerWriter(types, WORLD, "surroundings", locked=True),
+    )
     made = [body.shape(i, shape) for i, shape in enumerate(_vehicle(vehicle))]
     low, high = _around(scene)
     floor = np.array([*(low + high) / 2.0, scene["floor"] - THICK / 2.0])
-    shapes = [Shape("floor", "box", (*(high - low).tolist(), THICK), floor, color=GROUND), *map(_wall, scene["walls"])]
+    shapes = [
+        VisualShape("floor", "box", (*(high - low).tolist(), THICK), floor, color=GROUND),
+        *map(_wall, scene["walls"]),
+    ]
     made += [world.shape(i, shape) for i, shape in enumerate(shapes)]
     made.append(world.lines(len(shapes), _grid(low, high, scene["floor"] + THICK / 10.0), LINE, 0.01))
     return types[MARKERS](markers=made)
 
 
-def _vehicle(vehicle: Vehicle) -> list[Shape]:
+def _vehicle(vehicle: Vehicle) -> list[VisualShape]:
     """Its shapes, from the centre of mass of the system."""
     payload, depth = 0.0 - vehicle.center_of_mass, vehicle.payload.radius or 0.0
     shapes = [_moved(s, payload) for s in payload_shapes(vehicle.payload, tuple(vehicle.quadrotors))]
@@ -48,7 +55,7 @@ def _vehicle(vehicle: Vehicle) -> list[Shape]:
     return shapes
 
 
-def _moved(shape: Shape, by: Array) -> Shape:
+def _moved(shape: VisualShape, by: Array) -> VisualShape:
     return shape._replace(position=shape.position + by)
 
 
@@ -71,13 +78,13 @@ def _ends(wall: Mapping[str, Any]) -> Array:
     return np.array([middle - along, middle + along])
 
 
-def _wall(wall: Mapping[str, Any]) -> Shape:
+def _wall(wall: Mapping[str, Any]) -> VisualShape:
     c, s = np.cos(wall["heading"]), np.sin(wall["heading"])
     axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    return Shape("wall", "box", tuple(wall["size"]), np.array(wall["center"]), axes, WALL, GLASS)
+    return VisualShape("wall", "box", tuple(wall["size"]), np.array(wall["center"]), axes, WALL, GLASS)
 
 
-class Moving:
+class PushMarkers:
     """The markers of push and reference.
 
     Args:
@@ -85,9 +92,9 @@ class Moving:
         vehicle: what is flown.
     """
 
-    def __init__(self, types: Types, vehicle: Vehicle) -> None:
+    def __init__(self, types: MessageTypes, vehicle: Vehicle) -> None:
         self._types = types
-        self._ghost, self._push = Pencil(types, WORLD, "reference"), Pencil(types, ALIGNED, "push")
+        self._ghost, self._push = MarkerWriter(types, WORLD, "reference"), MarkerWriter(types, ALIGNED, "push")
         self._shapes = list(_ghost(vehicle))
 
     def of(self, channels: Mapping[str, Array], stamp: int) -> Any:
@@ -118,10 +125,10 @@ class Moving:
         return [self._ghost.shape(i, shape, stamp) for i, shape in enumerate(there)]
 
 
-def _ghost(vehicle: Vehicle) -> Iterator[Shape]:
+def _ghost(vehicle: Vehicle) -> Iterator[VisualShape]:
     """Its payload, and a disc for each quadrotor."""
     payload, at = vehicle.payload, 0.0 - vehicle.center_of_mass
     for shape in payload_shapes(payload, tuple(vehicle.quadrotors))[:1]:
         yield shape._replace(position=at + shape.position, color=REFERENCE, opacity=OPACITY)
     for q, center in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
-        yield Shape("disc", "cylinder", (q.guard_radius, 0.02), center, color=REFERENCE, opacity=OPACITY)
+        yield VisualShape("disc", "cylinder", (q.guard_radius, 0.02), center, color=REFERENCE, opacity=OPACITY)

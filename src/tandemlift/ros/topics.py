@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.export.frames import WORLD, fixed, quaternions
-from tandemlift.export.messages import Maker, Transforms, Types, maker_of
+from tandemlift.export.messages import Maker, MessageTypes, Transforms, maker_of
 from tandemlift.export.recipes import POSE, Recipe, Source, Topic
 from tandemlift.export.topics import ROOT, recipes_of
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.ros import scenery
 from tandemlift.ros.drawing import MARKERS
-from tandemlift.ros.middleware import Channel, Middleware
+from tandemlift.ros.middleware import Middleware, TopicPublisher
 from tandemlift.vehicle import Vehicle
 
 TF, TF_STATIC, TRANSFORMS = "/tf", "/tf_static", "tf2_msgs/TFMessage"
@@ -26,15 +26,15 @@ FLOWN, ASKED, PATH = f"{ROOT}/path", f"{ROOT}/reference/path", "nav_msgs/Path"
 WAY, APART = 60.0, 0.2  # s of the way that is shown, and between its points
 
 
-class Sent(NamedTuple):
+class SampleTopic(NamedTuple):
     """A topic of samples: how its numbers are made, how its messages are, and where they go."""
 
     recipe: Recipe
     make: Maker
-    channel: Channel
+    channel: TopicPublisher
 
 
-class Samples:
+class SampleTopics:
     """The topics that have a message for each sample.
 
     Args:
@@ -46,7 +46,8 @@ class Samples:
     def __init__(self, middleware: Middleware, flight: Flight, vehicle: Vehicle) -> None:
         types, self._vehicle = middleware.types, vehicle
         self._sent = [
-            Sent(r, maker_of(types, r), middleware.advertise(r.name, r.kind)) for r in recipes_of(flight, vehicle)
+            SampleTopic(r, maker_of(types, r), middleware.advertise(r.name, r.kind))
+            for r in recipes_of(flight, vehicle)
         ]
         self._transform, self._tf = Transforms(types).moving, middleware.advertise(TF, TRANSFORMS, depth=100)
 
@@ -62,7 +63,7 @@ class Samples:
                 channel.publish(make(stamp, rows[k]))
 
 
-class Once:
+class LatchedTopics:
     """What is published once, and again to who comes late.
 
     Args:
@@ -90,7 +91,7 @@ class Once:
         self._still.publish(self._drawn)
 
 
-class Shown:
+class MarkerTopics:
     """What is only looked at: markers that move, the way flown and the way asked for.
 
     Args:
@@ -100,8 +101,8 @@ class Shown:
 
     def __init__(self, middleware: Middleware, vehicle: Vehicle) -> None:
         types = middleware.types
-        self._markers, self._moving = middleware.advertise(MOVING, MARKERS), scenery.Moving(types, vehicle)
-        self._ways = [Way(types, middleware.advertise(topic, PATH)) for topic in (FLOWN, ASKED)]
+        self._markers, self._moving = middleware.advertise(MOVING, MARKERS), scenery.PushMarkers(types, vehicle)
+        self._ways = [PathTopic(types, middleware.advertise(topic, PATH)) for topic in (FLOWN, ASKED)]
 
     def move(self, flight: Flight, stamp: int) -> None:
         """Show the last sample."""
@@ -117,10 +118,10 @@ class Shown:
             way.go_on(stamp, [*place[-1].tolist(), *turned[0].tolist()])
 
 
-class Way:
+class PathTopic:
     """Poses of the last minute as a `nav_msgs/Path`."""
 
-    def __init__(self, types: Types, channel: Channel) -> None:
+    def __init__(self, types: MessageTypes, channel: TopicPublisher) -> None:
         self._Path, self._header, self._channel = types[PATH], types.headers(WORLD), channel
         self._make = maker_of(types, Topic("", POSE, WORLD, np.zeros((0, 7))))
         self._poses: deque[Any] = deque(maxlen=round(WAY / APART))

@@ -4,13 +4,22 @@ from __future__ import annotations
 
 from typing import Any
 
+from tandemlift.settings import facts
 from tandemlift.settings.leaves import NonNegative, Table
 
 
 class ChangeTable(Table):
-    """One of `[[changes]]`: a key of the mission that takes another value in flight."""
+    """`[[changes]]`: a key that takes another value in flight; one table for each change, in the order of their times.
 
-    time: NonNegative  # s, from which on
-    key: str  # dotted, as of --set
-    value: Any  # as the key takes it
-    duration: NonNegative = 0.0  # s, over which its numbers go there, in a straight line
+    Numbers (gains, admittance, wind, lags, noise, an efficiency) move in a straight line within `duration`. A choice,
+    such as `admittance.gate` or the controller, switches from one step to the next; a new controller starts with a
+    fresh memory. A change is refused if it would need another memory of anything else: another `wind.model`, a delay,
+    another body or other channels. A flight with changes is flown step by step, at about 20 µs a step.
+    """
+
+    time: NonNegative = facts.key(
+        ..., "s", "start of the change, rounded to a whole step", rule="not before the change above it", example=10.0
+    )
+    key: str = facts.key(..., None, "dotted key that changes, as for --set", example="admittance.damping")
+    value: Any = facts.key(..., None, "its new value", rule="as the key takes it", example=[4.0, 4.0, 4.0])
+    duration: NonNegative = facts.key(0.0, "s", "time within which its numbers move there, in a straight line")

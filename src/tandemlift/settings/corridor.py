@@ -15,20 +15,24 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from tandemlift.settings.leaves import Axes, Table, must
+from tandemlift.settings.facts import key
+from tandemlift.settings.leaves import PerAxis, Table, must
 
-Point2 = Annotated[tuple[float, float], Axes(2, single=False)]
+Point2 = Annotated[tuple[float, float], PerAxis(2, single=False)]
 
 SHORTEST = 1e-3  # m, of a wall
 SHARPEST = math.radians(150.0)  # turn of a centreline
 
 
 class WallTable(Table):
-    """One of `[[walls]]`: upright, from the floor to its top."""
+    """`[[walls]]`: upright walls, one table each, from below the floor up; they need `ground.model = "floor"`.
 
-    start: Point2  # m, x and y
-    end: Point2  # m, x and y
-    top: float = 2.5  # m
+    The guard spheres of the quadrotors and the beam touch them.
+    """
+
+    start: Point2 = key(..., "m", "one end, x and y", example=[2.0, -3.0])
+    end: Point2 = key(..., "m", "the other end, x and y", rule="1 mm or more from the start", example=[2.0, 3.0])
+    top: float = key(2.5, "m", "height z of its top", source="chosen")
 
 
 def sides(centreline: Sequence[Sequence[float]], width: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -43,12 +47,28 @@ def sides(centreline: Sequence[Sequence[float]], width: float) -> tuple[NDArray[
 
 
 class CorridorTable(Table):
-    """`[corridor]`: none if its centreline is empty."""
+    """`[corridor]`: walls on both sides of a centreline, mitred at its corners; they need `ground.model = "floor"`.
 
-    centreline: tuple[Point2, ...] = ()  # m, x and y of its corners
-    width: Annotated[float, Field(gt=0.0, le=1e3)] = 4.0  # m, between the walls
-    height: float = 2.5  # m, z of the walls' tops
-    ends: Literal["open", "closed"] = "open"
+    They add to those of `[[walls]]`. A person without a path of their own follows the centreline.
+    """
+
+    centreline: tuple[Point2, ...] = key(
+        (),
+        "m",
+        "corners of the centreline, each x and y; without any there is no corridor",
+        rule="none, or two or more, 1 mm or more apart, turning by 150° or less",
+    )
+    width: Annotated[float, Field(gt=0.0, le=1e3)] = key(
+        4.0,
+        "m",
+        "distance between the walls",
+        rule="such that no wall between two corners vanishes",
+        source="that of mission zigzag",
+    )
+    height: float = key(2.5, "m", "height z of the walls' tops", source="chosen")
+    ends: Literal["open", "closed"] = key(
+        "open", None, "ends of the corridor", choices={"open": "no wall there", "closed": "a wall across each end"}
+    )
 
     @model_validator(mode="after")
     def _can_be_built(self) -> CorridorTable:

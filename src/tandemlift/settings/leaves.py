@@ -27,6 +27,7 @@ NonNegative = Annotated[float, Field(ge=0.0)]
 AtLeastOne = Annotated[float, Field(ge=1.0)]
 Scale = Annotated[float, Field(ge=1e-6, le=1e6)]
 Size = Annotated[float, Field(ge=0.0, le=1e6)]
+Delay = Annotated[float, Field(ge=0.0, le=1.0)]  # s
 Tilt = Annotated[float, Field(gt=0.0, le=1.4)]  # rad
 Length = Annotated[float, Field(gt=0.0, le=1e3), AfterValidator(divisor)]  # m
 
@@ -50,7 +51,7 @@ def is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-class Axes:
+class PerAxis:
     """Mark of a leaf given per axis: one number for all `count` axes (unless `single` is False), or one number each."""
 
     def __init__(self, count: int, *, single: bool = True) -> None:
@@ -73,10 +74,12 @@ class Axes:
 
 
 Triple = tuple[float, float, float]
-Axes3 = Annotated[Triple, Axes(3)]
-Positive3 = Annotated[tuple[Positive, Positive, Positive], Axes(3)]
-NonNegative3 = Annotated[tuple[NonNegative, NonNegative, NonNegative], Axes(3)]
-Exactly3 = Annotated[Triple, Axes(3, single=False)]
-Positive6 = Annotated[tuple[Positive, Positive, Positive, Positive, Positive, Positive], Axes(6)]
-NonNegative6 = Annotated[tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative], Axes(6)]
-AtLeastOne6 = Annotated[tuple[AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne], Axes(6)]
+Axes3 = Annotated[Triple, PerAxis(3)]
+Positive3 = Annotated[tuple[Positive, Positive, Positive], PerAxis(3)]
+NonNegative3 = Annotated[tuple[NonNegative, NonNegative, NonNegative], PerAxis(3)]
+Exactly3 = Annotated[Triple, PerAxis(3, single=False)]
+Positive6 = Annotated[tuple[Positive, Positive, Positive, Positive, Positive, Positive], PerAxis(6)]
+NonNegative6 = Annotated[
+    tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative], PerAxis(6)
+]
+AtLeastOne6 = Annotated[tuple[AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne, AtLeastOne], PerAxis(6)]

@@ -7,12 +7,13 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
+from tandemlift.settings.facts import key
 from tandemlift.settings.leaves import (
-    Axes,
     Exactly3,
     Length,
     NonNegative,
     NonNegative3,
+    PerAxis,
     Positive,
     Positive3,
     Size,
@@ -32,18 +33,33 @@ def _principal(inertia: Triple) -> Triple:
 
 
 Inertia = Annotated[Positive3, AfterValidator(_principal)]
-Areas = Annotated[tuple[Size, Size, Size], Axes(3)]
+Areas = Annotated[tuple[Size, Size, Size], PerAxis(3)]
 
 
 class Payload(Table):
-    """`[vehicle.payload]`: a beam along body y, or any body with a mass and principal moments of inertia."""
+    """`[vehicle.payload]`: a thin beam along body y, or any body with a mass and principal moments of inertia."""
 
-    mass: Positive  # kg
-    length: Positive | None = None  # m, along body y
-    radius: Positive | None = None  # m
-    inertia: Inertia | None = None  # kg m², about its centre of mass; a beam's if not given
-    drag_area: Areas | None = None  # m², seen along each body axis; a beam's if not given
-    drag_coefficient: Size = 1.0
+    mass: Positive = key(..., "kg", "mass", example=0.5)
+    length: Positive | None = key(
+        None, "m", "length of the beam, along body y", unset="inertia must be given", example=2.0
+    )
+    radius: Positive | None = key(None, "m", "radius of the beam", unset="inertia must be given", example=0.05)
+    inertia: Inertia | None = key(
+        None,
+        "kg m²",
+        "principal moments of inertia about its centre of mass, body axes",
+        rule="none above the sum of the other two",
+        unset="that of the beam",
+        example=[0.1667, 0.000625, 0.1667],
+    )
+    drag_area: Areas | None = key(
+        None,
+        "m²",
+        "area A seen along each body axis; drag in moving air is ½ ρ c A v²",
+        unset="that of the beam, or none",
+        example=[0.2, 0.008, 0.2],
+    )
+    drag_coefficient: Size = key(1.0, "1", "drag coefficient c", source="chosen: a bluff body")
 
     @model_validator(mode="after")
     def _complete(self) -> Payload:
@@ -70,33 +86,90 @@ class Payload(Table):
 
 
 Metre = Annotated[float, Field(ge=-1e3, le=1e3)]
-Corner = Annotated[tuple[Metre, Metre], Axes(2, single=False)]
-Joint = Annotated[tuple[Metre, Metre, Metre], Axes(3, single=False)]
+Corner = Annotated[tuple[Metre, Metre], PerAxis(2, single=False)]
+Joint = Annotated[tuple[Metre, Metre, Metre], PerAxis(3, single=False)]
 Turns = Literal[-1, 1]
 
 
 class Quadrotor(Table):
-    """One of `[[vehicle.quadrotors]]`: axes parallel to the vehicle's, rigidly fixed to the payload."""
+    """`[[vehicle.quadrotors]]`: one table for each quadrotor, 1 to 64 of them, rigidly fixed to the payload.
 
-    mass: Positive  # kg
-    inertia: Inertia  # kg m², about its centre of mass
-    position: Exactly3  # m, of its centre of mass from the payload's, body axes
-    layout: Literal["+", "x"] = "x"
-    arm: Positive | None = None  # m, from the centre of mass to each rotor
-    rotor_positions: tuple[Corner, Corner, Corner, Corner] | None = None  # m, x and y; in place of layout and arm
-    spins: tuple[Turns, Turns, Turns, Turns] = (1, -1, 1, -1)  # sign of each rotor's reaction torque about z
-    thrust_constant: Positive  # N/(rad/s)²
-    max_speed: Positive  # rad/s
-    torque_per_thrust: Positive  # m
-    lag_up: NonNegative  # s, time constant of spinning up
-    lag_down: NonNegative  # s
-    rotor_radius: Length = 0.128  # m
-    joint: Joint | None = None  # m, from the payload's centre of mass, body axes; at z = 0 below it if not given
-    guard_radius: Length = 0.375  # m, of the sphere that touches walls
-    feet_spread: Length = 0.12  # m, of each foot from the centre of mass along x and along y
-    feet_depth: Length = 0.18  # m, from the centre of mass down to the soles
-    drag_area: Areas = (0.02, 0.02, 0.05)  # m², seen along each body axis
-    drag_coefficient: Size = 1.0
+    Their axes are parallel to the vehicle's, and they are at least 1 mm apart. In dotted keys, the first has the number
+    0.
+    """
+
+    mass: Positive = key(..., "kg", "mass", example=1.5)
+    inertia: Inertia = key(
+        ...,
+        "kg m²",
+        "principal moments of inertia about its centre of mass",
+        rule="none above the sum of the other two",
+        example=[0.029125, 0.029125, 0.055225],
+    )
+    position: Exactly3 = key(
+        ...,
+        "m",
+        "position of its centre of mass from the payload's, body axes",
+        example=[0.0, 1.0, 0.075],
+    )
+    layout: Literal["+", "x"] = key(
+        "x",
+        None,
+        "where its rotors are",
+        example="+",
+        choices={"+": "at +x, +y, -x, -y", "x": "45° further"},
+    )
+    arm: Positive | None = key(
+        None,
+        "m",
+        "distance from its centre of mass to each rotor",
+        unset="rotor_positions must be given",
+        example=0.25,
+    )
+    rotor_positions: tuple[Corner, Corner, Corner, Corner] | None = key(
+        None,
+        "m",
+        "x and y of each rotor from its centre of mass",
+        rule="such that every moment can be made",
+        unset="by layout and arm",
+        example=[[0.25, 0.0], [0.0, 0.25], [-0.25, 0.0], [0.0, -0.25]],
+    )
+    spins: tuple[Turns, Turns, Turns, Turns] = key(
+        (1, -1, 1, -1),
+        "1",
+        "sign of each rotor's reaction torque on the body, about z",
+        rule="such that every moment can be made",
+        source="neighbours turn against each other",
+    )
+    thrust_constant: Positive = key(..., "N/(rad/s)²", "thrust of a rotor over its speed squared", example=5.84e-6)
+    max_speed: Positive = key(..., "rad/s", "largest speed of a rotor", example=1100.0)
+    torque_per_thrust: Positive = key(..., "m", "reaction torque of a rotor over its thrust", example=0.06)
+    lag_up: NonNegative = key(..., "s", "time constant of a rotor that speeds up", example=0.0125)
+    lag_down: NonNegative = key(..., "s", "time constant of a rotor that slows down", example=0.025)
+    rotor_radius: Length = key(0.128, "m", "radius of a rotor, for the ground effect", source="PX4's Gazebo model iris")
+    joint: Joint | None = key(
+        None,
+        "m",
+        "position of its joint and force sensor from the payload's centre of mass, body axes",
+        unset="below its centre of mass, at the height of the payload's",
+        example=[0.0, 1.0, 0.0],
+    )
+    guard_radius: Length = key(
+        0.375, "m", "radius of the sphere about it that touches walls", source="chosen: an arm of 0.25 m and a rotor"
+    )
+    feet_spread: Length = key(
+        0.12, "m", "distance of each of its four feet from its centre, along x and along y", source="chosen"
+    )
+    feet_depth: Length = key(
+        0.18, "m", "distance of its soles below its centre", source="chosen, so that the beam stays off the floor"
+    )
+    drag_area: Areas = key(
+        (0.02, 0.02, 0.05),
+        "m²",
+        "area seen along each body axis, for drag in moving air",
+        source="chosen: a body of 0.2 m by 0.1 m, and rotor discs that are mostly open",
+    )
+    drag_coefficient: Size = key(1.0, "1", "drag coefficient", source="chosen: a bluff body")
 
     @model_validator(mode="after")
     def _arms(self) -> Quadrotor:
@@ -127,10 +200,10 @@ class Quadrotor(Table):
 
 
 class Drag(Table):
-    """`[vehicle.drag]`: linear drag, force on world velocity and moment on body rates."""
+    """`[vehicle.drag]`: linear drag of the whole vehicle in air at rest; that of `[wind]` adds to it."""
 
-    force: NonNegative3 = (0.0, 0.0, 0.0)  # N s/m
-    moment: NonNegative3 = (0.0, 0.0, 0.0)  # N m s
+    force: NonNegative3 = key((0.0, 0.0, 0.0), "N s/m", "drag on the velocity, along each world axis", example=0.006)
+    moment: NonNegative3 = key((0.0, 0.0, 0.0), "N m s", "drag on the rates, about each body axis", example=0.006)
 
 
 def _fleet(quadrotors: tuple[Quadrotor, ...]) -> tuple[Quadrotor, ...]:
@@ -144,7 +217,7 @@ def _fleet(quadrotors: tuple[Quadrotor, ...]) -> tuple[Quadrotor, ...]:
 
 
 class VehicleTable(Table):
-    """`[vehicle]`: the parts."""
+    """`[vehicle]`: the parts, from which mass, centre of mass and inertia of the whole are computed."""
 
     payload: Payload
     quadrotors: Annotated[tuple[Quadrotor, ...], AfterValidator(_fleet)]

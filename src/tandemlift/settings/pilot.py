@@ -7,10 +7,11 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 from pydantic_core import core_schema
 
+from tandemlift.settings.facts import key
 from tandemlift.settings.leaves import (
-    Axes,
     NonNegative,
     NonNegative3,
+    PerAxis,
     Positive,
     Positive3,
     Scale,
@@ -22,36 +23,53 @@ from tandemlift.settings.leaves import (
 
 LN_20 = 2.995732273553991  # time constants until 95 %
 
-Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], Axes(4)]
+Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
 Bandwidth = Annotated[float, Field(gt=0.0, le=1e4), AfterValidator(divisor)]  # rad/s
 Reading = Literal["truth", "measurement", "estimate"]
 
 
 class ControllerTable(Table):
-    """`[controller]`: a controller's own settings; each controller adds its keys."""
+    """`[controller]`: the controller and its settings; each controller adds its own keys."""
 
-    name: str
+    name: str = key(..., None, "name of the controller, one of `tandemlift controllers`", example="nftsmc")
 
 
 class FeelTable(Table):
-    """`[admittance.feel]`: what a push does, in place of mass and damping: so much force, so much speed, so soon."""
+    """`[admittance.feel]`: the response to a push, in place of mass and damping: a force, a speed and a time."""
 
-    force: Positive = 1.0  # N
-    speed: Positive = 0.6  # m/s, that it comes to
-    time: Positive = 0.5  # s, until 95 % of that
+    force: Positive = key(
+        1.0, "N", "a push of this force", rule="above the threshold with a soft gate", source="chosen"
+    )
+    speed: Positive = key(0.6, "m/s", "speed that the push leads to", source="chosen")
+    time: Positive = key(0.5, "s", "time in which 95 % of that speed is reached", source="chosen")
 
 
 class AdmittanceTable(Table):
-    """`[admittance]`: virtual mass, damping, stiffness and the gate, per world axis."""
+    """`[admittance]`: virtual mass, damping and stiffness that a push moves, along each world axis."""
 
     feel: FeelTable | None = None
 
-    mass: Positive3  # kg
-    damping: NonNegative3  # N s/m
-    stiffness: NonNegative3 = (0.0, 0.0, 0.0)  # N/m
-    threshold: NonNegative3  # N
-    gate: Literal["hard", "soft"] = "hard"
-    reanchor: bool = False
+    mass: Positive3 = key(..., "kg", "virtual mass M", example=1.0)
+    damping: NonNegative3 = key(
+        ...,
+        "N s/m",
+        "virtual damping C; a push of impulse I moves the vehicle by about I/C",
+        rule="from stiffness · step / 2 to 2 · mass / step",
+        example=1.6,
+    )
+    stiffness: NonNegative3 = key(
+        (0.0, 0.0, 0.0), "N/m", "virtual stiffness K; with 0 the vehicle stays where it was pushed"
+    )
+    threshold: NonNegative3 = key(..., "N", "forces up to this are ignored", example=0.3)
+    gate: Literal["hard", "soft"] = key(
+        "hard",
+        None,
+        "how much of a force beyond the threshold acts",
+        choices={"hard": "the whole force", "soft": "only what exceeds the threshold"},
+    )
+    reanchor: bool = key(
+        False, None, "with stiffness: true makes the vehicle stay where its motion has died, instead of springing back"
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -91,43 +109,164 @@ class Weights:
 
 
 class AllocationTable(Table):
-    """`[allocation]`: how the wrench is split over the quadrotors."""
+    """`[allocation]`: how the wrench is distributed over the quadrotors."""
 
-    method: Literal["pseudo-inverse", "constrained"] = "pseudo-inverse"
-    weights: Annotated[tuple[tuple[Positive, Positive, Positive, Positive], ...], Weights()] = ((1.0, 1.0, 1.0, 1.0),)
-    priorities: Priorities = (30.0, 900.0, 900.0, 1.0)  # thrust, roll, pitch, yaw: of the constrained method
+    method: Literal["pseudo-inverse", "constrained"] = key(
+        "pseudo-inverse",
+        None,
+        "the method",
+        choices={
+            "pseudo-inverse": "the paper's weighted pseudo-inverse",
+            "constrained": "beyond a rotor's limits, the thrusts within them that come closest to the wrench",
+        },
+    )
+    weights: Annotated[tuple[tuple[Positive, Positive, Positive, Positive], ...], Weights()] = key(
+        ((1.0, 1.0, 1.0, 1.0),),
+        "1",
+        "cost c of a quadrotor's thrust, roll, pitch and yaw moment",
+        source="all alike; open in the paper",
+    )
+    priorities: Priorities = key(
+        (30.0, 900.0, 900.0, 1.0),
+        "1",
+        "for 'constrained': weights of the errors in thrust, roll, pitch and yaw when the rotors cannot give all four",
+        source="chosen: roll and pitch first, then thrust, then yaw",
+    )
 
 
 class PhasesTable(Table):
-    """`[phases]`: lift to a height, and land; leave `land_start` out never to land."""
+    """`[phases]`: the reference is lifted by a height and landed, with smooth steps.
 
-    lift_start: NonNegative = 0.0  # s
-    lift_duration: Positive = 1.0  # s
-    height: float = 0.0  # m
-    land_start: NonNegative | None = None  # s
-    land_duration: Positive = 1.0  # s
-    rotors: Literal["always", "flight"] = "always"  # or stopped before the lift starts and after the landing ends
+    A landing that starts before the lift is refused; one that starts before the lift ends cuts it short, with a
+    warning.
+    """
+
+    lift_start: NonNegative = key(0.0, "s", "start of the lift", example=2.0)
+    lift_duration: Positive = key(1.0, "s", "duration of the lift", source="chosen", example=6.0)
+    height: float = key(0.0, "m", "height of the lift", example=1.0)
+    land_start: NonNegative | None = key(
+        None,
+        "s",
+        "start of the landing; a time after the end of the flight cancels an inherited landing",
+        rule="not before lift_start",
+        unset="it never lands",
+        example=20.0,
+    )
+    land_duration: Positive = key(1.0, "s", "duration of the landing", source="chosen", example=8.0)
+    rotors: Literal["always", "flight"] = key(
+        "always",
+        None,
+        "when the rotors turn",
+        choices={
+            "always": "all the time",
+            "flight": "from the start of the lift to the end of the landing; needs a floor",
+        },
+    )
 
 
 class PilotTable(Table):
-    """`[pilot]`: what guides it; whether it reads the truth, what sensors measure, or what is estimated from them."""
+    """`[pilot]`: what guides the vehicle, and what the pilot reads."""
 
-    guidance: Literal["clock", "hand"] = "clock"
-    state: Reading = "truth"
-    push: Reading = "truth"
+    guidance: Literal["clock", "hand"] = key(
+        "clock",
+        None,
+        "what guides the vehicle",
+        choices={
+            "clock": "lift and landing at set times, and the admittance between them",
+            "hand": "phases and requests, and `[compliance]` around the admittance",
+        },
+    )
+    state: Reading = key(
+        "truth",
+        None,
+        "where position, velocity, attitude and rates come from",
+        rule='"truth" without sensors',
+        choices={
+            "truth": "the simulation",
+            "measurement": "the last samples of motion measurement and gyroscope",
+            "estimate": "an estimator that also uses the accelerometer",
+        },
+    )
+    push: Reading = key(
+        "truth",
+        None,
+        "where the person's force comes from",
+        rule='"truth" without sensors',
+        choices={
+            "truth": "the simulation",
+            "measurement": "the last sample of the joints' force sensors",
+            "estimate": "that sample after a low-pass filter; zero before the tare ends and while the joints disagree",
+        },
+    )
 
 
-class Estimator(Table):
-    """`[estimator]`: the push from the joint sensors, and the state from inertial and motion sensors."""
+class EstimatorTable(Table):
+    """`[estimator]`: the push from the joints' force sensors, and the state from inertial and motion sensors.
 
-    push_bandwidth: Bandwidth = 36.0  # rad/s, of the second-order low-pass on the push
-    tare: Literal["clock", "hover"] = "clock"  # at `tare_start`, or once it hovers steadily
-    tare_start: NonNegative | None = None  # s, in hover; no tare if not given
-    tare_duration: Positive = 2.0  # s
-    identify_mass: bool = False  # of the payload, while taring
-    disagreement_limit: Scale = 2.0  # N, between the joint sensors, beyond which the push is not trusted
-    least_force: Scale = 0.5  # N, below which no point of application is given
-    position_bandwidth: Bandwidth = 6.0  # rad/s, of the state estimate
-    attitude_bandwidth: Bandwidth = 4.0  # rad/s
-    wind_compensation: Literal["none", "quadrotors"] = "none"  # wind on the payload, from that on the quadrotors
-    wind_bandwidth: Bandwidth = 25.0  # rad/s, of the low-pass on it
+    The push is the force that accelerates the payload and does not come through a joint: wind on the payload is part of
+    it. During the tare, in hover, it is assumed to be zero; what the joints then read is their bias.
+    """
+
+    push_bandwidth: Bandwidth = key(
+        36.0,
+        "rad/s",
+        "bandwidth of the second-order low-pass filter on the push",
+        source="as compliance.input_bandwidth",
+    )
+    tare: Literal["clock", "hover"] = key(
+        "clock",
+        None,
+        "when the force sensors are tared",
+        choices={
+            "clock": "at tare_start",
+            "hover": "once the vehicle has hovered steadily for a second; needs guidance by hand",
+        },
+    )
+    tare_start: NonNegative | None = key(
+        None,
+        "s",
+        "start of the tare, in hover and without a push (or a warning says so)",
+        unset="there is no tare",
+        example=9.0,
+    )
+    tare_duration: Positive = key(2.0, "s", "duration of the tare", rule="at least one sample", source="chosen")
+    identify_mass: bool = key(
+        False,
+        None,
+        "true identifies the payload's mass during the tare; false takes the excess for a bias of the joints",
+        rule="true needs a tare",
+    )
+    disagreement_limit: Scale = key(
+        2.0,
+        "N",
+        "the push is not trusted once one joint's sensor alone would have to be wrong by this horizontal force",
+        source="chosen",
+    )
+    min_force: Scale = key(
+        0.5,
+        "N",
+        "smallest force for which a point of application is estimated",
+        source="chosen: ten times the noise of mission iris's sensors",
+    )
+    position_bandwidth: Bandwidth = key(
+        6.0, "rad/s", "bandwidth with which the motion measurement corrects position and velocity", source="chosen"
+    )
+    attitude_bandwidth: Bandwidth = key(
+        4.0, "rad/s", "bandwidth with which the motion measurement corrects the attitude", source="chosen"
+    )
+    wind_compensation: Literal["none", "quadrotors"] = key(
+        "none",
+        None,
+        "what the push is freed of",
+        choices={
+            "none": "nothing",
+            "quadrotors": "the wind on the payload along body x and y, estimated from the outside forces on the "
+            "quadrotors by the ratio of drag areas; needs quadrotors with drag along both",
+        },
+    )
+    wind_bandwidth: Bandwidth = key(
+        25.0,
+        "rad/s",
+        "bandwidth of the second-order low-pass filter on it; lower for noisy joints, higher for gusts",
+        source="chosen",
+    )

@@ -1,131 +1,194 @@
-"""How a flight by hand is supervised: checks, watchdogs, limits, fence, reactions; an operator; sensors that fail."""
+"""How a flight by hand is supervised: checks, watchdogs, limits, fence, reactions; and the requests of an operator."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from tandemlift.settings.leaves import Axes, Axes3, NonNegative, Positive, Scale, Table, Tilt
+from tandemlift.settings.facts import key
+from tandemlift.settings.leaves import NonNegative, PerAxis, Positive, Scale, Table, Tilt
 
-Part = Annotated[float, Field(gt=0.0, le=1.0)]
+Fraction = Annotated[float, Field(gt=0.0, le=1.0)]
 Samples = Annotated[int, Field(ge=2, le=1_000_000)]
 Reaction = Literal["none", "hold", "land", "stop"]
 Corner = Annotated[float, Field(ge=-1e3, le=1e3)]  # m
-Corners = Annotated[tuple[Corner, Corner, Corner], Axes(3)]
+Corners = Annotated[tuple[Corner, Corner, Corner], PerAxis(3)]
+
+CHOSEN = "chosen"
+FAR = "chosen: beyond what the vehicle should meet"
+REACTIONS = {
+    "none": "nothing",
+    "hold": "hold the position and ignore pushes until all is well",
+    "land": "land",
+    "stop": "turn the rotors off",
+}
+
+
+def _reaction(default: str, fault: str) -> Any:
+    """A key of `[supervision.reactions]`: the reaction to a fault."""
+    return key(default, None, f"reaction when {fault}", choices=REACTIONS)
 
 
 class ChecksTable(Table):
-    """`[supervision.checks]`: before a lift, and before a hand is listened to."""
+    """`[supervision.checks]`: checks before a lift, and before the vehicle responds to a person."""
 
-    thrust_share: Part = 0.85  # of the greatest thrust, that hover may need
-    tilt: Tilt = 0.15  # rad
-    speed: Positive = 0.1  # m/s
-    rates: Positive = 0.2  # rad/s
-    payload_least: Scale = 0.5  # of the payload's mass as believed, that an estimate of it may be
-    payload_most: Scale = 2.0
+    thrust_fraction: Fraction = key(
+        0.85,
+        "1",
+        "largest fraction of the largest thrust that hover may need",
+        source="chosen: leaves 15 % for control",
+    )
+    tilt: Tilt = key(0.15, "rad", "largest tilt", source=CHOSEN)
+    speed: Positive = key(0.1, "m/s", "largest speed", source=CHOSEN)
+    rates: Positive = key(0.2, "rad/s", "largest angular speed", source=CHOSEN)
+    min_payload_ratio: Scale = key(
+        0.5, "1", "minimum accepted mass estimate, as a fraction of the nominal payload mass", source=CHOSEN
+    )
+    max_payload_ratio: Scale = key(
+        2.0,
+        "1",
+        "maximum accepted mass estimate, as a multiple of the nominal payload mass",
+        rule="above min_payload_ratio",
+        source=CHOSEN,
+    )
 
 
 class WatchTable(Table):
-    """`[supervision.watch]`: watchdogs on every sensor."""
+    """`[supervision.watchdog]`: watchdogs on every sensor."""
 
-    stale: Positive = 0.1  # s, without a fresh sample
-    invalid: Positive = 0.05  # s, without a good one
-    frozen: Samples = 25  # samples exactly alike, where noise is expected
-    force: Positive = 100.0  # N, largest that can be true, of the joints
-    torque: Positive = 20.0  # N m
-    specific_force: Positive = 80.0  # m/s2
-    rates: Positive = 15.0  # rad/s
-    position: Positive = 100.0  # m
-    velocity: Positive = 20.0  # m/s
-    window: Positive = 0.5  # s, over which measurements are compared
-    attitude_gap: Positive = 0.1  # rad, between attitude and gyroscope
-    position_gap: Positive = 0.1  # m, between position and velocity
-    speed_gap: Positive = 0.3  # m/s, between velocity and accelerometer
-    joints_time: NonNegative = 0.1  # s, for which joints may disagree
-    turn_bandwidth: Positive = 60.0  # rad/s, of rates from the attitude, for a lost gyroscope
-    way_bandwidth: Positive = 10.0  # rad/s, of velocity from the position, for a lost velocity
+    stale_time: Positive = key(
+        0.1,
+        "s",
+        "time without a fresh sample after which a device counts as stale",
+        rule="above the sampling intervals",
+        source=CHOSEN,
+    )
+    invalid_time: Positive = key(
+        0.05,
+        "s",
+        "time without a valid sample after which a sensor counts as lost",
+        rule="above the sampling intervals",
+        source=CHOSEN,
+    )
+    frozen_samples: Samples = key(
+        25, "1", "number of identical samples after which a sensor that has noise counts as frozen", source=CHOSEN
+    )
+    max_force: Positive = key(100.0, "N", "largest plausible force at a joint", source=FAR)
+    max_torque: Positive = key(20.0, "N m", "largest plausible torque at a joint", source=FAR)
+    max_specific_force: Positive = key(80.0, "m/s²", "largest plausible reading of the accelerometer", source=FAR)
+    max_rates: Positive = key(15.0, "rad/s", "largest plausible reading of the gyroscope", source=FAR)
+    max_position: Positive = key(100.0, "m", "largest plausible coordinate of the position", source=FAR)
+    max_velocity: Positive = key(20.0, "m/s", "largest plausible component of the velocity", source=FAR)
+    window: Positive = key(0.5, "s", "time over which measurements are compared with each other", source=CHOSEN)
+    attitude_gap: Positive = key(0.1, "rad", "largest difference between attitude and gyroscope", source=CHOSEN)
+    position_gap: Positive = key(0.1, "m", "largest difference between position and velocity", source=CHOSEN)
+    speed_gap: Positive = key(0.3, "m/s", "largest difference between velocity and accelerometer", source=CHOSEN)
+    joints_time: NonNegative = key(0.1, "s", "time for which the joints may disagree", source=CHOSEN)
+    rates_bandwidth: Positive = key(
+        60.0, "rad/s", "bandwidth of the rates from the attitude, which replace a lost gyroscope", source=CHOSEN
+    )
+    velocity_bandwidth: Positive = key(
+        10.0, "rad/s", "bandwidth of the velocity from the position, which replaces a lost velocity", source=CHOSEN
+    )
 
 
 class FenceTable(Table):
     """`[supervision.fence]`: the box that the reference stays in."""
 
-    low: Corners = (-1000.0, -1000.0, -1000.0)  # m, world axes
-    high: Corners = (1000.0, 1000.0, 1000.0)
-    margin: NonNegative = 0.3  # m, by which the vehicle may be outside
-    slowing: Positive = 1.0  # 1/s, of the speed towards a side over the distance to it
+    low: Corners = key((-1000.0, -1000.0, -1000.0), "m", "lower corner, world axes", source="no fence")
+    high: Corners = key((1000.0, 1000.0, 1000.0), "m", "upper corner, world axes", rule="above low", source="no fence")
+    margin: NonNegative = key(0.3, "m", "distance by which the vehicle may be outside", source=CHOSEN)
+    braking_gain: Positive = key(
+        1.0, "1/s", "largest speed towards a side, over the distance that is left to it", source=CHOSEN
+    )
 
 
 class LimitsTable(Table):
-    """`[supervision.limits]`: of a flight, each with the time for which it may be left."""
+    """`[supervision.limits]`: limits of a flight, each with the time for which it may be exceeded."""
 
-    thrust_share: Part = 0.95  # of the greatest thrust
-    thrust_time: NonNegative = 1.0  # s
-    tilt: Tilt = 1.0  # rad
-    tilt_time: NonNegative = 0.2
-    rates: Positive = 8.0  # rad/s
-    rates_time: NonNegative = 0.2
-    error: Positive = 0.5  # m, from the reference
-    error_time: NonNegative = 1.0
+    thrust_fraction: Fraction = key(0.95, "1", "largest fraction of the largest thrust", source=CHOSEN)
+    thrust_time: NonNegative = key(1.0, "s", "time for which the thrust may exceed its limit", source=CHOSEN)
+    tilt: Tilt = key(1.0, "rad", "largest angle of body z from upright", source=CHOSEN)
+    tilt_time: NonNegative = key(0.2, "s", "time for which the tilt may exceed its limit", source=CHOSEN)
+    rates: Positive = key(8.0, "rad/s", "largest angular speed", source=CHOSEN)
+    rates_time: NonNegative = key(0.2, "s", "time for which the angular speed may exceed its limit", source=CHOSEN)
+    tracking_error: Positive = key(0.5, "m", "largest distance from the reference", source=CHOSEN)
+    tracking_error_time: NonNegative = key(1.0, "s", "time for which the distance may exceed its limit", source=CHOSEN)
 
 
 class ReactionsTable(Table):
-    """`[supervision.reactions]`: to each fault."""
+    """`[supervision.reactions]`: the reaction to each fault."""
 
-    unit: Reaction = "land"
-    joints: Reaction = "hold"
-    accelerometer: Reaction = "land"
-    gyroscope: Reaction = "land"
-    motion: Reaction = "land"
-    position: Reaction = "land"
-    velocity: Reaction = "land"
-    attitude: Reaction = "land"
-    joints_apart: Reaction = "hold"
-    attitude_apart: Reaction = "land"
-    velocity_apart: Reaction = "land"
-    speed_apart: Reaction = "land"
-    state: Reaction = "stop"
-    orientation: Reaction = "stop"
-    fence: Reaction = "hold"
-    thrust: Reaction = "land"
-    tilt: Reaction = "stop"
-    rates: Reaction = "stop"
-    error: Reaction = "land"
-    rotor: Reaction = "land"
+    imu: Reaction = _reaction("land", "the inertial measurement unit sends nothing")
+    joints: Reaction = _reaction("hold", "a joint's sensor is lost")
+    accelerometer: Reaction = _reaction("land", "the accelerometer is lost")
+    gyroscope: Reaction = _reaction("land", "the gyroscope is lost")
+    motion: Reaction = _reaction("land", "the motion measurement sends nothing")
+    position: Reaction = _reaction("land", "the position is lost")
+    velocity: Reaction = _reaction("land", "the velocity is lost")
+    attitude: Reaction = _reaction("land", "the attitude is lost")
+    joints_inconsistent: Reaction = _reaction("hold", "the joints' sensors disagree")
+    attitude_inconsistent: Reaction = _reaction("land", "attitude and gyroscope disagree")
+    velocity_inconsistent: Reaction = _reaction("land", "velocity and position disagree")
+    speed_inconsistent: Reaction = _reaction("land", "accelerometer and velocity disagree")
+    state: Reaction = _reaction("stop", "the state has values that are not numbers")
+    orientation: Reaction = _reaction("stop", "both attitude and gyroscope are lost")
+    fence: Reaction = _reaction("hold", "the vehicle is outside the fence")
+    thrust: Reaction = _reaction("land", "too little thrust is left")
+    tilt: Reaction = _reaction("stop", "the vehicle is tilted too far")
+    rates: Reaction = _reaction("stop", "the vehicle turns too fast")
+    tracking_error: Reaction = _reaction("land", "the vehicle is too far from the reference")
+    rotor: Reaction = _reaction("land", "a rotor has failed")
 
 
 class SupervisionTable(Table):
-    """`[supervision]`: of a flight that is guided by hand."""
+    """`[supervision]`: checks, watchdogs, limits and reactions of a flight by hand; see docs/safety.md."""
 
-    model: Literal["none", "watch"] = "none"
-    patience: Positive = 5.0  # s, that a fault may hold before it lands
-    calm: Positive = 1.0  # s, without a fault before a hold ends
-    deeper: NonNegative = 0.5  # m, farther down, where a landing ends that does not know its height
-    touch: Positive = 0.12  # m, above its reference, of a landing that stands on something
-    sinking: NonNegative = 0.2  # m/s2, of one that knows nothing of its motion
+    model: Literal["none", "watch"] = key(
+        "none",
+        None,
+        "the supervision",
+        choices={"none": "no supervision", "watch": 'all of it; needs `pilot.guidance = "hand"`'},
+    )
+    hold_timeout: Positive = key(5.0, "s", "time for which a fault may hold the vehicle before it lands", source=CHOSEN)
+    recovery_time: Positive = key(1.0, "s", "time without a fault after which a hold ends", source=CHOSEN)
+    blind_descent_depth: NonNegative = key(
+        0.5, "m", "how far below the ground a landing ends that does not know its height", source=CHOSEN
+    )
+    touchdown_gap: Positive = key(
+        0.12,
+        "m",
+        "height above a landing's reference at which the vehicle must be standing on something",
+        source=CHOSEN,
+    )
+    blind_descent_acceleration: NonNegative = key(
+        0.2, "m/s²", "downward acceleration of a landing that knows nothing of its motion", source=CHOSEN
+    )
     checks: ChecksTable = ChecksTable()
-    watch: WatchTable = WatchTable()
+    watchdog: WatchTable = WatchTable()
     fence: FenceTable = FenceTable()
     limits: LimitsTable = LimitsTable()
     reactions: ReactionsTable = ReactionsTable()
 
 
 class RequestTable(Table):
-    """One of `[[requests]]`: what an operator asks."""
+    """`[[requests]]`: requests of an operator, one table each; they need `pilot.guidance = "hand"`.
 
-    time: NonNegative  # s
-    action: Literal["enable", "disable", "lift", "land", "stop"]
+    If the first request of "enable" and "disable" is "enable", the vehicle starts disabled.
+    """
 
-
-Sensor = Literal["unit", "motion", "joints", "accelerometer", "gyroscope", "position", "velocity", "attitude"]
-
-
-class SensorFaultTable(Table):
-    """One of `[[sensor_faults]]`: a sensor or a device that fails."""
-
-    sensor: Sensor
-    quadrotor: Annotated[int, Field(ge=1, le=64)] | None = None  # whose joint; all, if not given
-    kind: Literal["stale", "frozen", "nan", "bias", "range"]
-    time: NonNegative  # s
-    until: NonNegative | None = None  # s; for good, if not given
-    size: Axes3 = (0.0, 0.0, 0.0)  # of a bias, or the reading in its place; in the sensor's unit
+    time: NonNegative = key(..., "s", "time of the request", example=60.0)
+    action: Literal["enable", "disable", "lift", "land", "stop"] = key(
+        ...,
+        None,
+        "what is requested",
+        example="land",
+        choices={
+            "enable": "respond to pushes",
+            "disable": "hold the position and ignore pushes",
+            "lift": "lift off",
+            "land": "land",
+            "stop": "turn the rotors off for good",
+        },
+    )

@@ -1,4 +1,4 @@
-"""The world that the pilot does not know: pushes, disturbances, real rotors, sensors, wind, ground and walls."""
+"""What the pilot does not know: the start, pushes, disturbances, real rotors and how they fail."""
 
 from __future__ import annotations
 
@@ -7,38 +7,21 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
+from tandemlift.settings.facts import key
 from tandemlift.settings.leaves import (
-    Axes,
     Axes3,
+    Delay,
     Exactly3,
     NonNegative,
+    PerAxis,
     Positive,
     Scale,
-    Size,
     Table,
     Triple,
     must,
 )
 
-FINEST = 1e-9  # resolution of a sensor, in its unit
-
-Delay = Annotated[float, Field(ge=0.0, le=1.0)]
-Share = Annotated[float, Field(ge=0.0, le=1.0)]
-Interval = Annotated[float, Field(ge=0.0, le=10.0)]  # s
-Turn = Annotated[float, Field(ge=0.0, le=1.0)]  # rad
-Speed = Annotated[float, Field(ge=-1e3, le=1e3)]  # m/s, along an axis
-Speeds = tuple[Speed, Speed, Speed]
-Turbulence = Annotated[float, Field(ge=0.0, le=1e3)]  # m/s
-Airspeed = Annotated[float, Field(ge=0.01, le=1e3)]  # m/s
-
-
-def _step_of_quantisation(value: float) -> float:
-    if 0.0 < value < FINEST:
-        raise must("size", f"be 0 (for none) or at least {FINEST}")
-    return value
-
-
-Resolution = Annotated[Size, AfterValidator(_step_of_quantisation)]
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
 
 
 def _upright(euler: Triple) -> Triple:
@@ -47,129 +30,88 @@ def _upright(euler: Triple) -> Triple:
     return euler
 
 
-class Initial(Table):
-    """`[initial]`: the state at t = 0."""
+class InitialTable(Table):
+    """`[initial]`: the state at the start, t = 0."""
 
-    position: Axes3 = (0.0, 0.0, 0.0)  # m, of the system's centre of mass, world axes
-    velocity: Axes3 = (0.0, 0.0, 0.0)  # m/s, world axes
-    euler: Annotated[Axes3, AfterValidator(_upright)] = (0.0, 0.0, 0.0)  # rad: roll, pitch, yaw (Z-X-Y)
-    rates: Axes3 = (0.0, 0.0, 0.0)  # rad/s, body axes
+    position: Axes3 = key(
+        (0.0, 0.0, 0.0), "m", "position of the system's centre of mass, world axes", example=[0.3, -0.3, 0.0]
+    )
+    velocity: Axes3 = key((0.0, 0.0, 0.0), "m/s", "its velocity, world axes")
+    euler: Annotated[Axes3, AfterValidator(_upright)] = key(
+        (0.0, 0.0, 0.0),
+        "rad",
+        "roll, pitch and yaw; R = Rz(yaw) Rx(roll) Ry(pitch)",
+        rule="roll within ±85°",
+        example=[0.15, -0.15, 0.2],
+    )
+    rates: Axes3 = key((0.0, 0.0, 0.0), "rad/s", "angular velocity, body axes")
 
 
 class PushTable(Table):
-    """One of `[[pushes]]`: a person's push A exp(−(t − t₀)²/2σ²)."""
+    """`[[pushes]]`: pushes of a person, one table each: force · exp(−(t − time)²/(2 sigma²))."""
 
-    force: Exactly3  # N, peak, world axes
-    time: float  # s, of the peak
-    sigma: Positive  # s
-    point: Exactly3 = (0.0, 0.0, 0.0)  # m, body axes, from the system's centre of mass
+    force: Exactly3 = key(..., "N", "peak force, world axes", example=[3.0, 0.0, 0.0])
+    time: float = key(..., "s", "time of the peak", example=14.0)
+    sigma: Positive = key(..., "s", "width", example=0.6)
+    point: Exactly3 = key((0.0, 0.0, 0.0), "m", "point of application, body axes, from the system's centre of mass")
 
 
-class Disturbance(Table):
+class DisturbanceTable(Table):
     """`[disturbance]`: a constant force and moment that the pilot does not know of."""
 
-    force: Axes3 = (0.0, 0.0, 0.0)  # N, world axes, at the centre of mass
-    moment: Axes3 = (0.0, 0.0, 0.0)  # N m, body axes
+    force: Axes3 = key((0.0, 0.0, 0.0), "N", "force at the centre of mass, world axes")
+    moment: Axes3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
 
 
-class Plant(Table):
-    """`[plant]`: how the body differs from what the pilot believes."""
+class PlantTable(Table):
+    """`[plant]`: how the real body differs from the pilot's model of it."""
 
-    mass_scale: Scale = 1.0
-    inertia_scale: Annotated[tuple[Scale, Scale, Scale], Axes(3)] = (1.0, 1.0, 1.0)
+    mass_scale: Scale = key(1.0, "1", "real mass over the modelled mass", source="the model is right")
+    inertia_scale: Annotated[tuple[Scale, Scale, Scale], PerAxis(3)] = key(
+        (1.0, 1.0, 1.0),
+        "1",
+        "real inertia over the modelled inertia, about each body axis",
+        source="the model is right",
+    )
 
 
-class Actuators(Table):
+class ActuatorsTable(Table):
     """`[actuators]`: what the rotors do with a command."""
 
-    model: Literal["ideal", "rotors"] = "ideal"
-    delay: Delay = 0.0  # s, from the command to the rotor, rounded to whole steps
-    start: Literal["hover", "stopped"] = "hover"  # the rotors' speed at t = 0
+    model: Literal["ideal", "rotors"] = key(
+        "ideal",
+        None,
+        "the rotors",
+        choices={
+            "ideal": "the commanded wrench acts exactly, and nothing is clamped",
+            "rotors": "rotors with limits, lag and faults, which must be able to lift the vehicle's real weight",
+        },
+    )
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay from the command to the rotors, rounded to whole steps; for real rotors",
+        rule="at most 10,000 steps",
+    )
+    start: Literal["hover", "stopped"] = key(
+        "hover",
+        None,
+        "speed of the rotors at t = 0; for real rotors",
+        choices={"hover": "that of hover", "stopped": "zero"},
+    )
 
 
-class Fault(Table):
-    """One of `[[faults]]`: a rotor that loses thrust."""
+class FaultTable(Table):
+    """`[[faults]]`: rotors that lose thrust, one table each, a rotor once; they need `actuators.model = "rotors"`."""
 
-    quadrotor: Annotated[int, Field(ge=1, le=64)]
-    rotor: Annotated[int, Field(ge=1, le=4)]
-    time: NonNegative  # s
-    efficiency: Share = 0.0  # share of the thrust that is left
-    known_after: NonNegative | None = None  # s; never, if not given
-
-
-class JointSensors(Table):
-    """`[sensors.joints]`: the force-torque sensor at each joint; errors per axis."""
-
-    force_noise: Size = 0.0  # N, standard deviation of a sample
-    force_bias: Size = 0.0  # N, standard deviation of the constant error, drawn from the seed
-    force_drift: Size = 0.0  # N/√s, random walk
-    force_resolution: Resolution = 0.0  # N, step of quantisation, 0 for none
-    force_range: Positive = 1e6  # N
-    torque_noise: Size = 0.0  # N m
-    torque_bias: Size = 0.0  # N m
-    torque_drift: Size = 0.0  # N m/√s
-    torque_resolution: Resolution = 0.0  # N m
-    torque_range: Positive = 1e6  # N m
-    misalignment: Turn = 0.0  # rad, standard deviation of the sensor's rotation about each axis, from the seed
-
-
-class InertialSensor(Table):
-    """`[sensors.accelerometer]` in m/s², `[sensors.gyroscope]` in rad/s; errors per axis."""
-
-    noise: Size = 0.0  # standard deviation of a sample
-    bias: Size = 0.0  # standard deviation of the constant error, drawn from the seed
-    drift: Size = 0.0  # per √s, random walk
-    range: Positive = 1e6
-
-
-class MotionSensor(Table):
-    """`[sensors.motion]`: position and velocity of the centre of mass, and attitude, as from motion capture."""
-
-    position_noise: Size = 0.0  # m
-    velocity_noise: Size = 0.0  # m/s
-    attitude_noise: Size = 0.0  # rad, about each body axis
-    interval: Interval = 0.0  # s, between samples; every step if 0
-    delay: Delay = 0.0  # s
-
-
-class Sensors(Table):
-    """`[sensors]`: the unit on board (joints, accelerometer, gyroscope: one clock) and the motion measurement."""
-
-    model: Literal["none", "simulated"] = "none"
-    interval: Interval = 0.0  # s, between samples of the unit on board; every step if 0
-    delay: Delay = 0.0  # s, of the unit on board, beyond the step after which any reading is known
-    joints: JointSensors = JointSensors()
-    accelerometer: InertialSensor = InertialSensor()
-    gyroscope: InertialSensor = InertialSensor()
-    motion: MotionSensor = MotionSensor()
-
-
-class GustTable(Table):
-    """One of `[[wind.gusts]]`: rises as 1 − cos, holds, and falls as it rose (MIL-F-8785C, 3.7.3)."""
-
-    velocity: Annotated[Speeds, Axes(3, single=False)]  # m/s, peak, world axes
-    start: float  # s
-    rise: Positive  # s
-    hold: NonNegative | None = None  # s; it stays, if not given
-
-
-class WindTable(Table):
-    """`[wind]`: moving air and its drag on payload and quadrotors."""
-
-    model: Literal["none", "air"] = "none"
-    velocity: Annotated[Speeds, Axes(3)] = (0.0, 0.0, 0.0)  # m/s, mean, world axes
-    turbulence: Turbulence = 0.0  # m/s, wind at 20 ft that makes the Dryden turbulence; 0 for none
-    height: Positive = 3.048  # m, at which the standard's scales are taken; it begins at 10 ft
-    airspeed: Airspeed | None = None  # m/s, at which eddies pass; the mean wind's, at least 0.5, if not given
-    density: Annotated[Positive, Field(le=1e4)] = 1.225  # kg/m³
-    gusts: tuple[GustTable, ...] = ()
-
-
-class Ground(Table):
-    """`[ground]`: a floor to stand on, and walls."""
-
-    model: Literal["none", "floor"] = "none"
-    height: float | None = None  # m, of the floor; just below the feet at the start, if not given
-    sinkage: Annotated[Positive, Field(le=0.1)] = 5e-4  # m, of the feet under the vehicle's weight
-    friction: Annotated[float, Field(ge=0.0, le=100.0)] = 0.8
-    effect: bool = False  # more thrust near the floor
+    quadrotor: Annotated[int, Field(ge=1, le=64)] = key(
+        ..., "1", "number of the quadrotor, from 1", rule="at most the number of quadrotors", example=1
+    )
+    rotor: Annotated[int, Field(ge=1, le=4)] = key(
+        ..., "1", "number of its rotor, in the order of layout or rotor_positions", example=1
+    )
+    time: NonNegative = key(..., "s", "start of the fault", example=15.0)
+    efficiency: Fraction = key(0.0, "1", "fraction of its thrust that is left")
+    known_after: NonNegative | None = key(
+        None, "s", "delay until the 'constrained' allocation knows of it", unset="it never knows", example=0.05
+    )

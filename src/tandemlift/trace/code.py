@@ -16,8 +16,8 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Future, wait
 from typing import Any, NamedTuple
 
-from tandemlift.events import Compiled, Stopped, always, compiling
 from tandemlift.trace import machine, store
+from tandemlift.trace.compile_events import Compiled, Stopped, always, compiling
 from tandemlift.trace.optimising import optimised_beside
 
 PAYS = 2.0  # times what unoptimised code took to make: a third or so of what optimised code takes

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.common.types import Array
 from tandemlift.trace import machine
 from tandemlift.trace.fused import traced
 from tandemlift.trace.graph import Graph, symbols
@@ -16,8 +16,6 @@ from tandemlift.trace.layout import leaves
 from tandemlift.trace.llvm import Function
 from tandemlift.trace.rolled import Place
 from tandemlift.trace.text import Module
-
-Array = NDArray[np.float64]
 
 
 def written(function: Callable[..., Any], *likes: Any, lanes: int = 1, rolls_from: int = 0) -> tuple[str, int]:

@@ -17,9 +17,9 @@ import types
 from collections.abc import Callable, Iterator
 from typing import Any, TypeGuard
 
-from tandemlift.errors import InputError
-from tandemlift.law import LAWS, Choice, Elementwise
-from tandemlift.ops import PRIMITIVES
+from tandemlift.algebra.law import LAWS, Choice, Elementwise
+from tandemlift.algebra.ops import PRIMITIVES
+from tandemlift.common.errors import InputError
 from tandemlift.trace.refusal import is_ours, refused
 from tandemlift.trace.symbol import fma
 
@@ -136,7 +136,7 @@ def _run(law: Callable[..., Any], *args: Any) -> Any:
             raise
         trace = traceback.extract_tb(error.__traceback__)
         lines = [f.lineno for f in trace if f.filename == law.__code__.co_filename and f.lineno]
-        what = f"fails on symbols, {type(error).__name__}: {error}: use vectors and the functions of tandemlift.ops"
+        what = f"fails on symbols, {type(error).__name__}: {error}: use vectors and functions of tandemlift.algebra.ops"
         raise refused(what, law.__code__, lines[-1] if lines else law.__code__.co_firstlineno) from error
 
 

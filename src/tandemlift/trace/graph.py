@@ -10,10 +10,10 @@ import struct
 from collections.abc import Container, Iterable
 from typing import Any
 
+from tandemlift.algebra.vector import each, is_set
 from tandemlift.trace.layout import is_value, leaves
 from tandemlift.trace.refusal import refused_here
 from tandemlift.trace.symbol import Symbol
-from tandemlift.vector import each, is_set
 
 MOST_NODES = 1_000_000
 LEAVES = ("const", "in")

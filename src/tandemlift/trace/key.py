@@ -11,14 +11,13 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from tandemlift.law import LAWS
+from tandemlift.algebra.law import LAWS
 from tandemlift.trace.layout import is_value
 from tandemlift.trace.refusal import is_ours
 
 PACKAGE = Path(__file__).resolve().parent.parent
-FOLDERS = ("laws", "trace", "engines", "kernels", "pilot")
-FILES = ("vector", "ops", "law", "constants", "tally", "loop", "sample", "perception", "readout", "watching")
-MORE = ("weather", "delays", "onboard")
+FOLDERS = ("algebra", "laws", "controllers", "trace", "engines", "kernels", "loop", "pilot")
+FILES = ("simulation/pilot_api",)
 
 
 def classes(value: Any) -> set[type]:
@@ -32,7 +31,7 @@ def classes(value: Any) -> set[type]:
 def sources(value: Any) -> list[Path]:
     """Every file that the code for values like this one is made of."""
     own = {p for folder in FOLDERS for p in (PACKAGE / folder).rglob("*.py")}
-    own |= {PACKAGE / f"{name}.py" for name in (*FILES, *MORE)}
+    own |= {PACKAGE / f"{name}.py" for name in FILES}
     theirs = {Path(inspect.getfile(c)) for c in classes(value) if not c.__module__.startswith("tandemlift.")}
     if theirs:  # a user's own laws may call others, of other files
         files = {Path(law.__code__.co_filename) for law in LAWS if not is_ours(law.__code__)}

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from types import CodeType
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 
 HERE = str(Path(__file__).parent)
 OURS = str(Path(__file__).parent.parent)

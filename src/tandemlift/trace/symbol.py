@@ -11,8 +11,8 @@ import operator
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from tandemlift.algebra.vector import is_set
 from tandemlift.trace.refusal import refused_here
-from tandemlift.vector import is_set
 
 if TYPE_CHECKING:
     from tandemlift.trace.graph import Graph
@@ -123,17 +123,17 @@ class Symbol:
         return _bitwise("ashr", self, count)
 
     def __pow__(self, power: Any) -> Any:
-        raise refused_here("takes a power by **: write a product, or power(x, p) of tandemlift.ops")
+        raise refused_here("takes a power by **: write a product, or power(x, p) of tandemlift.algebra.ops")
 
     __rpow__ = __pow__
 
     def __bool__(self) -> bool:
         raise refused_here(
-            "branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.ops"
+            "branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra.ops"
         )
 
     def __float__(self) -> float:
-        raise refused_here("takes a plain number out of its data: use the functions of tandemlift.ops")
+        raise refused_here("takes a plain number out of its data: use the functions of tandemlift.algebra.ops")
 
     __int__ = __index__ = __float__
 

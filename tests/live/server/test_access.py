@@ -5,7 +5,7 @@ from live_page import PAGE
 from standin import StandIn
 from websockets.exceptions import InvalidStatus
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.access import listen
 from tandemlift.live.page_files import page_files
 

@@ -10,7 +10,7 @@ import tandemlift as tl
 def test_a_scene_tells_of_the_hand_and_of_what_may_be_changed(session):
     assert session.scene["spring"]["stiffness"] == STIFFNESS
     keys = {control["key"] for control in session.scene["parameters"]}
-    assert {"admittance.mass", "controller.name", "partner.stiffness", "wind.velocity"} <= keys
+    assert {"admittance.mass", "controller.name", "person.stiffness", "wind.velocity"} <= keys
     assert not {k for k in keys if k.startswith("sensors")}, "it has none"
 
 

@@ -5,13 +5,13 @@ import pytest
 from click.testing import CliRunner
 
 import tandemlift as tl
-from tandemlift.cli import cli
-from tandemlift.laws.grab import NOBODY_HOLDS
+from tandemlift.algebra.vector import Vec3
+from tandemlift.cli.main import cli
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
 from tandemlift.live.session.interactive_mission import interactive_mission
 from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.live.session.saving import save_in_process
 from tandemlift.live.session.snapshot import FLIGHT, HAND, MISSION
-from tandemlift.vector import Vec3
 
 GUIDED = {
     "pilot.guidance": "hand",
@@ -133,7 +133,7 @@ def test_the_files_stand_beside_each_other_and_may_be_moved(tmp_path):
     flight.snapshot().save(tmp_path / "here")
     (tmp_path / "here").rename(tmp_path / "there")
     assert sorted(p.name for p in (tmp_path / "there").iterdir()) == sorted([MISSION, HAND, FLIGHT])
-    assert tl.load_mission(tmp_path / "there" / MISSION).partner.recording == str(tmp_path / "there" / HAND)
+    assert tl.load_mission(tmp_path / "there" / MISSION).person.recording == str(tmp_path / "there" / HAND)
 
 
 def test_what_is_saved_and_what_is_flown_again_name_no_folder_of_the_machine(tmp_path):
@@ -147,9 +147,9 @@ def test_what_is_saved_and_what_is_flown_again_name_no_folder_of_the_machine(tmp
     for folder in ("here", "there"):
         for file in (tmp_path / folder).iterdir():
             assert str(tmp_path).encode() not in file.read_bytes(), file
-        assert tl.Flight.load(tmp_path / folder / FLIGHT).mission["partner"]["recording"] == HAND
+        assert tl.Flight.load(tmp_path / folder / FLIGHT).mission["person"]["recording"] == HAND
     again = tl.load_mission(tmp_path / "here" / "mission.toml")
-    assert again.partner.recording == str(tmp_path / "here" / HAND)
+    assert again.person.recording == str(tmp_path / "here" / HAND)
 
 
 def test_saved_aside_it_is_the_same_flight(tmp_path):

@@ -36,7 +36,7 @@ def test_a_recorded_mission_is_flown_by_who_watches_and_not_by_the_recording(tmp
     fly(session, 0.5)
     say(session, "save", name="first")
     again = interactive_mission(tl.load_mission(tmp_path / "first" / "recorded.toml"))
-    assert (again.partner.model, again.partner.recording, again.changes) == ("grab", None, ())
+    assert (again.person.model, again.person.recording, again.changes) == ("grab", None, ())
 
 
 def test_what_was_flown_is_saved_under_its_name_and_flies_again(session, tmp_path):
@@ -103,7 +103,7 @@ def test_a_session_that_still_compiles_is_stopped_at_once(tmp_path, monkeypatch)
 
 def test_optimised_code_takes_over_while_it_flies(tmp_path, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr("tandemlift.prepared.KERNELS", {})
+    monkeypatch.setattr("tandemlift.simulation.plan.KERNELS", {})
     one = unprepared(tmp_path)
     one.start()
     until(lambda: one.is_ready and one.flight._stepper.code.is_best, patience=4 * PATIENCE)

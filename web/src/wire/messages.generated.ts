@@ -41,8 +41,8 @@ export const JUMPING_FIELDS: readonly FrameFieldName[] = ["phase", "alarm", "hel
 
 /** Parameters that the picture and the plots show. */
 export const THRESHOLD = "admittance.threshold";
-export const STIFFNESS = "partner.stiffness";
-export const MAX_FORCE = "partner.max_force";
+export const STIFFNESS = "person.stiffness";
+export const MAX_FORCE = "person.max_force";
 /** Bounds of numbers that the page sends. */
 export const LIMITS = {
   kill: { rotor: { min: 0, max: 255 } },

@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from tandemlift.errors import InputError
-from tandemlift.laws.phases import GUIDED, HOLD, NAMES
+from tandemlift.common.errors import InputError
+from tandemlift.laws.guidance.phases import GUIDED, HOLD, NAMES
 from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.live.wire.scene import SceneVehicle
 from tandemlift.settings import Mission

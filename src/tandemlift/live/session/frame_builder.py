@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tandemlift.live.session.recorded_flight import Array, FlightSetup
+from tandemlift.common.types import Array
+from tandemlift.live.session.recorded_flight import FlightSetup
 from tandemlift.live.wire.frame_values import channel_columns, field_values
 from tandemlift.live.wire.frames import layout_for, pack_frames
 from tandemlift.live.wire.scene_builder import scene_of

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterator
 from typing import Any
 
-from tandemlift.errors import FlightWarning, InputError
+from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.missions import changed
 from tandemlift.settings import Mission
 
@@ -32,8 +32,8 @@ def with_whole_rotors(now: Mission, first: Mission) -> Mission:
 
 
 def _interactive(mission: Mission) -> Mission:
-    hand = SPRING if mission.partner.model != "grab" else {}
-    mission = changed(mission, "partner", {**hand, "recording": None})
+    hand = SPRING if mission.person.model != "grab" else {}
+    mission = changed(mission, "person", {**hand, "recording": None})
     for key, value in _always(mission):
         mission = changed(mission, key, value)
     for key, value in _if_possible(mission):

@@ -8,14 +8,14 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.session.checks import TARE, check_in_time, tare_start_for
 from tandemlift.live.session.interactive_mission import NEVER
 from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.live.session.tunable_parameters import BY_KEY, CHOICES, CONTROLLER, bounds_of, keys_of, value_of
 from tandemlift.live.wire.server_messages import Answer, ChangedMessage, RefusedMessage
 from tandemlift.missions import tables_of
-from tandemlift.missions.explain import MISSING, shown
+from tandemlift.missions.values import MISSING, shown
 from tandemlift.settings import Mission
 
 RAMP = 0.5  # s, within which a parameter goes to its new value

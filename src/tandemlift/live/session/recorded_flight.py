@@ -11,31 +11,29 @@ import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.changing import Due, due_of
-from tandemlift.engines import Body, engine_named
-from tandemlift.errors import FlightWarning, InputError
-from tandemlift.flown import Flown, take_tallies
-from tandemlift.kernels import place
-from tandemlift.laws.grab import NOBODY_HOLDS, Held
+from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.common.types import Array
+from tandemlift.engines.registry import EngineBody, engine_named
+from tandemlift.kernels import leaf_offset
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, VirtualHandInput
 from tandemlift.live.session.snapshot import FlightSnapshot
+from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions import changed
-from tandemlift.prepared import Prepared
 from tandemlift.settings import Mission
-from tandemlift.stepwise import Stepper
-from tandemlift.tally import EMPTY
+from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, take_metrics
+from tandemlift.simulation.stepping import Stepper
 from tandemlift.trace import flat, leaves, unflat
 from tandemlift.vehicle import Vehicle
-
-Array = NDArray[np.float64]
 
 
 class FlightSetup(NamedTuple):
     """A mission put together, and its body if that is in another engine; nothing is compiled yet."""
 
-    p: Prepared
-    body: Body | None
+    p: FlightPlan
+    body: EngineBody | None
 
 
 def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
@@ -44,15 +42,15 @@ def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
-    chosen, p = engine_named(engine), Prepared(mission)
+    chosen, p = engine_named(engine), FlightPlan(mission)
     plant = p.flying.plant
     vehicle = Vehicle.from_settings(mission.vehicle)
-    body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.module else None
+    body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.load else None
     return FlightSetup(p, body)
 
 
 class RecordedFlight:
-    """One flight of a mission whose `partner.model` is "grab"; it is compiled on construction.
+    """One flight of a mission whose `person.model` is "grab"; it is compiled on construction.
 
     Args:
         mission: how it begins; at the end of its duration it can only be saved.
@@ -110,10 +108,10 @@ class RecordedFlight:
 
     def number(self, *path: str) -> float:
         """A number of the flight's memory, by its path from `loop.Moving`."""
-        return float(self._stepper.a[place(self._stepper.p.flying, "moving", *path).at])
+        return float(self._stepper.a[leaf_offset(self._stepper.p.flying, "moving", *path).at])
 
     @property
-    def hand(self) -> Held:
+    def hand(self) -> VirtualHandInput:
         """The hand as it was last moved."""
         return unflat(self._stepper.a[self._stepper.hand], NOBODY_HOLDS)
 
@@ -124,7 +122,7 @@ class RecordedFlight:
             self._before, self._like = stepper.a.copy(), stepper.p.flying.moving
         self._before[:] = stepper.a
         if k == p.late_step:
-            (self._early,) = take_tallies(stepper.a, stepper.p.flying, 1)
+            (self._early,) = take_metrics(stepper.a, stepper.p.flying, 1)
         stepper.step(k)
         if k % p.every == 0:
             self._log[k // p.every] = stepper.row
@@ -135,7 +133,7 @@ class RecordedFlight:
         """Take no step for now; to be called repeatedly during a pause."""
         self._stepper.rest()
 
-    def hold(self, hand: Held) -> None:
+    def hold(self, hand: VirtualHandInput) -> None:
         """Move the hand, from the next step on."""
         numbers = np.array(flat(hand))
         self._stepper.hold(numbers)
@@ -143,7 +141,7 @@ class RecordedFlight:
             self._hand.pop()
         self._hand.append((self.step, numbers))
 
-    def prepare(self, key: str, value: Any, duration: float = 0.0) -> Due:
+    def prepare(self, key: str, value: Any, duration: float = 0.0) -> ScheduledChange:
         """Prepare a change, which may take long; the flight may go on meanwhile.
 
         Raises:
@@ -151,12 +149,12 @@ class RecordedFlight:
         """
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", FlightWarning)
-            due = due_of(self._stepper.p, changed(self.now, key, value), key, 0, duration)
+            due = scheduled_change(self._stepper.p, changed(self.now, key, value), key, 0, duration)
         if due.prepared.variant != self._stepper.p.variant:
             Stepper(due.prepared, self._stepper.body)  # its code is compiled
         return due
 
-    def change(self, due: Due, key: str, value: Any, duration: float = 0.0) -> None:
+    def change(self, due: ScheduledChange, key: str, value: Any, duration: float = 0.0) -> None:
         """Begin a prepared change with the next step; no other change may have come between."""
         entry = {"time": self.step * self.dt, "key": key, "value": value, "duration": duration}
         self._stepper.change(due._replace(first=self.step))
@@ -175,10 +173,10 @@ class RecordedFlight:
         hand = [(k, numbers) for k, numbers in self._hand if k <= steps]
         return FlightSnapshot(self.start, self.engine, self._flown(steps), hand, list(self._changes))
 
-    def _flown(self, steps: int) -> Flown:
+    def _flown(self, steps: int) -> RawResult:
         """The raw outcome of so many steps."""
         p, state = self._p, self._stepper.a if self.lost else self._before
-        return Flown(
+        return RawResult(
             unflat(state[: leaves(self._like)], self._like),
             self._early if steps > p.late_step else EMPTY,
             steps,

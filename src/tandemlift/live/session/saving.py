@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tandemlift.errors import InputError
+from tandemlift.common.errors import InputError
 from tandemlift.live.session.snapshot import FlightSnapshot, save_flight
 
 NICENESS = 10  # of the process: the flight has priority

@@ -13,10 +13,10 @@ from functools import singledispatchmethod
 from pathlib import Path
 from typing import Any
 
-from tandemlift.errors import InputError
-from tandemlift.flown import channels_of
-from tandemlift.laws.grab import NOBODY_HOLDS
-from tandemlift.laws.phases import NAMES
+from tandemlift.algebra.vector import Quat
+from tandemlift.common.errors import InputError
+from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
 from tandemlift.live.session.checks import check_may_tare, check_takes_requests, failed_rotors
 from tandemlift.live.session.frame_builder import FrameBuilder
 from tandemlift.live.session.hand_control import HandControl
@@ -32,7 +32,7 @@ from tandemlift.live.wire.scene import FlightScene, SceneSpring
 from tandemlift.live.wire.scene_builder import alarm_names
 from tandemlift.live.wire.server_messages import Answer, DoneMessage, FlightStatus, SceneMessage
 from tandemlift.settings import Mission
-from tandemlift.vector import Quat
+from tandemlift.simulation.results import channels_of
 
 log = logging.getLogger(__name__)
 
@@ -130,7 +130,7 @@ class Session:
     def scene(self) -> FlightScene:
         """What a page must know, with the parameters as they are."""
         now = self._flight.now if self.is_ready else self._mission
-        p, scene = now.partner, self._frames.scene.copy()
+        p, scene = now.person, self._frames.scene.copy()
         scene["threshold"] = list(now.admittance.threshold)
         scene["spring"] = SceneSpring(stiffness=p.stiffness, damping=p.damping, max_force=p.max_force)
         scene["parameters"] = list(parameters_of(now, self._mission))

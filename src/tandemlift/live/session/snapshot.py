@@ -8,18 +8,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tandemlift.errors import FlightWarning
-from tandemlift.files import whole
-from tandemlift.flight import Flight
-from tandemlift.flown import Flown, flight_of
+from tandemlift.common.errors import FlightWarning
+from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Array
+from tandemlift.flight.record import Flight
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
-from tandemlift.prepared import Prepared
-from tandemlift.recording import WIDTH, Recording, write_recording
+from tandemlift.missions.recording import WIDTH, Recording, write_recording
 from tandemlift.settings import Mission
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, flight_of
 
-Array = NDArray[np.float64]
 MISSION, HAND, FLIGHT = "recorded.toml", "hand.npz", "flight.npz"
 
 
@@ -37,7 +36,7 @@ class FlightSnapshot:
 
     start: Mission
     engine: str
-    flown: Flown
+    flown: RawResult
     hand: list[tuple[int, Array]]
     changes: list[dict[str, Any]]
 
@@ -51,7 +50,7 @@ class FlightSnapshot:
         steps = np.array([k for k, _ in self.hand], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self.hand], (len(steps), WIDTH))
         write_recording(folder / HAND, Recording(steps, hands, self.engine))
-        with whole(folder / MISSION) as partial:
+        with atomic_write(folder / MISSION) as partial:
             comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
             partial.write_text(comment + self._toml(folder.name), "utf-8")
 
@@ -60,22 +59,22 @@ class FlightSnapshot:
         duration = self.flown.step * self.start.mission.step
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", FlightWarning)
-            p = Prepared(changed(self.start, "mission.duration", duration))
+            p = FlightPlan(changed(self.start, "mission.duration", duration))
         return flight_of(p, self.flown, self.engine)
 
     def _toml(self, name: str) -> str:
         tables, step = tables_of(self.start), self.start.mission.step
         tables["mission"] |= {"name": name, "duration": self.flown.step * step}
-        tables["partner"]["recording"] = HAND
+        tables["person"]["recording"] = HAND
         tables["changes"] = [c for c in self.changes if round(c["time"] / step) <= self.flown.step]
         return format_toml(tables)
 
 
-def save_flight(folder: Path, flown: Flown, engine: str) -> Flight:
+def save_flight(folder: Path, flown: RawResult, engine: str) -> Flight:
     """Write the flight that was flown into the folder of its recorded mission."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FlightWarning)
-        p = Prepared(load_mission(folder / MISSION))
+        p = FlightPlan(load_mission(folder / MISSION))
     flight = flight_of(p, flown, engine)
     flight.save(folder / FLIGHT)
     return flight

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from tandemlift.laws.controllers import CONTROLLERS
+from tandemlift.controllers import CONTROLLERS
 from tandemlift.live.wire.scene import SceneParameter
 from tandemlift.live.wire.server_messages import MAX_FORCE, STIFFNESS, THRESHOLD
 from tandemlift.missions import tables_of
-from tandemlift.missions.explain import MISSING, value_at
+from tandemlift.missions.values import MISSING, value_at
 from tandemlift.settings import Mission
 
 EVERY = "vehicle.quadrotors.each."  # begins the key of a parameter that all quadrotors share
@@ -33,7 +33,7 @@ TUNABLE = (
     TunableParameter(THRESHOLD, "threshold", "admittance", "N", 0.05, 5.0),
     TunableParameter("compliance.max_speed", "maximum speed", "admittance", "m/s", 0.1, 3.0),
     TunableParameter(STIFFNESS, "stiffness", "hand spring", "N/m", 1.0, 40.0),
-    TunableParameter("partner.damping", "damping", "hand spring", "N s/m", 0.0, 20.0),
+    TunableParameter("person.damping", "damping", "hand spring", "N s/m", 0.0, 20.0),
     TunableParameter(MAX_FORCE, "maximum force", "hand spring", "N", 0.5, 20.0),
     TunableParameter("controller.gains.xi", "ξ", "controller", "1/s", 0.05, 20.0),
     TunableParameter("controller.gains.lambda_1", "λ₁", "controller", "1/s", 0.05, 40.0),

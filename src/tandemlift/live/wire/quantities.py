@@ -12,7 +12,7 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import AfterValidator, Field
 
-from tandemlift.laws.phases import NAMES
+from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.settings.leaves import must
 
 MAX_WORD = 100  # characters of a key or of a word

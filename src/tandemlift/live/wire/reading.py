@@ -7,9 +7,10 @@ from typing import Annotated, Any
 from pydantic import Field, TypeAdapter, ValidationError
 from pydantic_core import from_json
 
-from tandemlift.errors import InputError, suggestion
+from tandemlift.common.errors import InputError, suggestion
 from tandemlift.live.wire.page_messages import PAGE_MESSAGES, PageMessage
-from tandemlift.missions.explain import explain, shown
+from tandemlift.missions.refusals import problems_in
+from tandemlift.missions.values import shown
 
 MAX_SIZE = 65_536  # bytes; a page that sends more is cut off
 MAX_LENGTH = 4_096  # characters that are read: twice what the longest message has
@@ -68,5 +69,5 @@ def _refusal(text: str) -> Refusal:
     try:
         PAGE_MESSAGES[name].model_validate_json(text)
     except ValidationError as error:
-        return Refusal(name, explain(PAGE_MESSAGES[name], error, {name: data}, (name,))[0].sentence)
+        return Refusal(name, problems_in(PAGE_MESSAGES[name], error, {name: data}, (name,))[0].sentence)
     return Refusal(name, "must be text in UTF-8")

@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from tandemlift import __version__
-from tandemlift.assembly.surroundings import floor_of
-from tandemlift.laws.alarms import FAULTS, alarm_name
-from tandemlift.laws.contact import soles_below
-from tandemlift.laws.health import KINDS
-from tandemlift.laws.phases import NAMES
+from tandemlift.algebra.vector import Nothing
+from tandemlift.common.types import Array
+from tandemlift.laws.guidance.fault_reactions import FAULTS, alarm_name
+from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.laws.mechanics.contact import soles_below
+from tandemlift.laws.sensors.health import KINDS
 from tandemlift.live.wire.frames import RATE, layout_for
 from tandemlift.live.wire.scene import (
     FlightScene,
@@ -27,9 +28,9 @@ from tandemlift.live.wire.scene import (
     SceneWall,
 )
 from tandemlift.missions import tables_of
+from tandemlift.models.surroundings import floor_from
 from tandemlift.settings import Mission, Quadrotor, wall_tables
-from tandemlift.vector import Nothing
-from tandemlift.vehicle import Array, Vehicle
+from tandemlift.vehicle import Vehicle
 
 SPRING = SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a page's hand, where a mission has none
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
@@ -53,7 +54,7 @@ def scene_of(
         spring: the virtual hand by which a page pulls.
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
-    floor = floor_of(mission, vehicle)
+    floor = floor_from(mission, vehicle)
     height = _lowest(mission, vehicle) if isinstance(floor, Nothing) else float(floor.height)
     scene = scene_of_tables(tables_of(mission), vehicle, engine, height)
     scene["spring"], scene["parameters"] = spring, list(parameters)

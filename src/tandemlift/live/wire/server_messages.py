@@ -7,7 +7,7 @@ from typing import Annotated, Literal, NotRequired, TypedDict, get_args, get_typ
 from tandemlift.live.wire.quantities import ParameterValue, Phase, Seconds
 from tandemlift.live.wire.scene import FlightScene
 
-THRESHOLD, STIFFNESS, MAX_FORCE = "admittance.threshold", "partner.stiffness", "partner.max_force"
+THRESHOLD, STIFFNESS, MAX_FORCE = "admittance.threshold", "person.stiffness", "person.max_force"
 SHOWN_PARAMETERS = {"THRESHOLD": THRESHOLD, "STIFFNESS": STIFFNESS, "MAX_FORCE": MAX_FORCE}  # the page draws these
 
 

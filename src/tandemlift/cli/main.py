@@ -1,0 +1,156 @@
+"""The command line: `tandemlift run MISSION` and what there is to choose from."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import click
+
+from tandemlift import __version__
+from tandemlift.cli.compare import compare
+from tandemlift.cli.explain import explain
+from tandemlift.cli.export import export
+from tandemlift.cli.gazebo import gazebo
+from tandemlift.cli.interrupts import handle_interrupts, leave
+from tandemlift.cli.live import live
+from tandemlift.cli.notices import compile_notices
+from tandemlift.cli.render import render
+from tandemlift.cli.replay import replay
+from tandemlift.cli.report import report
+from tandemlift.cli.ros import ros
+from tandemlift.cli.run import echo, run
+from tandemlift.cli.schema import schema
+from tandemlift.cli.validate import validate
+from tandemlift.common.errors import FlightWarning, InputError, suggestion
+from tandemlift.trace.compile_events import watching
+
+BAD_INPUT = 2
+INTERRUPTED = 130  # as shells report it
+
+
+class Commands(click.Group):
+    """A group that lists its verbs in the order of a newcomer's needs, and suggests the nearest one."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The verbs as they were added."""
+        return list(self.commands)
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        """As click does, with what there is for a misspelt verb."""
+        verb = args[0] if args else ""
+        if verb and not verb.startswith("-") and self.get_command(ctx, verb) is None:
+            verbs = self.list_commands(ctx)
+            ctx.fail(f"No such command {verb!r}; there are {', '.join(verbs)}.{suggestion(verb, verbs)}")
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="tandemlift")
+def cli() -> None:
+    """Carry a load with quadrotors that a person steers by pushing it.
+
+    \b
+    Start with:     tandemlift run paper
+    Change it:      tandemlift run paper --set controller.switching=saturation
+    Your mission:   tandemlift template > mine.toml
+                    tandemlift run mine.toml
+    What a key is:  tandemlift explain admittance.damping
+    Your law:       tandemlift run mine.toml --controller my_pd.py
+    """
+
+
+cli.add_command(run)
+cli.add_command(compare)
+cli.add_command(render)
+cli.add_command(live)
+cli.add_command(replay)
+cli.add_command(gazebo)
+cli.add_command(ros)
+cli.add_command(validate)
+cli.add_command(export)
+cli.add_command(report)
+
+
+def _print_table(rows: Mapping[str, str]) -> None:
+    width = max(map(len, rows)) + 2
+    for name, summary in rows.items():
+        echo(f"{name:{width}}{summary}")
+
+
+@cli.command()
+def missions() -> None:
+    """List the built-in missions."""
+    from tandemlift.missions import built_in
+
+    _print_table(built_in())
+
+
+@cli.command()
+def template() -> None:
+    """Print a commented mission file with every key, its unit and its meaning.
+
+    \b
+    tandemlift template > mine.toml
+    tandemlift run mine.toml
+    """
+    from tandemlift.missions.reference.template import template_text
+
+    echo(template_text(), nl=False)
+
+
+cli.add_command(explain)
+cli.add_command(schema)
+
+
+@cli.command()
+def controllers() -> None:
+    """List the controllers."""
+    from tandemlift.controllers import CONTROLLERS
+
+    _print_table({name: c.summary for name, c in sorted(CONTROLLERS.items())})
+
+
+@cli.command()
+def engines() -> None:
+    """List the engines."""
+    from tandemlift.engines.registry import ENGINES
+
+    _print_table({name: e.summary for name, e in ENGINES.items()})
+
+
+_shown: set[str] = set()
+
+
+def _show_warning(message: Warning | str, *_: Any, **__: Any) -> None:
+    if str(message) not in _shown:
+        _shown.add(str(message))
+        click.echo(f"warning: {message}", err=True)
+
+
+def main() -> None:
+    """Run the command line: bad input ends with one message and exit code 2, never with a traceback."""
+    warnings.simplefilter("always", FlightWarning)
+    warnings.showwarning = _show_warning
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: what was started is ended too
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a character shows '?'
+    handle_interrupts()
+    try:
+        with watching(compile_notices):
+            sys.exit(cli.main(prog_name="tandemlift", standalone_mode=False))
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("stopped; nothing more is written", err=True)
+        leave(INTERRUPTED)
+    except InputError as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(BAD_INPUT)
+    except OSError as error:
+        click.echo(f"error: {error.filename or ''}: {error.strerror or error}".replace(": : ", ": "), err=True)
+        sys.exit(BAD_INPUT)

@@ -1,0 +1,104 @@
+"""What the baseline controllers share: from an acceleration to a force, a tilt, an attitude reference and a command.
+
+Every one of them is told the same and uses it alike: the force of the person and the disturbance are countered, the
+reference's acceleration is led, yaw rate and yaw acceleration are fed forward. So they differ in their feedback alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import Field
+
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.law import law
+from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.controllers.attitude_reference import CommandFilterState, command_filter, shape, with_heading
+from tandemlift.controllers.interface import Command
+from tandemlift.laws.mechanics.body import UP, Wrench
+from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
+from tandemlift.laws.mechanics.rotation import Euler
+from tandemlift.laws.mechanics.tilt import TiltZXY, desired_orientation, tilt_limit, total_thrust
+from tandemlift.settings import ControllerTable, Tilt, key
+from tandemlift.vehicle import Vehicle
+
+Bandwidth = Annotated[float, Field(gt=0.0, le=1e4)]  # rad/s
+TUNED = "found by benchmarks/tune.py"
+ATTITUDE_FILTER = "bandwidth of the command filter of the attitude reference"
+
+
+class CascadeTable(ControllerTable):
+    """`[controller]`: the keys that the baseline controllers share."""
+
+    filter_bandwidth: Bandwidth = key(15.0, "rad/s", ATTITUDE_FILTER, source="chosen")
+    max_tilt: Tilt = key(
+        0.5, "rad", "largest angle of the wanted force from the vertical", source="chosen: as compliance.max_tilt"
+    )
+    human_force_feedforward: bool = key(True, None, "true: the position law counters the measured push")
+
+
+class ControllerModel(NamedTuple):
+    """The vehicle as the controller believes it to be, and how a force becomes an attitude reference.
+
+    `feedforward` is 1 to counter the measured push, else 0.
+    """
+
+    mass: Any
+    inertia: Any
+    drag_force: Vec3
+    drag_moment: Vec3
+    tilt: Any
+    shaping: Any
+    feedforward: Any
+
+
+@law
+def wanted_force(b: ControllerModel, acceleration: Vec3, measured: Any, reference: Any) -> Vec3:
+    """The force (u_x, u_y, u_z) [N, world axes] for an acceleration [m/s²] beyond the reference's; no limit yet."""
+    ahead = reference.trajectory.acceleration + reference.lead
+    force = (ahead + acceleration + UP * GRAVITY) * b.mass + b.drag_force * measured.state.velocity
+    return force - measured.push * b.feedforward - measured.disturbance.force
+
+
+@law
+def tracked_attitude(b: ControllerModel, memory: CommandFilterState, e: Euler, u: Vec3, reference: Any) -> Any:
+    """(what the attitude law tracks, the new memory) for a force u [N, world axes] at the actual attitude e."""
+    desired, memory = shape(b.shaping, memory, desired_orientation(TiltZXY(), u, e, reference.yaw))
+    return with_heading(desired, reference), memory
+
+
+@law
+def wanted_moment(b: ControllerModel, turn: Vec3, measured: Any) -> Vec3:
+    """The moments (U₂, U₃, U₄) [N·m, body axes] that turn the vehicle by an angular acceleration [rad/s²]."""
+    rates = measured.state.rates
+    moment = turn_by(b.inertia, turn) - gyroscopic(b.inertia, rates) + b.drag_moment * rates
+    return moment - measured.disturbance.moment
+
+
+@law
+def commanded(b: ControllerModel, e: Euler, u: Vec3, turn: Vec3, angles: Vec3, measured: Any) -> Command:
+    """The command for a force [N, world axes], an angular acceleration [rad/s²], and the angles [rad] tracked."""
+    return Command(Wrench(total_thrust(e, u), wanted_moment(b, turn, measured)), angles)
+
+
+def controller_model(s: CascadeTable, vehicle: Vehicle, step: float) -> ControllerModel:
+    """The shared part of the gains, for samples every `step` [s]."""
+    return ControllerModel(
+        mass=vehicle.mass,
+        inertia=inertia_value(vehicle.inertia),
+        drag_force=vec3(vehicle.drag.force),
+        drag_moment=vec3(vehicle.drag.moment),
+        tilt=tilt_limit(s.max_tilt),
+        shaping=command_filter(s.filter_bandwidth, step),
+        feedforward=1.0 if s.human_force_feedforward else 0.0,
+    )
+
+
+def halves(*sixes: Sequence[float]) -> tuple[list[Sequence[float]], list[Sequence[float]]]:
+    """The first three numbers of each, those of position, and the last three, those of attitude."""
+    return [six[:3] for six in sixes], [six[3:] for six in sixes]
+
+
+LEVEL = CommandFilterState(ZERO, ZERO)
+"""The attitude reference at the start."""

@@ -1,0 +1,47 @@
+"""What a controller is given and what it answers."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import choice
+from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.laws.mechanics.body import State, Wrench
+
+
+class Disturbance(NamedTuple):
+    """What a controller is to counter besides a person's force.
+
+    The force that the pilot's observer finds [N, world axes], and the moment [N·m, body axes] that it and the person
+    exert about the centre of mass.
+    """
+
+    force: Vec3
+    moment: Vec3
+
+
+CALM = Disturbance(ZERO, ZERO)
+
+
+class Measured(NamedTuple):
+    """What the pilot knows at a sample: the state, the force of the person [N, world axes], and the disturbance."""
+
+    state: State
+    push: Vec3
+    disturbance: Disturbance = CALM
+
+
+class Command(NamedTuple):
+    """The wanted wrench (U₁, U₂…U₄), and the Euler angles [rad] that the attitude law tracks."""
+
+    wrench: Wrench
+    euler: Vec3
+
+
+class NoMemory(NamedTuple):
+    """Of a controller without memory."""
+
+
+@choice
+def control(gains: Any, memory: Any, measured: Any, reference: Any) -> Any:
+    """One sample of the controller with this type of gains: (Command, the new memory)."""

@@ -1,0 +1,72 @@
+"""A controller of one's own, from a Python file."""
+
+from __future__ import annotations
+
+import hashlib
+import linecache
+import re
+import sys
+from importlib.util import decode_source
+from pathlib import Path
+from types import FunctionType, ModuleType
+
+from tandemlift.algebra.law import LAWS
+from tandemlift.algebra.vector import dot
+from tandemlift.common.errors import InputError
+from tandemlift.controllers.registry import CONTROLLERS, Controller
+from tandemlift.controllers.trial import error_text
+
+_loaded: dict[Path, tuple[bytes, Controller]] = {}
+
+
+def load_controller(path: str | Path) -> Controller:
+    """Run a Python file that registers one controller, and return it. An unchanged file runs only once.
+
+    The file becomes a module named by its content, so that its compiled loop is found again on disk, wherever it lies.
+
+    Raises:
+        InputError: the file is missing, fails, or registers no controller.
+    """
+    path = Path(path).resolve()
+    if not path.is_file():
+        raise InputError(f"controller file {path} does not exist")
+    source = path.read_bytes()
+    held = _loaded.get(path)
+    if held and held[0] == source and CONTROLLERS.get(held[1].name) is held[1]:
+        return held[1]
+    digest = hashlib.sha256(source).hexdigest()[:12]
+    module = ModuleType(f"tandemlift_user_{re.sub(r'[^A-Za-z0-9_]', '_', path.stem)}_{digest}")
+    module.__file__ = str(path)
+    before = dict(CONTROLLERS), sys.modules.get(module.__name__)
+    sys.modules[module.__name__] = module  # also while it runs: annotations are looked up there
+    try:
+        code = compile(source, str(path), "exec")
+        lines = decode_source(source).splitlines(True)
+        linecache.cache[str(path)] = len(source), None, lines, str(path)  # what is traced, even if the file changes
+        exec(code, module.__dict__)
+        new = [c for name, c in CONTROLLERS.items() if before[0].get(name) is not c]
+        if len(new) != 1:
+            raise InputError(f"registers {len(new)} controllers; it must register one with @register(NAME, SETTINGS)")
+        _check_calls(module)
+    except (Exception, SystemExit) as error:
+        CONTROLLERS.clear()
+        CONTROLLERS.update(before[0])
+        sys.modules.pop(module.__name__)
+        if before[1] is not None:
+            sys.modules[module.__name__] = before[1]
+        raise InputError(f"controller file {error_text(error, str(path))}") from error
+    _loaded[path] = source, new[0]
+    return new[0]
+
+
+def _check_calls(module: ModuleType) -> None:
+    """Refuse a law that calls a function that is none: the compiler would not know it."""
+    laws = set(map(id, LAWS))
+    for function in LAWS:
+        if function.__globals__ is not module.__dict__:
+            continue
+        for name in function.__code__.co_names:
+            called = module.__dict__.get(name)
+            if isinstance(called, FunctionType) and called is not dot and id(called) not in laws:
+                line = function.__code__.co_firstlineno
+                raise InputError(f"{function.__name__}() in line {line} calls {name}(), which is no law: mark it @law")

@@ -1,0 +1,186 @@
+"""Linear-quadratic regulator about hover, of the whole chain from the moment to the position.
+
+Source: Kalman, Contributions to the theory of optimal control, 1960; weights by Bryson and Ho, Applied Optimal Control,
+1975. About hover the vehicle falls apart into chains, in axes that turn with its heading:
+
+    x with pitch, y with roll:   ṗ = v,  v̇ = g θ,  θ̇ = q,  q̇ = α,  τ α̇ = u − α
+    z:                           ṗ = v,  v̇ = a,                  τ ȧ = u − a
+    yaw:                         ψ̇ = r,  ṙ = α,                  τ α̇ = u − α
+
+where τ stands for the rotors' lag and delay. Each minimises ∫ xᵀQx + Ru² dt: u = −Kx with K = R⁻¹BᵀX from the algebraic
+Riccati equation, solved by the stable eigenvectors of its Hamiltonian matrix (Potter, 1966) when the mission starts. α
+and a are not measured: a model of the lag runs beside. x is the deviation from what the reference needs, which is fed
+forward: its tilt, from a command filter, with its derivatives.
+
+Of the linear vehicle without delay: stable, with 60° of phase and half to any gain left at the input. The tilt that
+position errors ask for is held within `max_tilt`. No integral: a constant force leaves an offset unless it is told.
+
+Tune first: the ratio of position to moment weights; then the rates' for damping.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import clip
+from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.controllers.attitude_reference import CommandFilterState
+from tandemlift.controllers.cascade import (
+    LEVEL,
+    TUNED,
+    CascadeTable,
+    ControllerModel,
+    commanded,
+    controller_model,
+    tracked_attitude,
+    wanted_force,
+)
+from tandemlift.controllers.interface import control
+from tandemlift.controllers.registry import register
+from tandemlift.laws.mechanics.body import UP
+from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
+from tandemlift.laws.mechanics.tilt import within_tilt
+from tandemlift.settings import NonNegative3, Positive, Positive3, key
+from tandemlift.vehicle import Vehicle
+
+
+class LQRSettings(CascadeTable):
+    """`[controller]`: settings of the linear-quadratic regulator; only the ratios of weights count."""
+
+    position_weight: Positive3 = key(
+        (59.4, 22.3, 3100.0), "1/m²", "weight of the position error along x, y, z", source=TUNED
+    )
+    velocity_weight: NonNegative3 = key(
+        (0.0126, 0.0909, 519.0), "s²/m²", "weight of the velocity error along x, y, z", source=TUNED
+    )
+    attitude_weight: Positive3 = key(
+        (0.116, 3.58, 16.9), "1/rad²", "weight of the attitude error in roll, pitch, yaw", source=TUNED
+    )
+    rates_weight: NonNegative3 = key(
+        (0.0139, 0.0421, 0.171), "s²/rad²", "weight of the rates in roll, pitch, yaw", source=TUNED
+    )
+    thrust_weight: Positive = key(0.184, "s⁴/m²", "weight of the commanded vertical acceleration", source=TUNED)
+    moment_weight: Positive3 = key(
+        (0.00654, 0.0039, 0.998),
+        "s⁴/rad²",
+        "weight of the commanded angular acceleration in roll, pitch, yaw",
+        source=TUNED,
+    )
+    lag: Positive = key(
+        0.08, "s", "time constant τ of the lag that stands for the rotors and their delay", source=TUNED
+    )
+
+
+class LQR(NamedTuple):
+    """Gains: the vehicle as it is believed to be, and K of the chains.
+
+    `lean_*` give the tilt [rad] that an error of position or velocity asks for, in axes of the heading; `height_*` are
+    of z; the rest are of roll, pitch, yaw. `share` is how far the lag comes in a step.
+    """
+
+    vehicle: ControllerModel
+    lean_position: Vec3
+    lean_velocity: Vec3
+    most_lean: Any
+    height_position: Any
+    height_velocity: Any
+    height_acceleration: Any
+    angles: Vec3
+    rates: Vec3
+    accelerations: Vec3
+    share: Any
+
+
+class LQRState(NamedTuple):
+    """Memory: of the attitude reference, and the modelled angular [rad/s²] and vertical [m/s²] acceleration."""
+
+    shaped: CommandFilterState
+    turn: Vec3
+    climb: Any
+
+
+@law
+def across(e: Euler, v: Vec3) -> Vec3:
+    """A world vector's horizontal part as the tilt to roll and pitch that moves the vehicle that way."""
+    return Vec3(v.x * e.sin_yaw - v.y * e.cos_yaw, v.x * e.cos_yaw + v.y * e.sin_yaw, 0.0)
+
+
+@law
+def lean(k: LQR, e: Euler, off: Vec3, off_rate: Vec3) -> Vec3:
+    """The tilt (φ, θ, 0) [rad] by which errors of position [m] and velocity [m/s] are to be removed."""
+    wished = k.lean_position * across(e, off) + k.lean_velocity * across(e, off_rate)
+    return clip(wished, -k.most_lean, k.most_lean)
+
+
+@control.register(LQR)
+def lqr(k, memory, measured, reference):
+    """The whole controller at one sample."""
+    state, target = measured.state, reference.trajectory
+    e = euler_from_quaternion(state.attitude)
+    off, off_rate = target.position - state.position, target.velocity - state.velocity
+    climb = k.height_position * off.z + k.height_velocity * off_rate.z - k.height_acceleration * memory.climb
+    u = within_tilt(k.vehicle.tilt, wanted_force(k.vehicle, UP * climb, measured, reference))
+    tracked, shaped = tracked_attitude(k.vehicle, memory.shaped, e, u, reference)
+    angles = tracked.angles + lean(k, e, off, off_rate)
+    spin = tracked.rates - euler_rates_from_rates(e, state.rates)
+    turn = k.angles * turned_least(angles - e.angles) + k.rates * spin - k.accelerations * memory.turn
+    after = LQRState(
+        shaped, memory.turn + (turn - memory.turn) * k.share, memory.climb + (climb - memory.climb) * k.share
+    )
+    return commanded(k.vehicle, e, u, tracked.accelerations + turn, angles, measured), after
+
+
+def chain(length: int, lag: float, *, gravity: bool) -> tuple[np.ndarray, np.ndarray]:
+    """A and B of a chain of `length` integrators behind a lag [s]; with `gravity`, the second is of g times a tilt."""
+    A = np.diag(np.ones(length), 1)
+    if gravity:
+        A[1, 2] = GRAVITY
+    A[length, length] = -1.0 / lag
+    B = np.zeros((length + 1, 1))
+    B[length, 0] = 1.0 / lag
+    return A, B
+
+
+def regulator(A: np.ndarray, B: np.ndarray, Q: np.ndarray, R: float) -> np.ndarray:
+    """K (n,) = R⁻¹BᵀX of a single input, with X the stabilising solution of AᵀX + XA − XBR⁻¹BᵀX + Q = 0."""
+    n = len(A)
+    values, vectors = np.linalg.eig(np.block([[A, -B @ B.T / R], [-Q, -A.T]]))
+    stable = vectors[:, np.argsort(values.real)[:n]]
+    X = np.real(np.linalg.solve(stable[:n].T, stable[n:].T).T)
+    return np.asarray((B.T @ X / R)[0])
+
+
+def _sideways(s: LQRSettings, place: int, turned: int) -> np.ndarray:
+    """K of position, velocity, tilt, rate and angular acceleration: axis `place` of position, `turned` of attitude."""
+    Q = np.diag(
+        [s.position_weight[place], s.velocity_weight[place], s.attitude_weight[turned], s.rates_weight[turned], 0.0]
+    )
+    return regulator(*chain(4, s.lag, gravity=True), Q, s.moment_weight[turned])
+
+
+@register("lqr", LQRSettings)
+def start(s: LQRSettings, vehicle: Vehicle, step: float) -> tuple[LQR, LQRState]:
+    """Linear-quadratic regulator about hover, from moment to position (Kalman)."""
+    roll, pitch = _sideways(s, 1, 0), _sideways(s, 0, 1)
+    short = chain(2, s.lag, gravity=False)
+    z = regulator(*short, np.diag([s.position_weight[2], s.velocity_weight[2], 0.0]), s.thrust_weight)
+    yaw = regulator(*short, np.diag([s.attitude_weight[2], s.rates_weight[2], 0.0]), s.moment_weight[2])
+    gains = LQR(
+        vehicle=controller_model(s, vehicle, step),
+        lean_position=Vec3(float(roll[0] / roll[2]), float(pitch[0] / pitch[2]), 0.0),
+        lean_velocity=Vec3(float(roll[1] / roll[2]), float(pitch[1] / pitch[2]), 0.0),
+        most_lean=s.max_tilt,
+        height_position=float(z[0]),
+        height_velocity=float(z[1]),
+        height_acceleration=float(z[2]),
+        angles=Vec3(float(roll[2]), float(pitch[2]), float(yaw[0])),
+        rates=Vec3(float(roll[3]), float(pitch[3]), float(yaw[1])),
+        accelerations=Vec3(float(roll[4]), float(pitch[4]), float(yaw[2])),
+        share=-math.expm1(-step / s.lag),
+    )
+    return gains, LQRState(LEVEL, ZERO, 0.0)

@@ -1,0 +1,158 @@
+"""Cascaded PID: position P → velocity PID → attitude P → rate PID, as autopilots have it.
+
+Source: the multicopter cascade of PX4 (Meier, Honegger and Pollefeys, PX4, ICRA 2015, and its documentation);
+anti-windup by back-calculation and derivative filter: Åström and Hägglund, Advanced PID Control, 2006, sections 3.3
+and 3.5. Every stage is fed forward with what the reference knows, so the feedback has only the rest to do.
+
+The velocity integral is held within a limit, and drawn back by what the tilt limit takes off the force; the rate
+integral is held within a limit. No guarantee beyond that of a well-tuned cascade: each stage some three times as fast
+as the one around it.
+
+Tune from the inside: rates, attitude, velocity, position; integrals last.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import clip
+from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.controllers.attitude_reference import CommandFilterState
+from tandemlift.controllers.cascade import (
+    ATTITUDE_FILTER,
+    LEVEL,
+    TUNED,
+    Bandwidth,
+    CascadeTable,
+    ControllerModel,
+    commanded,
+    controller_model,
+    tracked_attitude,
+    wanted_force,
+)
+from tandemlift.controllers.interface import control
+from tandemlift.controllers.registry import register
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rates_from_euler_rates, turned_least
+from tandemlift.laws.mechanics.tilt import within_tilt
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
+from tandemlift.settings import NonNegative3, Positive3, key
+from tandemlift.vehicle import Vehicle
+
+
+class PIDSettings(CascadeTable):
+    """`[controller]`: settings of the cascaded PID: x, y, z in world axes; roll, pitch, yaw; rates in body axes."""
+
+    filter_bandwidth: Bandwidth = key(13.5, "rad/s", ATTITUDE_FILTER, source=TUNED)
+    position_p: Positive3 = key((4.36, 0.765, 2.26), "1/s", "wanted velocity over the position error", source=TUNED)
+    velocity_p: Positive3 = key((3.09, 3.11, 18.1), "1/s", "wanted acceleration over the velocity error", source=TUNED)
+    velocity_i: NonNegative3 = key((0.414, 0.279, 2.04), "1/s²", "its integral gain", source=TUNED)
+    velocity_d: NonNegative3 = key((0.0628, 0.039, 0.0138), "1", "its derivative gain", source=TUNED)
+    velocity_i_limit: NonNegative3 = key(
+        (2.0, 2.0, 2.0), "m/s²", "largest acceleration from the integral", source="chosen"
+    )
+    attitude_p: Positive3 = key((3.45, 0.173, 2.43), "1/s", "wanted rates over the attitude error", source=TUNED)
+    rate_p: Positive3 = key(
+        (7.94, 20.5, 3.87), "1/s", "wanted angular acceleration over the error of the rates", source=TUNED
+    )
+    rate_i: NonNegative3 = key((0.904, 1.93, 0.0707), "1/s²", "its integral gain", source=TUNED)
+    rate_d: NonNegative3 = key((0.0191, 0.178, 0.0439), "1", "its derivative gain", source=TUNED)
+    rate_i_limit: NonNegative3 = key(
+        (2.0, 2.0, 0.3), "rad/s²", "largest angular acceleration from the integral", source="chosen"
+    )
+    derivative_bandwidth: Bandwidth = key(
+        254.0, "rad/s", "bandwidth of the low-pass filter in both derivatives", source=TUNED
+    )
+    tracking: Bandwidth = key(
+        2.0,
+        "1/s",
+        "anti-windup: rate at which the velocity integral follows what the tilt limit takes off (back-calculation)",
+        source="chosen",
+    )
+
+
+class PIDGains(NamedTuple):
+    """A PID of three axes; `integral` is of one step, `limit` is of what it adds up to."""
+
+    proportional: Vec3
+    integral: Vec3
+    derivative: Vec3
+    limit: Vec3
+    smoothing: LowPass
+
+
+class PIDStageState(NamedTuple):
+    """Memory of a PID: what the integral gives, and the error behind the low-pass."""
+
+    integral: Vec3
+    error: LowPassState
+
+
+class PID(NamedTuple):
+    """Gains: the vehicle as it is believed to be, and the stages; `tracking` is of one step, over the mass."""
+
+    vehicle: ControllerModel
+    position: Vec3
+    velocity: PIDGains
+    attitude: Vec3
+    rates: PIDGains
+    tracking: Any
+
+
+class PIDState(NamedTuple):
+    """Memory: that of the attitude reference and of both PIDs."""
+
+    shaped: CommandFilterState
+    velocity: PIDStageState
+    rates: PIDStageState
+
+
+@law
+def pid_of(k: PIDGains, memory: PIDStageState, error: Vec3) -> Any:
+    """(P + I + D of an error, the new memory)."""
+    integral = clip(memory.integral + error * k.integral, -k.limit, k.limit)
+    smoothed = smooth(k.smoothing, memory.error, error)
+    return error * k.proportional + integral + smoothed.rate * k.derivative, PIDStageState(integral, smoothed)
+
+
+@law
+def drawn_back(memory: PIDStageState, excess: Vec3) -> PIDStageState:
+    """The memory with its integral less what could not be given."""
+    return PIDStageState(memory.integral - excess, memory.error)
+
+
+@control.register(PID)
+def pid(k, memory, measured, reference):
+    """The whole controller at one sample."""
+    state, target = measured.state, reference.trajectory
+    e = euler_from_quaternion(state.attitude)
+    lacking = target.velocity + (target.position - state.position) * k.position - state.velocity
+    wished, velocity = pid_of(k.velocity, memory.velocity, lacking)
+    wanted = wanted_force(k.vehicle, wished, measured, reference)
+    u = within_tilt(k.vehicle.tilt, wanted)
+    velocity = drawn_back(velocity, (wanted - u) * k.tracking)
+    tracked, shaped = tracked_attitude(k.vehicle, memory.shaped, e, u, reference)
+    angle_rates = tracked.rates + turned_least(tracked.angles - e.angles) * k.attitude
+    spin, rates = pid_of(k.rates, memory.rates, rates_from_euler_rates(e, angle_rates) - state.rates)
+    turn = tracked.accelerations + spin
+    return commanded(k.vehicle, e, u, turn, tracked.angles, measured), PIDState(shaped, velocity, rates)
+
+
+@register("pid", PIDSettings)
+def start(s: PIDSettings, vehicle: Vehicle, step: float) -> tuple[PID, PIDState]:
+    """Cascaded PID: position P, velocity PID, attitude P, rate PID, with anti-windup."""
+    smoothing = low_pass(s.derivative_bandwidth, step)
+
+    def stage(p: Any, i: Any, d: Any, limit: Any) -> PIDGains:
+        return PIDGains(vec3(p), vec3(i) * step, vec3(d), vec3(limit), smoothing)
+
+    rest = PIDStageState(ZERO, LowPassState(ZERO, ZERO))
+    gains = PID(
+        vehicle=controller_model(s, vehicle, step),
+        position=vec3(s.position_p),
+        velocity=stage(s.velocity_p, s.velocity_i, s.velocity_d, s.velocity_i_limit),
+        attitude=vec3(s.attitude_p),
+        rates=stage(s.rate_p, s.rate_i, s.rate_d, s.rate_i_limit),
+        tracking=s.tracking * step / vehicle.mass,
+    )
+    return gains, PIDState(LEVEL, rest, rest)

@@ -1,0 +1,117 @@
+"""Engines: where the body lives. Each is one file and one entry here.
+
+An engine is given rotor thrusts, loads of the air and the person's push, moves its body by a step, and tells the state
+after it and what sensors felt at its start. It knows no pilot, no sensors' errors and no mission but for its vehicle,
+its start and its ground.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
+
+from tandemlift.common.errors import unknown
+from tandemlift.common.types import Array
+from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+
+class EngineBody(Protocol):
+    """A body in an engine of its own.
+
+    Attributes:
+        state: (13,) position [m] and velocity [m/s] of the vehicle's centre of mass in world axes, attitude quaternion
+            w, x, y, z (body to world), rates [rad/s] in body axes.
+        felt: (6 + 6N,) the numbers of a `Felt`: specific force at the payload's centre of mass [m/s²], what
+            the quadrotors put on the payload at their joints (x, y, z of all forces [N], then of all torques [N m]),
+            body axes; the force of floor and walls on the vehicle [N, world axes].
+    """
+
+    state: Array
+    felt: Array
+
+    def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
+        """Move by one step of the mission, and bring `state` to its end and `felt` to its start.
+
+        Args:
+            thrusts: of every rotor [N] (4N,).
+            loads: (6 + 6N,) the numbers of a `laws.mechanics.loads.Loads`, held in world axes; empty without wind.
+            force: of the person [N, world axes] (3,), the mean over the step.
+            moment: of the person about the centre of mass [N m, body axes] (3,), at the start of the step.
+        """
+
+
+@runtime_checkable
+class WaitingBody(Protocol):
+    """A body that waits for its pilot, and gives it up when it is silent."""
+
+    def rest(self) -> None:
+        """Take no step for now, and stay the pilot; to be called ten times a second."""
+
+
+Make = Callable[[Mission, Vehicle, Any, Any], EngineBody]
+
+
+def _mujoco() -> Make:
+    from tandemlift.engines.mujoco import MuJoCoBody
+
+    return MuJoCoBody
+
+
+def _gazebo() -> Make:
+    from tandemlift.engines.gazebo import GazeboBody
+
+    return GazeboBody
+
+
+def _gazebo_over_ros() -> Make:
+    from tandemlift.engines.gazebo_ros import over_ros
+
+    return over_ros
+
+
+class Engine(NamedTuple):
+    """An entry of the registry; `load` gives what makes a flight's body, None for the compiled loop's own."""
+
+    name: str
+    summary: str
+    load: Callable[[], Make] | None = None
+
+    def start(self, mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> EngineBody:
+        """The body of a mission at t = 0; `floor`: a `Floor`, `walls`: a `Walls` (laws.mechanics), or `Nothing`.
+
+        Raises:
+            InputError: the engine is not installed, or cannot take the mission.
+        """
+        assert self.load is not None, "the compiled engine has no body of its own"
+        return self.load()(mission, vehicle, floor, walls)
+
+
+ENGINES = {
+    e.name: e
+    for e in [
+        Engine("compiled", "One rigid body, Runge-Kutta of order four, compiled together with the pilot."),
+        Engine(
+            "mujoco",
+            "Separate bodies welded together in MuJoCo, with its own sensors and contact (extra: mujoco).",
+            _mujoco,
+        ),
+        Engine(
+            "gazebo",
+            "Separate bodies on fixed joints in Gazebo 11 (ODE), led over UDP (docs/gazebo.md).",
+            _gazebo,
+        ),
+        Engine("gazebo-ros", "The same, led over topics of ROS 1 (docs/gazebo.md#over-ros).", _gazebo_over_ros),
+    ]
+}
+
+
+def engine_named(name: str) -> Engine:
+    """The engine of that name.
+
+    Raises:
+        InputError: there is none.
+    """
+    if name not in ENGINES:
+        raise unknown("engine", name, ENGINES)
+    return ENGINES[name]

@@ -1,0 +1,43 @@
+"""The floor under a flight: where it is, and how high the soles of the feet are over it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import Quat
+from tandemlift.common.types import Array
+from tandemlift.figures.drawing.vehicle import mass_of, vehicle_of
+from tandemlift.flight import Flight
+from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.settings.surroundings import GroundTable
+from tandemlift.vehicle import Vehicle
+
+
+def _soles(vehicle: Vehicle) -> Array:
+    """The soles (N, 4, 3) from the vehicle's centre of mass [m, body axes]."""
+    fleet = vehicle.quadrotors
+    return soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+
+
+def floor_height(flight: Flight) -> float | None:
+    """Height z of the floor [m], or None where there is none.
+
+    A mission that does not give it means the height at which the vehicle stands on it at the start.
+    """
+    ground = GroundTable.model_validate(flight.mission.get("ground", {}))
+    if ground.model == "none" or ground.height is not None:
+        return ground.height if ground.model != "none" else None
+    vehicle, mission, mass = vehicle_of(flight), flight.mission, mass_of(flight)
+    step, friction = mission["mission"]["step"], ground.friction
+    at_zero = floor(_soles(vehicle), mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage)
+    return mission["initial"]["position"][2] - standing_height(at_zero, mass * GRAVITY)
+
+
+def clearance(flight: Flight, height: float) -> Array:
+    """How high the lowest sole is (T) over a floor at a height [m]."""
+    R = rotation_from_quaternion(Quat(*flight["attitude"].T))
+    soles = _soles(vehicle_of(flight)).reshape(-1, 3)
+    below = np.column_stack([R.z.x, R.z.y, R.z.z]) @ soles.T
+    return flight["position"][:, 2] + below.min(axis=1) - height

@@ -1,0 +1,5 @@
+"""The record of a flight: its channels, its file, the record as a table, and the old names of renamed things."""
+
+from tandemlift.flight.record import CHANNELS, DERIVED, Channel, Divergence, Flight
+
+__all__ = ["CHANNELS", "DERIVED", "Channel", "Divergence", "Flight"]

@@ -1,0 +1,116 @@
+"""A flight as a pandas DataFrame or an xarray Dataset: names of components, units, frames, metrics."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import itertools
+import json
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from tandemlift.common.errors import InputError
+
+if TYPE_CHECKING:
+    from tandemlift.flight.record import Channel, Flight
+
+ROTORS = ("rotor_thrusts", "rotor_commands")
+JOINTS = ("joint_force", "joint_torque", "measured_joint_force", "measured_joint_torque")
+NUMBERED = ("rotor", "quadrotor")  # dimensions whose labels are numbers that say nothing alone
+
+
+class Dimension(NamedTuple):
+    """What a channel's columns run over, and what each is called: an axis, an angle, a number from 1."""
+
+    name: str
+    labels: tuple[Any, ...]
+
+
+AXES = Dimension("axis", ("x", "y", "z"))
+ANGLES = Dimension("angle", ("roll", "pitch", "yaw"))
+QUATERNION = Dimension("quaternion", ("w", "x", "y", "z"))
+
+
+def dimensions(name: str, frame: str, count: int) -> tuple[Dimension, ...]:
+    """What a channel's columns run over, the last dimension the fastest.
+
+    Args:
+        name: of the channel.
+        frame: in which it is.
+        count: how many columns it has.
+    """
+    if name in ROTORS:
+        return (Dimension("rotor", tuple(range(1, count + 1))),)
+    if name in JOINTS:
+        return Dimension("quadrotor", tuple(range(1, count // 3 + 1))), AXES
+    if frame == "body to world" and count == 4:
+        return (QUATERNION,)
+    if count == 3 and frame:
+        return (ANGLES if frame == "zxy" else AXES,)
+    return (Dimension("component", tuple(range(1, count + 1))),)
+
+
+def columns(flight: Flight) -> Iterator[tuple[str, Channel, Any]]:
+    """Name, channel and values (T,) of every number of every channel."""
+    for name, values in flight.channels.items():
+        info = flight.info(name)
+        if values.ndim == 1:
+            yield name, info, values
+            continue
+        dims = dimensions(name, info.frame, values.shape[1])
+        parts = itertools.product(*[[_part(d.name, label) for label in d.labels] for d in dims])
+        for part, column in zip(parts, values.T, strict=True):
+            yield "_".join((name, *part)), info, column
+
+
+def _part(dimension: str, label: Any) -> str:
+    return f"{dimension}_{label}" if dimension in NUMBERED else str(label)
+
+
+def to_pandas(flight: Flight) -> Any:
+    """See `Flight.to_pandas`."""
+    pandas = _package("pandas", "to_pandas")
+    found = list(columns(flight))
+    frame = pandas.DataFrame(
+        {name: values for name, _, values in found}, index=pandas.Index(flight.time.copy(), name="time")
+    )
+    frame.attrs = {
+        "name": flight.name,
+        "units": {"time": flight.info("time").unit} | {name: info.unit for name, info, _ in found},
+        "metrics": flight.metrics(),
+        "divergence": None if flight.divergence is None else str(flight.divergence),
+    }
+    return frame
+
+
+def to_xarray(flight: Flight) -> Any:
+    """See `Flight.to_xarray`."""
+    xarray = _package("xarray", "to_xarray")
+    variables = dict[str, Any]()
+    coordinates: dict[str, Any] = {"time": ("time", flight.time.copy(), _attributes(flight.info("time")))}
+    for name, values in flight.channels.items():
+        info = flight.info(name)
+        dims = dimensions(name, info.frame, values.shape[1]) if values.ndim > 1 else ()
+        coordinates |= {d.name: (d.name, list(d.labels), {}) for d in dims}
+        shape = [len(flight.time), *[len(d.labels) for d in dims]]
+        variables[name] = ["time", *[d.name for d in dims]], values.reshape(shape).copy(), _attributes(info)
+    return xarray.Dataset(variables, coordinates, _record(flight))
+
+
+def _attributes(info: Channel) -> dict[str, str]:
+    """Unit, frame and meaning of a channel as attributes, those that it has."""
+    given = {"units": info.unit, "frame": info.frame, "long_name": info.meaning}
+    return {name: text for name, text in given.items() if text}
+
+
+def _record(flight: Flight) -> dict[str, str]:
+    """What a flight holds besides channels, as texts: mission, metrics and versions in JSON."""
+    tables = {"mission": flight.mission, "metrics": flight.metrics(), "version": flight.version}
+    texts = {name: json.dumps(table, allow_nan=False) for name, table in tables.items()}
+    return {"name": flight.name, **texts} | ({"divergence": str(flight.divergence)} if flight.divergence else {})
+
+
+def _package(name: str, method: str) -> Any:
+    if importlib.util.find_spec(name) is None:
+        raise InputError(f"{method} needs {name}: pip install 'tandemlift[{name}]'")
+    return importlib.import_module(name)

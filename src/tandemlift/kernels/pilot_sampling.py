@@ -1,0 +1,87 @@
+"""The pilot alone, compiled: a measurement in, rotor thrusts out."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.kernels.limit_solver import write_limits, write_solver
+from tandemlift.kernels.traced_step import check_layout, graph_for, limited
+from tandemlift.laws.rotors.allocation import ConstrainedAllocation
+from tandemlift.pilot.pilot import PilotMemory, PilotParameters, decide
+from tandemlift.trace import Function, Module, Place, symbols, traced, written_out
+from tandemlift.trace.code import Written
+
+POINTERS = ("numbers", "heard", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
+
+
+class PilotData(NamedTuple):
+    """The pilot's numbers in one array: the samples taken so far, what it remembers, and its parameters."""
+
+    samples: Any
+    memory: PilotMemory
+    parameters: PilotParameters
+
+
+class PilotDataState(NamedTuple):
+    """The part of an `PilotData` that changes."""
+
+    samples: Any
+    memory: PilotMemory
+
+
+class PilotSample(NamedTuple):
+    """A decision, and the memory after it."""
+
+    decision: Any
+    memory: PilotMemory
+
+
+class PilotSampler:
+    """A sample of a pilot of so many quadrotors, traced: inputs `pilot`, `heard`, `dt` and what is `solved` for."""
+
+    def __init__(self, onboard: PilotData, heard: Any, quadrotors: int) -> None:
+        self.graph = graph_for(quadrotors)
+        pilot, dt = self.given_by("pilot", onboard), self.graph.input("dt")
+        t = pilot.samples * dt
+        decided = PilotSample(*traced(decide)(pilot.parameters, pilot.memory, self.given_by("heard", heard), t, dt))
+        self.limits = None
+        if isinstance(onboard.parameters.allocation, ConstrainedAllocation):
+            self.limits, *within = limited(self, pilot.parameters, pilot.memory, decided, t)
+            decided = PilotSample(*within)
+        self.thrusts = self.all(decided.decision.thrusts)
+        after = PilotDataState(pilot.samples + 1.0, decided.memory)
+        check_layout(pilot.parameters.controller, PilotDataState(onboard.samples, onboard.memory), written_out(after))
+        self.after = self.all(after)
+
+    def given_by(self, kind: str, like: Any) -> Any:
+        """A nested value whose numbers are inputs of a kind."""
+        return self.graph.inputs(kind, like)
+
+    def all(self, value: Any) -> Any:
+        """The numbers of a nested value."""
+        return symbols(self.graph, value)
+
+    def written(self) -> Written:
+        """`sample`, handed a context of `POINTERS`."""
+        module = Module()
+        if self.limits:
+            write_solver(module, self.limits.solver, 1)
+        f = Function(module, self.graph, 1, "i64 @sample(ptr %c) #0")
+        for i, word in enumerate(POINTERS):
+            f.lines.append(f"  %{word} = load ptr, ptr {f.at('%c', i, 'i64')}, align 8")
+        dt = f.load("%c", len(POINTERS), "double")
+        solved = len(self.limits.problem) if self.limits else 0
+        f.read = {
+            "pilot": lambda i: Place("%numbers", i),
+            "heard": lambda i: Place("%heard", i),
+            "dt": lambda i: dt,
+            "solved": lambda i: Place("%work", solved + i),
+        }
+        if self.limits:
+            write_limits(f, self.limits, 0)
+        f.values(self.after)
+        f.put("%thrusts", 0, self.thrusts)
+        f.put("%numbers", 0, self.after, "pilot")
+        f.end("i64 0")
+        size = solved + len(self.limits.search) if self.limits else 1
+        return Written(module.text, {"size": size})

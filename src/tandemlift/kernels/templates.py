@@ -1,0 +1,89 @@
+"""The layouts of what passes through a step: nested values whose numbers are void."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.vector import ZERO, Nothing, Quat
+from tandemlift.controllers import Command, Measured, Reference, control
+from tandemlift.laws.mechanics.body import State, Wrench
+from tandemlift.laws.person.person import Person
+from tandemlift.laws.rotors.allocation import ConstrainedAllocation
+from tandemlift.laws.signals.trajectories import Trajectory
+from tandemlift.loop.step import FlightModel, StepInputs, actuate, advance, finish_sample, run_pilot, with_person
+from tandemlift.trace import zeroed
+
+COMMAND = Command(Wrench(0.0, ZERO), ZERO)
+LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
+
+
+class ControllerInput(NamedTuple):
+    """What a controller is given at a sample."""
+
+    measured: Measured
+    reference: Reference
+
+
+GIVEN = ControllerInput(Measured(State(ZERO, ZERO, LEVEL, ZERO), ZERO), Reference(Trajectory(ZERO, ZERO, ZERO), 0.0))
+
+
+class PythonController(NamedTuple):
+    """Stands where a controller is that Python calls, between the parts of a step; the loops ask it for nothing."""
+
+
+@control.register(PythonController)
+def _layout_of_command(gains, memory, measured, reference):
+    return Command(Wrench(0.0, ZERO), ZERO), memory
+
+
+class Templates(NamedTuple):
+    """Of a flight, of what a step is given, what the pilot thinks, what acts, how the body moves, what is shown.
+
+    `nowhere`, whose numbers count: the nearest walls before any was looked at.
+    """
+
+    flying: Any
+    given: Any
+    thought: Any
+    acting: Any
+    moved: Any
+    sample: Any
+    nowhere: Any
+
+    @property
+    def constrained(self) -> bool:
+        """Whether the allocation keeps to limits."""
+        return isinstance(self.flying.pilot.allocation, ConstrainedAllocation)
+
+    @property
+    def walled(self) -> bool:
+        """Whether there are walls."""
+        return not isinstance(self.nowhere, Nothing)
+
+    @property
+    def accompanied(self) -> bool:
+        """Whether a person leads the vehicle along a path."""
+        return isinstance(self.flying.partner, Person)
+
+    @property
+    def grounded(self) -> bool:
+        """Whether there is a floor."""
+        return not isinstance(self.flying.plant.floor, Nothing)
+
+    @property
+    def late(self) -> bool:
+        """Whether anything is delayed."""
+        return not isinstance(self.flying.delays, Nothing)
+
+
+def templates_from(flying: FlightModel, given: StepInputs) -> Templates:
+    """The layouts of a flight's steps, from its first."""
+    before, outer = flying.moving, given
+    given = with_person(flying, given, 0.0, 0.001)
+    thought = run_pilot(flying, given.hand.start, 0.0, 0.001)
+    acting = actuate(flying, thought.decision.thrusts, given, 0.0)
+    air = acting.weather.loads
+    moved = advance(flying.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
+    _, sample = finish_sample(flying, thought, acting, moved, given)
+    layouts = [zeroed(x) for x in (flying, outer, thought, acting, moved, sample)]
+    return Templates._make([*layouts, before.near])

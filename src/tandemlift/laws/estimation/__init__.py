@@ -1,0 +1,1 @@
+"""Estimation: the push, the tare, navigation, the disturbance observer, and the detection of lost rotors."""

@@ -1,0 +1,96 @@
+"""Which rotor is to be named lost, from the evidence for each: the rules of `laws.estimation.rotor_loss_detection`."""
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.ops import clip, greatest, where
+from tandemlift.algebra.vector import total
+
+LEAST, MOST = 0.5, 1.5  # share of a thrust that is gone
+FAITH = 10.0  # evidence that a rotor has beforehand that was named
+
+
+class DecisionRules(NamedTuple):
+    """When a rotor is named, or restored.
+
+    `threshold` over none and `isolation_margin` over the next, as twice a log-likelihood ratio;
+    `unexplained_fraction`: of |r|², that may stay unexplained; `dwell` [s]; for how long a named rotor is tried again,
+    `retest_time` [s]; 1/spread².
+    """
+
+    threshold: Any
+    isolation_margin: Any
+    unexplained_fraction: Any
+    dwell: Any
+    retest_time: Any
+    per_spread: Any
+
+
+class DecisionState(NamedTuple):
+    """Which rotor is lost (1, else 0; a set), since when [s], how often one was named; timers [s] of the test.
+
+    `above`: for how long each rotor has been the one to name (a set); `alive`: for how long none has.
+    """
+
+    lost: Any
+    since: Any
+    named: Any
+    above: Any
+    alive: Any
+
+
+@elementwise
+def share_gone(fit, size, per_spread):
+    """The share of its thrust that a rotor has most likely lost."""
+    return clip((fit + per_spread) / (size + per_spread), LEAST, MOST)
+
+
+@elementwise
+def support(share, fit, size, per_spread):
+    """The evidence for a rotor with this share of its thrust gone."""
+    return share * (2.0 * fit - share * size) - (1.0 - share) * (1.0 - share) * per_spread
+
+
+@elementwise
+def but(value, best):
+    """A value, or far less than any if it is the best."""
+    return where(value < best, value, -1e18)
+
+
+@elementwise
+def counted(timer, evidence, best, sure, dt):
+    """For how long [s] a rotor has been the one to name."""
+    return where(evidence < best, 0.0, (timer + dt) * sure)
+
+
+@elementwise
+def is_named(lost, above, dwell, renamed):
+    """1 for the rotor that is lost, given that one is `renamed` (1) or not (0)."""
+    return where(renamed > 0.0, where(above < dwell, 0.0, 1.0), lost)
+
+
+@law
+def decision_step(
+    k: DecisionRules, v: DecisionState, evidence: Any, square: Any, active: Any, t: Any, dt: Any
+) -> DecisionState:
+    """The verdict after a sample with this evidence for every rotor; `square`: |r|² in units of the scatter.
+
+    `active` is 0 while it is to stay as it is, else 1.
+    """
+    held = evidence + v.lost * FAITH
+    best = greatest(held)
+    clear = where(best - greatest(but(held, best)) > k.isolation_margin, active, 0.0)
+    sure = where(best > k.threshold, where(square - best > k.unexplained_fraction * square, 0.0, clear), 0.0)
+    above = counted(v.above, held, best, sure, dt)
+    ripe = where(greatest(above) < k.dwell, 0.0, 1.0)
+    renamed = ripe * (1.0 - where(total(is_named(v.lost, above, k.dwell, ripe) * v.lost) > 0.0, 1.0, 0.0))
+    named = total(v.lost)
+    alive = where(total(v.lost * evidence) < -k.threshold, (v.alive + dt) * named * active, 0.0)
+    restored = where(alive < k.dwell, 0.0, 1.0)
+    return DecisionState(
+        is_named(v.lost, above, k.dwell, renamed) * (1.0 - restored),
+        where(renamed > 0.0, t, v.since),
+        v.named + renamed,
+        above,
+        alive,
+    )

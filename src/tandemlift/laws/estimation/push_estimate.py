@@ -1,0 +1,266 @@
+"""The push of a person on the payload, from the sensors at its joints and in its centre of mass.
+
+With f_i, t_i what quadrotor i puts on the payload at its joint c_i, a the specific force and ω the rates, all in body
+axes and about the payload's centre of mass, the payload's equations of motion (the paper's trans_rot_payload_equ, with
+a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_L ω̇ + ω × J_L ω − Σ t_i − Σ c_i × f_i.
+Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
+
+In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
+identified (`laws.estimation.tare`). What wind puts on the payload may be taken off (`laws.mechanics.air_drag`).
+
+Of what acts on quadrotor i from outside, f_i + m_i s_i with s_i its specific force, thrust is only in z. So its x and y
+are wind, or an error of the sensors; where they differ from quadrotor to quadrotor, the push is not trusted. Errors in
+z, of torques, and of all sensors alike do not show.
+
+One low-pass in body axes serves F and M, so that the point of application, x × F = M on the beam's axis y, is exact
+however the force changes and the vehicle turns.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import clip, maximum, sqrt, where
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total
+from tandemlift.common.errors import InputError
+from tandemlift.laws.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
+from tandemlift.laws.mechanics.air_drag import blown, start_payload_drag
+from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
+from tandemlift.laws.mechanics.loads import raised, total_of_each
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.sensors.readings import ImuReading
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
+
+NOTHING = Nothing()
+
+
+class PushEstimator(NamedTuple):
+    """What the estimator knows of the vehicle, and its numbers; body axes.
+
+    Payload: `mass` [kg] and `inertia` [kg·m²]. From its centre of mass [m]: `joints` and the `quadrotors`' centres of
+    mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length. `per_interval`: samples of the unit
+    per second. `least`: square of the least force [N²] that has a point of application. Tare from `tare_start` [s]
+    until before `tare_end`; `identify` is 1 to identify the payload's mass, else 0. `limit`: disagreement [N] from
+    which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N = 1. `windage`: how wind is
+    taken off, or `Nothing`.
+    """
+
+    mass: Any
+    inertia: Any
+    joints: Vec3
+    quadrotors: Vec3
+    quadrotor_mass: Any
+    reach: Any
+    per_interval: Any
+    low_pass: LowPass
+    least: Any
+    tare_start: Any
+    tare_end: Any
+    identify: Any
+    limit: Any
+    share: Any
+    alone: Any
+    windage: Any
+
+
+class PushEstimatorState(NamedTuple):
+    """The last rates [rad/s] and angular acceleration [rad/s²], the sums of the tare, the low-passes, the wind."""
+
+    rates: Vec3
+    angular: Vec3
+    sums: TareSums
+    force: LowPassState
+    moment: LowPassState
+    x: LowPassState
+    y: LowPassState
+    blown: Any
+
+
+class PushEstimate(NamedTuple):
+    """The push as estimated.
+
+    `measured` [N, world axes] and `measured_moment` [N·m, body axes, about the payload's centre of mass]: the last
+    sample less the tare; `force` and `moment`, likewise: low-passed, zero until the tare is over; `point` [m]: where on
+    body y the force acts, 0 if it is too small; `payload_mass` [kg]; `disagreement` [N]: the horizontal force by which
+    one joint sensor alone would have to be wrong; `trusted` is 1 while that is below its limit, `armed` once the tare
+    is over, else 0; `usable`: `force` where trusted, else zero.
+    """
+
+    measured: Vec3
+    measured_moment: Vec3
+    force: Vec3
+    moment: Vec3
+    point: Any
+    payload_mass: Any
+    disagreement: Any
+    trusted: Any
+    armed: Any
+    usable: Vec3
+
+
+@law
+def moment_on_payload(k: PushEstimator, unit: ImuReading, angular: Vec3) -> Vec3:
+    """What the joints do not explain of the payload's turning: M [N·m, body axes], about its centre of mass."""
+    joints = unit.joint_torque + cross(k.joints, unit.joint_force)
+    return turn_by(k.inertia, angular) - gyroscopic(k.inertia, unit.rates) - total_of_each(joints)
+
+
+@law
+def from_outside(k: PushEstimator, unit: ImuReading, angular: Vec3) -> SideForces:
+    """What acts on every quadrotor from outside, horizontally in body axes [N]."""
+    a, w = unit.specific_force, unit.rates
+    turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
+    x = unit.joint_force.x + raised(turn.x, a.x) * k.quadrotor_mass
+    y = unit.joint_force.y + raised(turn.y, a.y) * k.quadrotor_mass
+    return SideForces(x, y)
+
+
+@law
+def less_mean(k: PushEstimator, outside: SideForces) -> SideForces:
+    """By how much that differs from its mean over the quadrotors [N]."""
+    x, y = outside
+    return SideForces(raised(x, -total(x) * k.share), raised(y, -total(y) * k.share))
+
+
+@law
+def sides(k: PushEstimator, unit: ImuReading, angular: Vec3) -> SideForces:
+    """What acts on every quadrotor from outside, horizontally in body axes, less its mean [N]."""
+    return less_mean(k, from_outside(k, unit, angular))
+
+
+@law
+def point_of_application(k: PushEstimator, force: Vec3, moment: Vec3) -> Any:
+    """Where on the beam's axis, body y [m], a force acts that has this moment about its centre (body axes)."""
+    square = force.x * force.x + force.z * force.z
+    y = (moment.x * force.z - moment.z * force.x) / maximum(square, k.least)
+    return where(square < k.least, 0.0, clip(y, -k.reach, k.reach))
+
+
+@law
+def disagreement(k: PushEstimator, x: Any, y: Any) -> Any:
+    """The horizontal force [N] by which one joint sensor alone would have to be wrong to explain these `SideForces`."""
+    return sqrt(maximum((total(x * x) + total(y * y)) * k.alone, TINY))
+
+
+@law
+def estimate(k: PushEstimator, memory: PushEstimatorState, unit: ImuReading, t: Any) -> Any:
+    """(Push, the new memory) from what the unit says at time t [s]."""
+    a, f = unit.specific_force, total_of_each(unit.joint_force)
+    angular = where(unit.fresh > 0.0, (unit.rates - memory.rates) * k.per_interval, memory.angular)
+    moment, outside = moment_on_payload(k, unit, angular), from_outside(k, unit, angular)
+    unequal = less_mean(k, outside)
+    begun = where(t < k.tare_start, 0.0, 1.0)
+    taken = begun * where(t < k.tare_end, unit.fresh, 0.0)
+    sums = summed(memory.sums, begun, taken, f, a, moment, unequal)
+    armed = where(t < k.tare_end, 0.0, 1.0)
+    tare = tare_of(k.mass, k.identify, sums, armed)
+    wind, gone = blown(k.windage, memory.blown, outside.x, outside.y, begun, taken, armed)
+    force = a * tare.mass - f - tare.force - wind
+    after = PushEstimatorState(
+        unit.rates,
+        angular,
+        sums,
+        smooth(k.low_pass, memory.force, force * armed),
+        smooth(k.low_pass, memory.moment, (moment - tare.moment) * armed),
+        smooth(k.low_pass, memory.x, (unequal.x - tare.sides.x) * armed),
+        smooth(k.low_pass, memory.y, (unequal.y - tare.sides.y) * armed),
+        gone,
+    )
+    return concluded(k, unit, force, moment - tare.moment, after, tare.mass, armed), after
+
+
+@law
+def concluded(
+    k: PushEstimator, unit: ImuReading, force: Vec3, turning: Vec3, after: PushEstimatorState, mass: Any, armed: Any
+) -> PushEstimate:
+    """The push from the sample's `force` [N] and `turning` moment [N·m], body axes, and what is low-passed."""
+    R = rotation_from_quaternion(unit.frame)
+    smoothed, moment = apply(R, after.force.value), after.moment.value
+    wrong = disagreement(k, after.x.value, after.y.value)
+    trusted = where(wrong < k.limit, 1.0, 0.0)
+    return PushEstimate(
+        measured=apply(R, force),
+        measured_moment=turning,
+        force=smoothed,
+        moment=moment,
+        point=point_of_application(k, after.force.value, moment),
+        payload_mass=mass,
+        disagreement=wrong,
+        trusted=trusted,
+        armed=armed,
+        usable=smoothed * (trusted * armed),
+    )
+
+
+def push_estimator(
+    mass: float,
+    inertia: Any,
+    joints: Any,
+    quadrotors: Any,
+    quadrotor_masses: Any,
+    step: float,
+    unit_period: int = 1,
+    length: float = math.inf,
+    bandwidth: float = 36.0,
+    min_force: float = 0.5,
+    tare_start: float | None = None,
+    tare_duration: float = 2.0,
+    identify_mass: bool = False,
+    disagreement_limit: float = 2.0,
+    windage: Any = NOTHING,
+) -> PushEstimator:
+    """The estimator of the push on a payload, as the pilot believes the vehicle to be.
+
+    Args:
+        mass: of the payload [kg].
+        inertia: of the payload about its centre of mass [kg·m²], body axes (3 principal moments, or 3 × 3).
+        joints: from the payload's centre of mass [m], body axes (N × 3).
+        quadrotors: the quadrotors' centres of mass, likewise (N × 3).
+        quadrotor_masses: [kg] (N).
+        step: at which the estimator runs [s].
+        unit_period: of the on-board unit, in steps.
+        length: of the beam along body y [m]; no point of application lies beyond its ends.
+        bandwidth: of the low-pass [rad/s].
+        min_force: across the beam [N], below which no point of application is given.
+        tare_start: of the tare in hover [s]; None for no tare.
+        tare_duration: [s].
+        identify_mass: whether to identify the payload's mass during the tare.
+        disagreement_limit: [N], from which on the push is not trusted.
+        windage: how the wind on the payload is taken off, or `Nothing`.
+
+    Raises:
+        InputError: the mass is to be identified without a tare, or the tare is shorter than a sample.
+    """
+    if identify_mass and tare_start is None:
+        raise InputError("the payload's mass is identified during the tare: give its start, or do not identify")
+    if tare_start is not None and tare_duration < step * unit_period:
+        raise InputError(f"a tare of {tare_duration:g} s holds no sample: they come every {step * unit_period:g} s")
+    J, N = np.array(inertia, dtype=float), len(joints)
+    return PushEstimator(
+        mass=float(mass),
+        inertia=inertia_value(np.diag(J) if J.ndim == 1 else J),
+        joints=spread(joints),
+        quadrotors=spread(quadrotors),
+        quadrotor_mass=each(N)(*map(float, quadrotor_masses)),
+        reach=0.5 * length,
+        per_interval=1.0 / (step * unit_period),
+        low_pass=low_pass(bandwidth, step),
+        least=min_force**2,
+        tare_start=0.0 if tare_start is None else float(tare_start),
+        tare_end=-math.inf if tare_start is None else tare_start + tare_duration,
+        identify=1.0 if identify_mass else 0.0,
+        limit=float(disagreement_limit),
+        share=1.0 / N,
+        alone=N / (N - 1) if N > 1 else 0.0,
+        windage=windage,
+    )
+
+
+def start_push(estimator: PushEstimator, unit: ImuReading) -> PushEstimatorState:
+    """The memory before the first step, in which the unit says `unit`."""
+    none = estimator.quadrotor_mass * 0.0
+    sums = TareSums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, SideForces(none, none))
+    still, level = LowPassState(ZERO, ZERO), LowPassState(none, none)
+    return PushEstimatorState(unit.rates, ZERO, sums, still, still, level, level, start_payload_drag(estimator.windage))

@@ -1,0 +1,82 @@
+"""The wind on the payload, from what it puts on the quadrotors, so that it is not taken for a person's push.
+
+What acts on quadrotor i from outside, f_i + m_i s_i with s_i its specific force (`push_estimate`), is horizontally
+drag alone: its rotors push along z. Drag is ½ ρ C A |v| v by body axis, with the same velocity v through the air for
+payload and quadrotors, as long as the vehicle hardly turns. So along x and y the payload's is the mean over the
+quadrotors times the ratio of their C A, whatever the wind. Along z nothing is known.
+
+The ratio also multiplies what the sensors err by. A low-pass of bandwidth ω keeps of σ a sample, every T, in the mean
+of N joints, ratio σ √(ω T/4N); it is as much too late for gusts, 2/ω.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.ops import maximum
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, total
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
+from tandemlift.vehicle import Vehicle
+
+
+class PayloadDrag(NamedTuple):
+    """Drag of the payload over that of all quadrotors together, along body x and y; and the low-pass."""
+
+    ratio_x: Any
+    ratio_y: Any
+    low_pass: LowPass
+
+
+class PayloadDragState(NamedTuple):
+    """Memory: sum over the tare's samples of what is to be taken off, their count, and the low-pass [N, body axes]."""
+
+    sum: Vec3
+    count: Any
+    force: LowPassState
+
+
+@choice
+def blown(k: Any, memory: Any, x: Any, y: Any, begun: Any, taken: Any, armed: Any) -> Any:
+    """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
+
+    Args:
+        k: `PayloadDrag`, or `Nothing`.
+        memory: its memory.
+        x: force from outside along body x on every quadrotor [N], a set.
+        y: likewise along y.
+        begun: 1 once the tare has begun, else 0.
+        taken: 1 if this sample is one of the tare, else 0.
+        armed: 1 once the tare is over, else 0.
+    """
+
+
+@blown.register(Nothing)
+def _unknown(k, memory, x, y, begun, taken, armed):
+    return ZERO, memory
+
+
+@law
+def bias_of(memory: PayloadDragState) -> Vec3:
+    """The mean over the tare [N]."""
+    return memory.sum * (1.0 / maximum(memory.count, 1.0))
+
+
+@blown.register(PayloadDrag)
+def _scaled(k, memory, x, y, begun, taken, armed):
+    force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
+    summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
+    after = smooth(k.low_pass, memory.force, (force - bias_of(summed)) * armed)
+    return after.value, PayloadDragState(summed.sum, summed.count, after)
+
+
+def payload_drag(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
+    """The windage of a vehicle as it is believed to be, with a low-pass of a bandwidth [rad/s]."""
+    beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
+    quadrotors = np.sum([np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
+    return PayloadDrag(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
+
+
+def start_payload_drag(windage: Any) -> Any:
+    """The memory before the first step."""
+    return windage if isinstance(windage, Nothing) else PayloadDragState(ZERO, 0.0, LowPassState(ZERO, ZERO))

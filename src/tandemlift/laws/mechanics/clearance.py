@@ -1,0 +1,147 @@
+"""How far the vehicle is from the walls: from the guards about its quadrotors, and from its beam.
+
+Exact in every state, as what presses is: the walls near each part are known, and the distance to these is measured. A
+straight beam is nearest to an upright wall with one of its ends, at one of the wall's edges, or at its top.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import choice, elementwise, law
+from tandemlift.algebra.ops import least, minimum, sqrt
+from tandemlift.algebra.vector import Nothing, Vec3, apply, dot
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import PartsLayout
+from tandemlift.laws.mechanics.rectangle import offset, offset_from_top
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.mechanics.walls import (
+    Beam,
+    NearWalls,
+    Walls,
+    beam_axis,
+    moved_to,
+    on_beam,
+    point_by_edge,
+    point_by_top,
+)
+
+FAR = 1000.0  # m
+
+
+class Clearance(NamedTuple):
+    """The least distance from walls [m], below zero where it presses: of every guard (a set), and of the beam."""
+
+    guards: Any
+    beam: Any
+
+
+class BeamClearance(NamedTuple):
+    """The least distance of the beam [m]: of its ends (a set), and along its length."""
+
+    ends: Any
+    length: Any
+
+
+@elementwise
+def between(square, radius):
+    """Distance of a surface [m] whose axis is √square away."""
+    return sqrt(square) - radius
+
+
+@law
+def away(o: Vec3, radius: Any) -> Any:
+    """Distance of surfaces [m] whose centres are o away, which may be of sets."""
+    return between(dot(o, o), radius)
+
+
+@choice
+def beam_clearance(beam: Any, w: Walls, near: Any, frame: PartsLayout, s: State) -> Any:
+    """How far the beam is from the walls near it."""
+
+
+@beam_clearance.register(Nothing)
+def _shapeless(beam, w, near, frame, s):
+    return beam
+
+
+@beam_clearance.register(Beam)
+def _capsule(beam, w, near, frame, s):
+    a, half = beam_axis(frame, s), beam.ends[1]
+    edge = offset(near.edge, on_beam(a, point_by_edge(a, half, near.edge)))
+    other = offset(near.other_edge, on_beam(a, point_by_edge(a, half, near.other_edge)))
+    top = offset_from_top(near.topped, on_beam(a, point_by_top(a, half, near.topped)))
+    length = minimum(minimum(away(edge, beam.radius), away(other, beam.radius)), away(top, beam.radius))
+    return BeamClearance(away(offset(near.ends, on_beam(a, beam.ends)), beam.radius), length)
+
+
+@choice
+def clearance(w: Any, near: Any, frame: PartsLayout, s: State) -> Any:
+    """How far the vehicle is from the walls near it, as a `Clearance`."""
+
+
+@clearance.register(Nothing)
+def _no_walls(w, near, frame, s):
+    return w
+
+
+@clearance.register(Walls)
+def _walls(w, near: NearWalls, frame, s):
+    p = moved_to(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
+    guards = minimum(away(offset(near.first, p), w.guards), away(offset(near.second, p), w.guards))
+    return Clearance(guards, beam_clearance(w.beam, w, near.beam, frame, s))
+
+
+@choice
+def closest(c: Any) -> Any:
+    """The least of a clearance [m]."""
+
+
+@closest.register(Nothing)
+def _of_no_beam(c):
+    return FAR
+
+
+@closest.register(BeamClearance)
+def _of_a_beam(c):
+    return minimum(least(c.ends), c.length)
+
+
+@closest.register(Clearance)
+def _of_a_vehicle(c):
+    return minimum(least(c.guards), closest(c.beam))
+
+
+@law
+def fastest(w: Walls, s: State) -> Any:
+    """A bound on the speed of every point of the vehicle [m/s], or on its acceleration, if `s` is the motion."""
+    return sqrt(dot(s.velocity, s.velocity)) + w.reach * sqrt(dot(s.rates, s.rates))
+
+
+@law
+def may_press(w: Walls, c: Clearance, s: State, rate: State, dt: Any) -> Any:
+    """Whether anything may touch a wall in a step of dt [s] from state `s`, whose motion without walls is `rate`.
+
+    Every point moves at no more than |v| + r |ω|, r the vehicle's reach, and that grows by what it is accelerated;
+    twice that way is kept.
+    """
+    fast, faster = fastest(w, s), fastest(w, rate)
+    return closest(c) < 2.0 * dt * (fast + faster * dt)
+
+
+@choice
+def nearer_of(a: Any, b: Any) -> Any:
+    """The lesser of two clearances, part by part."""
+
+
+@nearer_of.register(Nothing)
+def _of_nothing(a, b):
+    return a
+
+
+@nearer_of.register(BeamClearance)
+def _of_beams(a, b):
+    return BeamClearance(minimum(a.ends, b.ends), minimum(a.length, b.length))
+
+
+@nearer_of.register(Clearance)
+def _of_vehicles(a, b):
+    return Clearance(minimum(a.guards, b.guards), nearer_of(a.beam, b.beam))

@@ -1,0 +1,271 @@
+"""A vehicle's feet on a level floor: what holds it up, and what keeps it in place.
+
+Every quadrotor has four feet. A foot is a pad on a ball joint, so what it passes on acts at the joint's centre, ρ above
+the pad. With the depth δ of the pad in the floor and the way e of the joint from where it gripped, in world axes,
+
+    N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −(k_t e + c_t ė), shortened to the length μ N if it is longer.
+
+Neither makes energy. In N, k δ is a spring and the rest takes the power c δ̇², or −k δ δ̇ where N is cut, which is only
+where δ̇ < −k δ/c. In F, k_t e is a spring and the rest takes power as long as |k_t e| ≤ μ N: `slip` sees to that at the
+end of every step, with N the smaller of its values at both ends, so that a foot that has just landed stores nothing.
+Below μ N the grip does not move at all: a vehicle that stands, stays.
+
+A step is `touch` in every stage with the memory held, then `slip`. Nothing but the feet touches the floor.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
+from tandemlift.algebra.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
+from tandemlift.common.types import Array
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, raised
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+
+FASTEST_TURN = 1000.0  # rad/s², more than rotors make
+
+TINY = 1e-300  # N²: keeps 0/0 out of the friction of a foot in the air
+OSCILLATION = 0.5  # rad a step: the fastest oscillation on springs that a Runge-Kutta step resolves well
+DECAY = 2.0  # time constants a step: the fastest decay; Runge-Kutta of order four is stable to 2.78
+
+
+class Floor(NamedTuple):
+    """A level floor, and the feet that stand on it.
+
+    `height` z of the floor [m]; of one foot `stiffness` k [N/m] and `damping` c [N·s/m], `tangential_stiffness` k_t and
+    `tangential_damping` c_t; `friction` μ; `radius` ρ [m]; `feet`: centre of foot j of every quadrotor from the
+    system's centre of mass [m, body axes], vectors of sets. From there [m], `extent`: how
+    far feet are along each body axis; `reach`: how far any pad can be.
+    """
+
+    height: Any
+    stiffness: Any
+    damping: Any
+    friction: Any
+    tangential_stiffness: Any
+    tangential_damping: Any
+    radius: Any
+    feet: Quarters
+    extent: Vec3
+    reach: Any
+
+
+class FootGrip(NamedTuple):
+    """Memory of one foot of every quadrotor, as sets: where it grips [m, world axes], and N [N] at the time.
+
+    The memory of a vehicle is `Quarters` of it.
+    """
+
+    x: Any
+    y: Any
+    normal: Any
+
+
+class Foot(NamedTuple):
+    """One foot of every quadrotor, world axes: its centre from the system's, its place, its velocity, and N."""
+
+    arm: Vec3
+    x: Any
+    y: Any
+    velocity_x: Any
+    velocity_y: Any
+    normal: Any
+
+
+@elementwise
+def spring_damper(depth, rate, stiffness, damping):
+    """Normal force [N] at a depth [m] that grows at a rate [m/s]: never pulls, never makes energy."""
+    return where(depth > 0.0, maximum(stiffness * depth + damping * rate, 0.0), 0.0)
+
+
+@elementwise
+def shortening(square, longest):
+    """The factor that cuts a vector whose length squared is `square` to the length `longest`; at most 1."""
+    return longest / sqrt(maximum(maximum(square, longest * longest), TINY))
+
+
+@elementwise
+def moved(anchor, place, factor):
+    """The anchor drawn towards a place, to `factor` of the distance; untouched at a factor of 1."""
+    return where(factor < 1.0, place + (anchor - place) * factor, anchor)
+
+
+@law
+def foot_at(floor: Floor, s: State, R: Mat3, spin: Vec3, f: Vec3) -> Foot:
+    """The feet at f [m, body axes] of a vehicle that turns at `spin` [rad/s, world axes]."""
+    arm = apply(R, f)
+    turn = cross(spin, arm)
+    depth = raised(-arm.z, floor.radius + floor.height - s.position.z)
+    return Foot(
+        arm,
+        raised(arm.x, s.position.x),
+        raised(arm.y, s.position.y),
+        raised(turn.x, s.velocity.x),
+        raised(turn.y, s.velocity.y),
+        spring_damper(depth, raised(-turn.z, -s.velocity.z), floor.stiffness, floor.damping),
+    )
+
+
+@law
+def feet_at(floor: Floor, s: State, R: Mat3) -> Quarters:
+    """The four feet of every quadrotor; R of the state's attitude."""
+    spin, feet = apply(R, s.rates), floor.feet
+    return Quarters(
+        foot_at(floor, s, R, spin, feet.first),
+        foot_at(floor, s, R, spin, feet.second),
+        foot_at(floor, s, R, spin, feet.third),
+        foot_at(floor, s, R, spin, feet.fourth),
+    )
+
+
+@law
+def foot_contact(floor: Floor, foot: Foot, grip: FootGrip) -> Vec3:
+    """Force of the floor [N, world axes] on a foot of every quadrotor."""
+    pull_x = (foot.x - grip.x) * floor.tangential_stiffness + foot.velocity_x * floor.tangential_damping
+    pull_y = (foot.y - grip.y) * floor.tangential_stiffness + foot.velocity_y * floor.tangential_damping
+    factor = shortening(pull_x * pull_x + pull_y * pull_y, foot.normal * floor.friction)
+    return Vec3(-(pull_x * factor), -(pull_y * factor), foot.normal)
+
+
+@law
+def regrip(floor: Floor, foot: Foot, grip: FootGrip) -> FootGrip:
+    """The grip drawn after the foot until friction holds the spring, under the smaller N of now and before."""
+    x, y = (foot.x - grip.x) * floor.tangential_stiffness, (foot.y - grip.y) * floor.tangential_stiffness
+    factor = shortening(x * x + y * y, minimum(foot.normal, grip.normal) * floor.friction)
+    return FootGrip(moved(grip.x, foot.x, factor), moved(grip.y, foot.y, factor), foot.normal)
+
+
+@law
+def touch(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> PartLoad:
+    """What the floor puts on every quadrotor, as sets: force, and moment about each quadrotor's centre of mass."""
+    R = rotation_from_quaternion(s.attitude)
+    a, b, c, d = feet_at(floor, s, R)
+    f, g, h, i = (
+        foot_contact(floor, a, grip[0]),
+        foot_contact(floor, b, grip[1]),
+        foot_contact(floor, c, grip[2]),
+        foot_contact(floor, d, grip[3]),
+    )
+    force = f + g + h + i
+    moment = cross(a.arm, f) + cross(b.arm, g) + cross(c.arm, h) + cross(d.arm, i)
+    return PartLoad(force, apply_transposed(R, moment - cross(apply(R, frame.quadrotors), force)))
+
+
+@law
+def slip(floor: Floor, grip: Quarters, s: State) -> Quarters:
+    """The memory after a step that ends in state `s`: feet in the air, and feet that slide, grip anew."""
+    a, b, c, d = feet_at(floor, s, rotation_from_quaternion(s.attitude))
+    return Quarters(
+        regrip(floor, a, grip[0]), regrip(floor, b, grip[1]), regrip(floor, c, grip[2]), regrip(floor, d, grip[3])
+    )
+
+
+@law
+def may_touch(floor: Floor, s: State, time: Any) -> Any:
+    """Whether a foot may touch the floor within `time` [s] of state `s`."""
+    q, size = s.attitude, floor.extent
+    tilt = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
+    hangs = dot(absolute(tilt), size) + floor.radius
+    swings = floor.reach * (sqrt(dot(s.rates, s.rates)) + FASTEST_TURN * time) * time
+    fall = (minimum(s.velocity.z, 0.0) - 2.0 * GRAVITY * time) * time  # four g, as thrust may add to weight
+    return s.position.z + fall - minimum(hangs + swings, floor.reach) < floor.height
+
+
+def mobility(points: Array, mass: float, inertia: Array) -> float:
+    """How a free body gives way at some of its points [1/kg]: ω² of its fastest oscillation on springs of 1 N/m.
+
+    Args:
+        points: n × 3, from its centre of mass [m]; each is sprung in all three directions, so no attitude is faster.
+        mass: of the body [kg].
+        inertia: 3 × 3 about its centre of mass [kg·m²].
+    """
+    stiffness, inertias = np.zeros((6, 6)), np.zeros((6, 6))
+    inertias[:3, :3], inertias[3:, 3:] = mass * np.eye(3), inertia
+    for x, y, z in points:
+        G = np.hstack([np.eye(3), [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]])
+        stiffness += G.T @ G
+    return float(np.linalg.eigvals(np.linalg.solve(inertias, stiffness)).real.max())
+
+
+def steady(stiffness: float, damping: float, give: float, step: float) -> tuple[float, float]:
+    """Stiffness [N/m] and damping [N·s/m] of springs, softened, if need be, to what a step [s] can follow.
+
+    Both soften so that the damping ratio stays. `give` [1/kg]: the `mobility` of what stands on such springs.
+    """
+    frequency, rate = np.sqrt(stiffness * give), 0.5 * damping * give
+    decay = rate + np.sqrt(max(rate**2 - frequency**2, 0.0))
+    factor = 1.0 / max(1.0, frequency * step / OSCILLATION, decay * step / DECAY)
+    return float(stiffness * factor**2), float(damping * factor)
+
+
+def soles_below(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> Array:
+    """Four soles under each quadrotor, N × 4 × 3 [m, body axes], from the same point as the centres.
+
+    Args:
+        centers: centres of mass of the quadrotors, N × 3 [m].
+        span: of a foot along x and along y from there [m], one number or N.
+        depth: of the soles below there [m], one number or N.
+    """
+    d = np.asarray(centers, dtype=float)
+    size = np.stack([np.broadcast_to(v, len(d)) for v in (span, span, depth)], axis=1)
+    return d[:, None] + size[:, None] * [[1.0, 1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, -1.0], [1.0, -1.0, -1.0]]
+
+
+def floor(
+    soles: ArrayLike,
+    mass: float,
+    inertia: ArrayLike,
+    step: float,
+    *,
+    friction: float,
+    height: float = 0.0,
+    radius: float = 0.01,
+    sinkage: float = 5e-4,
+    damping_ratio: float = 1.0,
+) -> Floor:
+    """A floor for a vehicle: feet so stiff that it sinks by `sinkage` where it stands, softer if the step demands it.
+
+    Args:
+        soles: N × 4 × 3, of the level vehicle, from its centre of mass [m, body axes].
+        mass: of the vehicle [kg].
+        inertia: 3 × 3 about its centre of mass [kg·m²].
+        step: of the Runge-Kutta method [s].
+        friction: μ of the pads on the floor.
+        height: of the floor, z [m].
+        radius: ρ, of the ball joint above the sole [m].
+        sinkage: of the vehicle that stands on all its feet [m]; `sinkage_of` tells what a long step made of it.
+        damping_ratio: of the vehicle that bobs up and down on all its feet.
+    """
+    places = np.add(soles, [0.0, 0.0, radius])
+    points = places.reshape(-1, 3)
+    share = mass / len(points)
+    wanted = share * GRAVITY / sinkage
+    give = mobility(points, mass, np.asarray(inertia, dtype=float))
+    k, c = steady(wanted, 2.0 * damping_ratio * np.sqrt(wanted * share), give, step)
+    reach = float(np.linalg.norm(points, axis=1).max()) + radius
+    feet = Quarters(*[spread(places[:, j]) for j in range(4)])
+    extent = vec3(np.abs(points).max(axis=0))
+    return Floor(float(height), k, c, float(friction), k, c, float(radius), feet, extent, reach)
+
+
+def standing_height(floor: Floor, weight: float) -> float:
+    """Height of the level vehicle's centre of mass above the floor where its feet bear its weight [N], in m."""
+    touching = floor.radius - np.sort(np.concatenate([np.array(f.z) for f in floor.feet]))
+    count = np.arange(1, len(touching) + 1)
+    return float(np.max((np.cumsum(touching) - weight / floor.stiffness) / count))
+
+
+def sinkage_of(floor: Floor, weight: float) -> float:
+    """How deep a vehicle of this weight [N] sinks where it stands on all its feet [m]."""
+    return weight / (floor.stiffness * 4 * len(floor.feet.first.x))
+
+
+def start_foot_grip(floor: Floor, s: State) -> Quarters:
+    """The memory of feet that grip where they are in state `s`."""
+    none = floor.feet.first.x * 0.0
+    return slip(floor, Quarters(*[FootGrip(none, none, none)] * 4), s)

@@ -1,0 +1,102 @@
+"""A person's pushes on the vehicle: Gaussian in time, in world axes, at points of the body.
+
+Several pushes at several points act as one force F = Σ F_i in world axes and one moment about the centre of mass,
+Σ r_i × Rᵀ F_i in body axes. The moment follows from the attitude and the sum of outer products Σ F_i r_iᵀ, so the
+number of pushes does not enter the equations of motion.
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.ops import exp, where
+from tandemlift.algebra.vector import ZERO, Mat3, Vec3, linear, outer, plus
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+
+SUPPORT = 9.0  # a push is exactly zero beyond 9 σ, where the Gaussian is 3e-18 of its peak
+
+
+@linear
+class CentralPush(NamedTuple):
+    """A push at the centre of mass: force [N, world axes]."""
+
+    force: Vec3
+
+    def __add__(self, other: "CentralPush") -> "CentralPush":  # type: ignore[override]
+        return plus(self, other)
+
+
+@linear
+class PointPush(NamedTuple):
+    """Pushes at points of the body: force Σ F_i [N, world axes] and Σ F_i r_iᵀ [N·m], r_i in body axes."""
+
+    force: Vec3
+    spread: Mat3
+
+    def __add__(self, other: "PointPush") -> "PointPush":  # type: ignore[override]
+        return plus(self, other)
+
+
+Push = Any  # CentralPush or PointPush
+
+
+class PushSamples(NamedTuple):
+    """The push at the start, the middle and the end of a step."""
+
+    start: Push
+    middle: Push
+    end: Push
+
+
+class GaussianPush(NamedTuple):
+    """One push A exp(−(t − t₀)²/2σ²): peak force A [N, world axes], time t₀ [s], 1/σ [1/s], point r [m, body axes]."""
+
+    force: Vec3
+    time: Any
+    per_sigma: Any
+    point: Vec3
+
+
+@law
+def gaussian_force(p: GaussianPush, t: Any) -> Vec3:
+    """Force of one push at time t [s], N in world axes."""
+    s = (t - p.time) * p.per_sigma
+    return p.force * where(s * s < SUPPORT * SUPPORT, exp(-0.5 * s * s), 0.0)
+
+
+@choice
+def push_of(kind: Any, p: Any, t: Any) -> Any:
+    """One push at time t, as a value of the same type as `kind`."""
+
+
+@push_of.register(CentralPush)
+def _central(kind, p, t):
+    return CentralPush(gaussian_force(p, t))
+
+
+@push_of.register(PointPush)
+def _at_point(kind, p, t):
+    F = gaussian_force(p, t)
+    return PointPush(F, outer(F, p.point))
+
+
+@choice
+def moment_of(push: Any, attitude: Any) -> Any:
+    """Moment of a push about the centre of mass, body axes [N·m]."""
+
+
+@moment_of.register(CentralPush)
+def _no_moment(push, attitude):
+    return ZERO
+
+
+@moment_of.register(PointPush)
+def _moment(push, attitude):
+    # Σ r × RᵀF, with G = Rᵀ (Σ F rᵀ) = Σ (RᵀF) rᵀ
+    R = rotation_from_quaternion(attitude)
+    P = push.spread
+    G = Mat3(
+        P.x * R.x.x + P.y * R.y.x + P.z * R.z.x,
+        P.x * R.x.y + P.y * R.y.y + P.z * R.z.y,
+        P.x * R.x.z + P.y * R.y.z + P.z * R.z.z,
+    )
+    return Vec3(G.z.y - G.y.z, G.x.z - G.z.x, G.y.x - G.x.y)

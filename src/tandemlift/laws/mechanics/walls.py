@@ -1,0 +1,292 @@
+"""What walls put on the quadrotors and on the beam.
+
+A quadrotor touches as a sphere about its centre of mass, the beam as a capsule: with its ends like spheres, along its
+length where a wall ends and where it has its top. Each presses at the nearest point by how deep it is there, δ, with
+
+    N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −c_t v, shortened to the length μ N if it is longer,
+
+N along the line between the nearest points, F against the sliding velocity v of the surface there. The distance to a
+wall has no jumps, so k δ is a spring, and neither force makes energy.
+
+Which walls are near changes slowly: `consider` goes through all of them now and then, from `nowhere` on, and `press`
+measures the distance to the near ones exactly, wherever the vehicle has gone in between.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.algebra.law import choice, elementwise, law
+from tandemlift.algebra.ops import clip, maximum, sqrt, where
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
+from tandemlift.common.types import Array
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.contact import mobility, shortening, spring_damper, steady
+from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, raised, total_of_each
+from tandemlift.laws.mechanics.rectangle import WALL, Wall, edges_of, nearer, offset, offset_from_top, pick, runner_up
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+
+SMALL = 1e-18  # m²: no direction is known at this distance
+PARALLEL = 1e-12  # sin² of the angle between lines that have no one nearest point
+
+
+class Beam(NamedTuple):
+    """The payload as a capsule along body y: its radius [m], and its two ends, −½ and +½ of its axis [m], as a set."""
+
+    radius: Any
+    ends: Any
+
+
+class Walls(NamedTuple):
+    """How walls press: k [N/m], c [N·s/m], μ and c_t [N·s/m] of a contact; radius of every quadrotor's sphere [m].
+
+    `beam`: a `Beam`, or `Nothing` if the payload has no shape; `reach` [m]: of all these from the centre of mass.
+    """
+
+    stiffness: Any
+    damping: Any
+    friction: Any
+    tangential_damping: Any
+    guards: Any
+    beam: Any
+    reach: Any
+
+
+class NearBeam(NamedTuple):
+    """The wall nearest to each end of the beam (of sets), the two nearest edges, and the wall of the nearest top."""
+
+    ends: Wall
+    edge: Wall
+    other_edge: Wall
+    topped: Wall
+
+
+class NearWalls(NamedTuple):
+    """The two walls nearest to every quadrotor (of sets), and a `NearBeam`, or `Nothing`."""
+
+    first: Wall
+    second: Wall
+    beam: Any
+
+
+class BeamAxis(NamedTuple):
+    """The beam's axis, world axes: centre [m], its velocity [m/s], direction, turn rate [rad/s]."""
+
+    center: Vec3
+    velocity: Vec3
+    direction: Vec3
+    spin: Vec3
+
+
+@elementwise
+def inverse_root(square):
+    """1/√square, bounded."""
+    return 1.0 / sqrt(maximum(square, SMALL))
+
+
+@elementwise
+def depth_at(distance, radius):
+    """How deep a sphere is [m] whose centre is at a distance."""
+    return radius - distance
+
+
+@law
+def scaled(v: Vec3, k: Any) -> Vec3:
+    """v k, where either may be of sets."""
+    return Vec3(k * v.x, k * v.y, k * v.z)
+
+
+@law
+def moved_to(origin: Vec3, v: Vec3) -> Vec3:
+    """origin + v, where v may be of sets."""
+    return Vec3(raised(v.x, origin.x), raised(v.y, origin.y), raised(v.z, origin.z))
+
+
+@law
+def pressed(w: Walls, o: Vec3, radius: Any, velocity: Vec3, spin: Vec3) -> PartLoad:
+    """What a wall puts on a sphere that moves at a velocity [m/s] and turns at `spin` [rad/s], all in world axes.
+
+    o is the way from the wall to the sphere's centre [m]. Moment about that centre [N·m].
+    """
+    square = dot(o, o)
+    inverse = inverse_root(square)
+    n = scaled(o, inverse)
+    rate = -dot(n, velocity)
+    normal = spring_damper(depth_at(square * inverse, radius), rate, w.stiffness, w.damping)
+    sliding = scaled(velocity - cross(spin, o) + scaled(n, rate), w.tangential_damping)
+    factor = shortening(dot(sliding, sliding), normal * w.friction)
+    force = scaled(n, normal) - scaled(sliding, factor)
+    return PartLoad(force, cross(force, o))
+
+
+@law
+def point_by_edge(a: BeamAxis, half: Any, edge: Wall) -> Any:
+    """Where along the beam's axis, ±half, it is nearest to an edge [m]: level with it, or nearest to its upper end."""
+    x, y, b = edge.x - a.center.x, edge.y - a.center.y, a.direction
+    along = x * b.x + y * b.y
+    level = along / maximum(b.x * b.x + b.y * b.y, SMALL)
+    up = edge.top - a.center.z
+    return clip(where(level * b.z < up, level, along + up * b.z), -half, half)
+
+
+@law
+def point_by_top(a: BeamAxis, half: Any, wall: Wall) -> Any:
+    """Where along the beam's axis, ±half, it is nearest to a wall's top [m]."""
+    # Ericson, Real-Time Collision Detection, section 5.1.9
+    b, r = a.direction, a.center - Vec3(wall.x, wall.y, wall.top)
+    cosine, on_beam = b.x * wall.along_x + b.y * wall.along_y, dot(b, r)
+    on_wall = r.x * wall.along_x + r.y * wall.along_y
+    sine = maximum(1.0 - cosine * cosine * wall.per_square, PARALLEL)
+    crossing = clip((cosine * on_wall * wall.per_square - on_beam) / sine, -half, half)
+    share = clip((cosine * crossing + on_wall) * wall.per_square, 0.0, 1.0)
+    return clip(cosine * share - on_beam, -half, half)
+
+
+@law
+def beam_axis(frame: PartsLayout, s: State) -> BeamAxis:
+    """The beam's axis in state `s`."""
+    R = rotation_from_quaternion(s.attitude)
+    spin, arm = apply(R, s.rates), apply(R, frame.payload)
+    return BeamAxis(s.position + arm, s.velocity + cross(spin, arm), Vec3(R.x.y, R.y.y, R.z.y), spin)
+
+
+@law
+def on_beam(a: BeamAxis, along: Any) -> Vec3:
+    """Points of the beam's axis [m, world axes]."""
+    return moved_to(a.center, scaled(a.direction, along))
+
+
+@law
+def on_beam_pressed(w: Walls, a: BeamAxis, along: Any, o: Vec3) -> PartLoad:
+    """What a wall puts on the beam at a place along its axis [m], o from the wall: world axes, about its centre."""
+    arm = scaled(a.direction, along)
+    load = pressed(w, o, w.beam.radius, moved_to(a.velocity, cross(a.spin, arm)), a.spin)
+    return PartLoad(load.force, load.moment + cross(arm, load.force))
+
+
+@choice
+def press_beam(beam: Any, w: Walls, near: Any, frame: PartsLayout, s: State) -> Any:
+    """What the near walls put on the payload, as a Load."""
+
+
+@press_beam.register(Nothing)
+def _shapeless(beam, w, near, frame, s):
+    return PartLoad(ZERO, ZERO)
+
+
+@press_beam.register(Beam)
+def _capsule(beam, w, near, frame, s):
+    a, half = beam_axis(frame, s), beam.ends[1]
+    ends = on_beam_pressed(w, a, beam.ends, offset(near.ends, on_beam(a, beam.ends)))
+    i, j = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
+    k = point_by_top(a, half, near.topped)
+    edge = on_beam_pressed(w, a, i, offset(near.edge, on_beam(a, i)))
+    other = on_beam_pressed(w, a, j, offset(near.other_edge, on_beam(a, j)))
+    top = on_beam_pressed(w, a, k, offset_from_top(near.topped, on_beam(a, k)))
+    load = PartLoad(total_of_each(ends.force), total_of_each(ends.moment)) + edge + other + top
+    return PartLoad(load.force, apply_transposed(rotation_from_quaternion(s.attitude), load.moment))
+
+
+@law
+def press(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> PartLoads:
+    """What the near walls put on all parts."""
+    R = rotation_from_quaternion(s.attitude)
+    spin, arm = apply(R, s.rates), apply(R, frame.quadrotors)
+    p, v = moved_to(s.position, arm), moved_to(s.velocity, cross(spin, arm))
+    first, second = offset(near.first, p), offset(near.second, p)
+    load = pressed(w, first, w.guards, v, spin) + pressed(w, second, w.guards, v, spin)
+    return PartLoads(press_beam(w.beam, w, near.beam, frame, s), PartLoad(load.force, apply_transposed(R, load.moment)))
+
+
+@choice
+def consider_beam(beam: Any, wall: Wall, near: Any, frame: PartsLayout, s: State) -> Any:
+    """The walls nearest to the beam, once `wall` is considered too."""
+
+
+@consider_beam.register(Nothing)
+def _nothing_near(beam, wall, near, frame, s):
+    return near
+
+
+@consider_beam.register(Beam)
+def _near_beam(beam, wall, near, frame, s):
+    a, half = beam_axis(frame, s), beam.ends[1]
+    ends, (start, end) = on_beam(a, beam.ends), edges_of(wall)
+    edge, other = with_edge(a, half, start, near.edge, near.other_edge)
+    edge, other = with_edge(a, half, end, edge, other)
+    d = offset_from_top(wall, on_beam(a, point_by_top(a, half, wall)))
+    e = offset_from_top(near.topped, on_beam(a, point_by_top(a, half, near.topped)))
+    return NearBeam(nearer(wall, near.ends, ends, ends), edge, other, pick(dot(d, d), dot(e, e), wall, near.topped))
+
+
+@law
+def with_edge(a: BeamAxis, half: Any, edge: Wall, first: Wall, second: Wall) -> Any:
+    """The two of three edges that are nearest to the beam."""
+    p = on_beam(a, point_by_edge(a, half, edge))
+    p1, p2 = on_beam(a, point_by_edge(a, half, first)), on_beam(a, point_by_edge(a, half, second))
+    return nearer(edge, first, p, p1), runner_up(edge, first, second, p, p1, p2)
+
+
+@law
+def consider(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: State) -> NearWalls:
+    """The nearest walls, once `wall` (of numbers) is considered too."""
+    p = moved_to(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
+    return NearWalls(
+        nearer(wall, near.first, p, p),
+        runner_up(wall, near.first, near.second, p, p, p),
+        consider_beam(w.beam, wall, near.beam, frame, s),
+    )
+
+
+def nowhere(w: Walls) -> NearWalls:
+    """No wall is near."""
+    walls, ends = [Wall(*[each(n)(*[v] * n) for v in WALL]) for n in (len(w.guards), 2)]
+    return NearWalls(walls, walls, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Nothing())
+
+
+def surface_mobility(center: Array, radius: float, mass: float, inertia: Array) -> float:
+    """The largest `mobility` [1/kg] of the points where the principal axes leave a sphere."""
+    axes = np.linalg.eigh(inertia)[1].T * radius
+    return max(mobility(center + side[None], mass, inertia) for side in (*axes, *-axes))
+
+
+def walls(
+    quadrotors: ArrayLike,
+    guards: ArrayLike,
+    mass: float,
+    inertia: ArrayLike,
+    step: float,
+    *,
+    friction: float,
+    beam: tuple[float, float] | None = None,
+    payload: ArrayLike = (0.0, 0.0, 0.0),
+    stiffness: float = 5000.0,
+    damping_ratio: float = 0.5,
+) -> Walls:
+    """How walls press on a vehicle: as stiff as told, softer if the step [s] of the Runge-Kutta method demands it.
+
+    Args:
+        quadrotors: N × 3, their centres of mass from the system's [m, body axes].
+        guards: radius of the sphere about each of them [m], one number or N.
+        mass: of the vehicle [kg].
+        inertia: 3 × 3 about its centre of mass [kg·m²].
+        step: [s].
+        friction: μ of guards and beam on walls.
+        beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
+        payload: its centre of mass from the system's [m, body axes].
+        stiffness: of a contact [N/m].
+        damping_ratio: of the vehicle that swings against one contact, without turning.
+    """
+    J, centers = np.asarray(inertia, dtype=float), np.asarray(quadrotors, dtype=float)
+    radii = np.broadcast_to(guards, len(centers))
+    spheres = list(zip(centers, radii, strict=True))
+    if beam:
+        half = 0.5 * beam[0]
+        spheres += [(np.add(payload, [0.0, end, 0.0]), beam[1]) for end in (-half, half)]
+    centers = np.array([center for center, _ in spheres])  # N acts on these: as if all touched at once
+    k, c = steady(stiffness, 2.0 * damping_ratio * np.sqrt(stiffness * mass), mobility(centers, mass, J), step)
+    give = sum(surface_mobility(center, radius, mass, J) for center, radius in spheres)
+    shape = Beam(float(beam[1]), each(2)(-half, half)) if beam else Nothing()
+    reach = max(float(np.linalg.norm(center)) + float(radius) for center, radius in spheres)
+    return Walls(k, c, float(friction), min(c, 1.0 / (give * step)), each(len(radii))(*map(float, radii)), shape, reach)

@@ -1,0 +1,1 @@
+"""Signals: low-pass filters, random numbers and smooth trajectories."""

@@ -1,0 +1,78 @@
+"""The reference that the position controller tracks: the admittance's trajectory, lifted and landed.
+
+x_d, y_d = T_r; z_d = (T_r,z + height · q(lift)) (1 − q(land)), with exact derivatives, where q is the quintic
+smoothstep 10 s³ − 15 s⁴ + 6 s⁵ on [0, 1].
+"""
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import clip
+from tandemlift.algebra.vector import ZERO, Vec3
+
+
+class Trajectory(NamedTuple):
+    """A point's position [m], velocity [m/s] and acceleration [m/s²], world axes."""
+
+    position: Vec3
+    velocity: Vec3
+    acceleration: Vec3
+
+
+class Reference(NamedTuple):
+    """What is to be tracked.
+
+    The centre of mass's trajectory in world axes; the yaw ψ_d [rad], its rate [rad/s] and acceleration [rad/s²]; and by
+    how much the trajectory's acceleration will have changed [m/s²] when the vehicle answers, zero if that is not known.
+    """
+
+    trajectory: Trajectory
+    yaw: Any
+    yaw_rate: Any = 0.0
+    yaw_acceleration: Any = 0.0
+    lead: Vec3 = ZERO
+
+
+class ScheduledPhases(NamedTuple):
+    """Lift to `height` [m] from `lift_start` [s], land from `land_start`; rates are 1/duration [1/s], 0 for never."""
+
+    height: Any
+    lift_start: Any
+    lift_rate: Any
+    land_start: Any
+    land_rate: Any
+
+
+class SmoothStep(NamedTuple):
+    """A smooth step from 0 to 1 with its first and second time derivatives."""
+
+    value: Any
+    rate: Any
+    curvature: Any
+
+
+@law
+def smoothstep(t: Any, start: Any, rate: Any) -> SmoothStep:
+    """q((t − start) rate) and its time derivatives [1/s, 1/s²]."""
+    s = clip((t - start) * rate, 0.0, 1.0)
+    return SmoothStep(
+        s * s * s * (10.0 - s * (15.0 - 6.0 * s)),
+        30.0 * s * s * (1.0 - s) * (1.0 - s) * rate,
+        60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) * rate * rate,
+    )
+
+
+@law
+def reference(p: ScheduledPhases, T: Trajectory, t: Any) -> Trajectory:
+    """The desired trajectory of the centre of mass at time t [s], world axes."""
+    lift = smoothstep(t, p.lift_start, p.lift_rate)
+    land = smoothstep(t, p.land_start, p.land_rate)
+    z = T.position.z + p.height * lift.value
+    dz = T.velocity.z + p.height * lift.rate
+    ddz = T.acceleration.z + p.height * lift.curvature
+    up = 1.0 - land.value
+    return Trajectory(
+        Vec3(T.position.x, T.position.y, z * up),
+        Vec3(T.velocity.x, T.velocity.y, dz * up - z * land.rate),
+        Vec3(T.acceleration.x, T.acceleration.y, ddz * up - 2.0 * dz * land.rate - z * land.curvature),
+    )

@@ -1,0 +1,84 @@
+"""What sensors read and estimators know, as channels."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import choice
+from tandemlift.algebra.vector import Nothing, Quat, Vec3
+from tandemlift.laws.sensors.readings import Readings
+from tandemlift.loop.perception import Estimates
+
+
+class MeasuredChannels(NamedTuple):
+    """What sensors show: the last readings that the pilot has."""
+
+    measured_position: Vec3
+    measured_velocity: Vec3
+    measured_attitude: Quat
+    measured_rates: Vec3
+    measured_specific_force: Vec3
+    measured_joint_force: Vec3
+    measured_joint_torque: Vec3
+
+
+class EstimatedChannels(NamedTuple):
+    """What is estimated from them."""
+
+    estimated_position: Vec3
+    estimated_velocity: Vec3
+    estimated_attitude: Quat
+    estimated_rates: Vec3
+    push_measured: Vec3
+    push_estimate: Vec3
+    push_moment_estimate: Vec3
+    push_point_estimate: Any
+    payload_mass_estimate: Any
+    sensor_disagreement: Any
+    push_usable: Any
+
+
+@choice
+def shown_readings(readings: Any) -> Any:
+    """The channels of readings."""
+
+
+@shown_readings.register(Nothing)
+def _no_readings(readings):
+    return readings
+
+
+@shown_readings.register(Readings)
+def _readings(readings):
+    m, u = readings.motion, readings.unit
+    return MeasuredChannels(
+        m.position, m.velocity, m.attitude, u.rates, u.specific_force, u.joint_force, u.joint_torque
+    )
+
+
+@choice
+def shown_estimate(known: Any) -> Any:
+    """The channels of what is estimated."""
+
+
+@shown_estimate.register(Nothing)
+def _no_estimate(known):
+    return known
+
+
+@shown_estimate.register(Estimates)
+def _estimate(known):
+    s, p = known.state, known.push
+    return EstimatedChannels(
+        s.position,
+        s.velocity,
+        s.attitude,
+        s.rates,
+        p.measured,
+        p.force,
+        p.moment,
+        p.point,
+        p.payload_mass,
+        p.disagreement,
+        p.trusted * p.armed,
+    )

@@ -1,0 +1,292 @@
+"""What one step of a flight shows: the values behind the channels, and what the tally counts.
+
+Parts that a mission does not have show nothing. `flight.CHANNELS` gives unit and frame of every channel.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import choice, elementwise, law
+from tandemlift.algebra.ops import clip, greatest, minimum, where
+from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
+from tandemlift.engines.compiled import DistantFloor
+from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
+from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
+from tandemlift.laws.guidance.guidance import HandGuidanceChannels, thrust_fraction
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.clearance import clearance
+from tandemlift.laws.mechanics.contact import Floor
+from tandemlift.laws.mechanics.loads import PartLoads, PerfectReadings, total_of_each
+from tandemlift.laws.mechanics.push import PushSamples, moment_of
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, turned_least
+from tandemlift.laws.person.person import PersonState
+from tandemlift.laws.person.virtual_hand import VirtualHandState
+from tandemlift.laws.rotors.allocation import wrench
+from tandemlift.laws.rotors.dynamics import IdealRotors, Rotors
+from tandemlift.laws.rotors.thrust_limits import given_share
+from tandemlift.loop.estimate_channels import shown_estimate, shown_readings
+from tandemlift.loop.running_metrics import StepErrors, effort_of
+
+
+class Sample(NamedTuple):
+    """What one step shows. Fields that are groups of values (or `Nothing`) stand for the channels in them."""
+
+    position: Vec3
+    velocity: Vec3
+    attitude: Quat
+    euler: Vec3
+    rates: Vec3
+    reference_position: Vec3
+    reference_velocity: Vec3
+    reference_acceleration: Vec3
+    reference_euler: Vec3
+    admittance_position: Vec3
+    admittance_velocity: Vec3
+    admittance_acceleration: Vec3
+    admittance_force: Vec3
+    push_force: Vec3
+    push_moment: Vec3
+    thrust: Any
+    moment: Vec3
+    rotor_thrusts: Any
+    joint_force: Vec3
+    joint_torque: Vec3
+    actuated: Any
+    air: Any
+    contact: Any
+    measured: Any
+    estimated: Any
+    disturbed: Any
+    guided: Any
+    watched: Any
+
+
+class ActuatorChannels(NamedTuple):
+    """Of real rotors: the thrusts commanded, the wrench that they can give within limits, and its share of U."""
+
+    rotor_commands: Any
+    allocated_thrust: Any
+    allocated_moment: Vec3
+    allocation_share: Any
+
+
+class WindChannels(NamedTuple):
+    """Of moving air: its velocity, and its force on all parts together."""
+
+    wind_velocity: Vec3
+    wind_force: Vec3
+
+
+class ContactChannels(NamedTuple):
+    """Of floor and walls: their force on all parts together."""
+
+    contact_force: Vec3
+
+
+class DetectionChannels(NamedTuple):
+    """Of the detection of lost rotors: the number of the rotor that is taken for lost, 0 for none."""
+
+    rotor_lost: Any
+
+
+class DisturbanceChannels(NamedTuple):
+    """Of an observer: what it estimates, and how far it is behind."""
+
+    disturbance_force: Vec3
+    disturbance_moment: Vec3
+    disturbance_residual: Vec3
+    disturbance_turning_residual: Vec3
+
+
+@choice
+def disturbed(observer: Any, unknown: DisturbanceEstimate) -> Any:
+    """What an observer shows."""
+
+
+@disturbed.register(Nothing)
+def _no_observer(observer, unknown):
+    return observer
+
+
+@disturbed.register(DisturbanceObserver)
+def _an_observer(observer, unknown):
+    return DisturbanceChannels(unknown.force, unknown.moment, unknown.residual, unknown.turning_residual)
+
+
+@choice
+def watched(detection: Any, memory: Any) -> Any:
+    """What the detection of lost rotors shows."""
+
+
+@watched.register(Nothing)
+def _not_watched(detection, memory):
+    return detection
+
+
+@watched.register(RotorLossDetection)
+def _is_watched(detection, memory):
+    return DetectionChannels(dot(memory.verdict.lost, detection.numbers))
+
+
+@choice
+def actuated(rotors: Any, effect: Any, command: Wrench, commands: Any) -> Any:
+    """What rotors of this kind show of commanded thrusts [N] for a wanted wrench."""
+
+
+@actuated.register(IdealRotors)
+def _nothing_to_show(rotors, effect, command, commands):
+    return Nothing()
+
+
+@actuated.register(Rotors)
+def _within_limits(rotors, effect, command, commands):
+    thrusts = clip(commands, 0.0, rotors.max_thrust)
+    given = wrench(effect, thrusts)
+    return ActuatorChannels(
+        commands, given.thrust, given.moment, given_share(effect, rotors.per_reach, command, thrusts)
+    )
+
+
+@choice
+def saturated(rotors: Any, commands: Any) -> Any:
+    """1 if any rotor is commanded to a limit or beyond, else 0."""
+
+
+@saturated.register(IdealRotors)
+def _never(rotors, commands):
+    return 0.0
+
+
+@elementwise
+def at_limit(command, most):
+    """1 where a thrust is at 0 or at its most, or beyond."""
+    return where(command > 0.0, where(command < most, 0.0, 1.0), 1.0)
+
+
+@saturated.register(Rotors)
+def _any(rotors, commands):
+    return minimum(total(at_limit(commands, rotors.max_thrust)), 1.0)
+
+
+@choice
+def air_of(loads: Any, velocity: Any) -> Any:
+    """What moving air shows."""
+
+
+@air_of.register(Nothing)
+def _no_air(loads, velocity):
+    return loads
+
+
+@air_of.register(PartLoads)
+def _some_air(loads, velocity):
+    return WindChannels(velocity, loads.payload.force + total_of_each(loads.quadrotors.force))
+
+
+@choice
+def contact_of(floor: Any, felt: PerfectReadings) -> Any:
+    """What contact shows."""
+
+
+@contact_of.register(Nothing)
+def _no_contact(floor, felt):
+    return floor
+
+
+@contact_of.register(DistantFloor)
+@contact_of.register(Floor)
+def _some_contact(floor, felt):
+    return ContactChannels(felt.contact_force)
+
+
+@law
+def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
+    """The sample of a step, at its start."""
+    state, felt, read = flying.moving.state, moved.felt, thought.decision
+    guidance, command = read.guidance, read.command
+    target = guidance.reference.trajectory
+    return Sample(
+        state.position,
+        state.velocity,
+        state.attitude,
+        euler_from_quaternion(state.attitude).angles,
+        state.rates,
+        target.position,
+        target.velocity,
+        target.acceleration,
+        command.euler,
+        guidance.admittance.position,
+        guidance.admittance.velocity,
+        guidance.admittance.acceleration,
+        guidance.force,
+        hand.start.force,
+        moment_of(hand.start, state.attitude),
+        command.wrench.thrust,
+        command.wrench.moment,
+        acting.thrusts,
+        felt.joint_force,
+        felt.joint_torque,
+        actuated(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
+        air_of(acting.weather.loads, acting.weather.velocity),
+        contact_of(flying.plant.floor, felt),
+        shown_readings(flying.moving.readings),
+        shown_estimate(thought.known),
+        disturbed(flying.pilot.observer, read.unknown),
+        guidance.shown,
+        watched(flying.pilot.detection, thought.memory.detection),
+    )
+
+
+@choice
+def effort(partner: Any, x: Sample) -> Any:
+    """What a step costs the person who guides the vehicle."""
+
+
+@effort.register(Nothing)
+def _nobody(partner, x):
+    return partner
+
+
+@effort.register(PersonState)
+def _somebody(partner, x):
+    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+
+
+@effort.register(VirtualHandState)
+def _a_hand(partner, x):
+    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+
+
+@choice
+def hearing(shown: Any) -> Any:
+    """1 while a push is heard along any axis, else 0; from what guidance shows."""
+
+
+@hearing.register(Nothing)
+def _not_asked(shown):
+    return 0.0
+
+
+@hearing.register(HandGuidanceChannels)
+def _heard(shown):
+    return greatest(shown.push_on)
+
+
+@law
+def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
+    """What a sample adds to the tally."""
+    return StepErrors(
+        x.reference_position - x.position,
+        x.reference_velocity - x.velocity,
+        turned_least(x.reference_euler - x.euler),
+        x.euler,
+        x.thrust,
+        x.moment,
+        x.push_force,
+        dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
+        saturated(flying.rotors, thought.decision.thrusts) * thrust_fraction(thought.decision.guidance.running),
+        clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
+        effort(flying.moving.partner, x),
+        hearing(thought.decision.guidance.shown),
+    )

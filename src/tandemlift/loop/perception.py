@@ -1,0 +1,240 @@
+"""What the pilot perceives: sensors' readings, what is estimated from them, and which of them it reads."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.vector import Nothing, Quat, Vec3, apply_transposed, cross
+from tandemlift.laws.estimation.navigation import Navigator, navigate
+from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.push import moment_of
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.sensors.readings import Readings, Sensors, sense
+
+
+class TruthSource(NamedTuple):
+    """The pilot reads what is true."""
+
+
+class MeasurementSource(NamedTuple):
+    """The pilot reads what sensors measure."""
+
+
+class EstimateSource(NamedTuple):
+    """The pilot reads what is estimated."""
+
+
+class PushWrench(NamedTuple):
+    """A push: force [N, world axes] and moment about the system's centre of mass [N·m, body axes]."""
+
+    force: Vec3
+    moment: Vec3
+
+
+class PerceptionData(NamedTuple):
+    """What sensors read and what estimators know."""
+
+    readings: Any
+    known: Any
+
+
+class PilotSources(NamedTuple):
+    """What the pilot reads of the state, and of the push."""
+
+    state: Any
+    push: Any
+
+
+class NominalVehicle(NamedTuple):
+    """What is believed of the vehicle.
+
+    The payload's centre of mass from the system's [m, body axes], and linear drag, which the joints feel as they feel a
+    push: of force on world velocity [N·s/m], of moment on body rates [N·m·s].
+    """
+
+    payload: Vec3
+    drag_force: Vec3
+    drag_moment: Vec3
+
+
+class Estimators(NamedTuple):
+    """Of the push, and of the state; what is believed of the vehicle; when to tare."""
+
+    push: PushEstimator
+    state: Navigator
+    vehicle: NominalVehicle
+    tare: Any
+
+
+class TareAtTime(NamedTuple):
+    """The tare begins at a set time."""
+
+
+class TareInHover(NamedTuple):
+    """The tare begins in steady hover."""
+
+
+class EstimatorState(NamedTuple):
+    """Memory of the estimators."""
+
+    push: Any
+    state: Any
+
+
+class Estimates(NamedTuple):
+    """What is estimated; and what is believed of the vehicle."""
+
+    push: PushEstimate
+    state: State
+    vehicle: NominalVehicle
+
+
+@choice
+def measure(sensors: Any, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
+    """(Readings of a step, the sensors' memory)."""
+
+
+@measure.register(Nothing)
+def _blind(sensors, memory, state, felt, believed, noise):
+    return sensors, memory
+
+
+@measure.register(Sensors)
+def _sensed(sensors, memory, state, felt, believed, noise):
+    return sense(sensors, memory, state, felt, believed, noise)
+
+
+@choice
+def tare_begun(tare: Any, guidance: Any, t: Any) -> Any:
+    """The time [s] on the clock of the tare; `guidance`: its memory."""
+
+
+@tare_begun.register(TareAtTime)
+def _by_clock(tare, guidance, t):
+    return t
+
+
+@tare_begun.register(TareInHover)
+def _in_hover(tare, guidance, t):
+    return guidance.phase.hovered
+
+
+@choice
+def tare_time(estimators: Any, guidance: Any, t: Any) -> Any:
+    """The time [s] by which the estimators tare."""
+
+
+@tare_time.register(Nothing)
+def _no_tare(estimators, guidance, t):
+    return t
+
+
+@tare_time.register(Estimators)
+def _tare(estimators, guidance, t):
+    return tare_begun(estimators.tare, guidance, t)
+
+
+@choice
+def estimate_all(estimators: Any, memory: Any, readings: Any, t: Any, dt: Any) -> Any:
+    """(what is known from readings, the estimators' memory) at time t [s]."""
+
+
+@estimate_all.register(Nothing)
+def _unknowing(estimators, memory, readings, t, dt):
+    return estimators, memory
+
+
+@estimate_all.register(Estimators)
+def _estimated(estimators, memory, readings, t, dt):
+    push, push_memory = estimate(estimators.push, memory.push, readings.unit, t)
+    state, state_memory = navigate(estimators.state, memory.state, readings)
+    return Estimates(push, state, estimators.vehicle), EstimatorState(push_memory, state_memory)
+
+
+@choice
+def usable(known: Any, readings: Any) -> Any:
+    """The readings that may be used."""
+
+
+@usable.register(Nothing)
+def _as_unknown(known, readings):
+    return readings
+
+
+@usable.register(Estimates)
+def _as_given(known, readings):
+    return readings
+
+
+@choice
+def read_state(reads: Any, true: State, readings: Any, known: Any) -> Any:
+    """The state as the pilot reads it."""
+
+
+@read_state.register(TruthSource)
+def _true_state(reads, true, readings, known):
+    return true
+
+
+@read_state.register(MeasurementSource)
+def _measured_state(reads, true, readings, known):
+    motion = readings.motion
+    return State(motion.position, motion.velocity, motion.attitude, readings.unit.rates)
+
+
+@read_state.register(EstimateSource)
+def _estimated_state(reads, true, readings, known):
+    return known.state
+
+
+@choice
+def read_push(reads: Any, true: Any, state: State, known: Any) -> Any:
+    """The push as the pilot reads it, a `PushWrench`, in a state that it believes in. `true`: as it is."""
+
+
+@read_push.register(TruthSource)
+def _true_push(reads, true, state, known):
+    return PushWrench(true.force, moment_of(true, state.attitude))
+
+
+@read_push.register(MeasurementSource)
+def _measured_push(reads, true, state, known):
+    p = known.push
+    return true_push(known.vehicle, state, p.measured, p.measured_moment, p.trusted * p.armed)
+
+
+@read_push.register(EstimateSource)
+def _estimated_push(reads, true, state, known):
+    p = known.push
+    return true_push(known.vehicle, state, p.force, p.moment, p.trusted * p.armed)
+
+
+@law
+def true_push(vehicle: NominalVehicle, state: State, force: Vec3, moment: Vec3, heard: Any) -> PushWrench:
+    """A push on the payload, less what drag does, about the system's centre of mass; nothing if not `heard` (0).
+
+    `force` [N, world axes]; `moment` [N·m, body axes] is about the payload's centre of mass.
+    """
+    push = force + vehicle.drag_force * state.velocity
+    arm = cross(vehicle.payload, apply_transposed(rotation_from_quaternion(state.attitude), push))
+    return PushWrench(push * heard, (moment + vehicle.drag_moment * state.rates + arm) * heard)
+
+
+@choice
+def all_sensed(readings: Any, known: Any) -> Any:
+    """What is sensed, or `Nothing`."""
+
+
+@all_sensed.register(Nothing)
+def _nothing_sensed(readings, known):
+    return readings
+
+
+@all_sensed.register(Readings)
+def _some_sensed(readings, known):
+    return PerceptionData(readings, known)
+
+
+READS = {"truth": TruthSource(), "measurement": MeasurementSource(), "estimate": EstimateSource()}

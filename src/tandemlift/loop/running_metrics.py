@@ -1,0 +1,164 @@
+"""Running sums over every step of a flight, from which its metrics are formed: memory does not grow with the steps."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
+from tandemlift.laws.mechanics.clearance import nearer_of
+
+LATE = 10.0  # s: "after 10 s" leaves the disturbed start out
+
+
+class StepErrors(NamedTuple):
+    """What a step adds to the tally: errors are desired minus actual, world axes or Euler angles; SI units."""
+
+    position: Vec3
+    velocity: Vec3
+    attitude: Vec3
+    tilt: Vec3
+    thrust: Any
+    moment: Vec3
+    push: Vec3
+    power: Any
+    saturated: Any
+    clearance: Any
+    effort: Any
+    hearing: Any
+
+
+class PersonEffort(NamedTuple):
+    """Of a person who guides the vehicle, while they hold on: steps, sums of |force| and of the way flown per step."""
+
+    steps: Any
+    force_sum: Any
+    speed_sum: Any
+
+
+class RunningMetrics(NamedTuple):
+    """Sums and extremes over a stretch of steps; `triggers`: how often a push came to be heard; if one is now."""
+
+    steps: Any
+    position_squares: Vec3
+    position_max: Vec3
+    velocity_max: Vec3
+    attitude_squares: Vec3
+    tilt_max: Vec3
+    thrust_min: Any
+    thrust_max: Any
+    moment_max: Vec3
+    push_sum: Vec3
+    power_sum: Any
+    saturated: Any
+    clearance: Any
+    effort: Any
+    triggers: Any
+    hearing: Any
+
+
+EMPTY = RunningMetrics(
+    0.0, ZERO, ZERO, ZERO, ZERO, ZERO, math.inf, -math.inf, ZERO, ZERO, 0.0, 0.0, Nothing(), Nothing(), 0.0, 0.0
+)
+NO_EFFORT = PersonEffort(0.0, 0.0, 0.0)
+
+
+@choice
+def added(effort: Any, more: Any) -> Any:
+    """A person's effort with that of one more step."""
+
+
+@added.register(Nothing)
+def _nobody(effort, more):
+    return effort
+
+
+@added.register(PersonEffort)
+def _somebody(effort, more):
+    return PersonEffort(effort.steps + more.steps, effort.force_sum + more.force_sum, effort.speed_sum + more.speed_sum)
+
+
+@law
+def effort_of(grasp: Any, force: Vec3, velocity: Vec3) -> PersonEffort:
+    """A step's effort of a person who holds on (`grasp` 1) or not (0), with a force, at a velocity."""
+    strong, fast = sqrt(maximum(dot(force, force), 1e-24)), sqrt(maximum(dot(velocity, velocity), 1e-24))
+    return PersonEffort(grasp, strong * grasp, fast * grasp)
+
+
+@law
+def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
+    """The tally with one more step."""
+    return RunningMetrics(
+        c.steps + 1.0,
+        c.position_squares + x.position * x.position,
+        maximum(c.position_max, absolute(x.position)),
+        maximum(c.velocity_max, absolute(x.velocity)),
+        c.attitude_squares + x.attitude * x.attitude,
+        maximum(c.tilt_max, absolute(x.tilt)),
+        minimum(c.thrust_min, x.thrust),
+        maximum(c.thrust_max, x.thrust),
+        maximum(c.moment_max, absolute(x.moment)),
+        c.push_sum + x.push,
+        c.power_sum + x.power,
+        c.saturated + x.saturated,
+        nearer_of(c.clearance, x.clearance),
+        added(c.effort, x.effort),
+        c.triggers + x.hearing * (1.0 - c.hearing),
+        x.hearing,
+    )
+
+
+def _root_mean(squares: Any, steps: float) -> list[float] | None:
+    return [math.sqrt(s / steps) for s in squares] if steps else None
+
+
+def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
+    """The metrics from the tallies before and after `LATE`, with steps of `step` [s]; None where there is none."""
+    steps = early.steps + late.steps
+    return {
+        "position_rmse_m": _root_mean(early.position_squares + late.position_squares, steps),
+        "position_rmse_after_10s_m": _root_mean(late.position_squares, late.steps),
+        "position_max_error_m": list(maximum(early.position_max, late.position_max)) if steps else None,
+        "position_max_error_after_10s_m": list(late.position_max) if late.steps else None,
+        "attitude_rmse_rad": _root_mean(early.attitude_squares + late.attitude_squares, steps),
+        "velocity_max_error_after_10s_m_s": list(late.velocity_max) if late.steps else None,
+        "max_tilt_after_10s_rad": list(late.tilt_max) if late.steps else None,
+        "thrust_min_after_10s_n": late.thrust_min if late.steps else None,
+        "thrust_max_after_10s_n": late.thrust_max if late.steps else None,
+        "moment_max_abs_after_10s_n_m": list(late.moment_max) if late.steps else None,
+        "human_impulse_n_s": list((early.push_sum + late.push_sum) * step),
+        "human_work_j": (early.power_sum + late.power_sum) * step,
+        "push_triggers_after_10s": late.triggers if late.steps else None,
+        "rotor_saturated_share": (early.saturated + late.saturated) / steps if steps else None,
+        **_of_walls(early, late),
+        **_of_effort(early, late, step),
+    }
+
+
+def _of_walls(early: RunningMetrics, late: RunningMetrics) -> dict[str, Any]:
+    """The metrics of a flight among walls."""
+    if isinstance(early.clearance, Nothing):
+        return {}
+    least = min(_numbers(early.clearance) + _numbers(late.clearance))
+    return {"clearance_min_m": least, "wall_contact": least < 0.0}
+
+
+def _of_effort(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
+    """The metrics of a person who guides the vehicle."""
+    if isinstance(early.effort, Nothing):
+        return {}
+    both = early.effort if isinstance(late.effort, Nothing) else added(early.effort, late.effort)
+    way, work = both.speed_sum * step, (early.power_sum + late.power_sum) * step
+    return {
+        "human_force_mean_n": both.force_sum / both.steps if both.steps else None,
+        "human_time_s": both.steps * step,
+        "human_path_m": way,
+        "human_work_per_path_j_m": work / way if way else None,
+    }
+
+
+def _numbers(value: Any) -> list[float]:
+    """The numbers in a nested value."""
+    return [n for part in value for n in _numbers(part)] if isinstance(value, tuple) else [float(value)]

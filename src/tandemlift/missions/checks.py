@@ -1,0 +1,120 @@
+"""What can be flown at all, and what may fly badly: checks across the keys of a mission."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator
+
+import numpy as np
+
+from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.missions.hardware_checks import check_hardware, hardware_warnings
+from tandemlift.missions.person_checks import check_person, person_warnings
+from tandemlift.missions.supervision_checks import check_supervision
+from tandemlift.missions.surroundings_checks import check_surroundings, surroundings_warnings
+from tandemlift.missions.values import shown
+from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+MAX_STEPS = 1_000_000_000
+MAX_LOG = 4_000_000_000  # bytes
+LEAST_RATIO = 1e-12  # of the principal moments of inertia
+PRECISION = 1e-6  # of the allocation
+
+
+def check_flyable(m: Mission) -> None:
+    """Refuse what no pilot could fly.
+
+    Raises:
+        InputError: with the key, its value and what is allowed.
+    """
+    _check_times(m)
+    _check_vehicle(m)
+    _check_admittance(m)
+    check_hardware(m)
+    check_surroundings(m)
+    check_supervision(m)
+    check_person(m)
+
+
+def sample_size(m: Mission) -> int:
+    """Bytes of a logged sample: 8 for its time and for each number of the channels that the mission has."""
+    count = len(m.vehicle.quadrotors)
+    numbers = {
+        "time, state, reference, admittance, push, wrench; rotors and joints": 51 + 10 * count,
+        "commands of real rotors": (5 + 4 * count) * (m.actuators.model == "rotors"),
+        "wind": 6 * (m.wind.model == "air"),
+        "contact": 3 * (m.ground.model == "floor"),
+        "readings and estimates": (42 + 6 * count) * (m.sensors.model == "simulated"),
+        "observer": 12 * (m.observer.model != "none"),
+        "guidance by hand": 9 * (m.pilot.guidance == "hand"),
+        "supervision": 2 * (m.supervision.model == "watch"),
+        "rotor-failure detection": 1 * (m.detection.model != "none"),
+    }
+    return 8 * sum(numbers.values())
+
+
+def _check_times(m: Mission) -> None:
+    """Refuse a grid of steps that is empty, endless or would not fit in memory, and a landing before the lift."""
+    t, phases = m.mission, m.phases
+    if t.step > t.duration:
+        raise InputError(f"mission.step = {t.step}: must not be longer than mission.duration = {t.duration}")
+    if t.duration / t.step > MAX_STEPS:
+        count = f"makes {t.duration / t.step:.3g} steps of mission.step = {t.step}"
+        raise InputError(f"mission.duration = {t.duration}: {count}; at most {MAX_STEPS:.0e} are allowed")
+    size = t.steps / t.log_every * sample_size(m)
+    if size > MAX_LOG:
+        longer = f"must be at least {t.log_interval * size / MAX_LOG:.2g}"
+        raise InputError(
+            f"mission.log_interval = {t.log_interval}: {longer}, or the log exceeds {MAX_LOG / 1e9:.0f} GB"
+        )
+    if phases.land_start is not None and phases.land_start < phases.lift_start:
+        limit = f"must not be before phases.lift_start = {phases.lift_start}"
+        raise InputError(f"phases.land_start = {phases.land_start}: {limit}")
+
+
+def _check_vehicle(m: Mission) -> None:
+    """Refuse a vehicle that cannot be computed with."""
+    vehicle = Vehicle.from_settings(m.vehicle)
+    try:
+        with np.errstate(all="ignore"):
+            moments = np.linalg.eigvalsh(vehicle.inertia)
+            both = vehicle.effect @ vehicle.allocation(m.allocation.weights)
+            sound = math.isfinite(vehicle.max_thrust) and moments[0] > LEAST_RATIO * moments[-1]
+    except (OverflowError, np.linalg.LinAlgError):
+        sound, both = False, np.eye(4)
+    if not sound:
+        raise InputError(
+            "vehicle: masses, moments of inertia or positions are too large or too far apart to compute with"
+        )
+    if not np.allclose(both, np.eye(4), rtol=0.0, atol=PRECISION):
+        given = shown(m.allocation.weights)
+        raise InputError(f"allocation.weights = {given}: must not be so far apart, or the wrench is lost in rounding")
+
+
+def _check_admittance(m: Mission) -> None:
+    """Refuse an admittance that grows without a push when sampled: an eigenvalue beyond the unit circle."""
+    a, h = m.admittance, m.mission.step
+    for axis, (M, C, K) in enumerate(zip(a.mass, a.damping, a.stiffness, strict=True)):
+        # z² − (2 − c − k/2) z + 1 − c + k/2 with c = Ch/M, k = Kh²/M; Jury's conditions come to k/2 ≤ c ≤ 2
+        least, most = K * h / 2.0, 2.0 * M / h
+        if not least * (1.0 - 1e-12) <= C <= most * (1.0 + 1e-12):
+            raise InputError(
+                f"admittance.damping = {C} along {'xyz'[axis]}: must be from stiffness*step/2 = {least:.6g} to "
+                f"2*mass/step = {most:.6g} N s/m with mass {M:g} kg, stiffness {K:g} N/m and step {h:g} s, "
+                "or the admittance swings up by itself"
+            )
+
+
+def _phase_warnings(m: Mission) -> Iterator[str]:
+    p = m.phases
+    lifted = p.lift_start + p.lift_duration
+    if p.height and p.land_start is not None and p.land_start < lifted:
+        yield f"phases.land_start = {p.land_start} is before the lift ends at {lifted:g} s: it is cut short"
+
+
+def warn(m: Mission, source: str) -> None:
+    """Warn of what may fly badly, with the numbers."""
+    for message in (*_phase_warnings(m), *hardware_warnings(m), *surroundings_warnings(m), *person_warnings(m)):
+        warnings.warn(f"{source}: {message}", FlightWarning, stacklevel=5)

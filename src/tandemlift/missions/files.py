@@ -1,0 +1,107 @@
+"""Mission files: which there are, what each says, and what it extends."""
+
+from __future__ import annotations
+
+import functools
+import os
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from tandemlift.common.errors import InputError, suggestion, unknown
+from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
+from tandemlift.missions.values import MISSING, Tables, merge, shown, value_at
+
+DATA = Path(__file__).resolve().parent.parent / "data"
+MAX_FILE = 1_000_000  # bytes
+
+
+class Layer(NamedTuple):
+    """What one file says; `source` names it in messages."""
+
+    source: str
+    tables: Tables
+
+
+@functools.cache
+def built_in() -> Mapping[str, str]:
+    """The built-in missions and their one-line summaries (the first comment of each file)."""
+    files = sorted((DATA / "missions").glob("*.toml"))
+    return {f.stem: f.read_text("utf-8").partition("\n")[0].lstrip("# ") for f in files}
+
+
+def path_of(name: str | os.PathLike[str], folder: Path) -> Path:
+    """The file of a built-in mission, or the path given, relative to a folder."""
+    if isinstance(name, str) and name in built_in():
+        return DATA / "missions" / f"{name}.toml"
+    if isinstance(name, str) and not name.endswith(".toml") and not re.search(r"[/\\]", name):
+        raise InputError(f"{unknown('mission', name, built_in())} The name of a file of your own ends in .toml.")
+    path = folder / name
+    if path.is_dir():
+        raise InputError(f"{path} is a folder, not a mission file")
+    if not path.exists():
+        raise InputError(f"mission file {path} does not exist.{suggestion(path.stem, built_in())}")
+    return path
+
+
+@functools.lru_cache(maxsize=32)
+def _parsed(text: str) -> tuple[Tables, list[str]]:
+    """The tables of a text by their new names, and which old names it uses.
+
+    They are kept for sweeps that load one mission many times; nobody changes them.
+    """
+    return renamed_tables(tomllib.loads(text))
+
+
+def _read(path: Path) -> Tables:
+    with path.open("rb") as file:
+        content = file.read(MAX_FILE + 1)
+    if len(content) > MAX_FILE:
+        raise InputError(f"{path} is larger than {MAX_FILE} bytes, the most that a mission file may have")
+    try:
+        tables, notices = _parsed(content.decode("utf-8-sig").replace("\r\n", "\n"))
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path} is not text in UTF-8: byte {error.start} is {content[error.start]:#04x}") from None
+    except RecursionError:
+        raise InputError(f"{path} is not a mission: nested too deeply") from None
+    except ValueError as error:  # TOMLDecodeError, or a whole number of thousands of digits
+        raise InputError(f"{path} is not valid TOML: {error}") from None
+    warn_of_old_names(str(path), notices)
+    return dict(tables)
+
+
+def overlay(base: Tables, changes: Tables) -> Tables:
+    """`merge` of missions: the settings of another controller do not carry over."""
+    name = value_at(changes, ("controller", "name"))
+    if name not in (MISSING, value_at(base, ("controller", "name"))):
+        base = {key: value for key, value in base.items() if key != "controller"}
+    return merge(base, changes)
+
+
+def layers_of(path: Path, seen: tuple[Path, ...] = ()) -> Iterator[Layer]:
+    """What the file says, after what the missions say that it extends."""
+    tables = _read(path)
+    parent = tables.pop("extends", None)
+    if parent is not None:
+        try:
+            if not isinstance(parent, str):
+                raise InputError("must be the name of a built-in mission or a path, in quotes")
+            above = path_of(parent, path.parent)
+            if above.resolve() in (*seen, path.resolve()):
+                raise InputError("comes back to a file that extends it")
+        except InputError as error:
+            raise InputError(f"{path}: extends = {shown(parent)}: {error}") from None
+        yield from layers_of(above, (*seen, path.resolve()))
+    yield Layer(path.stem if path.parent == DATA / "missions" else str(path), _anchored(tables, path.parent))
+
+
+def _anchored(tables: Tables, folder: Path) -> Tables:
+    """Tables of a file whose recording, if it names one, is found from the file's own folder."""
+    recording = value_at(tables, ("person", "recording"))
+    if not isinstance(recording, str):
+        return tables
+    return merge(tables, {"person": {"recording": str((folder / recording).resolve())}})

@@ -1,0 +1,79 @@
+"""A hand as it was moved, step by step: the file that a recorded mission names in `person.recording`.
+
+A NumPy archive (.npz) of `step` (n,), whole and rising, and `hand` (n, 14): from that step on, held, grip (3), target
+(3), force (3), lift, land, stop, enabled, as `virtual_hand.Held` has them; and `engine`, the one that it was
+recorded in ("compiled" where there is none).
+"""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
+from tandemlift.settings import Mission
+
+WIDTH = 14  # numbers of a `Held`
+ENGINE = "compiled"  # that a mission is flown in unless told otherwise
+
+
+class Recording(NamedTuple):
+    """Steps (n,) and, from each on, the numbers of the hand (n, 14); the engine that was flown in."""
+
+    steps: NDArray[np.int64]
+    hands: NDArray[np.float64]
+    engine: str = ENGINE
+
+
+def write_recording(path: Path, recording: Recording) -> None:
+    """Write a recording, whole or not at all."""
+    with atomic_write(path) as partial, partial.open("wb") as file:
+        np.savez_compressed(file, step=recording.steps, hand=recording.hands, engine=recording.engine)
+
+
+def read_recording(path: str) -> Recording:
+    """Read a recording.
+
+    Raises:
+        InputError: the file does not exist, or holds something else; the message says what.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            engine = archive["engine"] if "engine" in archive else np.array(ENGINE)
+            recording = Recording(archive["step"], archive["hand"], str(engine))
+    except FileNotFoundError:
+        raise InputError(f"person.recording = {path!r}: there is no such file") from None
+    except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
+        raise InputError(f"person.recording = {path!r}: not a recording: {error}") from None
+    _check(path, recording)
+    return recording
+
+
+def _check(path: str, recording: Recording) -> None:
+    steps, hands, _ = recording
+    if steps.dtype != np.int64 or steps.ndim != 1 or (steps.size and (steps[0] < 0 or np.any(np.diff(steps) <= 0))):
+        raise InputError(f"person.recording = {path!r}: `step` must be int64 (n,), rising from 0 or more")
+    if hands.dtype != np.float64 or hands.shape != (steps.size, WIDTH) or not np.isfinite(hands).all():
+        raise InputError(f"person.recording = {path!r}: `hand` must be finite float64 ({steps.size}, {WIDTH})")
+
+
+def engine_of(mission: Mission) -> str:
+    """The engine that a mission is flown in unless told otherwise: the one that its recording is from, if it has one.
+
+    Raises:
+        InputError: the recording cannot be read.
+    """
+    return read_recording(mission.person.recording).engine if mission.person.recording else ENGINE
+
+
+def portable(tables: dict[str, Any]) -> dict[str, Any]:
+    """A mission's tables without the folder that its recording is in: it stands beside the file that they go to."""
+    recording = tables.get("person", {}).get("recording")
+    return (
+        tables if recording is None else {**tables, "person": {**tables["person"], "recording": Path(recording).name}}
+    )

@@ -1,0 +1,55 @@
+"""docs/keys.md: the tables of all keys, made from the tables of a mission."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tandemlift.missions.reference.sections import EXTENDS, Key, Section, default_words, sections
+from tandemlift.missions.values import shown
+
+HEAD = """\
+# All mission keys
+
+This page is made by `tandemlift explain --markdown > docs/keys.md`; [missions.md](missions.md) says how a mission is
+written. SI units, angles in rad. World axes have z up; body axes are fixed to the vehicle. Six-vectors run x, y, z,
+roll, pitch, yaw. In dotted keys a number picks an entry of a list, 0 the first. All numbers are finite. A key with a
+default may be left out, and so may a table with nothing but such keys.
+"""
+COLUMNS = "| key | unit | default | allowed | meaning | source of the default |\n|---|---|---|---|---|---|"
+
+
+def keys_page() -> str:
+    """The page: a table of keys for each table of a mission."""
+    extends = f"\n`extends` (before all tables): {EXTENDS.meaning}.\n"
+    return HEAD + extends + "".join(_section(section) for section in sections())
+
+
+def _section(section: Section) -> str:
+    of = f" of `{section.controller}`" if section.controller else ""
+    text = "\n\n".join(f"{p[0].upper()}{p[1:]}{'' if p.endswith('.') else '.'}" for p in section.text)
+    rows = "\n".join([COLUMNS, *map(_row, section.keys)]) + "\n" if section.keys else ""
+    return f"\n## `{section.header}`{of}\n\n{text}\n" + (f"\n{rows}" if rows else "")
+
+
+def _row(key: Key) -> str:
+    facts = key.facts
+    cells = [f"`{key.name}`", "" if facts.unit in (None, "1") else facts.unit or "", _default(key), _allowed(key)]
+    return "| " + " | ".join([*cells, ". ".join(_meaning(key)), facts.source]) + " |"
+
+
+def _default(key: Key) -> str:
+    words = default_words(key)
+    return f"`{words}`" if key.default is not None else words
+
+
+def _allowed(key: Key) -> str:
+    if not key.facts.choices:
+        return key.allowed
+    choices = ", ".join(f"`{shown(choice)}`" for choice in key.facts.choices)
+    return f"{choices}; {key.facts.rule}" if key.facts.rule else choices
+
+
+def _meaning(key: Key) -> Iterator[str]:
+    yield key.facts.meaning
+    if key.facts.choices:
+        yield "; ".join(f"`{shown(choice)}`: {text}" for choice, text in key.facts.choices.items())

@@ -1,0 +1,129 @@
+"""All tables of a mission with their keys, in the order of the template, and those of every registered controller."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+from typing import Any, NamedTuple, get_origin
+
+from pydantic.fields import FieldInfo
+
+from tandemlift.controllers import CONTROLLERS
+from tandemlift.missions.bounds import Model, allowed, table_in
+from tandemlift.missions.values import written
+from tandemlift.settings import ControllerTable, Facts, Mission, facts_of
+
+PAPER = "nftsmc"  # whose keys stand for `[controller]` in the template
+EXTENDS = Facts(
+    meaning="start from this mission and write only what differs: a built-in name, or a path relative to this file",
+    example="paper",
+)
+
+
+class Key(NamedTuple):
+    """A key of a mission: its dotted name, in which 0 stands for any entry of a list of tables; its type; its facts."""
+
+    name: str
+    field: FieldInfo
+    facts: Facts
+
+    @property
+    def allowed(self) -> str:
+        """What it may be, in words: its bounds, then what else must hold."""
+        words = allowed(self.field.annotation, self.field.metadata)
+        return f"{words}; {self.facts.rule}" if self.facts.rule else words
+
+    @property
+    def default(self) -> Any:
+        """Its default as plain numbers, one for all axes where that says the same; None if it has none."""
+        return None if self.field.is_required() else compact(self.field, self.field.default)
+
+    @property
+    def example(self) -> Any:
+        """A value to show, which is the default unless the key says another."""
+        return self.default if self.facts.example is None else self.facts.example
+
+
+class Section(NamedTuple):
+    """A table of a mission: its dotted name, its header in TOML, what it is, and its own keys.
+
+    `controller`: the name of the controller whose settings they are, else "". `optional`: left out by default.
+    """
+
+    name: str
+    header: str
+    model: Model
+    keys: tuple[Key, ...]
+    controller: str = ""
+    optional: bool = False
+
+    @property
+    def text(self) -> list[str]:
+        """What the table is, in paragraphs of one line each; the first is a phrase."""
+        paragraphs = (inspect.getdoc(self.model) or "").split("\n\n")
+        first, *others = [" ".join(p.split()) for p in paragraphs]
+        return [(first.partition("`: ")[2] or first).removesuffix("."), *others]
+
+
+def compact(field: FieldInfo, value: Any) -> Any:
+    """A value as lists, or as one number where one number for all axes says the same."""
+    if not isinstance(value, tuple):
+        return value
+    inner = [compact(field, entry) for entry in value]
+    marks = [mark for mark in field.metadata if hasattr(mark, "describe")]
+    single = any(getattr(mark, "single", True) for mark in marks)
+    alike = single and inner and all(x == inner[0] and isinstance(x, (int, float)) for x in inner)
+    return inner[0] if alike else inner
+
+
+def sections() -> Iterator[Section]:
+    """The tables of a mission, each before the tables in it; those of other controllers follow the paper's."""
+    for name, field in Mission.model_fields.items():
+        if name == "controller":
+            yield from _controllers()
+        else:
+            yield from _sections(name, field)
+
+
+def keys() -> Iterator[Key]:
+    """Every key of every table; keys that controllers share come once for each."""
+    for section in sections():
+        yield from section.keys
+
+
+def _controllers() -> Iterator[Section]:
+    yield Section("controller", "[controller]", ControllerTable, _keys("controller", ControllerTable))
+    others = [name for name in CONTROLLERS if name != PAPER]
+    for name in (PAPER, *sorted(others)):
+        model = CONTROLLERS[name].settings
+        own = tuple(key for key in _keys("controller", model) if key.name != "controller.name")
+        yield Section("controller", "[controller]", model, own, name)
+        for inner, field in model.model_fields.items():
+            yield from (s._replace(controller=name) for s in _sections(f"controller.{inner}", field))
+
+
+def _sections(name: str, field: FieldInfo) -> Iterator[Section]:
+    model, many = table_in(field.annotation), get_origin(field.annotation) is tuple
+    if model is None:
+        return
+    plain = name.replace(".0", "")
+    entry = f"{name}.0" if many else name
+    header = f"[[{plain}]]" if many else f"[{plain}]"
+    optional = not field.is_required() and field.default in ((), None)
+    yield Section(plain, header, model, _keys(entry, model), optional=optional)
+    for inner, below in model.model_fields.items():
+        yield from _sections(f"{entry}.{inner}", below)
+
+
+def _keys(above: str, model: Model) -> tuple[Key, ...]:
+    leaves = {name: field for name, field in model.model_fields.items() if table_in(field.annotation) is None}
+    return tuple(Key(f"{above}.{name}", field, facts_of(field)) for name, field in leaves.items())
+
+
+def default_words(key: Key) -> str:
+    """The default of a key in words: 'required', a TOML value, or what leaving the key out means."""
+    if key.field.is_required():
+        return "required"
+    if key.default is None:
+        return key.facts.unset or "left out"
+    return written(key.default)

@@ -1,0 +1,111 @@
+"""What is wrong with a table of a mission, in one sentence for each key: the value given and what is allowed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple, get_args, get_origin
+
+from pydantic import ValidationError
+
+from tandemlift.common.errors import nearest
+from tandemlift.missions.bounds import Model, allowed, plain, table_in
+from tandemlift.missions.values import MISSING, Place, dotted, shown, value_at
+
+BY_ANNOTATION = (  # the beginnings of the kinds of error for which the annotation says what is allowed
+    *("missing", "axes", "float_", "int_", "bool_", "string_type", "finite_", "greater_", "less_"),
+    *("literal_", "model_", "tuple_", "list_", "dict_", "too_"),
+)
+
+
+class Problem(NamedTuple):
+    """What is wrong with the key at a place in the nested tables."""
+
+    place: Place
+    sentence: str
+
+
+def problems_in(model: Model, error: ValidationError, tables: Any, prefix: Place = ()) -> list[Problem]:
+    """The problems of the table at `prefix` in `tables`, one for each key."""
+    data = value_at(tables, prefix)
+    found: dict[Place, Problem] = {}
+    for problem in error.errors(include_url=False, include_input=False):
+        sentence = _unknown_key if problem["type"] == "extra_forbidden" else _refusal
+        place, text = sentence(model, problem, data, prefix)
+        found.setdefault(place, Problem((*prefix, *place), text))
+    return list(found.values())
+
+
+def keys_of(model: Model, above: Place = ()) -> Iterator[Place]:
+    """The places of all keys of a table and of the tables in it; 0 stands for any entry of a list of tables."""
+    for name, field in model.model_fields.items():
+        inner, many = table_in(field.annotation), get_origin(field.annotation) is tuple
+        yield (*above, name)
+        if inner is not None:
+            yield from keys_of(inner, (*above, name, *([0] if many else [])))
+
+
+def _walk(model: Model, loc: Iterable[Any]) -> tuple[Place, Any, Any]:
+    """The place that pydantic means, without its labels of union members, and the last field and table on the way."""
+    place: list[str | int] = []
+    field, table = None, model
+    for part in loc:
+        if isinstance(part, str):
+            if table is None or part not in table.model_fields:
+                break
+            field = table.model_fields[part]
+            table = table_in(field.annotation)  # type: ignore[assignment]
+        place.append(part)
+    return tuple(place), field, table
+
+
+def _refusal(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[Place, str]:
+    place, field, table = _walk(model, problem["loc"])
+    if table is None and value_at(data, place) is MISSING:  # inside one value that serves all axes
+        while isinstance(place[-1], int):
+            place = place[:-1]
+    key, given = dotted((*prefix, *place)), value_at(data, place)
+    rule = _rule(problem, field, bool(place) and isinstance(place[-1], int))
+    if problem["type"] == "missing":
+        return place, f"{key} is missing: it {rule}"
+    whole = problem["type"] == "count" or (not problem["type"].startswith(BY_ANNOTATION) and isinstance(given, Mapping))
+    value = "" if whole or given is MISSING else f" = {shown(given)}"
+    return place, f"{key}{value}: {rule}{_hint(problem, field, given)}"
+
+
+def _rule(problem: Any, field: Any, entry: bool) -> str:
+    """'must be …', from the annotation where that says it all, else as the validator said it."""
+    if field is None or not problem["type"].startswith(BY_ANNOTATION):
+        said = problem["msg"].removeprefix("Value error, ").removeprefix("Assertion failed, ")
+        return said.replace("Input should", "must")
+    if entry:
+        parts = get_args(plain(field.annotation))
+        return f"must be {allowed(parts[0])}" if parts else "must be different"
+    return f"must be {allowed(field.annotation, field.metadata)}"
+
+
+def _hint(problem: Any, field: Any, given: Any) -> str:
+    kind = problem["type"]
+    if isinstance(given, str) and kind == "literal_error":
+        near = nearest(given, map(str, get_args(plain(field.annotation))))
+        return f". Did you mean {shown(near)}?" if near else ""
+    if isinstance(given, str) and kind.startswith(("float_", "int_", "axes")) and re.match(r"[-+.\d[]", given):
+        return ", without quotes"
+    if kind == "finite_number" or (kind == "float_type" and isinstance(given, int) and not isinstance(given, bool)):
+        return ", and finite"
+    if isinstance(given, Mapping) and kind == "tuple_type" and table_in(field.annotation):
+        return ", each with its name in double brackets"
+    return ""
+
+
+def _unknown_key(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[Place, str]:
+    *above, name = problem["loc"]
+    _, _, table = _walk(model, above)
+    names, where = list(table.model_fields), (*prefix, *above)
+    near = nearest(str(name), names)
+    elsewhere = next((place for place in keys_of(model) if place[-1] == name), None)
+    meant = (*where, near) if near else elsewhere and (*prefix, *elsewhere)
+    hint = f". Did you mean {dotted(meant)}?" if meant else ""
+    this = f"{dotted(where)} has" if where else "a mission has the tables"
+    given = f"{dotted((*where, name))} = {shown(value_at(data, problem['loc']))}"
+    return (*above, name), f"{given}: unknown key; {this} {', '.join(names)}{hint}"

@@ -1,0 +1,156 @@
+"""What a mission puts around the vehicle: floor, walls and wind that cannot be, and what may fly badly there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import vec3
+from tandemlift.common.errors import InputError
+from tandemlift.laws.mechanics.contact import Floor, floor, sinkage_of, soles_below, standing_height
+from tandemlift.laws.mechanics.rectangle import offset, wall
+from tandemlift.laws.mechanics.rotation import rotation_from_euler
+from tandemlift.laws.mechanics.wind import FOOT, HIGHEST, LOWEST
+from tandemlift.missions.values import shown
+from tandemlift.settings import Mission
+from tandemlift.settings.corridor import SHORTEST
+from tandemlift.vehicle import Vehicle
+
+DEEP = 0.02  # m, of feet in the floor at the start
+FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below where the vehicle stands
+THROWN = 5.0  # times its sinkage
+SOFT = 2.0  # times the sinkage that was asked for
+
+
+class Standing(NamedTuple):
+    """The floor and, as the vehicle really is, z [m] of its centre of mass where it stands, and its sinkage there [m].
+
+    `depth`: of its lowest sole in the floor at t = 0, beyond that sinkage [m].
+    """
+
+    floor: Floor
+    rests: float
+    sinkage: float
+    depth: float
+
+
+def check_surroundings(m: Mission) -> None:
+    """Refuse a floor, walls or rotors stopped where the vehicle could not be.
+
+    Raises:
+        InputError: with the key, its value and what is allowed.
+    """
+    if m.ground.model == "none":
+        _check_without_floor(m)
+    elif m.ground.effect and m.actuators.model != "rotors":
+        raise InputError('ground.effect = true: must be false where actuators.model is "ideal"')
+    else:
+        _check_start(m)
+    for i, w in enumerate(m.walls):
+        if math.dist(w.start, w.end) < SHORTEST:
+            raise InputError(f"walls.{i}.end = {shown(w.end)}: must be {SHORTEST} m or more from walls.{i}.start")
+
+
+def _check_without_floor(m: Mission) -> None:
+    if m.ground.effect:
+        raise InputError('ground.effect = true: must be false without a floor, or ground.model must be "floor"')
+    if m.all_walls:
+        raise InputError('ground.model = "none": must be "floor" where there are walls or a corridor')
+    if m.phases.rotors == "flight":
+        raise InputError(
+            'phases.rotors = "flight": must be "always" without a floor, or the vehicle falls while its rotors are '
+            'stopped; or ground.model must be "floor"'
+        )
+
+
+def _check_start(m: Mission) -> None:
+    depth = standing_of(m).depth
+    if depth > DEEP:
+        key, value, hint = "ground.height", m.ground.height, "must be lower, or initial.position higher"
+        if value is None:
+            key, hint = "initial.euler", "must be level, or ground.height lower"
+        given = shown(m.initial.euler if value is None else value)
+        raise InputError(f"{key} = {given}: the feet start {depth:.3g} m deep in the floor; {hint}")
+
+
+def standing_of(m: Mission) -> Standing:
+    """How the vehicle stands on the floor of a mission."""
+    vehicle, fleet = Vehicle.from_settings(m.vehicle), m.vehicle.quadrotors
+    mass, z = vehicle.mass * m.plant.mass_scale, m.initial.position[2]
+    soles = soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    g = m.ground
+    built = floor(soles, mass, vehicle.inertia, m.mission.step, friction=g.friction, sinkage=g.sinkage)
+    stands, sinkage = standing_height(built, mass * GRAVITY), sinkage_of(built, mass * GRAVITY)
+    height = z - stands if g.height is None else g.height
+    down = np.array(rotation_from_euler(vec3(m.initial.euler)).z)
+    lowest = z + float((soles @ down).min())
+    return Standing(built._replace(height=height), height + stands, sinkage, height - lowest - sinkage)
+
+
+def surroundings_warnings(m: Mission) -> Iterator[str]:
+    """What may fly badly, with the numbers."""
+    if m.ground.model == "floor":
+        standing = standing_of(m)
+        yield from _of_floor(m, standing)
+        yield from _of_start(m, standing)
+        yield from _of_reference(m, standing)
+        yield from _of_walls(m)
+    yield from _of_wind(m)
+
+
+def _of_floor(m: Mission, standing: Standing) -> Iterator[str]:
+    if standing.sinkage > SOFT * m.ground.sinkage:
+        yield (
+            f"ground.sinkage = {m.ground.sinkage} m: with mission.step = {m.mission.step} s the floor must be softer, "
+            f"and the standing vehicle sinks by {standing.sinkage:.2g} m"
+        )
+    soles = min(q.position[2] - q.feet_depth for q in m.vehicle.quadrotors)
+    if soles > -(m.vehicle.payload.radius or 0.0):
+        yield "the payload hangs lower than the feet, and nothing but the feet touches the floor"
+
+
+def _of_start(m: Mission, standing: Standing) -> Iterator[str]:
+    depth, p = standing.depth, m.phases
+    if depth > THROWN * standing.sinkage:
+        height = f"{depth**2 / (2.0 * standing.sinkage):.2g} m"  # of springs, undamped
+        yield f"the feet start {depth:.2g} m deep in the floor, which throws the vehicle up by as much as {height}"
+    if p.rotors == "flight" and p.lift_start > 0.0 and -depth > FAR_DOWN:
+        yield f"the vehicle starts {-depth:.3g} m above the floor, with its rotors stopped until {p.lift_start:g} s"
+
+
+def _of_reference(m: Mission, standing: Standing) -> Iterator[str]:
+    p, rests = m.phases, standing.rests
+    stops = math.inf if p.land_start is None else p.land_start + p.land_duration
+    if p.rotors == "flight" and rests < -FAR_DOWN and stops < m.mission.duration:
+        yield f"the landing ends at z = 0, {-rests:.3g} m above where the vehicle stands: then its rotors stop"
+    if rests > FAR_UP:
+        yield f"the vehicle stands at z = {rests:.3g} m while its reference, not lifted, is at z = 0: it presses down"
+
+
+def _of_walls(m: Mission) -> Iterator[str]:
+    R = np.array(rotation_from_euler(vec3(m.initial.euler)))
+    centers = np.array(m.initial.position) + Vehicle.from_settings(m.vehicle).lever_arms @ R.T
+    for i, w in enumerate(m.all_walls):
+        name = f"walls.{i}" if i < len(m.walls) else f"wall {i - len(m.walls) + 1} of the corridor"
+        upright = wall(w.start, w.end, w.top)
+        for j, (q, center) in enumerate(zip(m.vehicle.quadrotors, centers, strict=True), 1):
+            distance = math.hypot(*offset(upright, vec3(center)))
+            if distance < q.guard_radius:
+                yield f"quadrotor {j} starts {q.guard_radius - distance:.2g} m deep in {name}"
+
+
+def _of_wind(m: Mission) -> Iterator[str]:
+    w = m.wind
+    if w.gusts and w.model == "none":
+        yield 'wind.gusts do not blow while wind.model is "none"'
+    lowest, highest = LOWEST * FOOT, HIGHEST * FOOT
+    held = min(max(w.height, lowest), highest)
+    if w.model == "air" and w.turbulence and abs(held - w.height) > 1e-6 * held:
+        yield (
+            f"wind.height = {w.height}: MIL-F-8785C gives the turbulence from {lowest:g} m to {highest:g} m; "
+            f"that of {held:g} m blows"
+        )

@@ -1,0 +1,49 @@
+"""Floor and walls of a mission, as the values that laws and simulators take."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.vector import Nothing
+from tandemlift.laws.mechanics.contact import Floor, floor, soles_below, standing_height
+from tandemlift.laws.mechanics.walls import Walls, walls
+from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+
+def floor_from(mission: Mission, vehicle: Vehicle) -> Any:
+    """The floor of a mission, or `Nothing`."""
+    return Nothing() if mission.ground.model == "none" else feet_and_floor_from(mission, vehicle)
+
+
+def feet_and_floor_from(mission: Mission, vehicle: Vehicle) -> Floor:
+    """The floor that a mission has or would have, and how the feet press on it."""
+    g = mission.ground
+    fleet, mass, step = vehicle.quadrotors, vehicle.mass * mission.plant.mass_scale, mission.mission.step
+    soles = soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    at_zero = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage)
+    if g.height is not None:
+        return at_zero._replace(height=g.height)
+    return at_zero._replace(height=mission.initial.position[2] - standing_height(at_zero, mass * GRAVITY))
+
+
+def walls_from(mission: Mission, vehicle: Vehicle) -> Any:
+    """What touches the walls of a mission and how they press, or `Nothing` where it has none."""
+    return wall_contact_from(mission, vehicle) if mission.all_walls else Nothing()
+
+
+def wall_contact_from(mission: Mission, vehicle: Vehicle) -> Walls:
+    """What touches walls, were there any, and how they press."""
+    payload, fleet = vehicle.payload, vehicle.quadrotors
+    beam = (payload.length, payload.radius) if payload.length and payload.radius else None
+    return walls(
+        vehicle.lever_arms,
+        [q.guard_radius for q in fleet],
+        vehicle.mass * mission.plant.mass_scale,
+        vehicle.inertia,
+        mission.mission.step,
+        friction=mission.ground.friction,
+        beam=beam,
+        payload=-vehicle.center_of_mass,
+    )

@@ -1,0 +1,48 @@
+"""The disturbance observer of a mission."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from tandemlift.algebra.vector import ZERO, Nothing, vec3
+from tandemlift.laws.estimation.disturbance_observer import DisturbanceFilter, DisturbanceObserver, ObserverState
+from tandemlift.laws.mechanics.inertia import inertia_value
+from tandemlift.laws.rotors.allocation import Mixer
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass
+from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+UNBOUNDED = 1e18  # of a slope
+
+
+def _follower(bandwidth: Any, slope: Any, linear: bool, size: np.ndarray) -> DisturbanceFilter:
+    """A follower whose slope is given in N/s or N·m/s, for axes of a mass or inertia."""
+    most = [UNBOUNDED] * 3 if linear else [min(s / m, UNBOUNDED) for s, m in zip(slope, size.tolist(), strict=True)]
+    return DisturbanceFilter(vec3(bandwidth), vec3(most))
+
+
+def start_observer(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[Any, Any]:
+    """The observer of a mission before its first sample, and its memory; or `Nothing`."""
+    o, step = mission.observer, mission.mission.step
+    if o.model == "none":
+        return Nothing(), Nothing()
+    linear, inertia = o.model == "extended-state", vehicle.inertia
+    rotors = low_pass(2.0 / (o.rotor_lag + o.rotor_delay + step), step)
+    observer = DisturbanceObserver(
+        mass=vehicle.mass,
+        inertia=inertia_value(inertia),
+        inverse_inertia=inertia_value(np.linalg.inv(inertia)),
+        drag_force=vec3(vehicle.drag.force),
+        drag_moment=vec3(vehicle.drag.moment),
+        effect=effect,
+        thrust=rotors,
+        moment=rotors,
+        force_follower=_follower(o.force_bandwidth, o.force_slope, linear, np.full(3, vehicle.mass)),
+        moment_follower=_follower(o.moment_bandwidth, o.moment_slope, linear, np.diag(inertia)),
+    )
+    i = mission.initial
+    thrust = LowPassState(vehicle.weight if mission.actuators.start == "hover" else 0.0, 0.0)
+    at_start = ObserverState(thrust, LowPassState(ZERO, ZERO), vec3(i.velocity), vec3(i.rates), ZERO, ZERO, ZERO, ZERO)
+    return observer, at_start

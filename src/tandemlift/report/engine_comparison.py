@@ -1,0 +1,91 @@
+"""The page of one mission in several engines: one HTML file that needs nothing else: table, figures, set-up."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from html import escape
+from pathlib import Path
+
+from tandemlift.common.files import atomic_write
+from tandemlift.engines.registry import ENGINES
+from tandemlift.figures.captions import Caption
+from tandemlift.flight.record import Flight
+from tandemlift.report.controller_comparison import figures_as_html, setup_as_html, versions_as_html
+from tandemlift.report.flight_report import DASH, number, table_of
+from tandemlift.report.page import COMPARISON
+from tandemlift.studies.engine_comparison import QUANTITIES, SETTLED, most_apart, speed
+
+NOTE = f"""The same mission, pilot and chance; only the body lives in another engine. Differences are the largest of any
+sample from the first engine, joints from {SETTLED:g} s on. Steps a second are with the pilot, on the machine that wrote
+this page."""
+CAPTIONS = {
+    "flights": Caption(
+        "Over each other",
+        "The way of the centre of mass from above, if there are walls, and its position over time, in every engine; "
+        "the first is drawn widest.",
+        "The path from above with walls, and panels over time for x, y and z, with one line for each engine.",
+    ),
+    "differences": Caption(
+        "Differences",
+        "How far each engine’s flight is from that of the first: distance of positions, angle of attitudes, largest "
+        "component of the differences of forces and torques at the joints and of the push as the pilot feels it.",
+        "A panel over time for each quantity, with a logarithmic scale and a line for each engine but the first.",
+    ),
+}
+
+
+def _row(name: str, flight: Flight, first: Flight) -> str:
+    found = most_apart(flight, first) if flight is not first else {}
+    cells = "".join(f"<td>{number(found[q]) if q in found else DASH}</td>" for q in QUANTITIES)
+    end = flight.metrics().get("final_position_m") or ()
+    place = ", ".join(f"{v + 0.0:.3f}".replace("-", "−") for v in end) or DASH
+    ended = escape(str(flight.divergence)) if flight.divergence else place
+    return f'<tr><th scope="row">{escape(name)}</th>{cells}<td>{ended}</td><td>{number(round(speed(flight)))}</td></tr>'
+
+
+def _table(flights: Mapping[str, Flight]) -> str:
+    first = next(iter(flights.values()))
+    columns = [(name.replace("_", " ").capitalize(), unit) for name, unit in QUANTITIES.items()]
+    columns += [("Ends at", "m"), ("Steps", "1/s")]
+    heads = "".join(f'<th scope="col">{escape(head)}<br><small>{unit}</small></th>' for head, unit in columns)
+    rows = (_row(name, flight, first) for name, flight in flights.items())
+    return table_of(f'<tr><th scope="col">Engine</th>{heads}</tr>', rows, "compared")
+
+
+def _engines(flights: Mapping[str, Flight]) -> str:
+    rows = (f'<tr><th scope="row">{e}</th><td>{escape(ENGINES[e].summary)}</td></tr>' for e in flights)
+    return f"<section>\n<h2>Engines</h2>\n{table_of('', rows, 'setup')}\n</section>"
+
+
+def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str]) -> Path:
+    """Write one mission in several engines as one HTML file without references; it appears whole or not at all.
+
+    Args:
+        flights: from `apart.fly_in`.
+        path: of the HTML file; its folder is there.
+
+    Returns:
+        The path.
+    """
+    from tandemlift.figures.engine_comparison import draw_differences, draw_over_each_other
+    from tandemlift.report.page import STYLE
+
+    path, first = Path(path), next(iter(flights.values()))
+    drawn = {"flights": draw_over_each_other(flights), "differences": draw_differences(flights)}
+    text = COMPARISON.format(
+        name=escape(first.name),
+        style=STYLE,
+        what="engines",
+        kind="Engines",
+        where=f"engines <b>{escape(', '.join(flights))}</b>",
+        note=NOTE,
+        table=_table(flights),
+        figures=figures_as_html(drawn, CAPTIONS),
+        setup=setup_as_html(first),
+        settings=_engines(flights),
+        versions=versions_as_html(first),
+    )
+    with atomic_write(path) as partial:
+        partial.write_text(text, "utf-8")
+    return path

@@ -1,0 +1,65 @@
+"""What happens, as messages of `/diagnostics`, and once a second how it goes."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from tandemlift.export.messages import MessageTypes, diagnostics_of, status_of
+from tandemlift.flight.record import Flight
+from tandemlift.ros.middleware import TopicPublisher
+from tandemlift.simulation.results import describe_event
+
+AGAIN = 1.0  # s, before the same words are said again
+MOST = 100  # events that wait to be told
+KIND, TOPIC = "diagnostic_msgs/DiagnosticArray", "/diagnostics"
+Tell = Callable[[str], None]
+
+
+class FlightDiagnostics:
+    """What is told of a flight.
+
+    Args:
+        channel: of the topic.
+        types: of its messages.
+    """
+
+    def __init__(self, channel: TopicPublisher, types: MessageTypes) -> None:
+        self._channel, self._event, self._status = channel, diagnostics_of(types), status_of(types)
+        self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
+        self._said: dict[str, float] = {}
+        self._now = (-1, 0, 0)  # phase, alarm, refusal
+
+    def tell(self, what: str) -> None:
+        """Let an event be told, from any thread and without waiting; the same words once a second at most."""
+        now = time.monotonic()
+        if now - self._said.get(what, -AGAIN) >= AGAIN:
+            self._said[what] = now
+            self._waiting.append((time.time_ns(), what))
+
+    def flush(self) -> None:
+        """Tell what waits."""
+        while self._waiting:
+            at, what = self._waiting.popleft()
+            self._channel.publish(self._event(at, what))
+        if len(self._said) > MOST:
+            self._said.clear()
+
+    def follow(self, flight: Flight, stamps: list[int]) -> None:
+        """Tell of phases, alarms and refusals as they change in samples."""
+        if "phase" not in flight:
+            return
+        none = np.zeros(len(stamps))
+        seen = np.column_stack([flight.channels.get(n, none) for n in ("phase", "alarm", "refused")])
+        for stamp, (phase, alarm, refused) in zip(stamps, seen.astype(int).tolist(), strict=True):
+            now = (phase, alarm, refused)
+            if now != self._now:
+                self._waiting.append((stamp, describe_event(now, self._now)))
+                self._now = now
+
+    def report(self, stamp: int, summary: str, well: bool, more: Mapping[str, str]) -> None:
+        """Tell how it goes: in a word, whether all is `well`, and more by name."""
+        self._channel.publish(self._status(stamp, well, summary, more))

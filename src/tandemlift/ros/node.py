@@ -1,0 +1,149 @@
+"""A session's flight, told to a middleware and pushed by it, in real time."""
+
+from __future__ import annotations
+
+import threading
+import time
+from functools import partial
+
+from tandemlift.export.recipes import WRENCH
+from tandemlift.export.topics import ROOT
+from tandemlift.flight.record import Flight
+from tandemlift.live.session.session import Session
+from tandemlift.missions import tables_of
+from tandemlift.ros.clock import Clock
+from tandemlift.ros.diagnostics import KIND, TOPIC, FlightDiagnostics
+from tandemlift.ros.middleware import Middleware
+from tandemlift.ros.parameters import Parameters
+from tandemlift.ros.pushes import Pushes
+from tandemlift.ros.requests import REQUESTS, RequestServices
+from tandemlift.ros.sample_queue import SampleBatch, SampleQueue, as_flight, every_of
+from tandemlift.ros.topics import LatchedTopics, MarkerTopics, SampleTopics
+from tandemlift.vehicle import Vehicle
+
+PUSH = f"{ROOT}/push"
+RATE = 100.0  # Hz
+MARKERS, WAYS, STATUS, STILL, PARAMETERS = 0.05, 0.2, 1.0, 2.0, 0.2  # s, from one to the next
+PATIENCE = 0.1  # s, for a sample
+ENDS = ("over", "lost", "failed")  # phases in which nothing moves any more
+
+
+class FlightNode:
+    """See the module.
+
+    Args:
+        session: what is flown; not yet started.
+        middleware: where it is told.
+        rate: of samples [Hz].
+
+    Raises:
+        InputError: the rate is none.
+    """
+
+    def __init__(self, session: Session, middleware: Middleware, rate: float = RATE) -> None:
+        self._session, self._middleware = session, middleware
+        self._flight = session.flight
+        vehicle = Vehicle.from_settings(self._flight.now.vehicle)
+        self._tables = tables_of(self._flight.now)
+        self._clock = Clock(session)
+        self._feed = SampleQueue(every_of(rate, self._flight.dt), lambda step: self._clock.stamp(step))
+        self.telling = FlightDiagnostics(middleware.advertise(TOPIC, KIND, depth=100), middleware.types)
+        self._pushes = Pushes(session, self.telling.tell)
+        self._parameters = Parameters(session, middleware, self.telling.tell)
+        self._samples, self._shown = SampleTopics(middleware, self._first(), vehicle), MarkerTopics(middleware, vehicle)
+        self._once, self._vehicle = LatchedTopics(middleware), vehicle
+        self._due = dict.fromkeys((MARKERS, WAYS, STATUS, STILL), 0.0)
+        self._told, self._stopping = 0, threading.Event()
+        self._keeper = threading.Thread(target=self._keep_parameters, name="parameters", daemon=True)
+
+    def _first(self) -> Flight:
+        self._feed.note(self._flight)
+        taken = self._feed.take(0.0)
+        assert taken, "the first step is one of the samples"
+        return as_flight(taken, self._flight, self._tables)
+
+    def start(self) -> None:
+        """Set what parameters say, listen, and begin to fly."""
+        self._parameters.turn()
+        self._session.watchers += [self._feed.note, self._pushes.watch]
+        self._once.tell_vehicle(self._session.scene, self._vehicle, time.time_ns())
+        self._tell_mission()
+        self._middleware.subscribe(PUSH, WRENCH, self._pushes.heed)
+        requests = RequestServices(self._session)
+        for what in REQUESTS:
+            self._middleware.serve(f"{ROOT}/{what}", partial(requests.answer, what))
+        self._clock = Clock(self._session)
+        self._feed.note(self._flight)
+        self._session.start()
+        self._keeper.start()
+
+    def spin(self) -> str:
+        """Publish until the middleware is shut down, or the flight is over; the phase that it ended in."""
+        while not self._middleware.over:
+            if not self.publish() and self._session.status()["phase"] in ENDS:
+                break
+        return self._session.status()["phase"]
+
+    def stop(self) -> None:
+        """End the flight."""
+        self._stopping.set()
+        self._session.stop()
+        if self._keeper.is_alive():
+            self._keeper.join()
+
+    def publish(self) -> bool:
+        """Publish what has been flown since the last time, and whatever else is due; whether there was a sample."""
+        taken = self._feed.take(PATIENCE)
+        if taken:
+            self._publish(taken)
+        self.telling.flush()
+        return taken is not None
+
+    def _publish(self, taken: SampleBatch) -> None:
+        stamps = taken.stamps
+        flight = as_flight(taken, self._flight, self._tables)
+        self._samples.publish(flight, stamps)
+        self.telling.follow(flight, stamps)
+        self._told += len(stamps)
+        if self._is_due(MARKERS):
+            self._shown.move(flight, stamps[-1])
+        if self._is_due(WAYS):
+            self._shown.go_on(flight, stamps[-1])
+        if self._is_due(STILL):
+            self._once.draw()
+        if self._is_due(STATUS):
+            self._report(stamps[-1])
+
+    def _is_due(self, interval: float) -> bool:
+        """Whether something that is done at an interval [s] is due."""
+        now = time.monotonic()
+        due = now >= self._due[interval]
+        if due:
+            self._due[interval] = max(self._due[interval] + interval, now - interval)
+        return due
+
+    def _report(self, stamp: int) -> None:
+        """Tell how it goes."""
+        status, told = self._session.status(), self._told
+        self._told = 0
+        more = {
+            "samples in the last second": f"{told}",
+            "time of the flight over time of the wall": f"{status['factor']:.3f}",
+            "behind the clock, at most [ms]": f"{status['behind_ms']:.1f}",
+            "late for good [s]": f"{self._clock.late:.3f}",
+            "alarm": status["alarm"],
+            "flown [s]": f"{status['recorded_s']:.1f}",
+        }
+        self.telling.report(stamp, status["phase"], not status["alarm"], more)
+
+    def _keep_parameters(self) -> None:
+        """Heed parameters until the end, in a thread of their own: a change may take long to make ready."""
+        while not self._stopping.wait(PARAMETERS):
+            try:
+                if self._parameters.turn():
+                    self._tell_mission()
+            except Exception as error:  # of a middleware that is not there for a while
+                self.telling.tell(f"parameters: {error!r}"[:300])
+
+    def _tell_mission(self) -> None:
+        self._once.tell_mission(tables_of(self._flight.now))

@@ -1,0 +1,60 @@
+"""What a mission key is, said once, where the key is defined: its unit, its meaning, and where its default is from.
+
+Bounds are in the key's type. Template, docs/keys.md, `tandemlift explain` and `tandemlift schema` are made from both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from pydantic import Field
+from pydantic.fields import FieldInfo
+
+FACTS = "key"  # names the facts among what pydantic keeps of a field
+
+
+class Facts(NamedTuple):
+    """What is said of a key beside its type and default; all of it in plain English, without a full stop.
+
+    Attributes:
+        unit: in SI, "1" for a number without a unit; None for what is no number.
+        meaning: what the key is.
+        source: where the default is from, or why it was chosen.
+        rule: what else holds for its value, beyond its type.
+        unset: what happens when the key is left out, for a key whose default is to be left out.
+        example: a value for the template, where the default is none or would say little.
+        choices: what each of its choices means.
+    """
+
+    unit: str | None = None
+    meaning: str = ""
+    source: str = ""
+    rule: str = ""
+    unset: str = ""
+    example: Any = None
+    choices: Mapping[str, str] = {}
+
+
+def key(
+    default: Any,
+    unit: str | None,
+    meaning: str,
+    *,
+    source: str = "",
+    rule: str = "",
+    unset: str = "",
+    example: Any = None,
+    choices: Mapping[str, str] | None = None,
+) -> Any:
+    """A field of a table with what is said of it; `...` as the default makes the key required. See `Facts`."""
+    facts = Facts(unit, meaning, source, rule, unset, example, choices or {})
+    return Field(default, description=meaning, json_schema_extra={FACTS: facts._asdict()})
+
+
+def facts_of(field: FieldInfo) -> Facts:
+    """What is said of a field; of one that was not made by `key`, no more than its description."""
+    extra = field.json_schema_extra
+    if isinstance(extra, dict) and FACTS in extra:
+        return Facts(**extra[FACTS])  # type: ignore[arg-type]
+    return Facts(meaning=field.description or "")

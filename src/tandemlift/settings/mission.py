@@ -1,0 +1,111 @@
+"""The whole of a mission: its tables, and `[mission]` itself."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated
+
+from pydantic import AfterValidator, Field, SerializeAsAny
+
+from tandemlift.settings.changes import ChangeTable
+from tandemlift.settings.corridor import CorridorTable, WallTable
+from tandemlift.settings.facts import key
+from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
+from tandemlift.settings.leaves import Positive, Table, divisor, must
+from tandemlift.settings.parts import VehicleTable
+from tandemlift.settings.person import PersonTable
+from tandemlift.settings.pilot import (
+    AdmittanceTable,
+    AllocationTable,
+    ControllerTable,
+    EstimatorTable,
+    PhasesTable,
+    PilotTable,
+)
+from tandemlift.settings.sensors import SensorFaultTable, SensorsTable
+from tandemlift.settings.supervision import RequestTable, SupervisionTable
+from tandemlift.settings.surroundings import GroundTable, WindTable
+from tandemlift.settings.world import ActuatorsTable, DisturbanceTable, FaultTable, InitialTable, PlantTable, PushTable
+
+
+def _name(name: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}", name):
+        raise must("name", "be 1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit")
+    return name
+
+
+class MissionTable(Table):
+    """`[mission]`: name, duration and sampling of the flight."""
+
+    name: Annotated[str, AfterValidator(_name)] = key(
+        ...,
+        None,
+        "name of the flight; results are written to out/NAME",
+        rule="1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit",
+        example="my-mission",
+    )
+    duration: Positive = key(
+        ..., "s", "duration of the flight, rounded to whole steps", rule="at most 1e9 steps", example=30.0
+    )
+    step: Annotated[float, Field(gt=0.0, le=0.02), AfterValidator(divisor)] = key(
+        0.001,
+        "s",
+        "sampling time of the pilot, and time step of the simulated body",
+        rule="at most the duration",
+        source="chosen: 1 kHz",
+    )
+    log_interval: Positive = key(
+        0.01,
+        "s",
+        "time between logged samples, rounded to whole steps; metrics are formed from every step all the same",
+        rule="the log must not exceed 4 GB",
+        source="chosen: 100 Hz",
+    )
+    seed: Annotated[int, Field(ge=0, le=10**18)] = key(0, "1", "seed of every random number of the flight")
+
+    @property
+    def steps(self) -> int:
+        """Number of steps of the run, at least one."""
+        return max(1, round(self.duration / self.step))
+
+    @property
+    def log_every(self) -> int:
+        """Steps from one logged sample to the next, at least one and at most one more than there are."""
+        return max(1, round(min(self.log_interval / self.step, self.steps + 1)))
+
+
+class Mission(Table):
+    """Everything that a flight depends on; see `tandemlift.missions` for loading one."""
+
+    mission: MissionTable
+    vehicle: VehicleTable
+    controller: SerializeAsAny[ControllerTable]
+    admittance: AdmittanceTable
+    allocation: AllocationTable = AllocationTable()
+    initial: InitialTable = InitialTable()
+    phases: PhasesTable = PhasesTable()
+    pushes: tuple[PushTable, ...] = ()
+    disturbance: DisturbanceTable = DisturbanceTable()
+    plant: PlantTable = PlantTable()
+    pilot: PilotTable = PilotTable()
+    estimator: EstimatorTable = EstimatorTable()
+    compliance: ComplianceTable = ComplianceTable()
+    observer: ObserverTable = ObserverTable()
+    supervision: SupervisionTable = SupervisionTable()
+    requests: tuple[RequestTable, ...] = ()
+    detection: DetectionTable = DetectionTable()
+    actuators: ActuatorsTable = ActuatorsTable()
+    faults: tuple[FaultTable, ...] = ()
+    sensors: SensorsTable = SensorsTable()
+    sensor_faults: tuple[SensorFaultTable, ...] = ()
+    wind: WindTable = WindTable()
+    ground: GroundTable = GroundTable()
+    walls: tuple[WallTable, ...] = ()
+    corridor: CorridorTable = CorridorTable()
+    person: PersonTable = PersonTable()
+    changes: tuple[ChangeTable, ...] = ()
+
+    @property
+    def all_walls(self) -> tuple[WallTable, ...]:
+        """Every wall that there is: those of `walls`, then the corridor's."""
+        return (*self.walls, *self.corridor.walls)

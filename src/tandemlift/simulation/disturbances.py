@@ -1,0 +1,69 @@
+"""What is around the vehicle: pushes, wind, floor and walls of a mission."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.algebra.vector import ZERO, Nothing, mat3, vec3
+from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
+from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush
+from tandemlift.laws.mechanics.rectangle import WALL, wall
+from tandemlift.laws.mechanics.walls import nowhere
+from tandemlift.laws.mechanics.wind import Gust, NoTurbulence, Wind, WindNoise, air_drag_from, dryden, start_turbulence
+from tandemlift.laws.person.person import PATH_LEG, PathLeg
+from tandemlift.loop.wind_loads import WindModel
+from tandemlift.settings import Mission
+from tandemlift.trace import flat, leaves
+from tandemlift.vehicle import Vehicle
+
+LEAST_AIRSPEED = 0.5  # m/s, at which eddies pass in still air
+NO_WHIFFS = WindNoise(0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def push_kind(mission: Mission) -> Any:
+    """The zero push of the type that serves a mission's pushes: with a moment only if one has any."""
+    central = all(p.point == ZERO for p in mission.pushes) and mission.person.model == "none"
+    return CentralPush(ZERO) if central else PointPush(ZERO, mat3([[0.0] * 3] * 3))
+
+
+def input_tables_from(mission: Mission, legs: list[PathLeg]) -> InputTables:
+    """The tables of pushes, gusts, walls and the legs of a person's path, a row each."""
+    pushes = [GaussianPush(vec3(p.force), p.time, 1.0 / p.sigma, vec3(p.point)) for p in mission.pushes]
+    gusts = mission.wind.gusts if mission.wind.model == "air" else ()
+    blows = [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
+    upright = [wall(w.start, w.end, w.top) for w in mission.all_walls]
+    return InputTables(_table(pushes, GAUSSIAN), _table(blows, GUST), _table(upright, WALL), _table(legs, PATH_LEG))
+
+
+def _table(rows: list[Any], like: Any) -> NDArray[np.float64]:
+    return np.array([flat(row) for row in rows], dtype=float).reshape(len(rows), leaves(like))
+
+
+def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) -> tuple[Any, Any]:
+    """The wind of a mission and its eddies at t = 0, or `Nothing`."""
+    w = mission.wind
+    if w.model == "none":
+        return Nothing(), Nothing()
+    turbulence: Any = NoTurbulence()
+    if w.turbulence > 0.0:
+        airspeed = w.airspeed or max(math.dist(w.velocity, ZERO), LEAST_AIRSPEED)
+        turbulence = dryden(w.turbulence, w.height, airspeed, w.velocity, mission.mission.step)
+    wind = Wind(vec3(w.velocity), turbulence)
+    return WindModel(wind, air_drag_from(vehicle, w.density)), start_turbulence(
+        turbulence, chance.standard_normal(5).tolist()
+    )
+
+
+def wind_noise_from(weather: Any) -> Any:
+    """The layout of the wind's standard normals."""
+    still = isinstance(weather, Nothing) or isinstance(weather.wind.turbulence, NoTurbulence)
+    return Nothing() if still else NO_WHIFFS
+
+
+def near_walls_from(settings: Any) -> Any:
+    """The walls nearest to the parts, before any was looked at; or `Nothing`."""
+    return settings if isinstance(settings, Nothing) else nowhere(settings)

@@ -1,0 +1,107 @@
+"""The person of a mission: their path as a table of legs, and how they are before the first step."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.person.person import (
+    Arm,
+    PathFollowing,
+    PathLeg,
+    Person,
+    PersonSettings,
+    PersonState,
+    person_view,
+    steered,
+)
+from tandemlift.laws.person.tremor import STILL, TWITCH, tremor
+from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, VirtualHand, VirtualHandState
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass
+from tandemlift.settings import Mission
+from tandemlift.settings.person import PersonTable, WaypointTable
+from tandemlift.vehicle import Vehicle
+
+
+def person_settings_from(p: PersonTable) -> PersonSettings:
+    """How a person of a mission leads."""
+    hands = 1.0 if p.model == "two-hands" else 0.0
+    at_grip, stays = 0.0 if p.model == "steer" else 1.0, 1.0 if p.model == "hold" else 0.0
+    return PersonSettings(at_grip, hands * p.yaw_gain, hands * p.yaw_damping, stays)
+
+
+def waypoints_from(mission: Mission) -> tuple[WaypointTable, ...]:
+    """The path of a mission's person: their own, or the corridor's centreline."""
+    centreline = mission.corridor.centreline
+    return mission.person.path or tuple(WaypointTable(point=point) for point in centreline)
+
+
+def grip_from(mission: Mission, vehicle: Vehicle) -> Vec3:
+    """Where the person holds on [m, body axes, from the centre of mass]."""
+    along = 0.0 if mission.person.model == "two-hands" else mission.person.grip
+    return vec3([0.0, along, 0.0] - vehicle.center_of_mass)
+
+
+def path_legs_from(mission: Mission, partner: Any, state: State) -> list[PathLeg]:
+    """The legs of a mission's path, from where what is steered is at the start; none without a person."""
+    if not isinstance(partner, Person):
+        return []
+    p, waypoints = mission.person, waypoints_from(mission)
+    at, _ = steered(partner.manner, person_view(partner.grip, state))
+    at, heading, legs = Vec3(at.x, at.y, at.z + mission.phases.height), mission.initial.euler[2], list[PathLeg]()
+    level = at.z
+    for number, w in enumerate(waypoints):
+        end = Vec3(float(w.point[0]), float(w.point[1]), level + w.rise)
+        heading = heading if w.heading is None else w.heading
+        stops = 1.0 if w.dwell > 0.0 or number == len(waypoints) - 1 else 0.0
+        radius = p.arrival_radius if stops else p.corner_distance
+        legs.append(PathLeg(at, end, heading, w.dwell, stops, radius, float(number)))
+        at = end
+    return legs
+
+
+def start_virtual_hand(p: PersonTable, step: float) -> tuple[VirtualHand, VirtualHandState]:
+    """A hand that is moved from outside, and its memory at t = 0."""
+    nothing, still = LowPassState(ZERO, ZERO), LowPassState(0.0, 0.0)
+    grab = VirtualHand(NOBODY_HOLDS, p.stiffness, p.damping, low_pass(1.0 / p.lag, step), p.max_force)
+    return grab, VirtualHandState(nothing, still, nothing, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
+def start_person(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any, Any, Any]:
+    """The person of a mission, their memory at t = 0 and the layout of their noise; or `Nothing` three times."""
+    p, step = mission.person, mission.mission.step
+    if p.model == "none":
+        return Nothing(), Nothing(), Nothing()
+    if p.model == "grab":
+        return *start_virtual_hand(p, step), Nothing()
+    grip = grip_from(mission, vehicle)
+    arm = Arm(
+        stiffness=p.stiffness,
+        damping=p.damping,
+        lag=low_pass(1.0 / p.lag, step),
+        tremor=tremor(p.tremor, step),
+        most=p.max_force,
+        most_couple=p.max_couple,
+        horizon=p.delay + 2.0 * p.lag,
+    )
+    height = mission.initial.position[2] + p.height_fraction * mission.phases.height
+    last = float(len(waypoints_from(mission)) - 1)
+    walk = PathFollowing(
+        speed=p.speed,
+        gain=p.gain,
+        look_ahead=p.look_ahead,
+        approach_gain=p.approach_gain,
+        breakaway_force=p.breakaway_force,
+        trim_rate=p.trim_rate,
+        landing_speed=p.landing_speed,
+        start_time=p.start_time,
+        height=height,
+        last=last,
+    )
+    partner = Person(grip, arm, walk, person_settings_from(p))
+    seen = person_view(grip, state)
+    quiet = LowPassState(0.0, 0.0)
+    leg = path_legs_from(mission, partner, state)[0]
+    memory = PersonState(seen, 0.0, leg, LowPassState(seen.grip, ZERO), quiet, quiet, ZERO, 0.0, 0.0, 0.0, STILL)
+    return partner, memory, TWITCH

@@ -1,0 +1,110 @@
+"""The pilot as an object, for a loop of one's own: a measurement in, rotor thrusts out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+
+import numpy as np
+
+from tandemlift.algebra.vector import ZERO, Nothing, Quat
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array
+from tandemlift.controllers import control
+from tandemlift.kernels.context import aligned
+from tandemlift.kernels.pilot_sampling import PilotData, PilotSampler
+from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
+from tandemlift.laws.mechanics.body import State
+from tandemlift.pilot.assemble import start_pilot
+from tandemlift.pilot.pilot import PilotInput
+from tandemlift.settings import Mission
+from tandemlift.trace import flat, leaves
+from tandemlift.trace.code import Code
+from tandemlift.trace.key import key_of
+from tandemlift.vehicle import Vehicle
+
+HEARD = PilotInput(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
+SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
+
+
+class Pilot:
+    """A mission's pilot, to be sampled every `mission.step` seconds.
+
+    Args:
+        mission: from `load_mission`.
+
+    Attributes:
+        thrusts: thrust of every rotor [N] (4N,), the answer to the last measurement; overwritten by the next.
+
+    Raises:
+        InputError: the mission's controller is plain Python; only a law can be compiled into the pilot.
+    """
+
+    def __init__(self, mission: Mission) -> None:
+        vehicle = Vehicle.from_settings(mission.vehicle)
+        parameters, memory = start_pilot(mission, vehicle)
+        if type(parameters.controller) in control.interpreted:
+            raise InputError(f"controller {mission.controller.name!r} is plain Python; write it as a law to use Pilot")
+        self._start = PilotData(0.0, memory, parameters)
+        self._dt = mission.mission.step
+        self._numbers = np.array(flat(self._start))
+        self.thrusts: Array = np.zeros(vehicle.rotor_count)
+        self._heard = np.zeros(leaves(HEARD))
+
+    @cached_property
+    def _sample(self) -> Callable[[], int]:
+        start, quadrotors = self._start, len(self.thrusts) // 4
+        code = Code(key_of(start, "sample"), ["sample"], lambda: PilotSampler(start, HEARD, quadrotors).written())
+        self._work = aligned(code.about["size"])
+        arrays = (self._numbers, self._heard, self.thrusts, self._work)
+        self._context = np.array([a.ctypes.data for a in arrays] + [0], dtype=np.int64)
+        self._context.view(np.float64)[-1] = self._dt
+        self._code = code
+        code.optimise()
+        return code.called("sample", self._context.ctypes.data)
+
+    def step(
+        self,
+        measurement: Array,
+        moment: Array | None = None,
+        *,
+        lift: bool = False,
+        land: bool = False,
+        stop: bool = False,
+        enabled: bool = True,
+    ) -> Array:
+        """Take one sample.
+
+        Args:
+            measurement: float64 (16,): position [m] and velocity [m/s] of the centre of mass in world axes, attitude
+                quaternion w, x, y, z (body to world), rates [rad/s] in body axes, force of the person [N] in world
+                axes.
+            moment: of the person [N·m] (3,) about the centre of mass, body axes; none if not given.
+            lift: whether a lift is asked for, besides `phases.lift_start`.
+            land: whether the person asks to land.
+            stop: whether the rotors must stop at once, and stay so until `reset`.
+            enabled: whether the pilot may listen to the person; it holds its position while it may not.
+
+        What is asked is heard by a pilot that is guided by hand.
+
+        Returns:
+            Thrust of every rotor [N] (4N,), the same array each time.
+
+        Raises:
+            InputError: the measurement is not a float64 array of 16 numbers.
+        """
+        if type(measurement) is not np.ndarray or measurement.shape != SHAPE or measurement.dtype != FLOAT64:
+            given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
+            raise InputError(f"measurement is {given}: must be a float64 array of shape {SHAPE}")
+        heard = self._heard
+        heard[:16], heard[16:19], heard[19:23] = (
+            measurement,
+            0.0 if moment is None else moment,
+            (land, lift, stop, enabled),
+        )
+        self._sample()
+        return self.thrusts
+
+    def reset(self) -> None:
+        """Start anew at t = 0."""
+        self._numbers[:] = flat(self._start)

@@ -1,0 +1,97 @@
+"""A mission made ready for the compiled loop, which is chosen by the types of its members and kept for the next."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from tandemlift.algebra.vector import ZERO, each, layout
+from tandemlift.controllers import NoMemory, control
+from tandemlift.kernels import FlightStart, Kernels, PythonController, TimeGrid
+from tandemlift.laws.person.caller_inputs import CallerInput
+from tandemlift.loop.running_metrics import LATE
+from tandemlift.settings import Mission
+from tandemlift.simulation.assemble import assemble
+from tandemlift.trace import flat
+
+LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take more than a second
+
+KERNELS: dict[Any, Kernels] = {}
+
+
+class FlightPlan:
+    """A mission ready to fly: its loop at t = 0, what it is given from outside, and its grid of steps.
+
+    Args:
+        mission: from `load_mission`.
+        interactive: whether the caller of a step may add a push, and give thrusts (`laws.person.caller_inputs`).
+    """
+
+    def __init__(self, mission: Mission, *, interactive: bool = False) -> None:
+        self.mission, self.interactive = mission, interactive
+        self.steps = mission.mission.steps
+        self.every = mission.mission.log_every
+        self.dt = mission.mission.step
+        self.flying, self.given, self.tables, self.delays, self.seeds = assemble(mission)
+        if interactive:
+            rotors = each(4 * len(mission.vehicle.quadrotors))
+            nothing = CallerInput(ZERO, ZERO, rotors(*[0.0] * len(rotors._fields)), 0.0)
+            self.given = self.given._replace(external=nothing)
+        self.interpreted: tuple[Any, Any] | None = None
+        if type(self.flying.pilot.controller) in control.interpreted:
+            self._set_controller_aside()
+
+    def _set_controller_aside(self) -> None:
+        moving, pilot = self.flying.moving, self.flying.pilot
+        self.interpreted = pilot.controller, moving.memory.controller
+        memory = moving.memory._replace(controller=NoMemory())
+        self.flying = self.flying._replace(
+            moving=moving._replace(memory=memory), pilot=pilot._replace(controller=PythonController())
+        )
+
+    @cached_property
+    def variant(self) -> Any:
+        """What decides the compiled loop: the types, not the values, of the flight's members and inputs."""
+        return layout(self.flying), layout(self.given)
+
+    @property
+    def sample(self) -> Any:
+        """The layout of a row of the log."""
+        return self.kernels.likes.sample
+
+    @property
+    def late_step(self) -> int:
+        """The first step that starts at `LATE` or after."""
+        return math.ceil(LATE / self.dt - 1e-9)
+
+    @property
+    def kernels(self) -> Kernels:
+        """The compiled loops of this variant."""
+        if self.variant not in KERNELS:
+            KERNELS[self.variant] = Kernels(self.flying, self.given)
+        return KERNELS[self.variant]
+
+    def start(self) -> FlightStart:
+        """The flight at its first step, as a compiled loop takes it."""
+        return FlightStart(np.array(flat(self.flying)), self.tables, self._ring(), self.seeds)
+
+    def grid(self, rows: int, every: int) -> TimeGrid:
+        """The steps of the flight, with so many rows of a log of every so many steps."""
+        return TimeGrid(self.steps, every, rows, self.dt, self.delays)
+
+    def _ring(self) -> np.ndarray:
+        """A delay line for this flight, filled with what it holds at t = 0."""
+        numbers = np.array(flat(self.flying))
+        if not self.delays.any():
+            return np.zeros((1, 0))
+        row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.kernels.lines])
+        return np.tile(row, (1 << int(self.delays.max()).bit_length(), 1))
+
+
+def takes_long(mission: Mission) -> bool:
+    """Whether flying this mission, once compiled, takes more than a second or so."""
+    stepwise = FlightPlan(mission).interpreted is not None or mission.changes or mission.person.recording
+    return mission.mission.steps >= (LONG_STEPWISE if stepwise else LONG_RUN)

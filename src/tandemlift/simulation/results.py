@@ -1,0 +1,164 @@
+"""What a flight has left behind when it is over, and the record that is made of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import metadata
+from typing import Any
+
+import numpy as np
+
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
+from tandemlift.common.types import Array
+from tandemlift.flight.record import Divergence, Flight
+from tandemlift.kernels import leaf_offset
+from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
+from tandemlift.laws.guidance.phases import IDLE, NAMES
+from tandemlift.laws.guidance.supervision import SupervisionState
+from tandemlift.laws.guidance.supervisor import ALARM, PHASE
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation import sine_of_roll
+from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
+from tandemlift.loop.step import FAR, SIN_ROLL_LIMIT, FlightModel, FlightState
+from tandemlift.missions import tables_of
+from tandemlift.missions.recording import portable
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.trace import flat, leaves, unflat
+
+
+@dataclass
+class RawResult:
+    """The raw outcome of a flight: what moved, the tally before 10 s, the step reached, the log, the last sample."""
+
+    moving: FlightState
+    early: RunningMetrics
+    step: int
+    log: Array
+    last: Array
+    wall: float
+
+    @property
+    def lost(self) -> bool:
+        """Whether the state became unsound."""
+        return self.moving.lost != 0.0
+
+
+def take_metrics(numbers: Array, like: FlightModel, lanes: int) -> list[RunningMetrics]:
+    """Take the tallies out of a flight or a block of flights, and start them anew."""
+    at, size = leaf_offset(like, "moving", "tally")
+    rows = numbers[at * lanes : (at + size) * lanes].reshape(-1, lanes)
+    empty = like.moving.tally
+    tallies = [unflat(rows[:, lane], empty) for lane in range(lanes)]
+    rows[:] = np.array(flat(empty))[:, None]
+    return tallies
+
+
+def divergence_of(p: FlightPlan, flown: RawResult) -> Divergence | None:
+    """Why a flight was stopped, or None."""
+    if not flown.lost:
+        return None
+    at, state = flown.step * p.dt, flown.moving.state
+    for quantity, values in zip(State._fields, state, strict=True):
+        bad = [v for v in values if not math.isfinite(v)]
+        if bad:
+            return Divergence(quantity, at, bad[0], "must be finite")
+    roll = sine_of_roll(state.attitude)
+    if not abs(roll) < SIN_ROLL_LIMIT:
+        angle = math.degrees(math.asin(max(-1.0, min(1.0, roll))))
+        return Divergence("roll [deg]", at, angle, "must stay within 89 degrees")
+    return Divergence("distance from the origin [m]", at, math.dist(state.position, ZERO), f"must stay below {FAR:g} m")
+
+
+def _formed(value: Any) -> Any:
+    """A metric, or None if it or any part of it is not a finite number."""
+    parts = value if isinstance(value, list) else [value]
+    return value if all(v is not None and math.isfinite(v) for v in parts) else None
+
+
+def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
+    """The metrics of a flight by their names in metrics.json; None where one could not be formed."""
+    first, last = unflat(flown.log[0], p.sample), unflat(flown.last, p.sample)
+    late_reached = p.late_step < p.steps and flown.step >= p.late_step
+    early, late = (flown.early, flown.moving.tally) if late_reached else (flown.moving.tally, EMPTY)
+    formed = summary(early, late, p.dt)
+    formed["final_position_m"] = list(flown.moving.state.position)
+    formed["final_reference_m"] = list(last.reference_position)
+    formed["command_at_start"] = [first.thrust, *first.moment]
+    formed |= _of_detection(p, flown)
+    formed = {name: _formed(value) for name, value in formed.items()}
+    return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.moving)}
+
+
+def events_of(moving: FlightState) -> list[list[Any]]:
+    """What a supervision saw happen: [time [s], what], in the order of time; none without one."""
+    supervising = getattr(moving.memory.guidance, "supervision", None)
+    if not isinstance(supervising, SupervisionState):
+        return []
+    happened = list(zip(supervising.events.time, supervising.events.code, strict=True))[: int(supervising.events.count)]
+    story, before = [], (0, 0, 0)
+    for at, code in happened:
+        now = (int(code // PHASE), int(code % PHASE // ALARM), int(code % ALARM))
+        story.append([round(float(at), 6), describe_event(now, before)])
+        before = now
+    return story
+
+
+def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
+    """An event in words, from phase, alarm and the check that refuses; now, and in the event before."""
+    phase, alarm, refused = now
+    if alarm and (alarm != before[1] or phase not in (IDLE, before[0])):
+        return f"{alarm_name(alarm)} -> {NAMES[phase]}"
+    if phase != before[0] or not refused:
+        return NAMES[phase] + (f": {CHECKS[refused - 1]}" if refused else "")
+    return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1]}"
+
+
+def _of_detection(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
+    """How often a rotor was taken for lost, and how long after its loss [s] the one that is; None where none is."""
+    detection, memory = p.flying.pilot.detection, flown.moving.memory.detection
+    if isinstance(detection, Nothing):
+        return {}
+    v = memory.verdict
+    lost = int(dot(v.lost, detection.numbers))
+    times = [f.time for f in p.mission.faults if 4 * (f.quadrotor - 1) + f.rotor == lost]
+    return {"rotors_taken_for_lost": v.named, "rotor_loss_found_after_s": v.since - times[0] if times else None}
+
+
+@cache
+def versions(engine: str) -> Mapping[str, str]:
+    """Versions of what a flight is flown with in an engine."""
+    packages = ("tandemlift", "llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
+    return {name: metadata.version(name) for name in packages}
+
+
+def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
+    """The channels of samples laid out like `like`: those of a group one by one; vectors of sets part by part."""
+    at = 0
+    for name, part in zip(like._fields, like, strict=True):
+        columns = rows[:, at : at + leaves(part)]
+        if not isinstance(part, tuple):
+            yield name, columns[:, 0]
+        elif isinstance(part, Vec3) and isinstance(part.x, tuple):
+            yield name, columns.reshape(len(rows), 3, -1).swapaxes(1, 2).reshape(len(rows), -1)
+        elif getattr(part, "linear", False):
+            yield name, columns
+        else:
+            yield from channels_of(part, columns)
+        at += leaves(part)
+
+
+def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flight:
+    """The record of a flight in an engine."""
+    logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
+    channels = dict(channels_of(p.sample, flown.log[:logged]))
+    return Flight(
+        time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
+        channels=channels,
+        mission=portable(tables_of(p.mission)),
+        results=metrics_of(p, flown),
+        divergence=divergence_of(p, flown),
+        version={**versions(engine), "engine": engine},
+    )

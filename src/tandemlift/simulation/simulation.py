@@ -1,0 +1,290 @@
+"""Pilot and body together, a step at a time: `Simulation`."""
+
+from __future__ import annotations
+
+import math
+import operator
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.common.errors import InputError, suggestion
+from tandemlift.common.types import Array
+from tandemlift.flight.record import CHANNELS, DERIVED, TIME, Channel, Divergence, Flight
+from tandemlift.kernels import leaf_offset
+from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.missions.recording import engine_of
+from tandemlift.missions.values import shown
+from tandemlift.settings import Mission
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, channels_of, divergence_of, flight_of, take_metrics
+from tandemlift.simulation.stepping import Stepper, body_in
+from tandemlift.trace import leaves, unflat
+
+FORCE, POINT, THRUSTS = (
+    slice(0, 3),
+    slice(3, 6),
+    slice(6, -1),
+)  # of the numbers of a `laws.person.caller_inputs.External`
+MOST_SEED = 10**18  # as `mission.seed`
+TOLD_EVERY = 1000  # steps between two reports of the time spent, which decides when optimised code is made
+
+
+class Simulation:
+    """A mission's flight, a step at a time: the pilot, sensors, rotors, wind and body that `tl.fly` flies.
+
+    A step goes from `time` to `time` + `dt`. The pilot is sampled at its start; what it decides, and what the caller
+    adds, acts until its end. Then `state` is the state at the new `time`, and `sim["rotor_thrusts"]` and the other
+    channels are the sample of the step just taken: what the pilot saw and decided at its start, `sample_time`, and what
+    acted over it. These are the samples that a `Flight` holds.
+
+    Args:
+        mission: from `load_mission`.
+        engine: name of the body's engine; if None, that of the mission's recording, or "compiled".
+
+    Attributes:
+        mission: what is flown.
+        engine: name of the body's engine.
+        k: steps taken since the start.
+        dt: length of a step [s].
+        channels: names of the channels, the same as the flight's.
+
+    Raises:
+        InputError: the engine is not known, or the mission cannot be built.
+    """
+
+    def __init__(self, mission: Mission, engine: str | None = None) -> None:
+        self.mission, self.engine = mission, engine_of(mission) if engine is None else engine
+        self._prepare()
+        self._begin()
+
+    def _prepare(self) -> None:
+        p = self._p = FlightPlan(self.mission, interactive=True)
+        self.dt = p.dt
+        row = np.arange(leaves(p.sample), dtype=np.float64)[None, :]
+        self._places: dict[str, Any] = {name: at[0].astype(np.intp) for name, at in channels_of(p.sample, row)}
+        self.channels = tuple(self._places)
+        self._external = np.zeros(leaves(p.given.external))
+        self._state = leaf_offset(p.flying, "moving", "state")
+
+    def _begin(self) -> None:
+        vars(self).pop("_stepper", None)  # an engine that only one can lead is let go first
+        self._stepper = Stepper(self._p, body_in(self.engine, self._p))
+        self.k, self._early, self._rows, self._end = 0, EMPTY, list[Array](), None
+        self._wall = self._told = 0.0
+
+    def reset(self, seed: int | None = None) -> Array:
+        """Begin anew at t = 0.
+
+        Args:
+            seed: of all that is drawn by chance, in place of `mission.seed`, from now on; if None, it stays as it is,
+                and the same flight begins again.
+
+        Returns:
+            The state (13,) at t = 0.
+
+        Raises:
+            InputError: the seed is not a whole number from 0 to 10¹⁸.
+        """
+        if seed is not None:
+            self.mission = with_seed(self.mission, seed)
+            self._prepare()
+        self._begin()
+        return self.state
+
+    def step(
+        self, push: ArrayLike | None = None, thrusts: ArrayLike | None = None, *, point: ArrayLike | None = None
+    ) -> Array:
+        """Take one step of `dt`; what is given acts over this step alone.
+
+        Args:
+            push: force (3,) [N] on the vehicle in world axes, besides what the mission pushes.
+            thrusts: of every rotor (4N,) [N], quadrotor by quadrotor, commanded in place of what the pilot decides.
+                Delay, lag, limits and faults of real rotors act on them; ideal ones give them as they are. The pilot
+                goes on deciding, and is not told.
+            point: where the push acts (3,) [m], body axes, from the centre of mass; there if not given.
+
+        Returns:
+            The state (13,) at the new `time`.
+
+        Raises:
+            InputError: the flight is over, or what is given is not so many finite numbers.
+        """
+        if self.over:
+            raise InputError(f"{self._why_over()}; reset() begins anew")
+        self._take_in(push, thrusts, point)
+        began = time.perf_counter()
+        self._stepper.step(self.k, external=self._external)
+        self._keep()
+        self._wall += time.perf_counter() - began
+        return self.state
+
+    def _take_in(self, push: Any, thrusts: Any, point: Any) -> None:
+        """Write what a caller adds to a step."""
+        x = self._external
+        x.fill(0.0)
+        if push is not None:
+            x[FORCE] = numbers("push", push, 3, "N, in world axes")
+        if point is not None:
+            if push is None:
+                raise InputError(f"point = {shown(point)}: must come with a push")
+            x[POINT] = numbers("point", point, 3, "m, in body axes")
+        if thrusts is not None:
+            x[THRUSTS] = numbers("thrusts", thrusts, x.size - 7, "N, one for each rotor")
+            x[-1] = 1.0
+
+    def _keep(self) -> None:
+        """Keep the sample of the step that has just been taken if it is to be logged, and go on to the next."""
+        p, stepper = self._p, self._stepper
+        if self.k % p.every == 0:
+            self._rows.append(stepper.row.copy())
+        self.k, self._end = self.k + 1, None
+        if self.k == p.late_step < p.steps:
+            (self._early,) = take_metrics(stepper.a, stepper.p.flying, 1)
+        if self.k % TOLD_EVERY == 0:
+            stepper.code.spent(self._wall - self._told)
+            self._told = self._wall
+
+    # what there is to know
+
+    @property
+    def time(self) -> float:
+        """Time that the flight has reached [s]: that of `state`, and of the start of the next step."""
+        return self.k * self.dt
+
+    @property
+    def sample_time(self) -> float:
+        """Time of the channels' sample [s]: the start of the step taken last; nan before the first."""
+        return (self.k - 1) * self.dt if self.k else math.nan
+
+    @property
+    def state(self) -> Array:
+        """The true state (13,) at `time`.
+
+        Position [m] and velocity [m/s] of the centre of mass in world axes, attitude quaternion w, x, y, z (body to
+        world), rates [rad/s] in body axes: the first 13 numbers that `Pilot.step` takes.
+        """
+        at, size = self._state
+        return self._stepper.a[at : at + size].copy()
+
+    @property
+    def lost(self) -> bool:
+        """Whether the flight has diverged."""
+        return self._stepper.lost
+
+    @property
+    def over(self) -> bool:
+        """Whether no further step can be taken: the mission's duration is over, or the flight has diverged."""
+        return self.k >= self._p.steps or self._stepper.lost
+
+    @property
+    def divergence(self) -> Divergence | None:
+        """Why the flight has diverged: quantity, time, value and limit; None if it has not."""
+        return divergence_of(self._p, self._flown(np.empty((0, 0)), np.empty(0)))
+
+    def _why_over(self) -> str:
+        return str(self.divergence or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s")
+
+    def __getitem__(self, name: str) -> Any:
+        """A channel of the last sample: an array (n,), or a number where the channel has one column.
+
+        Raises:
+            InputError: no step has been taken yet.
+            KeyError: there is no such channel.
+        """
+        if name in DERIVED:
+            desired, actual, _ = DERIVED[name]
+            return self[desired] - self[actual]
+        if name == "time":
+            return self.sample_time
+        if name not in self._places:
+            known = [*self.channels, *DERIVED]
+            raise KeyError(f"no channel {name!r}; there are {', '.join(known)}.{suggestion(name, known)}")
+        if self.k == 0:
+            raise InputError(f"channel {name!r}: no step has been taken yet, and a sample is of a step; see `state`")
+        return self._stepper.row[self._places[name]]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._places or name in DERIVED
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.channels)
+
+    def __repr__(self) -> str:
+        return f"<Simulation {self.mission.mission.name} in {self.engine}: {self.time:g} s, {self.k} steps>"
+
+    def info(self, name: str) -> Channel:
+        """Unit, frame and meaning of a channel."""
+        if name not in self and name != "time":
+            self[name]
+        return DERIVED[name][2] if name in DERIVED else CHANNELS.get(name, TIME)
+
+    # the record
+
+    def flight(self) -> Flight:
+        """The record of what was flown so far, logged every `mission.log_interval`; the simulation can go on.
+
+        It is that of a flight whose mission ends at `time`: its last sample is the pilot's at `time`, if one is due,
+        with nothing added. A body in another engine, or a controller in plain Python, cannot be asked for that sample
+        without going on; it is then there at the mission's end alone. What the caller added stands in the channels, and
+        not in the record's mission.
+
+        Raises:
+            InputError: nothing is logged yet, with such a body or controller.
+        """
+        end = self._sample_here()
+        rows = [*self._rows, end] if end is not None and self.k % self._p.every == 0 else self._rows
+        if not rows:
+            raise InputError("nothing is logged yet: take a step first")
+        last = np.full(leaves(self._p.sample), math.nan) if self.lost else self._stepper.row if end is None else end
+        return flight_of(self._p, self._flown(np.array(rows), last), self.engine)
+
+    def _flown(self, log: Array, last: Array) -> RawResult:
+        like = self._stepper.p.flying.moving
+        return RawResult(unflat(self._stepper.a[: leaves(like)], like), self._early, self.k, log, last, self._wall)
+
+    def _sample_here(self) -> Array | None:
+        """The sample at `time`, taken without going on; None if that cannot be."""
+        stepper = self._stepper
+        returns = stepper.body is None and stepper.interpreted is None
+        if self._end is None and not self.lost and (returns or self.k == self._p.steps):
+            row = stepper.row.copy()
+            self._external.fill(0.0)
+            stepper.step(self.k, final=True, external=self._external)
+            self._end = stepper.row.copy()
+            stepper.row[:] = row
+        return self._end
+
+
+def numbers(name: str, value: Any, count: int, what: str) -> Array:
+    """So many finite numbers.
+
+    Raises:
+        InputError: the value is something else.
+    """
+    try:
+        found = np.asarray(value)
+    except ValueError:  # rows of several lengths
+        found = np.empty(0, dtype=object)
+    if found.shape != (count,) or found.dtype.kind not in "fiu" or not all(map(math.isfinite, found.tolist())):
+        given = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
+        raise InputError(f"{name} = {shown(given)}: must be {count} finite numbers ({what})")
+    return found
+
+
+def with_seed(mission: Mission, seed: Any) -> Mission:
+    """A mission with another seed.
+
+    Raises:
+        InputError: the seed cannot be one.
+    """
+    try:
+        number = operator.index(seed)
+    except TypeError:
+        number = -1
+    if not 0 <= number <= MOST_SEED:
+        raise InputError(f"seed = {shown(seed)}: must be a whole number from 0 to {MOST_SEED:g}")
+    return mission.model_copy(update={"mission": mission.mission.model_copy(update={"seed": number})})

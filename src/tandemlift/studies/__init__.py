@@ -1,0 +1,1 @@
+"""Studies: several controllers or engines compared, and the validation of the pilot."""

@@ -1,0 +1,235 @@
+"""One mission flown with several controllers, and what tells them apart: docs/controllers.md says how it is scored."""
+
+from __future__ import annotations
+
+import math
+import traceback
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Progress
+from tandemlift.controllers import CONTROLLERS, Controller, controller, error_text, file_of
+from tandemlift.engines.registry import engine_named
+from tandemlift.flight.record import Flight
+from tandemlift.missions import load_mission
+from tandemlift.settings import Mission
+from tandemlift.simulation.fly import fly, fly_many
+
+Mask = NDArray[np.bool_]
+
+PUSHED = 1e-6  # N: a person who gives less does not push yet
+LEAST = {  # what is physical: a smaller value is as good as zero, a smaller difference is a tie
+    "position_rmse_m": 1e-6,
+    "position_max_error_m": 1e-6,
+    "effort_n_m": 1e-3,
+    "rotor_saturated_share": 1e-4,
+}
+
+
+class ScoredPart(NamedTuple):
+    """A part of a mission that is scored on its own: what it is called, and its times first <= t < last [s]."""
+
+    name: str
+    first: float
+    last: float
+
+    @property
+    def words(self) -> str:
+        """What it is called, with the time of the first push where there is one."""
+        times = [time for time in (self.first, self.last) if 0.0 < time < math.inf]
+        return f"{self.name} ({times[0]:.4g} s)" if times else self.name
+
+
+class Entrant(NamedTuple):
+    """A controller in a comparison: its name, and the mission with it, or why it cannot fly it."""
+
+    name: str
+    mission: Mission | None
+    refusal: str = ""
+
+
+class Entry(NamedTuple):
+    """What came of a controller: its flight, or why it did not fly."""
+
+    name: str
+    flight: Flight | None
+    refusal: str = ""
+
+
+def entrants(name: str, changes: Mapping[str, Any], chosen: Sequence[Controller] | None = None) -> list[Entrant]:
+    """The missions of a comparison, one for each controller.
+
+    Args:
+        name: of a built-in mission, or path of a TOML file.
+        changes: values by dotted key; those of `controller` are for the mission's own controller alone.
+        chosen: the controllers; if None the mission's own and then all others by name, of which one that lacks
+            settings is refused on its own.
+
+    Raises:
+        InputError: the mission cannot be loaded, or a chosen controller cannot fly it.
+    """
+    own = load_mission(name, changes)
+    others = {key: value for key, value in changes.items() if key.partition(".")[0] != "controller"}
+
+    def enter(entrant: Controller) -> Mission:
+        return own if entrant.name == own.controller.name else load_mission(name, others, controller=entrant)
+
+    if chosen is not None:
+        return [Entrant(c.name, enter(c)) for c in chosen]
+    entered = [Entrant(own.controller.name, own)]
+    for other in sorted(CONTROLLERS.keys() - {own.controller.name}):
+        try:
+            entered.append(Entrant(other, enter(controller(other))))
+        except InputError as error:
+            entered.append(Entrant(other, None, str(error)))
+    return entered
+
+
+def compare(entered: Sequence[Entrant], engine: str = "compiled", progress: Progress | None = None) -> list[Entry]:
+    """Fly all that can, in the order given.
+
+    Args:
+        entered: from `entrants`.
+        engine: name of the body's engine.
+        progress: called with (flights flown, flights in all).
+
+    Raises:
+        InputError: the engine is not known, or a controller of one's own fails.
+    """
+    compiled = not engine_named(engine).load
+    missions = [e.mission for e in entered if e.mission]
+    try:
+        if compiled:
+            flights = fly_many(missions, threads=1, progress=progress)  # one after another: their speed is compared
+        else:
+            flights = _one_by_one(missions, engine, progress)
+    except InputError:
+        raise
+    except Exception as error:
+        raise _explained(error, entered) from error
+    flown = iter(flights)
+    return [Entry(e.name, next(flown) if e.mission else None, e.refusal) for e in entered]
+
+
+def _one_by_one(missions: Sequence[Mission], engine: str, progress: Progress | None) -> list[Flight]:
+    flights = []
+    for mission in missions:
+        flights.append(fly(mission, engine))
+        if progress:
+            progress(len(flights), len(missions))
+    return flights
+
+
+def _explained(error: Exception, entered: Sequence[Entrant]) -> Exception:
+    """The failure of a controller of one's own with the line of its file; any other error as it is."""
+    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)}
+    for own in (controller(e.name) for e in entered):
+        if not own.start.__module__.startswith("tandemlift.") and file_of(own) in files:
+            return InputError(f"controller {own.name!r} fails: {error_text(error, file_of(own))}")
+    return error
+
+
+def airborne(flight: Flight) -> Mask:
+    """Which samples (T,) lie in the air: from the first to the last in which the floor carries nothing."""
+    if "contact_force" not in flight:
+        return np.ones(len(flight.time), np.bool_)
+    free = np.flatnonzero(flight["contact_force"][:, 2] == 0.0)
+    mask = np.zeros(len(flight.time), np.bool_)
+    if len(free):
+        mask[free[0] : free[-1] + 1] = True
+    return mask
+
+
+def parts_of(flights: Iterable[Flight]) -> tuple[ScoredPart, ...]:
+    """The parts in which flights of one mission are scored, the one that counts first.
+
+    Where a person pushes, they are the time from the first push on, and the time before it: take-off, or a disturbed
+    start. Where nobody pushes, the whole flight is the only part. The first push is the earliest sample of any flight,
+    in the air, in which the norm of the person's force exceeds `PUSHED`.
+    """
+    pushed = [f.time[airborne(f) & (np.linalg.norm(f["push_force"], axis=1) > PUSHED)] for f in flights]
+    first = min((float(times[0]) for times in pushed if len(times)), default=0.0)
+    if not first:
+        return (ScoredPart("over the whole flight", 0.0, math.inf),)
+    return (ScoredPart("from the first push on", first, math.inf), ScoredPart("before the first push", 0.0, first))
+
+
+def scored(flight: Flight, part: ScoredPart) -> Mask:
+    """Which samples (T,) of a flight count in a part: those in the air, as the floor holds what stands on it."""
+    return airborne(flight) & (flight.time >= part.first) & (flight.time < part.last)
+
+
+def moving_axes(flights: Iterable[Flight], part: ScoredPart) -> list[bool]:
+    """Along which of x, y, z the position error of any flight is physical somewhere in a part."""
+    errors = [np.abs(f["position_error"][scored(f, part)]) for f in flights]
+    return [any(np.any(error[:, i] >= LEAST["position_max_error_m"]) for error in errors) for i in range(3)]
+
+
+def scores(flight: Flight, part: ScoredPart) -> dict[str, Any]:
+    """What a part of a flight is compared by, from the logged samples: flat, SI, the unit at the end of each name.
+
+    Returns:
+        position_rmse_m: root mean square of desired minus actual position, along x, y, z.
+        position_max_error_m: the largest absolute value of any of them.
+        effort_n_m: mean norm of the commanded moments.
+
+        None where there is no sample, or a number that is not finite.
+    """
+    mask = scored(flight, part)
+    if not mask.any():
+        return {"position_rmse_m": None, "position_max_error_m": None, "effort_n_m": None}
+    error, moment = flight["position_error"][mask], flight["moment"][mask]
+    with np.errstate(invalid="ignore", over="ignore"):  # a flight that diverged may hold anything
+        return {
+            "position_rmse_m": _finite(np.sqrt(np.mean(error**2, axis=0))),
+            "position_max_error_m": _finite(np.abs(error).max()),
+            "effort_n_m": _finite(np.linalg.norm(moment, axis=1).mean()),
+        }
+
+
+def _finite(value: Any) -> Any:
+    """A number or a list of them; None if one is not finite."""
+    return value.tolist() if np.all(np.isfinite(value)) else None
+
+
+def run_of(flight: Flight) -> dict[str, Any]:
+    """What a whole flight is compared by: how much its rotors saturate, how long a step takes, and how it ended."""
+    metrics = flight.metrics()
+    return {
+        "rotor_saturated_share": metrics["rotor_saturated_share"],
+        "step_ns": metrics["wall_s"] / metrics["steps"] * 1e9 if metrics["steps"] else None,
+        "diverged": str(flight.divergence) if flight.divergence else None,
+    }
+
+
+def best_of(values: Sequence[float | None], least: float) -> list[bool]:
+    """Which values win: those by less than `least` above the lowest; none if all that are known do.
+
+    Args:
+        values: one for each controller, None for one that does not take part.
+        least: difference that is physical, in the unit of the values.
+    """
+    known = [value for value in values if value is not None]
+    wins = [value is not None and value - min(known) < least for value in values]
+    return wins if 0 < sum(wins) < len(known) else [False] * len(values)
+
+
+def summary_of(entries: Sequence[Entry]) -> list[dict[str, Any]]:
+    """The comparison for a strict JSON text, an object for each controller.
+
+    Its scores are of the part that counts, from `from_s` on; those of the other part are in `before_first_push`.
+    """
+    parts = parts_of(e.flight for e in entries if e.flight)
+    rows = []
+    for entry in entries:
+        row: dict[str, Any] = {"controller": entry.name, "flown": entry.flight is not None, "refused": entry.refusal}
+        if entry.flight:
+            row |= {"from_s": parts[0].first, **scores(entry.flight, parts[0]), **run_of(entry.flight)}
+            row |= {"before_first_push": scores(entry.flight, parts[1])} if len(parts) > 1 else {}
+            row |= {"settings": entry.flight.mission["controller"], "metrics": entry.flight.metrics()}
+        rows.append(row)
+    return rows

@@ -1,0 +1,102 @@
+"""How far flights of one mission are apart, sample by sample: bodies that live in several engines, with one pilot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Array, Progress
+from tandemlift.engines.registry import engine_named
+from tandemlift.flight.record import Flight
+from tandemlift.settings import Mission
+from tandemlift.simulation.fly import fly
+
+QUANTITIES = {"position": "m", "attitude": "rad", "joint_force": "N", "joint_torque": "N m", "push_estimate": "N"}
+SETTLED = 0.1  # s: joints are looked at from then on, as some engines close the gaps that a swift start tears
+
+
+def fly_in(mission: Mission, engines: Sequence[str], progress: Progress | None = None) -> dict[str, Flight]:
+    """A mission flown in several engines.
+
+    Args:
+        mission: from `load_mission`.
+        engines: their names, each once.
+        progress: called with (flights flown, flights in all).
+
+    Returns:
+        The flights by the engine's name, in the order given.
+
+    Raises:
+        InputError: fewer than two engines are named, one is not known, or cannot fly the mission.
+    """
+    if len(set(engines)) < 2 or len(set(engines)) < len(engines):
+        raise InputError(f"engines = {', '.join(engines)}: must be two or more, each once")
+    for name in engines:
+        engine_named(name)
+    flights = {}
+    for name in engines:
+        flights[name] = fly(mission, name)
+        if progress:
+            progress(len(flights), len(engines))
+    return flights
+
+
+def turned(a: Array, b: Array) -> Array:
+    """Angles (T,) [rad] between two series of quaternions (T, 4)."""
+    same = np.where(np.sum(a * b, axis=1) < 0.0, -1.0, 1.0)[:, None]
+    return 4.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(a - same * b, axis=1), 0.0, 1.0))
+
+
+def apart(flight: Flight, first: Flight) -> dict[str, Array]:
+    """How far a flight is from another at each sample that both have, by quantity (`QUANTITIES`), of what both have.
+
+    Distance of positions [m], angle of attitudes [rad], largest component of the difference of forces [N] and torques
+    [N·m].
+    """
+    count = min(len(flight.time), len(first.time))
+    found = {}
+    for name in QUANTITIES:
+        if name in flight and name in first:
+            a, b = flight[name][:count].reshape(count, -1), first[name][:count].reshape(count, -1)
+            found[name] = _distance(name, a, b)
+    return found
+
+
+def _distance(name: str, a: Array, b: Array) -> Array:
+    if name == "attitude":
+        return turned(a, b)
+    return np.linalg.norm(a - b, axis=1) if name == "position" else np.abs(a - b).max(axis=1)
+
+
+def most_apart(flight: Flight, first: Flight) -> dict[str, float]:
+    """The largest of each of `apart`; of joints from `SETTLED` on."""
+    found = {}
+    for name, values in apart(flight, first).items():
+        late = first.time[: len(values)] > SETTLED if name.startswith("joint") else slice(None)
+        found[name] = float(np.nanmax(values[late], initial=0.0))
+    return found
+
+
+def summary_of(flights: Mapping[str, Flight]) -> list[dict[str, Any]]:
+    """The comparison for a strict JSON text, an object for each engine; differences are from the first."""
+    first = next(iter(flights.values()))
+    return [
+        {
+            "engine": name,
+            "apart": most_apart(flight, first),
+            "final_position_m": flight.metrics()["final_position_m"],
+            "steps_per_s": speed(flight),
+            "diverged": str(flight.divergence) if flight.divergence else None,
+            "version": flight.version,
+        }
+        for name, flight in flights.items()
+    ]
+
+
+def speed(flight: Flight) -> float:
+    """Steps a second, with the pilot."""
+    metrics = flight.metrics()
+    return float(metrics["steps"] / metrics["wall_s"])

@@ -1,0 +1,84 @@
+"""Rows about the corridors: led through by the mission's person, and by random ones, at what effort.
+
+Each random person's gains, arm, speed and lag are the mission's times 0.7 to 1.3, each on its own; they see the vehicle
+0.1 s to 0.3 s late (in steps of 20 ms, so that blocks fill), tremble by up to 0.1 N, hold on anywhere on the beam,
+and a wind of up to 1 N that the pilot does not know of comes from anywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.missions import load_mission
+from tandemlift.settings import Mission
+from tandemlift.studies.rows import Row
+from tandemlift.studies.scenarios import Bench
+
+SCALED = (
+    *("stiffness", "damping", "lag", "gain", "speed"),
+    *("look_ahead", "approach_gain", "trim_rate", "yaw_gain", "yaw_damping"),
+)
+LONGER = 1.6  # times the mission's duration: some persons are slow
+NEAR, STANDS = 1.2, 0.02  # m: of the path's end, and of the height at which it stood
+LEAST = {"zigzag": 0.0, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m of clearance
+
+
+def random_persons(name: str, count: int, seed: int = 1) -> list[Mission]:
+    """A mission with random persons."""
+    mission, rng = load_mission(name), np.random.default_rng(seed)
+    drawn = []
+    for i in range(count):
+        wind, angle, grip = rng.uniform(0.0, 1.0), rng.uniform(0.0, 2.0 * np.pi), rng.uniform(-1.0, 1.0)
+        own = {f"person.{key}": getattr(mission.person, key) * rng.uniform(0.7, 1.3) for key in SCALED}
+        own |= {
+            "mission.seed": i,
+            "mission.duration": LONGER * mission.mission.duration,
+            "person.delay": 0.02 * int(rng.integers(5, 16)),
+            "person.tremor": rng.uniform(0.0, 0.1),
+            "disturbance.force": [wind * np.cos(angle), wind * np.sin(angle), 0.0],
+        }
+        if mission.person.model == "steer":
+            own["person.grip"] = grip
+        drawn.append(load_mission(name, own))
+    return drawn
+
+
+def through(mission: Mission, metrics: dict[str, Any]) -> bool:
+    """Whether a flight came to the end of its path, stands there, and touched no wall."""
+    end = ([w.point for w in mission.person.path] or list(mission.corridor.centreline))[-1]
+    x, y, z = metrics["final_position_m"] or [np.nan] * 3
+    there = np.hypot(x - end[0], y - end[1]) < NEAR
+    return bool(there and abs(z - mission.initial.position[2]) < STANDS and not metrics["wall_contact"])
+
+
+def alone(bench: Bench) -> Iterator[Row]:
+    """Every corridor, led by its own person."""
+    missions = [load_mission(name) for name in LEAST]
+    for mission, m in zip(missions, bench.metrics(missions), strict=True):
+        name = mission.mission.name
+        least, passed = m["clearance_min_m"], through(mission, m)
+        limit = f"through, ≥ {LEAST[name]:g} m" if LEAST[name] else "through"
+        said = f"{'through' if passed else 'not through'}, {least:.2f} m"
+        yield Row(f"`{name}`: landed at its end, least clearance", limit, said, passed and least >= LEAST[name])
+        weight = mission.vehicle.payload.mass * GRAVITY
+        force, work = m["human_force_mean_n"], m["human_work_per_path_j_m"]
+        said = f"{force:.2f} N, {work:.2f} J/m; carrying its payload by hand takes {weight:.2f} N all the way"
+        yield Row("the same: the person's mean force, work over the way", "", said, None)
+
+
+def persons(bench: Bench) -> Iterator[Row]:
+    """Every corridor, and random persons in the wide one."""
+    yield from alone(bench)
+    missions = random_persons("zigzag", bench.draws)
+    flown = bench.metrics(missions)
+    passed = sum(through(m, f) for m, f in zip(missions, flown, strict=True))
+    what = f"`zigzag`, {bench.draws} random persons: through, nothing touched, landed"
+    yield Row(what, f"{bench.draws} of {bench.draws}", f"{passed} of {bench.draws}", passed == bench.draws)
+    clear = np.quantile([f["clearance_min_m"] for f in flown], [0.5, 0.05, 0.0])
+    yield Row("the same: clearance, median / 5 % / least", "", "{:.2f} / {:.2f} / {:.2f} m".format(*clear), None)
+    force, work = (np.mean([f[key] for f in flown]) for key in ("human_force_mean_n", "human_work_per_path_j_m"))
+    yield Row("the same: mean force, work over the way", "", f"{force:.2f} N, {work:.2f} J/m", None)

@@ -1,0 +1,90 @@
+"""Rows about what is taken for a hand: wind is not to be, and a hand is to be heard at once.
+
+IRIS quadrotors hover with a beam in a mean wind along x, across the beam, with Dryden turbulence of that wind at 20 ft,
+thresholds 0.3, 0.3 and 0.4 N (of vertical gusts the quadrotors tell nothing), and nobody pushes: every push that is
+heard is counted, after the first seconds, in ten-minute flights. Then pushes of 0.6 N in steps, every three seconds:
+how long after the step, whose middle is when the push exceeds the threshold, it is heard. Without compensation of the
+wind its bandwidth is next to nothing, so that all is one loop.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from tandemlift.flight.record import Flight
+from tandemlift.settings import Mission
+from tandemlift.studies.rows import Row
+from tandemlift.studies.scenarios import Bench, Changes, mission
+
+HOVER: Changes = {
+    "initial.euler": [0.0, 0.0, 0.0],
+    "phases.lift_start": 0.0,
+    "phases.lift_duration": 2.0,
+    "phases.land_start": 1e6,
+    "estimator.tare_start": 4.0,
+    "estimator.tare_duration": 3.0,
+    "admittance.threshold": [0.3, 0.3, 0.4],
+    "estimator.wind_compensation": "quadrotors",
+    "sensors.gyroscope.noise": 0.0025,
+}
+WITH, WITHOUT = 25.0, 1e-6  # rad/s
+LENGTH, MINUTES = 600.0, 5.0  # s of a hover; minutes of hover for each draw
+CASES = ((1.0, WITHOUT, True), (2.0, WITHOUT, False), (2.0, WITH, True), (3.0, WITH, False))
+PUSH, FIRST, EVERY, LASTS, PUSHES = 0.6, 12.0, 3.0, 1.0, 8  # N, s
+EDGE = 0.01  # s, width of the Gaussians that a step is made of
+SOON = 0.1  # s
+
+
+def windy(wind: float, bandwidth: float, seed: int, changes: Changes) -> Mission:
+    """A hover in a wind [m/s]."""
+    air = {"wind.model": "air", "wind.velocity": [wind, 0.0, 0.0], "wind.turbulence": wind}
+    return mission({**HOVER, **air, "estimator.wind_bandwidth": bandwidth, "mission.seed": seed, **changes})
+
+
+def step(force: np.ndarray, start: float) -> list[dict[str, Any]]:
+    """A push that rises to a force [N] at a time [s] and lasts, as a sum of narrow Gaussians."""
+    apart = 1.5 * EDGE
+    peak = (force * apart / (EDGE * np.sqrt(2.0 * np.pi))).tolist()
+    return [{"force": peak, "time": start + apart * (i + 0.5), "sigma": EDGE} for i in range(round(LASTS / apart))]
+
+
+def pushed(wind: float, bandwidth: float, seed: int) -> Mission:
+    """A flight with steps along x and y in turn, either way."""
+    pushes: list[dict[str, Any]] = []
+    for i in range(PUSHES):
+        force = np.eye(3)[i % 2] * PUSH * (1.0 if i % 4 < 2 else -1.0)
+        pushes += step(force, FIRST + EVERY * i)
+    changes = {"mission.duration": FIRST + EVERY * PUSHES, "mission.log_interval": 0.001, "pushes": pushes}
+    return windy(wind, bandwidth, 500 + seed, changes)
+
+
+def delays(flight: Flight) -> list[float]:
+    """From each step to when it is heard [s]; infinite where it is not, before its end."""
+    found = []
+    for i in range(PUSHES):
+        start = FIRST + EVERY * i
+        within = (flight.time >= start) & (flight.time < start + LASTS)
+        heard = np.flatnonzero(flight["push_on"][within, i % 2] > 0.0)
+        found.append(float(flight.time[within][heard[0]] - start) if len(heard) else float("inf"))
+    return found
+
+
+def triggers(bench: Bench) -> Iterator[Row]:
+    """Wind taken for a hand, and a hand in the wind."""
+    for wind, bandwidth, asked in CASES:
+        how = "with compensation" if bandwidth == WITH else "without compensation"
+        count = max(1, round(bench.draws * MINUTES * 60.0 / LENGTH))
+        quiet = {"mission.duration": LENGTH, "mission.log_interval": LENGTH, "pushes": []}
+        flown = bench.metrics(windy(wind, bandwidth, i, quiet) for i in range(count))
+        heard = sum(m["push_triggers_after_10s"] for m in flown)
+        what = f"wind of {wind:g} m/s, {how}: false triggers in {count * LENGTH / 60.0:.0f} min"
+        yield Row(what, "0" if asked else "", f"{heard:.0f}", heard == 0 if asked else None)
+        flights = bench.fly(pushed(wind, bandwidth, i) for i in range(max(1, bench.draws // 5)))
+        found = [d for flight in flights for d in delays(flight)]
+        late = sum(d > SOON for d in found)
+        said = "{:.0f} / {:.0f} / {:.0f} ms".format(*1e3 * np.quantile(found, [0.5, 0.95, 1.0]))
+        limit = "≤ 100 ms every time" if asked else ""
+        yield Row("the same: 0.6 N found after, median / 95 % / most", limit, said, late == 0 if asked else None)
