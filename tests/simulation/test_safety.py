@@ -2,10 +2,10 @@
 
 import re
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
+from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing
@@ -17,7 +17,7 @@ from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
 from tandemlift.settings.supervision import SupervisionTable
 from tandemlift.simulation.assemble import assemble
 
-TEXT = (Path(__file__).parents[2] / "docs" / "safety.md").read_text("utf-8")
+TEXT = (ROOT / "docs" / "safety.md").read_text("utf-8")
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle
 QUIET = [{"sensor": "position", "kind": "bias", "time": 1000.0}]  # no fault, in the same compiled loop
 FLOWN = {
