@@ -72,7 +72,7 @@ export class Plots {
   private tracking(): PlotOf {
     const reference = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "ref." }) }));
     const actual = AXES.map((color, i) => ({ color, label: NAMES[i] }));
-    const more = choice("What is shown", { position: "m", error: "error, cm" }, "position", (value) => {
+    const more = choice("What is shown", { position: "m", error: "\u0394 cm" }, "position", (value) => {
       this.asError = value === "error";
     });
     const curves = [...reference, ...actual];
@@ -114,7 +114,8 @@ export class Plots {
         band(plot, from, to, phaseTint(name), name);
       }
     };
-    const plot = new Plot({ title: "Disturbance, phase", unit: "N", curves, least: 1, under }, this.graphics);
+    const look = { title: "Disturbance, phase", unit: "N", curves, least: 1, headroom: 0.3, under }; // for the names
+    const plot = new Plot(look, this.graphics);
     return { plot, columns: () => this.vector("disturbance") };
   }
 
