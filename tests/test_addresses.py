@@ -18,7 +18,7 @@ ALLOWED = {  # kinds of addresses: their hosts, with the path where that is part
     "this machine": r"(?:localhost|127\\?\.0\\?\.0\\?\.1)(?::[^@/]*)?(?:/.*)?",
     "a name that a program fills in": r"(?:[{\\$].*)?",
     "names that no machine has (RFC 2606)": r"[\w{}.-]+\.example(?::\d+)?(?:/.*)?",
-    "XML namespaces": r"www\.w3\.org/.*",
+    "names of XML namespaces and of JSON Schema": r"www\.w3\.org/.*|json-schema\.org/.*",
     "citations": r"doi\.org/.*",
     "conventions that a document follows": r"(?:keepachangelog|semver)\.com/.*|semver\.org/.*",
     "where packages ask for support, in web/package-lock.json": (

@@ -115,7 +115,8 @@ function series(stroke: string, dash: number[] | undefined, width = 1.5): uPlot.
 const seconds = (value: number): string => (value < 0 ? "" : `${value} s`);
 
 /** The range to show: all values, with some room, and at least `least`, so that noise does not fill the plot. */
-function span(low: number | null, high: number | null, { least, fromZero, headroom = 0.06 }: PlotOptions): [number, number] {
+function span(low: number | null, high: number | null, options: PlotOptions): [number, number] {
+  const { least, fromZero, headroom = 0.06 } = options;
   if (low === null || high === null || !Number.isFinite(low + high)) return [0, least];
   const missing = Math.max(least - (high - low), 0) / 2;
   const size = Math.max(high - low, least);

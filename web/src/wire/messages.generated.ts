@@ -73,7 +73,7 @@ export interface SceneQuadrotor {
   rotors: SceneRotor[];
 }
 
-/** The payload: a beam, or a box if it has no length of its own. */
+/** The payload as drawn: a beam along body y. */
 export interface ScenePayload {
   position: Vector; // m, body axes
   length: number; // m
