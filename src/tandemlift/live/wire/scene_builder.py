@@ -34,7 +34,7 @@ from tandemlift.vehicle import Vehicle
 
 SPRING = SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a page's hand, where a mission has none
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
-BOX_EDGE = 0.2  # m, of the box drawn for a payload without length
+SHORT = 0.2  # m, length and width drawn for a payload without length
 BEAM_RADIUS = 0.03  # m, drawn for a beam without a radius
 
 
@@ -104,7 +104,7 @@ def _vehicle(vehicle: Vehicle) -> SceneVehicle:
     if payload.length:
         length, across = payload.length, 2.0 * (payload.radius or BEAM_RADIUS)
     else:
-        length, across = BOX_EDGE, BOX_EDGE
+        length, across = SHORT, SHORT
     position = -vehicle.center_of_mass
     parts = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
     return SceneVehicle(
