@@ -94,7 +94,7 @@ def _guidance(flight: Flight) -> Iterator[Row]:
 def _watch(flight: Flight) -> Iterator[Row]:
     observer, detection = _table(flight, "observer", ObserverTable), _table(flight, "detection", DetectionTable)
     yield (
-        "DisturbanceTable",
+        "Disturbance",
         "not estimated" if observer.model == "none" else f"estimated by {OBSERVERS[observer.model]}",
     )
     if detection.model != "none":
