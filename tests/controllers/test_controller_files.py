@@ -186,7 +186,7 @@ WRONG_LAWS = {
         "must return (gains, memory), not Memory(Vec3)",
     ),
     "a typo in start": ((("vehicle.mass", "vehicle.mas"),), "line 74: AttributeError: 'Vehicle' object has no"),
-    "a default that is not allowed": ((("= 4.0", "= -4.0"),), "controller.stiffness: must be one number or a list"),
+    "a default that is not allowed": ((("key(4.0", "key(-4.0"),), "controller.stiffness: must be one number or a list"),
 }
 
 

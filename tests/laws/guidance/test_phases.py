@@ -139,7 +139,7 @@ def test_a_landing_ends_when_it_stands_on_something():
 
 
 def test_a_landing_is_no_faster_than_allowed_and_as_deep_as_told():
-    k = PHASING._replace(land_start=4.0, descent=0.3)
+    k = PHASING._replace(land_start=4.0, max_descent_speed=0.3)
     _, m, orders = flown(4.2, k, bounds=lambda t: FREE._replace(deep=0.5), height=1.0)
     assert m.land_rate == pytest.approx(0.3 / (1.875 * 0.53))
     assert orders.end == pytest.approx(1.0 - 0.03 - 0.5)  # the ground is where the lift began
