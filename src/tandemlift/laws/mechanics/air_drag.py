@@ -37,7 +37,7 @@ class PayloadDragState(NamedTuple):
     force: LowPassState
 
 
-@choice
+@choice(absent=(ZERO, "memory"))
 def blown(
     k: PayloadDrag | Nothing,
     memory: PayloadDragState | Nothing,
@@ -58,13 +58,6 @@ def blown(
         taken: 1 if this sample is one of the tare, else 0.
         armed: 1 once the tare is over, else 0.
     """
-
-
-@blown.register(Nothing)
-def _unknown(
-    k: Nothing, memory: Nothing, x: PerQuadrotor, y: PerQuadrotor, begun: Condition, taken: Condition, armed: Condition
-) -> tuple[Vec3, Nothing]:
-    return ZERO, memory
 
 
 @law

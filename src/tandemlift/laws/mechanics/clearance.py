@@ -55,14 +55,9 @@ def away(o: Vec3, radius: Number) -> Number:
     return between(dot(o, o), radius)
 
 
-@choice
+@choice(absent="beam")
 def beam_clearance(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
     """How far the beam is from the walls near it."""
-
-
-@beam_clearance.register(Nothing)
-def _shapeless(beam: Nothing, w: Walls, near: Nothing, frame: PartsLayout, s: State) -> Nothing:
-    return beam
 
 
 @beam_clearance.register(Beam)
@@ -75,14 +70,9 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
     return BeamClearance(away(offset(near.ends, on_beam(a, beam.ends)), beam.radius), length)
 
 
-@choice
+@choice(absent="w")
 def clearance(w: Walls | Nothing, near: NearWalls | Nothing, frame: PartsLayout, s: State) -> Any:
     """How far the vehicle is from the walls near it, as a `Clearance`."""
-
-
-@clearance.register(Nothing)
-def _no_walls(w: Nothing, near: Nothing, frame: PartsLayout, s: State) -> Nothing:
-    return w
 
 
 @clearance.register(Walls)
@@ -92,14 +82,9 @@ def _walls(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> Clearance
     return Clearance(guards, beam_clearance(w.beam, w, near.beam, frame, s))
 
 
-@choice
+@choice(absent=FAR)
 def closest(c: Clearance | BeamClearance | Nothing) -> Number:
     """The least of a clearance [m]."""
-
-
-@closest.register(Nothing)
-def _of_no_beam(c: Nothing) -> Number:
-    return FAR
 
 
 @closest.register(BeamClearance)
@@ -129,14 +114,9 @@ def may_press(w: Walls, c: Clearance, s: State, rate: State, dt: Number) -> Cond
     return closest(c) < 2.0 * dt * (fast + faster * dt)
 
 
-@choice
+@choice(absent="a")
 def nearer_of(a: Any, b: Any) -> Any:
     """The lesser of two clearances, part by part."""
-
-
-@nearer_of.register(Nothing)
-def _of_nothing(a: Nothing, b: Nothing) -> Nothing:
-    return a
 
 
 @nearer_of.register(BeamClearance)

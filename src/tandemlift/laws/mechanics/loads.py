@@ -179,14 +179,9 @@ def plus_zero(v: Vec3) -> Vec3:
     return Vec3(raised(v.x, 0.0), raised(v.y, 0.0), raised(v.z, 0.0))
 
 
-@choice
+@choice(absent="felt")
 def under(load: PartLoad | Nothing, frame: PartsLayout, attitude: Quat, felt: PerfectReadings) -> Any:
     """`felt`, with a load on the quadrotors, which their joints pass on to the payload."""
-
-
-@under.register(Nothing)
-def _no_load(load: Nothing, frame: PartsLayout, attitude: Quat, felt: PerfectReadings) -> PerfectReadings:
-    return felt
 
 
 @under.register(PartLoad)

@@ -24,14 +24,9 @@ class TiltLimit(NamedTuple):
     tangent: Number
 
 
-@choice
+@choice(absent="u")
 def within_tilt(limit: TiltLimit | Nothing, u: Vec3) -> Any:
     """The force (u_x, u_y, u_z) [N, world axes], its horizontal part shortened to keep within a tilt."""
-
-
-@within_tilt.register(Nothing)
-def _any_tilt(limit: Nothing, u: Vec3) -> Vec3:
-    return u
 
 
 @within_tilt.register(TiltLimit)

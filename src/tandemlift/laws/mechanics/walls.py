@@ -166,14 +166,9 @@ def on_beam_pressed(w: Walls, a: BeamAxis, along: Number, o: Vec3) -> PartLoad:
     return PartLoad(load.force, load.moment + cross(arm, load.force))
 
 
-@choice
+@choice(absent=PartLoad(ZERO, ZERO))
 def press_beam(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
     """What the near walls put on the payload, as a Load."""
-
-
-@press_beam.register(Nothing)
-def _shapeless(beam: Nothing, w: Walls, near: Nothing, frame: PartsLayout, s: State) -> PartLoad:
-    return PartLoad(ZERO, ZERO)
 
 
 @press_beam.register(Beam)
@@ -200,14 +195,9 @@ def press(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> PartLoads:
     return PartLoads(press_beam(w.beam, w, near.beam, frame, s), PartLoad(load.force, apply_transposed(R, load.moment)))
 
 
-@choice
+@choice(absent="near")
 def consider_beam(beam: Beam | Nothing, wall: Wall, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
     """The walls nearest to the beam, once `wall` is considered too."""
-
-
-@consider_beam.register(Nothing)
-def _nothing_near(beam: Nothing, wall: Wall, near: Nothing, frame: PartsLayout, s: State) -> Nothing:
-    return near
 
 
 @consider_beam.register(Beam)
