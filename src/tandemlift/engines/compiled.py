@@ -22,7 +22,6 @@ from tandemlift.laws.mechanics.loads import (
     PartsLayout,
     PerfectReadings,
     of_quadrotors,
-    parts_layout,
     perfect_readings,
     plus_zero,
     resultant,
@@ -33,6 +32,7 @@ from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.laws.mechanics.walls import Walls, press
 from tandemlift.laws.rotors.allocation import Mixer, mixer_from, wrench
+from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.settings import Mission, VehicleTable
 from tandemlift.vehicle import Vehicle
 
@@ -270,7 +270,7 @@ def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> C
         force=vec3(mission.disturbance.force),
         moment=vec3(mission.disturbance.moment),
     )
-    return CompiledPlant(_effect(mission.vehicle), body, parts_layout(vehicle), floor, walls)
+    return CompiledPlant(_effect(mission.vehicle), body, parts_layout_from(vehicle), floor, walls)
 
 
 def start_state(mission: Mission) -> State:

@@ -11,14 +11,11 @@ of N joints, ratio σ √(ω T/4N); it is as much too late for gusts, 2/ω.
 
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum
 from tandemlift.algebra.types import Condition, Number, PerQuadrotor
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, total
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
-from tandemlift.vehicle import Vehicle
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
 
 
 class PayloadDrag(NamedTuple):
@@ -80,13 +77,6 @@ def _scaled(
     summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
     after = smooth(k.low_pass, memory.force, (force - bias_of(summed)) * armed)
     return after.value, PayloadDragState(summed.sum, summed.count, after)
-
-
-def payload_drag(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
-    """The windage of a vehicle as it is believed to be, with a low-pass of a bandwidth [rad/s]."""
-    beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
-    quadrotors = np.sum([np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
-    return PayloadDrag(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
 
 
 def start_payload_drag(windage: PayloadDrag | Nothing) -> PayloadDragState | Nothing:

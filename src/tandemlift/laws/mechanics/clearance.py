@@ -62,7 +62,7 @@ def beam_clearance(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, fra
 
 @beam_clearance.register(Beam)
 def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> BeamClearance:
-    a, half = beam_axis(frame, s), beam.ends[1]
+    a, half = beam_axis(frame.payload, s), beam.ends[1]
     edge = offset(near.edge, on_beam(a, point_by_edge(a, half, near.edge)))
     other = offset(near.other_edge, on_beam(a, point_by_edge(a, half, near.other_edge)))
     top = offset_from_top(near.topped, on_beam(a, point_by_top(a, half, near.topped)))

@@ -5,8 +5,6 @@ A vector of every quadrotor is a `Vec3` of sets. Joints transmit what a quadroto
 
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.types import Number, PerQuadrotor, PerRotor
@@ -18,19 +16,15 @@ from tandemlift.algebra.vector import (
     Vec3,
     apply_transposed,
     cross,
-    each,
     linear,
     plus,
     quarters,
-    spread,
     times,
     total,
-    vec3,
 )
 from tandemlift.laws.mechanics.body import UP, State, Wrench
 from tandemlift.laws.mechanics.parts import Acceleration
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.vehicle import Vehicle
 
 
 @linear
@@ -91,23 +85,6 @@ class PerfectReadings(NamedTuple):
     joint_force: Vec3
     joint_torque: Vec3
     contact_force: Vec3
-
-
-def parts_layout(vehicle: Vehicle) -> PartsLayout:
-    """The frame of a vehicle."""
-    quadrotors, N = vehicle.quadrotors, vehicle.count
-    x, y = np.array([q.rotors for q in quadrotors]).reshape(4 * N, 2).T
-    torque = [q.torque_per_thrust * spin for q in quadrotors for spin in q.spins]
-    return PartsLayout(
-        payload=vec3(-vehicle.center_of_mass),
-        quadrotors=spread(vehicle.lever_arms),
-        joints=spread([np.subtract(q.joint_position, q.position) for q in quadrotors]),
-        mass=each(N)(*[q.mass for q in quadrotors]),
-        inertia=spread([q.inertia for q in quadrotors]),
-        x=quarters(each(4 * N)(*map(float, x))),
-        y=quarters(each(4 * N)(*map(float, y))),
-        torque=quarters(each(4 * N)(*torque)),
-    )
 
 
 @law

@@ -145,10 +145,10 @@ def point_by_top(a: BeamAxis, half: Number, wall: Wall) -> Number:
 
 
 @law
-def beam_axis(frame: PartsLayout, s: State) -> BeamAxis:
-    """The beam's axis in state `s`."""
+def beam_axis(center: Vec3, s: State) -> BeamAxis:
+    """The beam's axis in state `s`; its centre from the system's centre of mass [m, body axes]."""
     R = rotation_from_quaternion(s.attitude)
-    spin, arm = apply(R, s.rates), apply(R, frame.payload)
+    spin, arm = apply(R, s.rates), apply(R, center)
     return BeamAxis(s.position + arm, s.velocity + cross(spin, arm), Vec3(R.x.y, R.y.y, R.z.y), spin)
 
 
@@ -173,7 +173,7 @@ def press_beam(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: 
 
 @press_beam.register(Beam)
 def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> PartLoad:
-    a, half = beam_axis(frame, s), beam.ends[1]
+    a, half = beam_axis(frame.payload, s), beam.ends[1]
     ends = on_beam_pressed(w, a, beam.ends, offset(near.ends, on_beam(a, beam.ends)))
     i, j = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
     k = point_by_top(a, half, near.topped)
@@ -202,7 +202,7 @@ def consider_beam(beam: Beam | Nothing, wall: Wall, near: NearBeam | Nothing, fr
 
 @consider_beam.register(Beam)
 def _near_beam(beam: Beam, wall: Wall, near: NearBeam, frame: PartsLayout, s: State) -> NearBeam:
-    a, half = beam_axis(frame, s), beam.ends[1]
+    a, half = beam_axis(frame.payload, s), beam.ends[1]
     ends, (start, end) = on_beam(a, beam.ends), edges_of(wall)
     edge, other = with_edge(a, half, start, near.edge, near.other_edge)
     edge, other = with_edge(a, half, end, edge, other)

@@ -20,11 +20,10 @@ from numpy.typing import NDArray
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, cos, maximum, sqrt
 from tandemlift.algebra.types import Number
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, spread, vec3
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, vec3
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, raised
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.vehicle import Vehicle
 
 FOOT = 0.3048  # m
 LOWEST, HIGHEST = 10.0, 1000.0  # ft, between which the standard's low-altitude model holds
@@ -187,15 +186,6 @@ def dryden(wind_20ft: float, height: float, airspeed: float, direction: Sequence
 def start_turbulence(turbulence: NoTurbulence | Dryden, normals: Sequence[float]) -> TurbulenceState | Nothing:
     """The memory at the start of a flight, drawn from the stationary process by five standard normal numbers."""
     return TurbulenceState(*map(float, normals)) if isinstance(turbulence, Dryden) else Nothing()
-
-
-def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
-    """The drag of a vehicle's parts in air of a density [kg/m³]."""
-    payload, quadrotors = vehicle.payload, vehicle.quadrotors
-    return AirDrag(
-        vec3(payload.areas) * (0.5 * density * payload.drag_coefficient),
-        spread([np.multiply(q.drag_area, 0.5 * density * q.drag_coefficient) for q in quadrotors]),
-    )
 
 
 @law

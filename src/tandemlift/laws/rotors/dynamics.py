@@ -15,9 +15,8 @@ import numpy as np
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.types import Number, PerRotor
-from tandemlift.algebra.vector import Nothing, Vec3, each, spread
+from tandemlift.algebra.vector import Nothing, Vec3, each
 from tandemlift.laws.mechanics.body import State, Wrench
-from tandemlift.vehicle import Vehicle
 
 REST = 1e-100  # rad/s, lost in any speed; one that dies ends near 1e-115, not in slow denormal numbers
 NEVER = 1e18  # s
@@ -193,42 +192,6 @@ def lag(time_constants: list[float], step: float) -> Lag:
         -np.expm1(-2.0 * ratio) / (2.0 * ratio),
     )
     return Lag(*[cls(*map(float, row)) for row in (np.exp(-ratio), mean, mean_square)])
-
-
-def ground_effect(vehicle: Vehicle, floor: float) -> GroundEffect:
-    """Ground effect over a floor at z = `floor` [m]."""
-    places = [
-        (d[0] + x, d[1] + y, d[2])
-        for d, q in zip(vehicle.lever_arms, vehicle.quadrotors, strict=True)
-        for x, y in q.rotors
-    ]
-    quarter = [q.rotor_radius / 4.0 for q in vehicle.quadrotors for _ in range(4)]
-    return GroundEffect(spread(places), each(len(quarter))(*quarter), floor)
-
-
-def rotors_from(
-    vehicle: Vehicle,
-    step: float,
-    *,
-    late: bool,
-    faults: NoFaults | RotorFaults,
-    surface: FreeAir | GroundEffect,
-    per_reach: Wrench,
-) -> Rotors:
-    """The real rotors of a vehicle, for steps of `step` [s]."""
-    each_rotor = [q for q in vehicle.quadrotors for _ in range(4)]
-    cls = each(len(each_rotor))
-    return Rotors(
-        max_thrust=cls(*[q.max_thrust for q in each_rotor]),
-        constant=cls(*[q.thrust_constant for q in each_rotor]),
-        per_constant=cls(*[1.0 / q.thrust_constant for q in each_rotor]),
-        up=lag([q.lag_up for q in each_rotor], step),
-        down=lag([q.lag_down for q in each_rotor], step),
-        faults=faults,
-        surface=surface,
-        late=float(late),
-        per_reach=per_reach,
-    )
 
 
 def rotor_faults(count: int, failures: Iterable[tuple[int, int, float, float]]) -> NoFaults | RotorFaults:
