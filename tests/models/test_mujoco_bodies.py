@@ -12,10 +12,11 @@ from tandemlift.algebra.vector import Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height, start_foot_grip
-from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PerfectReadings, parts_layout, resultant
+from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PerfectReadings, resultant
 from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import walls
+from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle
 
 mujoco = pytest.importorskip("mujoco")
@@ -145,7 +146,7 @@ def test_loads_on_the_parts_and_a_push_act_as_their_resultant():
         body.advance(rotors, loads, push, moment)
         sets = [each(4)(*row) for row in loads[6:].reshape(6, 4)]
         parts = PartLoads(PartLoad(vec3(loads[:3]), vec3(loads[3:6])), PartLoad(Vec3(*sets[:3]), Vec3(*sets[3:])))
-        all_of_it = resultant(parts_layout(vehicle), s.attitude, parts)
+        all_of_it = resultant(parts_layout_from(vehicle), s.attitude, parts)
         R = np.array(rotation_from_quaternion(s.attitude))
         angular = np.linalg.solve(vehicle.inertia, np.array(all_of_it.moment) + moment)
         force = R.T @ (np.array(all_of_it.force) + push) / vehicle.mass

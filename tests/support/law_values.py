@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, vec3
 from tandemlift.laws.mechanics.body import RigidBody, State
 from tandemlift.laws.mechanics.inertia import inertia_value
-from tandemlift.laws.mechanics.loads import parts_layout
 from tandemlift.laws.mechanics.wind import AirDrag
+from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.settings import Payload, Quadrotor
 from tandemlift.vehicle import Vehicle
 
@@ -136,4 +136,6 @@ def order_of(steps: Any, errors: Any) -> float:
 
 def drag_of(rng: np.random.Generator, count: int = 2) -> AirDrag:
     payload, quadrotors = rng.uniform(0.0, 0.3, 3), rng.uniform(0.0, 0.1, (3, count))
-    return AirDrag(vec3(payload), rebuilt(map(float, quadrotors.ravel()), parts_layout(paper_vehicle()).quadrotors))
+    return AirDrag(
+        vec3(payload), rebuilt(map(float, quadrotors.ravel()), parts_layout_from(paper_vehicle()).quadrotors)
+    )

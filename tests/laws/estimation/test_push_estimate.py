@@ -16,7 +16,6 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import Vec3, vec3
-from tandemlift.common.errors import InputError
 from tandemlift.laws.estimation.push_estimate import (
     PushEstimator,
     estimate,
@@ -291,7 +290,7 @@ def test_a_tare_that_is_begun_anew_forgets_the_one_before():
 
 
 def test_a_tare_that_cannot_be_is_refused():
-    with pytest.raises(InputError, match="identified during the tare"):
+    with pytest.raises(ValueError, match="identified during the tare"):
         estimator(paper_parts(), identify_mass=True)
-    with pytest.raises(InputError, match="holds no sample"):
+    with pytest.raises(ValueError, match="holds no sample"):
         estimator(paper_parts(), tare_start=1.0, tare_duration=1e-4)

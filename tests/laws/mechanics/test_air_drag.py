@@ -15,13 +15,11 @@ from scipy.spatial.transform import Rotation
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import parts_layout, resultant
-from tandemlift.laws.mechanics.wind import (
-    AirDrag,
-    air_drag_from,
-    air_loads,
-)
+from tandemlift.laws.mechanics.loads import resultant
+from tandemlift.laws.mechanics.wind import AirDrag, air_loads
+from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.settings import Payload
+from tandemlift.simulation.disturbances import air_drag_from
 from tandemlift.vehicle import Vehicle
 
 DENSITY = 1.225
@@ -37,7 +35,7 @@ def parts_of(s: State) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def forces_of(drag: AirDrag, s: State, air: Vec3) -> np.ndarray:
     """Force on every part [N, world axes], payload first."""
-    loads = air_loads(drag, parts_layout(paper_vehicle()), s, air)
+    loads = air_loads(drag, parts_layout_from(paper_vehicle()), s, air)
     return np.vstack([array(loads.payload.force), array(loads.quadrotors.force).T])
 
 
@@ -49,7 +47,7 @@ def test_still_air_only_takes_energy(seed):
     arms, velocities, _ = parts_of(s)
     power = np.sum(forces_of(drag, s, ZERO) * velocities, axis=1)
     assert np.all(power <= 0.0)
-    frame = parts_layout(paper_vehicle())
+    frame = parts_layout_from(paper_vehicle())
     whole = resultant(frame, s.attitude, air_loads(drag, frame, s, ZERO))
     assert array(whole.force) @ array(s.velocity) + array(whole.moment) @ array(s.rates) == pytest.approx(sum(power))
     assert len(arms) == len(power) == 3
@@ -65,7 +63,7 @@ def test_drag_is_quadratic_in_the_speed_of_each_part_through_the_air(seed):
     through = (velocities - array(air)) @ R
     wanted = (-coefficients * np.linalg.norm(through, axis=1)[:, None] * through) @ R.T
     assert forces_of(drag, s, air) == pytest.approx(wanted, abs=1e-12)
-    moments = air_loads(drag, parts_layout(paper_vehicle()), s, air)
+    moments = air_loads(drag, parts_layout_from(paper_vehicle()), s, air)
     assert moments.payload.moment == ZERO
     assert not array(moments.quadrotors.moment).any()
 
@@ -98,7 +96,7 @@ def level(velocity: Vec3) -> State:
 def test_a_falling_vehicle_comes_to_its_terminal_velocity():
     """v = V tanh(g t / V), V = √(m g / k): the closed form of fall with quadratic drag."""
     vehicle = paper_vehicle()
-    drag, frame = air_drag_from(vehicle, DENSITY), parts_layout(vehicle)
+    drag, frame = air_drag_from(vehicle, DENSITY), parts_layout_from(vehicle)
     k = 0.5 * DENSITY * (2.0 * 0.05 * 2.0 + 2 * 0.05)  # the beam from below, and two quadrotors
     V = np.sqrt(vehicle.mass * GRAVITY / k)
 
@@ -115,7 +113,7 @@ def test_a_falling_vehicle_comes_to_its_terminal_velocity():
 
 
 def test_wind_from_the_side_turns_no_vehicle_that_is_alike_on_both_sides():
-    frame, at_rest = parts_layout(paper_vehicle()), level(ZERO)
+    frame, at_rest = parts_layout_from(paper_vehicle()), level(ZERO)
     loads = air_loads(air_drag_from(paper_vehicle(), DENSITY), frame, at_rest, Vec3(5.0, 0.0, 0.0))
     whole = resultant(frame, at_rest.attitude, loads)
     assert whole.force.x > 0.0
@@ -134,7 +132,7 @@ def test_a_beam_is_seen_as_the_shadow_of_a_cylinder():
 
 
 def test_drag_at_rest_is_zero_and_has_a_derivative(jax):
-    drag, frame = drag_of(np.random.default_rng(0)), parts_layout(paper_vehicle())
+    drag, frame = drag_of(np.random.default_rng(0)), parts_layout_from(paper_vehicle())
 
     def force(v: Any) -> Any:
         s = State(ZERO, Vec3(v[0], v[1], v[2]), Quat(1.0, 0.0, 0.0, 0.0), ZERO)

@@ -8,9 +8,9 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import Nothing
 from tandemlift.laws.mechanics.clearance import clearance, nearer_of
-from tandemlift.laws.mechanics.loads import parts_layout
 from tandemlift.laws.mechanics.rectangle import wall
 from tandemlift.laws.mechanics.walls import consider, nowhere, walls
+from tandemlift.models.parts_layout import parts_layout_from
 
 PAIR = paper_vehicle()
 GUARD, LENGTH, RADIUS = 0.375, 2.0, 0.05
@@ -31,7 +31,7 @@ def test_clearance_is_that_of_bounded_least_squares(seed):
         PAIR.lever_arms, GUARD, PAIR.mass, PAIR.inertia, 0.001, friction=0.5, beam=(LENGTH, RADIUS),
         payload=-PAIR.center_of_mass,
     )  # fmt: skip
-    frame, near = parts_layout(PAIR), nowhere(w)
+    frame, near = parts_layout_from(PAIR), nowhere(w)
     for one in table:
         near = consider(w, one, near, frame, state)
     R, p = Rotation.from_quat(array(state.attitude), scalar_first=True).as_matrix(), array(state.position)
@@ -53,7 +53,7 @@ def test_the_lesser_of_two_clearances_is_taken_part_by_part():
         PAIR.lever_arms, GUARD, PAIR.mass, PAIR.inertia, 0.001, friction=0.5, beam=(LENGTH, RADIUS),
         payload=-PAIR.center_of_mass,
     )  # fmt: skip
-    frame, rng, found = parts_layout(PAIR), np.random.default_rng(3), []
+    frame, rng, found = parts_layout_from(PAIR), np.random.default_rng(3), []
     for _ in range(2):
         state = random_state(rng)
         found.append(

@@ -29,8 +29,9 @@ from tandemlift.laws.mechanics.contact import (
     start_foot_grip,
     touch,
 )
-from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, parts_layout, resultant
+from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, resultant
 from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.trace import flat, unflat
 from tandemlift.vehicle import Vehicle
 
@@ -98,7 +99,7 @@ def step_of(world, x, given):
 @pytest.fixture(scope="module")
 def flown():
     """flown(start, duration, floor, force, step): a flight of the paper's vehicle from a state, one row a step."""
-    frame, begin = parts_layout(VEHICLE), State(ZERO, ZERO, LEVEL, ZERO)
+    frame, begin = parts_layout_from(VEHICLE), State(ZERO, ZERO, LEVEL, ZERO)
     loop = Loop(step_of, World(FLOOR, frame, BODY, ZERO), Moving(begin, start_foot_grip(FLOOR, begin)), Given(STEP))
 
     def fly(start: State, duration: float, floor=FLOOR, force=(0.0, 0.0, 0.0), step=STEP) -> Flight:
@@ -212,7 +213,7 @@ def near_floor(rng: np.random.Generator, count: int) -> tuple[Floor, PartsLayout
     s = random_state(rng)
     s = s._replace(position=s.position._replace(z=ground.height + rng.uniform(-0.1, 0.5)))
     before = s._replace(position=s.position + vec3(1e-3 * rng.standard_normal(3)))
-    return ground, parts_layout(vehicle), slip(ground, start_foot_grip(ground, before), before), s
+    return ground, parts_layout_from(vehicle), slip(ground, start_foot_grip(ground, before), before), s
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
@@ -239,7 +240,7 @@ def test_in_the_air_nothing_acts_and_the_grip_follows_the_foot(seed):
     rng = np.random.default_rng(seed)
     s = random_state(rng)
     s = s._replace(position=s.position._replace(z=FLOOR.reach + 1e-9))
-    load = touch(FLOOR, start_foot_grip(FLOOR, random_state(rng)), parts_layout(VEHICLE), s)
+    load = touch(FLOOR, start_foot_grip(FLOOR, random_state(rng)), parts_layout_from(VEHICLE), s)
     assert all(x == 0.0 for x in flat(load))
     R = Rotation.from_quat(array(s.attitude), scalar_first=True).as_matrix()
     for grip, feet in zip(slip(FLOOR, start_foot_grip(FLOOR, random_state(rng)), s), FLOOR.feet, strict=True):
@@ -290,7 +291,7 @@ def test_no_motion_on_the_feet_is_too_fast_for_the_step(step, places):
     ground = floor_of(vehicle, step, friction=1e6)
     s = State(vec3([0.0, 0.0, standing_height(ground, vehicle.weight)]), ZERO, LEVEL, ZERO)
     body = free_body(vehicle.mass, vehicle.inertia)
-    world, grip = World(ground, parts_layout(vehicle), body, ZERO), start_foot_grip(ground, s)
+    world, grip = World(ground, parts_layout_from(vehicle), body, ZERO), start_foot_grip(ground, s)
 
     def rate(y: np.ndarray) -> np.ndarray:
         return np.array(flat(motion(world, grip, unflat(y, s))))

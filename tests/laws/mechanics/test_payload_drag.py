@@ -10,8 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Nothing, each
 from tandemlift.laws.estimation.push_estimate import estimate, push_estimator, start_push
-from tandemlift.laws.mechanics.air_drag import bias_of, blown, payload_drag, start_payload_drag
+from tandemlift.laws.mechanics.air_drag import bias_of, blown, start_payload_drag
 from tandemlift.missions import load_mission
+from tandemlift.simulation.sensors import payload_drag_from
 from tandemlift.vehicle import Vehicle
 
 VEHICLE = Vehicle.from_settings(load_mission("iris").vehicle)
@@ -44,7 +45,7 @@ def read(R: Rotation, air: np.ndarray, hand: np.ndarray) -> Any:
 
 
 def estimator(**options: Any):
-    p, k = paper_parts(), payload_drag(VEHICLE, 200.0, STEP)
+    p, k = paper_parts(), payload_drag_from(VEHICLE, 200.0, STEP)
     return push_estimator(p.mass, p.inertia, p.joints, p.quadrotors, p.masses, STEP, windage=k, **options)
 
 
@@ -80,7 +81,7 @@ def test_the_wind_of_the_tare_is_in_the_bias_and_is_not_taken_off_twice():
 
 
 def test_noise_of_the_joints_comes_through_times_the_ratio_of_drags_as_told():
-    k, rng, sigma, n = payload_drag(VEHICLE, 12.0, STEP), np.random.default_rng(0), 0.05, 60_000
+    k, rng, sigma, n = payload_drag_from(VEHICLE, 12.0, STEP), np.random.default_rng(0), 0.05, 60_000
     assert 2.0 * k.ratio_x == pytest.approx(11.0)
     memory, found, pair = start_payload_drag(k), np.zeros(n), each(2)
     for i, (a, b) in enumerate(rng.standard_normal((n, 2)) * sigma):
@@ -90,5 +91,5 @@ def test_noise_of_the_joints_comes_through_times_the_ratio_of_drags_as_told():
 
 
 def test_without_a_tare_and_without_compensation_nothing_is_taken_off():
-    assert array(bias_of(start_payload_drag(payload_drag(VEHICLE, 12.0, STEP)))) == pytest.approx(np.zeros(3))
+    assert array(bias_of(start_payload_drag(payload_drag_from(VEHICLE, 12.0, STEP)))) == pytest.approx(np.zeros(3))
     assert blown(Nothing(), Nothing(), each(2)(1.0, 1.0), each(2)(1.0, 1.0), 1.0, 0.0, 1.0) == (ZERO, Nothing())

@@ -31,10 +31,11 @@ from tandemlift.algebra.ops import sqrt, where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, rigid_body_motion
 from tandemlift.laws.mechanics.clearance import clearance, may_press
-from tandemlift.laws.mechanics.loads import PartLoads, PartsLayout, parts_layout, resultant
+from tandemlift.laws.mechanics.loads import PartLoads, PartsLayout, resultant
 from tandemlift.laws.mechanics.push import CentralPush
 from tandemlift.laws.mechanics.rectangle import WALL, Wall, offset, wall
 from tandemlift.laws.mechanics.walls import Walls, consider, nowhere, press, walls
+from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle
 
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
@@ -58,7 +59,7 @@ def found(w: Walls, table: Any, frame: PartsLayout, s: State) -> Any:
 
 
 def pressed(w: Walls, table: Any, vehicle: Vehicle, s: State) -> PartLoads:
-    frame = parts_layout(vehicle)
+    frame = parts_layout_from(vehicle)
     return press(w, found(w, table, frame, s), frame, s)
 
 
@@ -119,7 +120,7 @@ def test_the_two_nearest_walls_of_each_quadrotor_are_found_in_any_order(count, s
     rng = np.random.default_rng(seed)
     vehicle, s = random_vehicle(rng, count), random_state(rng)
     w, table = walls_of(vehicle, beam=None), [random_wall(rng, 3.0) for _ in range(6)]
-    near = found(w, table, parts_layout(vehicle), s)
+    near = found(w, table, parts_layout_from(vehicle), s)
     R = Rotation.from_quat(array(s.attitude), scalar_first=True).as_matrix()
     for i, place in enumerate(vehicle.lever_arms):
         p = array(s.position) + R @ place
@@ -173,7 +174,7 @@ def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(seed):
         depths += [0.3 - d for d in features(PAIR, one, there)]
         return 0.5 * w.stiffness * sum(max(d, 0.0) ** 2 for d in depths)
 
-    frame = parts_layout(PAIR)
+    frame = parts_layout_from(PAIR)
     wrench = resultant(frame, s.attitude, pressed(w, [one], PAIR, s))
     h = 1e-5
     slope = [(energy(h * e) - energy(-h * e)) / (2.0 * h) for e in np.eye(6)]
@@ -325,7 +326,7 @@ def step_of(fixed, x, given):
 def loop_among(count):
     """A flight's steps among so many walls."""
     w = walls_of(FLAT)
-    world = World(w, parts_layout(FLAT), free_body(FLAT.mass, FLAT.inertia), ZERO)
+    world = World(w, parts_layout_from(FLAT), free_body(FLAT.mass, FLAT.inertia), ZERO)
     fixed = Surroundings(world, record("Table", [WALL] * count), nowhere(w))
     return Loop(step_of, fixed, Moving(at(ZERO), nowhere(w)), Given(STEP, 1.0))
 
@@ -333,7 +334,7 @@ def loop_among(count):
 @pytest.fixture(scope="module")
 def flown():
     """flown(start, duration, table, …): a weightless flight of `FLAT`, one row a step: state, then |force|²."""
-    frame, body, known = parts_layout(FLAT), free_body(FLAT.mass, FLAT.inertia), walls_of(FLAT)
+    frame, body, known = parts_layout_from(FLAT), free_body(FLAT.mass, FLAT.inertia), walls_of(FLAT)
 
     def fly(start, duration, table, w=known, force=(0.0, 0.0, 0.0), step=STEP, every=1) -> np.ndarray:
         world = World(w, frame, body, vec3(force + np.array([0.0, 0.0, FLAT.weight])))
@@ -409,7 +410,7 @@ def test_a_beam_pressed_flat_on_a_wall_lies_on_both_ends(flown):
 
 
 def test_no_wall_presses_in_a_step_in_which_it_is_said_that_none_may(flown):
-    w, frame, body = walls_of(FLAT), parts_layout(FLAT), free_body(FLAT.mass, FLAT.inertia)
+    w, frame, body = walls_of(FLAT), parts_layout_from(FLAT), free_body(FLAT.mass, FLAT.inertia)
     rows = flown(wandering(np.random.default_rng(4)), 6.0, ROOM, w)
     touches = rows[:-1, 13] + rows[1:, 13] > 0.0  # at the start of a step or of the next one
     said = []
@@ -438,7 +439,7 @@ def test_machine_code_of_walls_equals_plain_python(count):
     rng = np.random.default_rng(count)
     vehicle, s = random_vehicle(rng, count), random_state(rng)
     w = walls_of(vehicle, guard=0.5, beam=(LENGTH, 0.3) if count % 2 else None)
-    frame, table = parts_layout(vehicle), [random_wall(rng) for _ in range(5)]
+    frame, table = parts_layout_from(vehicle), [random_wall(rng) for _ in range(5)]
     answer = Answer(found(w, table, frame, s), pressed(w, table, vehicle, s))
     computed = answers(both, (w, table[-1], found(w, table[:-1], frame, s), frame, s))[0]
     assert np.abs(flat(answer.loads)).max() > 1.0

@@ -22,7 +22,6 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import parts_layout
 from tandemlift.laws.mechanics.wind import (
     AirDrag,
     Dryden,
@@ -41,6 +40,7 @@ from tandemlift.laws.mechanics.wind import (
     wind_step,
 )
 from tandemlift.laws.signals.random_numbers import keys_of, normals
+from tandemlift.models.parts_layout import parts_layout_from
 
 FOOT = 0.3048
 NO_EDDIES, NO_WHIFFS = TurbulenceState(*[0.0] * 5), WindNoise(*[0.0] * 5)
@@ -307,12 +307,12 @@ def random_given(rng: np.random.Generator) -> Given:
 def many() -> tuple[list[Given], np.ndarray]:
     """Arguments, and what the laws make of them in plain Python (cases × numbers)."""
     cases = [random_given(np.random.default_rng(seed)) for seed in range(20)]
-    return cases, np.array([flat(everything(case, parts_layout(paper_vehicle()))) for case in cases])
+    return cases, np.array([flat(everything(case, parts_layout_from(paper_vehicle()))) for case in cases])
 
 
 def test_machine_code_equals_plain_python(many):
     cases, wanted = many
-    frame = parts_layout(paper_vehicle())
+    frame = parts_layout_from(paper_vehicle())
     rows = [flat(case) + flat(frame) for case in cases]
     for lanes in (1, 8):
         assert answers(everything, (cases[0], frame), rows, lanes) == pytest.approx(wanted, abs=1e-12, rel=1e-12)
@@ -320,7 +320,7 @@ def test_machine_code_equals_plain_python(many):
 
 def test_numpy_jax_and_casadi_evaluate_the_same_laws(many, jax, casadi):
     cases, wanted = many
-    table, frame = np.transpose([flat(case) for case in cases]), parts_layout(paper_vehicle())
+    table, frame = np.transpose([flat(case) for case in cases]), parts_layout_from(paper_vehicle())
 
     def answers(numbers: Any) -> list[Any]:
         return flat(everything(rebuilt(numbers, cases[0]), frame))

@@ -8,19 +8,10 @@ from scipy.integrate import quad
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.rotors.dynamics import (
-    FreeAir,
-    IdealRotors,
-    NoFaults,
-    RotorFaults,
-    RotorState,
-    drive,
-    ground_effect,
-    near_ground,
-    rotors_from,
-)
+from tandemlift.laws.rotors.dynamics import FreeAir, IdealRotors, NoFaults, RotorFaults, RotorState, drive, near_ground
 from tandemlift.laws.rotors.thrust_limits import share_scale
 from tandemlift.missions import load_mission
+from tandemlift.simulation.actuators import ground_effect_from, rotors_from
 from tandemlift.vehicle import Vehicle
 
 VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)
@@ -105,7 +96,7 @@ def test_a_rotor_fails_at_its_time_and_keeps_its_share():
 
 @pytest.mark.parametrize("height", [0.1, 0.2, 0.5, 2.0])
 def test_thrust_near_the_floor_is_that_of_cheeseman_and_bennett(height):
-    surface, radius = ground_effect(VEHICLE, -1.0), 0.128
+    surface, radius = ground_effect_from(VEHICLE, -1.0), 0.128
     low = LEVEL._replace(position=Vec3(0.0, 0.0, height - 1.0 - float(VEHICLE.lever_arms[0, 2])))
     assert list(near_ground(surface, low)) == pytest.approx(
         [1.0 / (1.0 - (radius / (4.0 * height)) ** 2)] * 8, rel=1e-12
@@ -113,7 +104,7 @@ def test_thrust_near_the_floor_is_that_of_cheeseman_and_bennett(height):
 
 
 def test_ground_effect_is_bounded_on_the_floor_and_gone_high_up():
-    surface = ground_effect(VEHICLE, 0.0)
+    surface = ground_effect_from(VEHICLE, 0.0)
     on_it = near_ground(surface, LEVEL._replace(position=ZERO))
     assert max(on_it) == pytest.approx(4.0 / 3.0, rel=1e-12)
     assert max(near_ground(surface, LEVEL)) < 1.0001
