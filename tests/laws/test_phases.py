@@ -3,15 +3,9 @@
 import pytest
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, PHASE_NAMES, STOPPED
 from tandemlift.laws.guidance.phases import (
-    GUIDED,
-    HOLD,
-    IDLE,
-    LAND,
-    LIFT,
-    NAMES,
     SETTLE,
-    STOPPED,
     PhaseBounds,
     PhaseSettings,
     PhaseState,
@@ -41,7 +35,7 @@ def flown(until, k=PHASING, bounds=lambda t: FREE, operator=lambda t: NOBODY, la
         lifts = wants_lift(k, m, asked, operator(t).lift, lands)
         after = follow(k, m, state, asked, (lifts, lands), bounds(t), t, DT)
         if after.phase != m.phase:
-            story.append((round(t, 2), NAMES[int(after.phase)]))
+            story.append((round(t, 2), PHASE_NAMES[int(after.phase)]))
         m = after
     return story, m, phase_output(k, m, t)
 
@@ -139,7 +133,7 @@ def test_a_landing_ends_when_it_stands_on_something():
 
 
 def test_a_landing_is_no_faster_than_allowed_and_as_deep_as_told():
-    k = PHASING._replace(land_start=4.0, descent=0.3)
+    k = PHASING._replace(land_start=4.0, max_descent_speed=0.3)
     _, m, orders = flown(4.2, k, bounds=lambda t: FREE._replace(deep=0.5), height=1.0)
     assert m.land_rate == pytest.approx(0.3 / (1.875 * 0.53))
     assert orders.end == pytest.approx(1.0 - 0.03 - 0.5)  # the ground is where the lift began
@@ -153,4 +147,4 @@ def test_hovering_counts_from_steady_flight():
 
 def test_nobody_asks_for_nothing():
     assert asked_until(Nothing(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
-    assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED} == set(map(float, range(len(NAMES))))
+    assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED} == set(map(float, range(len(PHASE_NAMES))))

@@ -26,7 +26,7 @@ from tandemlift.live import pages
 from tandemlift.live.frames import fields_of, read_frames
 from tandemlift.live.pages import page_files
 from tandemlift.live.replay import replay_files, replay_html, scene_and_frames
-from tandemlift.live.scene import alarm_names, scene_of
+from tandemlift.live.scene import scene_of
 from tandemlift.live.server import Server
 
 
@@ -203,11 +203,6 @@ def test_every_kind_of_mission_has_a_scene(name):
     scene = scene_of(tl.load_mission(name), "compiled")
     json.dumps(scene, allow_nan=False)
     assert scene["fields"] == [list(f) for f in fields_of(4 * len(scene["vehicle"]["quadrotors"]))]
-
-
-def test_an_alarm_is_named_at_its_number():
-    names = alarm_names()
-    assert (names[0], names[10], names[41], names[190]) == ("", "unit stale", "gyroscope frozen", "rotor lost")
 
 
 # Pages

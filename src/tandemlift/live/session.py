@@ -17,7 +17,8 @@ from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply
 from tandemlift.common.errors import InputError
-from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.common.faults import ALARM_TEXTS
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
 from tandemlift.live import messages
@@ -30,7 +31,6 @@ from tandemlift.live.pace import BATCH, BREATH, NAP, SWITCHING, Pace
 from tandemlift.live.preparing import Preparing, without_long_pauses
 from tandemlift.live.recorded import Ready, RecordedFlight, ready_of
 from tandemlift.live.saving import save_aside
-from tandemlift.live.scene import alarm_names
 from tandemlift.live.states import check_listens, check_touch, dead_rotors
 from tandemlift.live.taring import check_may_tare
 from tandemlift.settings import Mission
@@ -62,7 +62,7 @@ class Session:
         self._mission, self._engine, self._out = by_hand(mission), engine, out
         self._lock, self._stopping = threading.RLock(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
-        self._knobs, self._names, self._failed = Knobs(self._mission, self._lock), alarm_names(), False
+        self._knobs, self._failed = Knobs(self._mission, self._lock), False
         self.pace = Pace(mission.mission.step)
         self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
         self._flight: RecordedFlight
@@ -184,7 +184,7 @@ class Session:
             most, pace.most_behind = pace.most_behind, 0.0
             return {
                 "phase": self._phase(int(values["phase"][0])),
-                "alarm": self._names[int(values["alarm"][0])] if "alarm" in values else "",
+                "alarm": ALARM_TEXTS[int(values["alarm"][0])] if "alarm" in values else "",
                 "enabled": bool(flight.hand.enabled),
                 "paused": pace.paused,
                 "speed": pace.speed,
@@ -196,7 +196,7 @@ class Session:
 
     def _phase(self, number: int) -> str:
         ends = {"failed": self._failed, "lost": self._flight.lost, "over": self._flight.over}
-        return next((name for name, true in ends.items() if true), NAMES[number])
+        return next((name for name, true in ends.items() if true), PHASE_NAMES[number])
 
     # what a page says
 
