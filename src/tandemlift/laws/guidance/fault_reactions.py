@@ -4,19 +4,17 @@ The faults, their numbers and their order are in `common.faults`; `supervision.a
 """
 
 from collections import namedtuple
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import where
 from tandemlift.common.faults import FAULTS, REACTIONS
 
 _, HOLDS, LANDS, STOPS = map(float, range(len(REACTIONS)))
+_FaultTuple: Any = cast(Any, namedtuple("_FaultTuple", [fault.key for fault in sorted(FAULTS)]))
 
 
-_BY_NUMBER: Any = namedtuple("_BY_NUMBER", [fault.key for fault in sorted(FAULTS)])
-
-
-class ActiveFaults(_BY_NUMBER):
+class ActiveFaults(_FaultTuple):
     """A value for each fault, by its key: 1 or the number of a symptom (from 1) while it is present, else 0."""
 
     __slots__ = ()

@@ -1,6 +1,6 @@
 """Supervision of a flight by hand: checks before a lift and before a hand is listened to, limits, and reactions.
 
-The checks: `refusal_to_lift`, `refusal_to_listen`. The limits: a fence about the vehicle, the share of its thrust,
+The checks: `refusal_to_lift`, `refusal_to_follow`. The limits: a fence about the vehicle, the share of its thrust,
 tilt, rates, distance from the reference. What the watchdogs report and what leaves a limit are the faults; each calls
 for a reaction: to hold the position and not to listen, to land, to stop the rotors. A hold ends when all has been well
 for a time, or in a landing when it has lasted too long; a landing and a stop are not taken back.
@@ -230,7 +230,7 @@ def refusal_to_lift(k: Supervision, s: SensorStatus, state: State, own: VehicleS
 
 
 @law
-def refusal_to_listen(k: Supervision, s: SensorStatus) -> Any:
+def refusal_to_follow(k: Supervision, s: SensorStatus) -> Any:
     """The number of the first check that refuses to listen to a hand, or 0."""
     c = k.checks
     plausible = where(s.payload < c.lightest, 0.0, where(s.payload > c.heaviest, 0.0, 1.0))

@@ -20,7 +20,7 @@ from tandemlift.laws.guidance.supervision import (
     active_faults,
     bounds_of,
     refusal_to_lift,
-    refusal_to_listen,
+    refusal_to_follow,
     sensor_status,
     timed,
 )
@@ -78,7 +78,7 @@ def _supervised(k, m, heard, phase, wants, t, dt):
     grounded = maximum(idle, where(phase.phase == STOPPED, 1.0, 0.0))
     faults = active_faults(k, senses, timers, state, own, phase.phase)
     after = reacted(k, m, strongest_reaction(faults, k.reactions), timers, state, idle, dt)
-    refused = refusal_to_lift(k, senses, state, own, after.reaction, most), refusal_to_listen(k, senses)
+    refused = refusal_to_lift(k, senses, state, own, after.reaction, most), refusal_to_follow(k, senses)
     return bounds_of(k, senses, after, refused, grounded), with_refusals(after, refused[0] * wants, refused[1])
 
 
