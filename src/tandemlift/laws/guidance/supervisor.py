@@ -19,8 +19,8 @@ from tandemlift.laws.guidance.supervision import (
     SupervisionState,
     active_faults,
     bounds_of,
-    refusal_to_lift,
     refusal_to_follow,
+    refusal_to_lift,
     sensor_status,
     timed,
 )
