@@ -9,10 +9,12 @@ import numpy as np
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, elementwise, law
+from tandemlift.algebra.types import Number, PerQuadrotor, PerRotor
 from tandemlift.algebra.vector import (
     ZERO,
     Nothing,
     Quarters,
+    Quat,
     Vec3,
     apply_transposed,
     cross,
@@ -41,7 +43,7 @@ class PartLoad(NamedTuple):
     def __add__(self, other: "PartLoad") -> "PartLoad":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Any) -> "PartLoad":
+    def __mul__(self, k: Number) -> "PartLoad":
         return times(self, k)
 
 
@@ -55,7 +57,7 @@ class PartLoads(NamedTuple):
     def __add__(self, other: "PartLoads") -> "PartLoads":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Any) -> "PartLoads":
+    def __mul__(self, k: Number) -> "PartLoads":
         return times(self, k)
 
 
@@ -70,7 +72,7 @@ class PartsLayout(NamedTuple):
     payload: Vec3
     quadrotors: Vec3
     joints: Vec3
-    mass: Any
+    mass: PerQuadrotor
     inertia: Vec3
     x: Quarters
     y: Quarters
@@ -115,7 +117,7 @@ def total_of_each(v: Vec3) -> Vec3:
 
 
 @law
-def of_quadrotors(frame: PartsLayout, attitude: Any, load: PartLoad) -> PartLoad:
+def of_quadrotors(frame: PartsLayout, attitude: Quat, load: PartLoad) -> PartLoad:
     """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of loads on quadrotors."""
     R = rotation_from_quaternion(attitude)
     moments = load.moment + cross(frame.quadrotors, apply_transposed(R, load.force))
@@ -123,7 +125,7 @@ def of_quadrotors(frame: PartsLayout, attitude: Any, load: PartLoad) -> PartLoad
 
 
 @law
-def resultant(frame: PartsLayout, attitude: Any, loads: PartLoads) -> PartLoad:
+def resultant(frame: PartsLayout, attitude: Quat, loads: PartLoads) -> PartLoad:
     """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of all loads together."""
     R = rotation_from_quaternion(attitude)
     beam = loads.payload
@@ -132,7 +134,7 @@ def resultant(frame: PartsLayout, attitude: Any, loads: PartLoads) -> PartLoad:
 
 
 @law
-def thrust_of_each(frame: PartsLayout, thrusts: Any) -> Wrench:
+def thrust_of_each(frame: PartsLayout, thrusts: PerRotor) -> Wrench:
     """Thrust [N] of every quadrotor and its rotors' moment about its centre of mass [N·m], as sets."""
     # paper: total_i_thrust_moments_equ
     f, x, y, torque = quarters(thrusts), frame.x, frame.y, frame.torque
@@ -143,7 +145,7 @@ def thrust_of_each(frame: PartsLayout, thrusts: Any) -> Wrench:
 
 
 @elementwise
-def raised(x, k):
+def raised(x: Number, k: Number) -> Number:
     """x + k, where k serves every value of a set."""
     return x + k
 
@@ -158,7 +160,7 @@ def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
 
 
 @law
-def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: Any) -> PerfectReadings:
+def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: PerRotor) -> PerfectReadings:
     """What the sensors feel in state `s` under an acceleration and thrusts [N], but for loads on the quadrotors."""
     # paper: trans_rot_quad_equ, solved for the joint
     made = thrust_of_each(frame, thrusts)
@@ -177,18 +179,13 @@ def plus_zero(v: Vec3) -> Vec3:
     return Vec3(raised(v.x, 0.0), raised(v.y, 0.0), raised(v.z, 0.0))
 
 
-@choice
-def under(load: Any, frame: PartsLayout, attitude: Any, felt: PerfectReadings) -> Any:
+@choice(absent="felt")
+def under(load: PartLoad | Nothing, frame: PartsLayout, attitude: Quat, felt: PerfectReadings) -> Any:
     """`felt`, with a load on the quadrotors, which their joints pass on to the payload."""
 
 
-@under.register(Nothing)
-def _no_load(load, frame, attitude, felt):
-    return felt
-
-
 @under.register(PartLoad)
-def _loaded(load, frame, attitude, felt):
+def _loaded(load: PartLoad, frame: PartsLayout, attitude: Quat, felt: PerfectReadings) -> PerfectReadings:
     force = plus_zero(apply_transposed(rotation_from_quaternion(attitude), load.force))
     torque = felt.joint_torque + plus_zero(load.moment - cross(frame.joints, force))
     return PerfectReadings(felt.specific_force, felt.joint_force + force, torque, felt.contact_force)
