@@ -268,7 +268,7 @@ def test_what_happened_is_told_as_diagnostics_with_its_time_and_level(read):
         (1_000_000_000, 0, "idle"),
         (1_050_000_000, 1, "no lift: not level"),
         (1_100_000_000, 0, "lift"),
-        (1_123_456_000, 2, "rotor lost -> land"),
+        (1_123_456_000, 2, "rotor failed -> land"),
         (1_480_000_000, 2, ends),
     ]
 

@@ -11,11 +11,11 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.cli.main import main
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.figures.drawing.style import save
 from tandemlift.figures.registry import save_figures
 from tandemlift.gazebo_app.camera_views import shots_of
 from tandemlift.gazebo_app.photographs import draw_views
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.missions import tables_of
 from tandemlift.models.cameras import FixedCamera, add_cameras
 from tandemlift.models.sdf import world
@@ -30,7 +30,9 @@ def flight():
     time = np.arange(0.0, 40.0, 0.01)
     way = np.clip(time - STANDS, 0.0, FLIES - STANDS)
     up = np.clip(np.minimum(time - STANDS, LANDS - time), 0.0, 1.0)
-    phase = np.select([time < STANDS, time < FLIES, time < LANDS], [NAMES.index(n) for n in ("idle", "guided", "land")])
+    phase = np.select(
+        [time < STANDS, time < FLIES, time < LANDS], [PHASE_NAMES.index(n) for n in ("idle", "guided", "land")]
+    )
     channels = {
         "position": np.column_stack([np.minimum(way, 15.0), np.maximum(way - 15.0, 0.0), up]),
         "phase": phase.astype(float),

@@ -39,7 +39,7 @@ def flight_of(mission, **changes):
 
 def eventful():
     """Of two quadrotors, with events, a sensor that fails, and an end before its time."""
-    events = [[0.0, "idle"], [0.05, "no lift: not level"], [0.1, "lift"], [0.123456, "rotor lost -> land"]]
+    events = [[0.0, "idle"], [0.05, "no lift: not level"], [0.1, "lift"], [0.123456, "rotor failed -> land"]]
     made = flight_of("iris", results={"events": events}, divergence=Divergence("roll [deg]", 0.48, 91.0, "must be"))
     made.channels["measured_velocity"][3] = np.nan
     made.channels["measured_attitude"][5] = np.nan

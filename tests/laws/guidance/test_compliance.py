@@ -6,9 +6,10 @@ from scipy.integrate import solve_ivp
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.common.phases import GUIDED
 from tandemlift.laws.guidance.compliance import DeadBand, DeadBandState, compliance_step, dead_band
 from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
-from tandemlift.laws.guidance.phases import GUIDED, PhaseOutput
+from tandemlift.laws.guidance.phases import PhaseOutput
 from tandemlift.laws.guidance.yaw_compliance import yaw_step
 from tandemlift.laws.rotors.dynamics import NoFaults
 from tandemlift.laws.signals.trajectories import SmoothStep

@@ -10,11 +10,10 @@ import numpy as np
 
 from tandemlift import __version__
 from tandemlift.algebra.vector import Nothing
+from tandemlift.common.faults import ALARM_TEXTS
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.common.types import Array
-from tandemlift.laws.guidance.fault_reactions import FAULTS, alarm_name
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.laws.mechanics.contact import soles_below
-from tandemlift.laws.sensors.health import KINDS
 from tandemlift.live.wire.frames import RATE, layout_for
 from tandemlift.live.wire.scene import (
     FlightScene,
@@ -76,20 +75,11 @@ def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, fl
         corridor=_corridor(tables.get("corridor", {})),
         threshold=list(tables["admittance"]["threshold"]),
         spring=SPRING,
-        phases=list(NAMES),
-        alarms=alarm_names(),
+        phases=list(PHASE_NAMES),
+        alarms=list(ALARM_TEXTS),
         fields=list(layout_for(vehicle.rotor_count)),
         parameters=[],
     )
-
-
-def alarm_names() -> list[str]:
-    """An alarm's words at the place of its number; "" where no alarm has that number, as 0 for none."""
-    names = [""] * (10 * len(FAULTS) + len(KINDS) + 1)
-    for fault in range(1, len(FAULTS) + 1):
-        for kind in range(len(KINDS) + 1):
-            names[10 * fault + kind] = alarm_name(10 * fault + kind)
-    return names
 
 
 def _lowest(mission: Mission, vehicle: Vehicle) -> float:
