@@ -21,7 +21,7 @@ from tandemlift.vehicle import Vehicle
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}
 AIR = ("wind_velocity", "wind_force")
 KNOWN = ("push_measured", "push_estimate", "push_usable")
-OBSERVED = ("disturbance_force", "disturbance_moment", "disturbance_residual", "disturbance_turning_residual")
+OBSERVED = ("disturbance_force", "disturbance_moment", "disturbance_residual", "disturbance_angular_residual")
 
 
 def cut(flight, count, **changes):
@@ -237,7 +237,7 @@ def test_every_rotor_is_drawn_between_its_limits(windy, count):
         limits = [line.get_ydata()[0] for line in panel.get_lines()[2:]]
         assert limits == pytest.approx([0.0, most])
         assert panel.get_ylim()[0] < 0.0 < most < panel.get_ylim()[1]
-    assert_drawn(lines(share)[0], flight.time, flight["allocation_share"])
+    assert_drawn(lines(share)[0], flight.time, flight["allocation_fraction"])
 
 
 def test_commands_far_beyond_the_limits_do_not_hide_the_thrust(windy):

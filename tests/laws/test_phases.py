@@ -3,13 +3,13 @@
 import pytest
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.flight.channels import PHASES
 from tandemlift.laws.guidance.phases import (
     GUIDED,
     HOLD,
     IDLE,
     LAND,
     LIFT,
-    NAMES,
     SETTLE,
     STOPPED,
     PhaseBounds,
@@ -41,7 +41,7 @@ def flown(until, k=PHASING, bounds=lambda t: FREE, operator=lambda t: NOBODY, la
         lifts = wants_lift(k, m, asked, operator(t).lift, lands)
         after = follow(k, m, state, asked, (lifts, lands), bounds(t), t, DT)
         if after.phase != m.phase:
-            story.append((round(t, 2), NAMES[int(after.phase)]))
+            story.append((round(t, 2), PHASES[int(after.phase)]))
         m = after
     return story, m, phase_output(k, m, t)
 
@@ -153,4 +153,8 @@ def test_hovering_counts_from_steady_flight():
 
 def test_nobody_asks_for_nothing():
     assert asked_until(Nothing(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
-    assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED} == set(map(float, range(len(NAMES))))
+
+
+def test_the_phases_have_the_numbers_by_which_channels_name_them():
+    numbers = {"idle": IDLE, "lift": LIFT, "guided": GUIDED, "land": LAND, "hold": HOLD, "stopped": STOPPED}
+    assert {name: float(number) for number, name in enumerate(PHASES)} == numbers

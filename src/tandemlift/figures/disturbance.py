@@ -23,7 +23,7 @@ def share_of_lambda(flight: Flight) -> Array | None:
     gains = flight.mission["controller"].get("gains")
     if not isinstance(gains, dict) or "lambda_2" not in gains:
         return None
-    left = np.hstack([flight["disturbance_residual"], flight["disturbance_turning_residual"]])
+    left = np.hstack([flight["disturbance_residual"], flight["disturbance_angular_residual"]])
     return np.abs(left) / np.maximum(np.array(gains["lambda_2"]), 1e-12)
 
 

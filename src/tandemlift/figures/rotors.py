@@ -67,7 +67,7 @@ def _panel(ax: Any, flight: Flight, column: int, most: float, fault: dict[str, A
 
 
 def _share(ax: Any, flight: Flight) -> None:
-    line(ax, flight.time, flight["allocation_share"], color=BLUE, lw=1.0)
+    line(ax, flight.time, flight["allocation_fraction"], color=BLUE, lw=1.0)
     ax.axhline(1.0, color=GREY, lw=0.4, zorder=0)
     ax.set_ylim(-0.05, 1.08)
     ax.set_yticks([0.0, 0.5, 1.0])

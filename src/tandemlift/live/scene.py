@@ -15,8 +15,8 @@ import numpy as np
 from tandemlift import __version__
 from tandemlift.algebra.vector import Nothing
 from tandemlift.common.types import Array
+from tandemlift.flight.channels import PHASES
 from tandemlift.laws.guidance.fault_reactions import FAULTS, alarm_name
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.laws.mechanics.contact import soles_below
 from tandemlift.laws.sensors.health import KINDS
 from tandemlift.live.frames import RATE, fields_of
@@ -69,7 +69,7 @@ def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, fl
         "corridor": {k: corridor[k] for k in ("centreline", "width", "height")} if corridor.get("centreline") else None,
         "threshold": list(tables["admittance"]["threshold"]),
         "spring": dict(SPRING),
-        "phases": list(NAMES),
+        "phases": list(PHASES),
         "alarms": alarm_names(),
         "fields": [list(field) for field in fields_of(vehicle.rotor_count)],
         "controls": [],

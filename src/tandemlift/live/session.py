@@ -17,7 +17,7 @@ from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply
 from tandemlift.common.errors import InputError
-from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.flight.channels import PHASES
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
 from tandemlift.live import messages
@@ -196,7 +196,7 @@ class Session:
 
     def _phase(self, number: int) -> str:
         ends = {"failed": self._failed, "lost": self._flight.lost, "over": self._flight.over}
-        return next((name for name, true in ends.items() if true), NAMES[number])
+        return next((name for name, true in ends.items() if true), PHASES[number])
 
     # what a page says
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from tandemlift.common.errors import InputError
-from tandemlift.laws.guidance.phases import GUIDED, HOLD, NAMES
+from tandemlift.flight.channels import PHASES
+from tandemlift.laws.guidance.phases import GUIDED, HOLD
 from tandemlift.live.recorded import RecordedFlight
 
 TARE = "estimator.tare_start"
@@ -39,7 +40,7 @@ def check_may_tare(flight: RecordedFlight, phase: str) -> None:
     """
     if flight.now.estimator.tare == "clock":
         check_hands_off(flight)
-    if phase not in (NAMES[int(GUIDED)], NAMES[int(HOLD)]):
+    if phase not in (PHASES[int(GUIDED)], PHASES[int(HOLD)]):
         raise InputError(f"tare: only in the air, hovering; the phase is {phase}")
     if flight.hand.held or any(flight.hand.force):
         raise InputError("tare: hands off first")

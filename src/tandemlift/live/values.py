@@ -20,7 +20,7 @@ CHANNELS = {  # of a frame's fields: the channels that tell of it, the best firs
     "velocity": ("velocity",),
     "reference": ("reference_position",),
     "push": ("push_force",),
-    "heard": ("push_heard", "push_estimate", "push_force"),
+    "heard": ("push_filtered", "push_estimate", "push_force"),
     "disturbance": ("disturbance_force",),
     "wind": ("wind_velocity",),
     "alarm": ("alarm",),

@@ -7,14 +7,14 @@ from collections.abc import Callable
 from typing import Literal
 
 from tandemlift.common.errors import InputError
-from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
-from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.flight.channels import PHASES
 from tandemlift.live.messages import Ask, Tare
 from tandemlift.live.session import Session
 from tandemlift.ros.middleware import Answer
+from tandemlift.simulation.results import reason_against
 
 COMES_TO = {"lift": "lift", "land": "land", "stop": "stopped"}  # the phase that a request leads to
-POSSIBLE = {"lift": ("idle",), "land": ("lift", "guided", "hold"), "stop": NAMES}  # from which
+POSSIBLE = {"lift": ("idle",), "land": ("lift", "guided", "hold"), "stop": PHASES}  # from which
 REQUESTS = (*COMES_TO, "tare")
 PATIENCE, NAP = 1.0, 0.02  # s, for the pilot to do it, and between looks
 
@@ -58,7 +58,5 @@ class RequestServices:
     def _reason(self) -> str:
         """Why the pilot does not do it."""
         channels = self._session.channels()
-        alarm, refused = (int(channels[n][0]) if n in channels else 0 for n in ("alarm", "refused"))
-        if refused:
-            return CHECKS[refused - 1]
-        return alarm_name(alarm) if alarm else f"the pilot stays in phase {self._phase()}"
+        alarm, failed = (int(channels[n][0]) if n in channels else 0 for n in ("alarm", "failed_check"))
+        return reason_against(alarm, failed) or f"the pilot stays in phase {self._phase()}"

@@ -15,7 +15,6 @@ from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.signals.trajectories import SmoothStep, smoothstep
 
 IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
-NAMES = ("idle", "lift", "guided", "land", "hold", "stopped")
 SETTLE = 1.0  # s, of steady hover before a tare
 STEADY = 0.1  # m/s and rad/s
 
