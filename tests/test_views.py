@@ -13,9 +13,9 @@ import tandemlift as tl
 from tandemlift.cli.main import main
 from tandemlift.figures.drawing.style import save
 from tandemlift.figures.registry import save_figures
+from tandemlift.figures.views import draw
+from tandemlift.flight.channels import PHASES
 from tandemlift.gazebo_app.camera_views import shots_of
-from tandemlift.gazebo_app.photographs import draw_views
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.missions import tables_of
 from tandemlift.models.cameras import FixedCamera, add_cameras
 from tandemlift.models.sdf import world
@@ -30,7 +30,8 @@ def flight():
     time = np.arange(0.0, 40.0, 0.01)
     way = np.clip(time - STANDS, 0.0, FLIES - STANDS)
     up = np.clip(np.minimum(time - STANDS, LANDS - time), 0.0, 1.0)
-    phase = np.select([time < STANDS, time < FLIES, time < LANDS], [NAMES.index(n) for n in ("idle", "guided", "land")])
+    numbers = [PHASES.index(name) for name in ("idle", "guided", "land")]
+    phase = np.select([time < STANDS, time < FLIES, time < LANDS], numbers)
     channels = {
         "position": np.column_stack([np.minimum(way, 15.0), np.maximum(way - 15.0, 0.0), up]),
         "phase": phase.astype(float),
@@ -88,7 +89,7 @@ def picture(color):
 
 def test_pictures_are_drawn_side_by_side_and_come_first_in_the_report(flight, tmp_path):
     colors = ("red", "lime", "blue", "yellow")
-    path = save(draw_views([(f"view {c}", picture(c)) for c in colors]), tmp_path / "views.png")
+    path = save(draw([(f"view {c}", picture(c)) for c in colors]), tmp_path / "views.png")
     drawn = matplotlib.image.imread(path)[:, :, :3]
     high, wide = drawn.shape[:2]
     middles = [drawn[int(y * high), int(x * wide)] for y in (0.3, 0.8) for x in (0.25, 0.75)]

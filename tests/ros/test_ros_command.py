@@ -17,9 +17,9 @@ from patience import completed
 from tandemlift.cli.main import cli, main
 from tandemlift.common.errors import InputError
 from tandemlift.live.pace import MOST_BEHIND
-from tandemlift.ros.clock import Clock
 from tandemlift.ros.dds_types import PACKAGES
-from tandemlift.ros.package import folder
+from tandemlift.ros.ros1 import folder
+from tandemlift.ros.sample_queue import Clock
 
 
 @pytest.mark.parametrize(

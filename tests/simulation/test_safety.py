@@ -9,10 +9,10 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing
+from tandemlift.flight.channels import PHASES
 from tandemlift.laws.estimation.disturbance_observer import NONE
 from tandemlift.laws.guidance.fault_reactions import CHECKS, FAULTS, REACTIONS, alarm_name
 from tandemlift.laws.guidance.guidance import PilotInput, checked_input, guide
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
 from tandemlift.settings.supervision import SupervisionTable
 from tandemlift.simulation.assemble import assemble
@@ -70,7 +70,7 @@ def test_every_fault_has_the_reaction_of_the_table_and_ends_safely(row, fly):
     assert f"{fault} -> {entered}" in events, events
     assert {int(a) // 10 for a in flight["alarm"]} - {0} == {int(number)}
     assert flight.divergence is None
-    assert NAMES[int(flight["phase"][-1])] == ("stopped" if reaction == "stop" else "idle"), events
+    assert PHASES[int(flight["phase"][-1])] == ("stopped" if reaction == "stop" else "idle"), events
     assert flight["rotor_thrusts"][-1].max() < 1e-6
     assert flight["position"][-1, 2] == pytest.approx(STANDS, abs=0.02)
     assert np.abs(flight["euler"][-1, :2]).max() < 0.02
@@ -116,7 +116,7 @@ def test_the_reference_and_the_vehicle_stay_inside_the_fence(fly):
 def test_an_operator_is_obeyed(action, fly):
     flight = fly({"requests": [{"time": AT, "action": action}]})
     after = flight["phase"][flight.time > AT + 0.05]
-    assert NAMES[int(after[0])] == {"disable": "hold", "land": "land", "stop": "stopped"}[action]
+    assert PHASES[int(after[0])] == {"disable": "hold", "land": "land", "stop": "stopped"}[action]
     if action == "disable":
         assert set(after) == {4.0}
 
@@ -161,7 +161,7 @@ def in_plain_python(seconds, heard_at):
         heard, lost = heard_at(heard, i * dt)
         heard = checked_input(guidance, memory, heard, 0.0, lost)
         decided, memory = guide(guidance, memory, heard, NONE, lost, i * dt, dt)
-        names.append(NAMES[int(decided.shown.phase)])
+        names.append(PHASES[int(decided.shown.phase)])
     return list(dict.fromkeys(names)), memory
 
 
@@ -201,7 +201,7 @@ def test_the_table_has_every_fault_with_its_key_and_default():
 def test_the_tables_of_checks_and_phases_are_those_of_the_code():
     assert [int(row[0]) for row in rows("Checks")] == list(range(1, len(CHECKS) + 1))
     told = re.findall(r"^\| (\w+) \| (\d) \|", TEXT.partition("## Phases")[2].partition("\n## ")[0], flags=re.M)
-    assert {name: int(number) for name, number in told} == {name: i for i, name in enumerate(NAMES)}
+    assert {name: int(number) for name, number in told} == {name: i for i, name in enumerate(PHASES)}
 
 
 def test_every_key_that_the_document_names_is_one():

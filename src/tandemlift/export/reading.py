@@ -18,7 +18,7 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.export.bags import rosbags
-from tandemlift.export.frames import eulers, vehicle_of
+from tandemlift.export.frames import eulers
 from tandemlift.export.messages import NUMBERS, SECOND
 from tandemlift.export.recipes import MeasuredPose, Recipe
 from tandemlift.export.topics import ALWAYS, JOINTS, PILOT, ROOT, SOMETIMES, all_recipes, topics_of
@@ -61,8 +61,7 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
     stamps = np.array(sorted(said[BASE]))
     mission = _mission(path, said[MISSION])
     time = (stamps - stamps[0]) / SECOND
-    bare = Flight(time, {}, mission, {})
-    vehicle = vehicle_of(bare)
+    vehicle = Vehicle.from_mission(mission)
     channels = _channels(said, stamps, vehicle)
     missing = [name for recipe in ALWAYS for name in recipe.needs if name not in channels]
     if missing:

@@ -18,6 +18,7 @@ from matplotlib.patches import FancyArrowPatch, Patch
 
 from tandemlift.algebra.vector import Quat
 from tandemlift.common.types import Array
+from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.ground import floor_height
 from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.figures.drawing.series import decimate, drawable
@@ -27,6 +28,18 @@ from tandemlift.figures.drawing.walls import EDGE, GLASS, WallOutline, draw_wall
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings import wall_tables
+from tandemlift.vehicle import Vehicle
+
+CAPTION = Caption(
+    "Path",
+    "The path of the centre of mass, with an arrow for each push of the person: it starts where the push acts at its "
+    "peak, and its length is proportional to the force. The vehicle is drawn to scale at a few instants, black at the "
+    "start and at the end. Dotted lines lead from the pushes straight down to the floor, which is filled if the "
+    "vehicle can stand on it. Walls are transparent.",
+    "Three-dimensional view of the flown path with an arrow for each push, the vehicle at a few instants, and the "
+    "floor and walls if there are any.",
+)
+IN_FLIGHTS = all_flights
 
 MOST = 6  # vehicles drawn
 SPACING = 1.2  # vehicle spans of path from one vehicle drawn to the next, at least
@@ -126,7 +139,7 @@ def draw(flight: Flight) -> Figure:
     rotations = np.abs(np.linalg.norm(flight["attitude"], axis=1) - 1.0) < 0.01  # false for NaN
     sound = np.isfinite(drawable(flight["position"])).all(axis=1) & rotations
     path, attitudes = flight["position"][sound], flight["attitude"][sound]
-    body = skeleton(flight.mission["vehicle"])
+    body = skeleton(Vehicle.from_mission(flight.mission))
     span = float(np.ptp(body.points, axis=0).max())
     visible = len(path) and span > VISIBLE * np.ptp(path, axis=0).max()
     shown = instants(path, span) if visible else []

@@ -126,8 +126,8 @@ GROUPS: tuple[ChannelGroup, ...] = (
             "sensor_disagreement": Channel("N", "body", "error of one joint sensor that would explain the readings", 1),
             "push_usable": Channel("1", "", "1 while the push is estimated and the joint sensors agree, else 0", 1),
         },
-        "A measured value is the one that the pilot had at that time, taken a step before or earlier; an estimate is made"
-        " of such values.",
+        "A measured value is the one that the pilot has at that time, taken a step before or earlier; estimates come "
+        "from such values.",
     ),
     ChannelGroup(
         "With a disturbance observer (`observer.model`)",

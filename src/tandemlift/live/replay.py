@@ -23,7 +23,6 @@ from tandemlift.live.frames import RATE, fields_of, frames_of
 from tandemlift.live.scene import scene_of_tables
 from tandemlift.live.values import values_of
 from tandemlift.rendering.stage import FlightStage
-from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle
 
 MOST_FRAMES = 36_000  # ten minutes of them; a longer flight has fewer a second
@@ -42,7 +41,7 @@ def scene_and_frames(flight: Flight) -> tuple[dict[str, Any], NDArray[np.float32
         InputError: nothing of the flight can be shown.
     """
     stage = FlightStage(flight)
-    vehicle = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
+    vehicle = Vehicle.from_mission(flight.mission)
     shown = np.flatnonzero(np.isin(flight.time, stage.time))
     shown = shown[:: _every(flight.time[shown])]
     channels = {name: flight[name][shown] for name in flight.channels}

@@ -8,7 +8,6 @@ import numpy as np
 
 from tandemlift.algebra.vector import Quat, Vec3, vec3
 from tandemlift.common.types import Array
-from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import parts_layout
@@ -16,6 +15,7 @@ from tandemlift.laws.mechanics.rectangle import edges_of, offset, offset_from_to
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import beam_axis, on_beam, point_by_edge, point_by_top
 from tandemlift.settings import wall_tables
+from tandemlift.vehicle import Vehicle
 
 
 class Clearances(NamedTuple):
@@ -37,7 +37,7 @@ def _length(o: Vec3) -> Array:
 
 def clearances(flight: Flight) -> Clearances:
     """How far guards and beam were from the nearest wall, below zero where they were in it."""
-    vehicle, s = vehicle_of(flight), state_of(flight)
+    vehicle, s = Vehicle.from_mission(flight.mission), state_of(flight)
     upright = [wall(w["start"], w["end"], w["top"]) for w in wall_tables(flight.mission)]
     R = rotation_from_quaternion(s.attitude)
     guards = np.full(len(flight.time), np.inf)
@@ -65,7 +65,7 @@ def grips(flight: Flight) -> Array | None:
     if partner["model"] in ("none", "grab"):
         return None
     along = 0.0 if partner["model"] == "two-hands" else partner["grip"]
-    arm = vec3(np.array([0.0, along, 0.0]) - vehicle_of(flight).center_of_mass)
+    arm = vec3(np.array([0.0, along, 0.0]) - Vehicle.from_mission(flight.mission).center_of_mass)
     R = rotation_from_quaternion(Quat(*flight["attitude"].T))
     ways = np.column_stack([row.x * arm.x + row.y * arm.y + row.z * arm.z for row in R])
     return flight["position"] + ways

@@ -7,7 +7,7 @@ import numpy as np
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Quat
 from tandemlift.common.types import Array
-from tandemlift.figures.drawing.vehicle import mass_of, vehicle_of
+from tandemlift.figures.drawing.vehicle import mass_of
 from tandemlift.flight import Flight
 from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
@@ -29,7 +29,7 @@ def floor_height(flight: Flight) -> float | None:
     ground = GroundTable.model_validate(flight.mission.get("ground", {}))
     if ground.model == "none" or ground.height is not None:
         return ground.height if ground.model != "none" else None
-    vehicle, mission, mass = vehicle_of(flight), flight.mission, mass_of(flight)
+    vehicle, mission, mass = Vehicle.from_mission(flight.mission), flight.mission, mass_of(flight)
     step, friction = mission["mission"]["step"], ground.friction
     at_zero = floor(_soles(vehicle), mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage)
     return mission["initial"]["position"][2] - standing_height(at_zero, mass * GRAVITY)
@@ -38,6 +38,6 @@ def floor_height(flight: Flight) -> float | None:
 def clearance(flight: Flight, height: float) -> Array:
     """How high the lowest sole is (T) over a floor at a height [m]."""
     R = rotation_from_quaternion(Quat(*flight["attitude"].T))
-    soles = _soles(vehicle_of(flight)).reshape(-1, 3)
+    soles = _soles(Vehicle.from_mission(flight.mission)).reshape(-1, 3)
     below = np.column_stack([R.z.x, R.z.y, R.z.z]) @ soles.T
     return flight["position"][:, 2] + below.min(axis=1) - height
