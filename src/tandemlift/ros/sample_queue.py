@@ -17,8 +17,8 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.export.messages import SECOND
 from tandemlift.flight.record import Flight
-from tandemlift.live.recorded import RecordedFlight
-from tandemlift.live.session import Session
+from tandemlift.live.session.recorded_flight import RecordedFlight
+from tandemlift.live.session.session import Session
 from tandemlift.simulation.results import channels_of
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first
@@ -38,7 +38,7 @@ class Clock:
     @property
     def late(self) -> float:
         """By how much the flight is late for good [s]."""
-        return self._session.pace.forgotten
+        return self._session.pacer.forgotten
 
     def stamp(self, step: int) -> int:
         """The time of day of the step that is flown now [ns]."""
