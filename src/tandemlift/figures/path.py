@@ -16,8 +16,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch
 
-from tandemlift.algebra.vector import Quat
 from tandemlift.common.types import Array
+from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.ground import floor_height
 from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
@@ -26,7 +26,6 @@ from tandemlift.figures.drawing.skeleton import Skeleton, skeleton
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, VERMILLION, journal
 from tandemlift.figures.drawing.walls import EDGE, GLASS, WallOutline, draw_walls, walls_near
 from tandemlift.flight.record import Flight
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings import wall_tables
 from tandemlift.vehicle import Vehicle
 
@@ -63,8 +62,8 @@ def pushes(flight: Flight) -> list[PushArrow]:
         if not len(flight.time) or not flight.time[0] <= push["time"] <= flight.time[-1]:
             continue
         k = int(np.argmin(np.abs(flight.time - push["time"])))
-        R = np.array(rotation_from_quaternion(Quat(*map(float, flight["attitude"][k]))))
-        found.append(PushArrow(flight["position"][k] + R @ push["point"], np.array(push["force"])))
+        point = flight["position"][k] + body_to_world(flight["attitude"][k]) @ push["point"]
+        found.append(PushArrow(point, np.array(push["force"])))
     return [p for p in found if np.isfinite(p.point).all() and p.force.any()]
 
 

@@ -12,14 +12,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from tandemlift.algebra.vector import Quat, Vec3, apply_transposed
 from tandemlift.common.types import Array
+from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.panels import fit, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
 from tandemlift.figures.drawing.vehicle import payload_mass_of
 from tandemlift.flight.record import Flight
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings.pilot import EstimatorTable
 from tandemlift.vehicle import Vehicle
 
@@ -47,13 +46,13 @@ BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to ea
 def places(flight: Flight) -> list[Array]:
     """Where on body y each push acts (T) [m from the payload's centre of mass], NaN while it is too small to tell."""
     least = EstimatorTable.model_validate(flight.mission.get("estimator", {})).min_force
-    R = rotation_from_quaternion(Quat(*flight["attitude"].T))
+    R = body_to_world(flight["attitude"])
     center = Vehicle.from_mission(flight.mission).center_of_mass[1]
     found = []
     for push in flight.mission.get("pushes", []):
         size = np.exp(-0.5 * ((flight.time - push["time"]) / push["sigma"]) ** 2)
-        force = apply_transposed(R, Vec3(*(size * axis for axis in push["force"])))
-        across = np.hypot(force.x, force.z)
+        x, _, z = size * (np.array(push["force"]) @ R).T  # body axes
+        across = np.hypot(x, z)
         found.append(np.where(across >= least, push["point"][1] + center, np.nan))
     return found
 

@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.algebra.vector import Quat
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.vehicle import Vehicle, mixer
 
 CORNERS = 24  # of the polygon that stands for a rotor's disc
@@ -27,7 +26,7 @@ class Skeleton(NamedTuple):
 
     def placed(self, position: Array, attitude: Array) -> Skeleton:
         """The skeleton with its centre of mass at a position (3) [m, world] and a unit quaternion w, x, y, z (4)."""
-        R = np.array(rotation_from_quaternion(Quat(*map(float, attitude))))
+        R = body_to_world(attitude)
         return Skeleton(*(points @ R.T + position for points in self))
 
     @property
