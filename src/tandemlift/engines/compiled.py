@@ -22,7 +22,6 @@ from tandemlift.laws.mechanics.loads import (
     PartsLayout,
     PerfectReadings,
     of_quadrotors,
-    parts_layout,
     perfect_readings,
     plus_zero,
     resultant,
@@ -33,6 +32,7 @@ from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.laws.mechanics.walls import Walls, press
 from tandemlift.laws.rotors.allocation import Mixer, mixer_from, wrench
+from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.settings import Mission, VehicleTable
 from tandemlift.vehicle import Vehicle
 
@@ -91,14 +91,9 @@ def untouched(plant: CompiledPlant) -> CompiledPlant:
     )
 
 
-@choice
+@choice(absent="floor")
 def of_floor(floor: Any, b: BodySurroundings, s: State) -> Any:
     """Loads of the floor on the quadrotors, or `Nothing`."""
-
-
-@of_floor.register(Nothing)
-def _no_floor(floor, b, s):
-    return floor
 
 
 @of_floor.register(DistantFloor)
@@ -111,14 +106,9 @@ def _floor(floor, b, s):
     return touch(floor, b.grip, b.plant.frame, s)
 
 
-@choice
+@choice(absent="walls")
 def of_walls(walls: Any, b: BodySurroundings, s: State) -> Any:
     """Loads of the walls on all parts, or `Nothing`."""
-
-
-@of_walls.register(Nothing)
-def _no_walls(walls, b, s):
-    return walls
 
 
 @of_walls.register(DistantWalls)
@@ -131,14 +121,9 @@ def _walls(walls, b, s):
     return press(walls, b.near, b.plant.frame, s)
 
 
-@choice
+@choice(absent="load")
 def summed(load: Any, frame: PartsLayout, attitude: Any) -> Any:
     """A load about the centre of mass: of everything, of the quadrotors (vectors of sets), or `Nothing`."""
-
-
-@summed.register(Nothing)
-def _none(load, frame, attitude):
-    return load
 
 
 @summed.register(PartLoads)
@@ -156,14 +141,9 @@ def _no_contact(load, frame, attitude):
     return NO_LOAD
 
 
-@choice
+@choice(absent="rate")
 def moved_by(load: Any, body: RigidBody, rate: State) -> Any:
     """The motion under a further load about the centre of mass."""
-
-
-@moved_by.register(Nothing)
-def _as_before(load, body, rate):
-    return rate
 
 
 @moved_by.register(PartLoad)
@@ -181,14 +161,9 @@ def surrounded_motion(b, s, u, push):
     return moved_by(summed(of_walls(plant.walls, b, s), plant.frame, q), plant.body, standing)
 
 
-@choice
+@choice(absent="loads")
 def on_quadrotors(loads: Any) -> Any:
     """The part of loads that acts on the quadrotors, or `Nothing`."""
-
-
-@on_quadrotors.register(Nothing)
-def _on_none(loads):
-    return loads
 
 
 @on_quadrotors.register(PartLoads)
@@ -213,14 +188,9 @@ def _unloaded(load, frame, attitude, felt):
     )
 
 
-@choice
+@choice(absent="felt")
 def touched_by(load: Any, felt: PerfectReadings) -> Any:
     """`felt`, with the force of a contact about the centre of mass."""
-
-
-@touched_by.register(Nothing)
-def _untouched(load, felt):
-    return felt
 
 
 @touched_by.register(PartLoad)
@@ -239,14 +209,9 @@ def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any
     return touched_by(summed(walls, frame, q), touched_by(summed(floor, frame, q), felt))
 
 
-@choice
+@choice(absent="grip")
 def gripping(floor: Any, grip: Any, s: State) -> Any:
     """The feet's grip at the end of a step."""
-
-
-@gripping.register(Nothing)
-def _no_feet(floor, grip, s):
-    return grip
 
 
 @gripping.register(DistantFloor)
@@ -305,7 +270,7 @@ def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> C
         force=vec3(mission.disturbance.force),
         moment=vec3(mission.disturbance.moment),
     )
-    return CompiledPlant(_effect(mission.vehicle), body, parts_layout(vehicle), floor, walls)
+    return CompiledPlant(_effect(mission.vehicle), body, parts_layout_from(vehicle), floor, walls)
 
 
 def start_state(mission: Mission) -> State:

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.export.frames import fixed
 from tandemlift.export.messages import SECOND, MessageTypes, Transforms, diagnostics_of, maker_of, modern
 from tandemlift.export.topics import ROOT, topics_of
-from tandemlift.flight.channels import PHASES
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.vehicle import Vehicle
@@ -82,7 +82,7 @@ def events_of(flight: Flight) -> list[tuple[float, str]]:
     if not events and "phase" in flight:
         phase = flight["phase"].astype(int)
         entered = [0, *(1 + np.flatnonzero(np.diff(phase))).tolist()]
-        events = [(float(flight.time[k]), PHASES[phase[k]]) for k in entered]
+        events = [(float(flight.time[k]), PHASE_NAMES[phase[k]]) for k in entered]
     if flight.divergence:
         events.append((flight.divergence.time, str(flight.divergence)))
     return sorted(events)

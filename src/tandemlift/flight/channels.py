@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-PHASES = ("idle", "lift", "guided", "land", "hold", "stopped")
-"""The phases of a flight by their numbers in channel `phase`, which `laws.guidance.phases` gives."""
+from tandemlift.common.phases import PHASE_NUMBERS
 
 
 class Channel(NamedTuple):
@@ -145,7 +144,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
     ChannelGroup(
         'Guided by hand (`pilot.guidance = "hand"`)',
         {
-            "phase": Channel("1", "", ", ".join(f"{i} {name}" for i, name in enumerate(PHASES)), 1),
+            "phase": Channel("1", "", PHASE_NUMBERS, 1),
             "push_filtered": Channel("N", "world", "push after the pilot's low-pass filter, less its bias"),
             "push_active": Channel("1", "world", "1 while the pilot follows the push along an axis, else 0"),
             "added_damping": Channel("N s/m", "", "damping that is added to keep the compliance passive", 1),

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
-from tandemlift.flight.channels import PHASES
 from tandemlift.flight.record import Flight
 from tandemlift.models.cameras import FixedCamera
 from tandemlift.vehicle import Vehicle
@@ -60,7 +60,7 @@ def _moments(flight: Flight) -> tuple[int, int, int, int]:
     way = _way(flight)
     halfway, arrived = (int(np.searchsorted(way, share * way[-1])) for share in (0.5, 0.98))
     if "phase" in flight:
-        guided = np.flatnonzero(flight["phase"] == PHASES.index("guided"))
+        guided = np.flatnonzero(flight["phase"] == GUIDED)
         arrived = int(guided[-1]) if len(guided) else arrived
     return 0, halfway, max(arrived, halfway), int(np.searchsorted(flight.time, flight.time[-1] - BEFORE))
 

@@ -7,14 +7,14 @@ from collections.abc import Callable
 from typing import Literal
 
 from tandemlift.common.errors import InputError
-from tandemlift.flight.channels import PHASES
+from tandemlift.common.faults import ALARM_TEXTS, CHECKS
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.live.session.session import Session
 from tandemlift.live.wire.page_messages import AskMessage, TareMessage
 from tandemlift.ros.middleware import Answer
-from tandemlift.simulation.results import reason_against
 
 COMES_TO = {"lift": "lift", "land": "land", "stop": "stopped"}  # the phase that a request leads to
-POSSIBLE = {"lift": ("idle",), "land": ("lift", "guided", "hold"), "stop": PHASES}  # from which
+POSSIBLE = {"lift": ("idle",), "land": ("lift", "guided", "hold"), "stop": PHASE_NAMES}  # from which
 REQUESTS = (*COMES_TO, "tare")
 PATIENCE, NAP = 1.0, 0.02  # s, for the pilot to do it, and between looks
 
@@ -60,4 +60,6 @@ class RequestServices:
         """Why the pilot does not do it."""
         channels = self._session.channels()
         alarm, failed = (int(channels[n][0]) if n in channels else 0 for n in ("alarm", "failed_check"))
-        return reason_against(alarm, failed) or f"the pilot stays in phase {self._phase()}"
+        if failed:
+            return CHECKS[failed - 1].text
+        return ALARM_TEXTS[alarm] if alarm else f"the pilot stays in phase {self._phase()}"

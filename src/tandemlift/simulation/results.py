@@ -12,12 +12,11 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
+from tandemlift.common.faults import ALARM_TEXTS, CHECKS
+from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
-from tandemlift.flight.channels import PHASES
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.kernels import leaf_offset
-from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
-from tandemlift.laws.guidance.phases import IDLE
 from tandemlift.laws.guidance.supervision import SupervisionState
 from tandemlift.laws.guidance.supervisor import ALARM, PHASE
 from tandemlift.laws.mechanics.body import State
@@ -111,17 +110,10 @@ def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> s
     """An event in words, from phase, alarm and the check that refuses; now, and in the event before."""
     phase, alarm, refused = now
     if alarm and (alarm != before[1] or phase not in (IDLE, before[0])):
-        return f"{alarm_name(alarm)} -> {PHASES[phase]}"
+        return f"{ALARM_TEXTS[alarm]} -> {PHASE_NAMES[phase]}"
     if phase != before[0] or not refused:
-        return PHASES[phase] + (f": {CHECKS[refused - 1]}" if refused else "")
-    return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1]}"
-
-
-def reason_against(alarm: int, failed_check: int) -> str:
-    """Why a supervised pilot does not do what it is asked to, from its channels of these names; "" if they are 0."""
-    if failed_check:
-        return CHECKS[failed_check - 1]
-    return alarm_name(alarm) if alarm else ""
+        return PHASE_NAMES[phase] + (f": {CHECKS[refused - 1].text}" if refused else "")
+    return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1].text}"
 
 
 def _of_detection(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
