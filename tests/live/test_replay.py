@@ -128,7 +128,7 @@ def test_what_a_pilot_by_hand_shows_is_shown(flight):
     more = {
         "phase": np.full(n, 3.0),
         "alarm": np.full(n, 41.0),
-        "push_heard": np.full((n, 3), 0.5),
+        "push_filtered": np.full((n, 3), 0.5),
         "disturbance_force": np.full((n, 3), 0.25),
         "wind_velocity": np.full((n, 3), 2.0),
     }

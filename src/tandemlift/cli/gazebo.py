@@ -114,11 +114,11 @@ def _as_it_is(mission: Mission, window: bool, real_time: bool, pictures: bool) -
 
 
 def _views(photos: Sequence[Photo]) -> Figure | None:
-    from tandemlift.gazebo_app.photographs import draw_views
+    from tandemlift.figures.views import draw
 
     if not photos:
         return None
-    return draw_views([(f"{p.shot.title}, {p.shot.time:.0f} s", p.jpeg) for p in photos])
+    return draw([(f"{p.shot.title}, {p.shot.time:.0f} s", p.jpeg) for p in photos])
 
 
 def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:

@@ -218,6 +218,11 @@ def best_of(values: Sequence[float | None], least: float) -> list[bool]:
     return wins if 0 < sum(wins) < len(known) else [False] * len(values)
 
 
+def controller_summary(name: str) -> str:
+    """What a controller is, in a sentence; "" for one that is not registered, such as a file of one's own."""
+    return CONTROLLERS[name].summary if name in CONTROLLERS else ""
+
+
 def summary_of(entries: Sequence[Entry]) -> list[dict[str, Any]]:
     """The comparison for a strict JSON text, an object for each controller.
 

@@ -111,8 +111,8 @@ class HandGuidanceChannels(NamedTuple):
     """What a guidance by hand shows."""
 
     phase: Any
-    push_heard: Vec3
-    push_on: Vec3
+    push_filtered: Vec3
+    push_active: Vec3
     added_damping: Any
     reference_yaw_rate: Any
     supervised: Any
