@@ -83,6 +83,14 @@ def figures_of(flight: Flight) -> dict[str, Draw]:
     }
 
 
+def save_figure(figure: Any, path: Path) -> Path:
+    """Write one figure as PNG or PDF, by the ending of the path; its folder is made if it does not exist."""
+    from tandemlift.figures.drawing.style import save
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return save(figure, path)
+
+
 def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progress | None = None) -> list[Path]:
     """Draw every figure that a flight has and write it as NAME.png and NAME.pdf; a file appears whole or not at all.
 
@@ -94,14 +102,12 @@ def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progr
     Returns:
         The files written, in the order of `FIGURES`, PNG before PDF.
     """
-    from tandemlift.figures.drawing.style import save
-
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     written, figures = [], figures_of(flight)
     for done, (name, draw) in enumerate(figures.items(), 1):
         figure = draw(flight)
-        written += [save(figure, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
+        written += [save_figure(figure, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
         if progress:
             progress(done, len(figures))
     return written
