@@ -1,8 +1,8 @@
 """The body in Gazebo 11: the model that `tandemlift export` writes, moved by ODE, one step of Gazebo for each of ours.
 
 The pilot drives the plugin in the model (`gazebo/`) over UDP (`gazebo_wire`). Gazebo's step is
-semi-implicit Euler. Thrusts turn with the quadrotors from step to step. Pushes and loads are held in world axes. Drag is
-that of the step's start.
+semi-implicit Euler. Thrusts turn with the quadrotors from step to step. Pushes and loads are held in world axes, and
+drag at its value at the start of the step.
 
 Environment: `TANDEMLIFT_GAZEBO_PORT` joins a Gazebo that runs already, at this port of its plugin, instead of starting
 one; `TANDEMLIFT_GAZEBO_REAL_TIME=1` keeps the world in real time, for watching and pushing; see also `gazebo_server`.
