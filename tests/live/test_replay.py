@@ -27,7 +27,7 @@ from tandemlift.live.page_files import page_files
 from tandemlift.live.replay import replay_files, replay_html, scene_and_frames
 from tandemlift.live.server import PageServer
 from tandemlift.live.wire.frames import layout_for, read_frames
-from tandemlift.live.wire.scene_builder import alarm_names, scene_of
+from tandemlift.live.wire.scene_builder import scene_of
 
 
 @pytest.fixture(scope="module")
@@ -203,11 +203,6 @@ def test_every_kind_of_mission_has_a_scene(name):
     scene = scene_of(tl.load_mission(name), "compiled")
     json.dumps(scene, allow_nan=False)
     assert scene["fields"] == list(layout_for(4 * len(scene["vehicle"]["quadrotors"])))
-
-
-def test_an_alarm_is_named_at_its_number():
-    names = alarm_names()
-    assert (names[0], names[10], names[41], names[190]) == ("", "unit stale", "gyroscope frozen", "rotor lost")
 
 
 # Pages

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from exported import flight_of
 from patience import completed, ended
-from processes import node
+from repository import SUPPORT
+from ros_processes import node
 from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
 
@@ -116,7 +117,7 @@ then request lift then request dance then set admittance.mass 4 then request lan
 @pytest.fixture(scope="module")
 def peer(tmp_path_factory, program):
     """The program of a Fast DDS user."""
-    made, source = tmp_path_factory.mktemp("peer") / "peer", Path(__file__).parent / "dds_peer.cpp"
+    made, source = tmp_path_factory.mktemp("peer") / "peer", SUPPORT / "dds_peer.cpp"
     compiler = program("g++")
     if not Path("/usr/include/fastdds").is_dir():
         pytest.skip("libfastrtps-dev and libfastcdr-dev are not installed")

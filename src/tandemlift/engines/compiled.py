@@ -26,11 +26,12 @@ from tandemlift.engines.compiled_contact import (
 )
 from tandemlift.laws.mechanics.body import RigidBody, State, motion, rigid_body_motion, rk4
 from tandemlift.laws.mechanics.inertia import inertia_value
-from tandemlift.laws.mechanics.loads import PerfectReadings, parts_layout, perfect_readings, under
+from tandemlift.laws.mechanics.loads import PerfectReadings, perfect_readings, under
 from tandemlift.laws.mechanics.parts import Acceleration
 from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.laws.rotors.allocation import Mixer, mixer_from, wrench
+from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.settings import Mission, VehicleTable
 from tandemlift.vehicle import Vehicle
 
@@ -116,7 +117,7 @@ def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> C
         force=vec3(mission.disturbance.force),
         moment=vec3(mission.disturbance.moment),
     )
-    return CompiledPlant(_effect(mission.vehicle), body, parts_layout(vehicle), floor, walls)
+    return CompiledPlant(_effect(mission.vehicle), body, parts_layout_from(vehicle), floor, walls)
 
 
 def start_state(mission: Mission) -> State:

@@ -73,14 +73,9 @@ def without_contact(plant: CompiledPlant) -> CompiledPlant:
     )
 
 
-@choice
+@choice(absent="floor")
 def floor_loads(floor: Any, b: BodySurroundings, s: State) -> Any:
     """Loads of the floor on the quadrotors, or `Nothing`."""
-
-
-@floor_loads.register(Nothing)
-def _no_floor(floor: Nothing, b: BodySurroundings, s: State) -> Nothing:
-    return floor
 
 
 @floor_loads.register(DistantFloor)
@@ -93,14 +88,9 @@ def _floor(floor: Floor, b: BodySurroundings, s: State) -> Any:
     return touch(floor, b.grip, b.plant.frame, s)
 
 
-@choice
+@choice(absent="walls")
 def wall_loads(walls: Any, b: BodySurroundings, s: State) -> Any:
     """Loads of the walls on all parts, or `Nothing`."""
-
-
-@wall_loads.register(Nothing)
-def _no_walls(walls: Nothing, b: BodySurroundings, s: State) -> Nothing:
-    return walls
 
 
 @wall_loads.register(DistantWalls)
@@ -113,14 +103,9 @@ def _walls(walls: Walls, b: BodySurroundings, s: State) -> Any:
     return press(walls, b.near, b.plant.frame, s)
 
 
-@choice
+@choice(absent="load")
 def load_about_center(load: Any, frame: PartsLayout, attitude: Any) -> Any:
     """A load about the centre of mass: of everything, of the quadrotors (vectors of sets), or `Nothing`."""
-
-
-@load_about_center.register(Nothing)
-def _no_load(load: Nothing, frame: PartsLayout, attitude: Any) -> Nothing:
-    return load
 
 
 @load_about_center.register(PartLoads)
@@ -138,14 +123,9 @@ def _of_no_contact(load: ZeroLoad, frame: PartsLayout, attitude: Any) -> PartLoa
     return NO_LOAD
 
 
-@choice
+@choice(absent="rate")
 def with_load(load: Any, body: RigidBody, rate: State) -> Any:
     """The motion with a further load about the centre of mass."""
-
-
-@with_load.register(Nothing)
-def _without_load(load: Nothing, body: RigidBody, rate: State) -> State:
-    return rate
 
 
 @with_load.register(PartLoad)
@@ -154,14 +134,9 @@ def _with_load(load: PartLoad, body: RigidBody, rate: State) -> State:
     return State(rate.position, rate.velocity + load.force * body.inverse_mass, rate.attitude, rate.rates + turned)
 
 
-@choice
+@choice(absent="loads")
 def quadrotor_loads(loads: Any) -> Any:
     """The part of loads that acts on the quadrotors, or `Nothing`."""
-
-
-@quadrotor_loads.register(Nothing)
-def _of_nothing(loads: Nothing) -> Nothing:
-    return loads
 
 
 @quadrotor_loads.register(PartLoads)
@@ -189,14 +164,9 @@ def _unloaded(load: ZeroLoad, frame: PartsLayout, attitude: Any, readings: Perfe
     )
 
 
-@choice
+@choice(absent="readings")
 def with_contact_force(load: Any, readings: PerfectReadings) -> Any:
     """`readings`, with the force of a contact about the centre of mass."""
-
-
-@with_contact_force.register(Nothing)
-def _without_contact(load: Nothing, readings: PerfectReadings) -> PerfectReadings:
-    return readings
 
 
 @with_contact_force.register(PartLoad)
@@ -206,14 +176,9 @@ def _with_contact(load: PartLoad, readings: PerfectReadings) -> PerfectReadings:
     )
 
 
-@choice
+@choice(absent="grip")
 def grip_after(floor: Any, grip: Any, s: State) -> Any:
     """The feet's grip at the end of a step."""
-
-
-@grip_after.register(Nothing)
-def _no_feet(floor: Nothing, grip: Any, s: State) -> Any:
-    return grip
 
 
 @grip_after.register(DistantFloor)

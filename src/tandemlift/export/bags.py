@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.export.frames import fixed, vehicle_of
 from tandemlift.export.messages import SECOND, MessageTypes, Transforms, diagnostics_of, maker_of, modern
 from tandemlift.export.topics import ROOT, topics_of
 from tandemlift.flight.record import Flight
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.missions import format_toml
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def events_of(flight: Flight) -> list[tuple[float, str]]:
     if not events and "phase" in flight:
         phase = flight["phase"].astype(int)
         entered = [0, *(1 + np.flatnonzero(np.diff(phase))).tolist()]
-        events = [(float(flight.time[k]), NAMES[phase[k]]) for k in entered]
+        events = [(float(flight.time[k]), PHASE_NAMES[phase[k]]) for k in entered]
     if flight.divergence:
         events.append((flight.divergence.time, str(flight.divergence)))
     return sorted(events)

@@ -87,6 +87,9 @@ CHANNELS: dict[str, str] = {}
 """A channel's old name and its new one."""
 
 _IN_TABLE = {(new.rpartition(".")[0], old.rpartition(".")[2]): new.rpartition(".")[2] for old, new in KEYS.items()}
+_PLACES = {  # of all that was renamed, and of the tables around it, by their new names
+    ".".join(parts[:depth]) for parts in (name.split(".") for name in (*KEYS.values(), *VALUES)) for depth in range(9)
+}
 
 
 class _At(NamedTuple):
@@ -166,6 +169,8 @@ def _both(old: str, new: str) -> InputError:
 
 def _renamed(value: Any, at: _At, notices: list[str]) -> Any:
     """What stands at a place, by its new names."""
+    if ".".join(at.now) not in _PLACES:
+        return value
     if isinstance(value, Mapping):
         return dict(_items(value, at, notices))
     if isinstance(value, list):

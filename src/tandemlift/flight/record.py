@@ -17,6 +17,7 @@ import numpy as np
 
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.files import atomic_write
+from tandemlift.common.phases import PHASE_NUMBERS
 from tandemlift.common.types import Array
 from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.flight.tables import to_pandas, to_xarray
@@ -86,7 +87,7 @@ CHANNELS: dict[str, Channel] = {
     "disturbance_moment": Channel("N m", "body", "likewise, about the centre of mass"),
     "disturbance_residual": Channel("m/s^2", "world", "by which it is behind: δ − δ̂ of the condition on λ₂"),
     "disturbance_turning_residual": Channel("rad/s^2", "body", "likewise, of turning"),
-    "phase": Channel("1", "", "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped"),
+    "phase": Channel("1", "", PHASE_NUMBERS),
     "push_heard": Channel("N", "world", "the push as the pilot hears it: low-passed, less its bias"),
     "push_on": Channel("1", "world", "1 while a push is heard along an axis, else 0"),
     "added_damping": Channel("N s/m", "", "that keeps the compliance passive"),

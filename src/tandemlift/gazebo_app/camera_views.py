@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.flight.record import Flight
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.models.cameras import FixedCamera
 
 DISTANCE = 5.0  # from the vehicle to a camera, as a multiple of the vehicle's reach
@@ -60,7 +60,7 @@ def _moments(flight: Flight) -> tuple[int, int, int, int]:
     way = _way(flight)
     halfway, arrived = (int(np.searchsorted(way, share * way[-1])) for share in (0.5, 0.98))
     if "phase" in flight:
-        guided = np.flatnonzero(flight["phase"] == NAMES.index("guided"))
+        guided = np.flatnonzero(flight["phase"] == GUIDED)
         arrived = int(guided[-1]) if len(guided) else arrived
     return 0, halfway, max(arrived, halfway), int(np.searchsorted(flight.time, flight.time[-1] - BEFORE))
 

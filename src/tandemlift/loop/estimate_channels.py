@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
-from tandemlift.algebra.vector import Nothing, Quat, Vec3
+from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.laws.sensors.readings import Readings
 from tandemlift.loop.perception import Estimates
 
@@ -38,14 +38,9 @@ class EstimatedChannels(NamedTuple):
     push_usable: Any
 
 
-@choice
+@choice(absent="readings")
 def shown_readings(readings: Any) -> Any:
     """The channels of readings."""
-
-
-@shown_readings.register(Nothing)
-def _no_readings(readings):
-    return readings
 
 
 @shown_readings.register(Readings)
@@ -56,14 +51,9 @@ def _readings(readings):
     )
 
 
-@choice
+@choice(absent="known")
 def shown_estimate(known: Any) -> Any:
     """The channels of what is estimated."""
-
-
-@shown_estimate.register(Nothing)
-def _no_estimate(known):
-    return known
 
 
 @shown_estimate.register(Estimates)

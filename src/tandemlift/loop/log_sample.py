@@ -99,14 +99,9 @@ class DisturbanceChannels(NamedTuple):
     disturbance_turning_residual: Vec3
 
 
-@choice
+@choice(absent="observer")
 def disturbed(observer: Any, unknown: DisturbanceEstimate) -> Any:
     """What an observer shows."""
-
-
-@disturbed.register(Nothing)
-def _no_observer(observer, unknown):
-    return observer
 
 
 @disturbed.register(DisturbanceObserver)
@@ -114,14 +109,9 @@ def _an_observer(observer, unknown):
     return DisturbanceChannels(unknown.force, unknown.moment, unknown.residual, unknown.turning_residual)
 
 
-@choice
+@choice(absent="detection")
 def watched(detection: Any, memory: Any) -> Any:
     """What the detection of lost rotors shows."""
-
-
-@watched.register(Nothing)
-def _not_watched(detection, memory):
-    return detection
 
 
 @watched.register(RotorLossDetection)
@@ -169,14 +159,9 @@ def _any(rotors, commands):
     return minimum(total(at_limit(commands, rotors.max_thrust)), 1.0)
 
 
-@choice
+@choice(absent="loads")
 def air_of(loads: Any, velocity: Any) -> Any:
     """What moving air shows."""
-
-
-@air_of.register(Nothing)
-def _no_air(loads, velocity):
-    return loads
 
 
 @air_of.register(PartLoads)
@@ -184,14 +169,9 @@ def _some_air(loads, velocity):
     return WindChannels(velocity, loads.payload.force + total_of_each(loads.quadrotors.force))
 
 
-@choice
+@choice(absent="floor")
 def contact_of(floor: Any, felt: PerfectReadings) -> Any:
     """What contact shows."""
-
-
-@contact_of.register(Nothing)
-def _no_contact(floor, felt):
-    return floor
 
 
 @contact_of.register(DistantFloor)
@@ -238,14 +218,9 @@ def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSam
     )
 
 
-@choice
+@choice(absent="partner")
 def effort(partner: Any, x: Sample) -> Any:
     """What a step costs the person who guides the vehicle."""
-
-
-@effort.register(Nothing)
-def _nobody(partner, x):
-    return partner
 
 
 @effort.register(PersonState)
@@ -258,14 +233,9 @@ def _a_hand(partner, x):
     return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
-@choice
+@choice(absent=0.0)
 def hearing(shown: Any) -> Any:
     """1 while a push is heard along any axis, else 0; from what guidance shows."""
-
-
-@hearing.register(Nothing)
-def _not_asked(shown):
-    return 0.0
 
 
 @hearing.register(HandGuidanceChannels)

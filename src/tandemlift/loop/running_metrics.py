@@ -65,14 +65,9 @@ EMPTY = RunningMetrics(
 NO_EFFORT = PersonEffort(0.0, 0.0, 0.0)
 
 
-@choice
+@choice(absent="effort")
 def added(effort: Any, more: Any) -> Any:
     """A person's effort with that of one more step."""
-
-
-@added.register(Nothing)
-def _nobody(effort, more):
-    return effort
 
 
 @added.register(PersonEffort)

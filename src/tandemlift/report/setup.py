@@ -94,7 +94,7 @@ def _guidance(flight: Flight) -> Iterator[Row]:
 def _watch(flight: Flight) -> Iterator[Row]:
     observer, detection = _table(flight, "observer", ObserverTable), _table(flight, "detection", DetectionTable)
     yield (
-        "DisturbanceTable",
+        "Disturbance",
         "not estimated" if observer.model == "none" else f"estimated by {OBSERVERS[observer.model]}",
     )
     if detection.model != "none":
@@ -135,7 +135,7 @@ def _rotors(flight: Flight) -> Iterator[Row]:
         known = "never known" if fault.known_after is None else f"known {describe(fault.known_after, 's')} later"
         left = f"{describe(fault.efficiency, '%', 100.0)} of the thrust left"
         yield (
-            "FaultTable",
+            "Fault",
             f"rotor {fault.rotor} of quadrotor {fault.quadrotor}: {left} from {describe(fault.time, 's')} on, {known}",
         )
 
@@ -155,7 +155,7 @@ def _every(interval: float, delay: float) -> str:
 def _sensors(flight: Flight) -> Iterator[Row]:
     s = _table(flight, "sensors", SensorsTable)
     if s.model == "none":
-        yield "SensorsTable", "none: the pilot reads what is true"
+        yield "Sensors", "none: the pilot reads what is true"
         return
     drawn = "noise, bias and turns are given as standard deviations; biases and turns are drawn from the seed"
     yield "Sensors on board", f"{_every(s.interval, s.delay)}; {drawn}"

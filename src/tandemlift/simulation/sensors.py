@@ -10,10 +10,11 @@ import numpy as np
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
 from tandemlift.laws.estimation.push_estimate import push_estimator, start_push
-from tandemlift.laws.mechanics.air_drag import payload_drag
+from tandemlift.laws.mechanics.air_drag import PayloadDrag
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.sensors.readings import SensorNoise, sensors
 from tandemlift.laws.sensors.sensor_errors import SensorGrade
+from tandemlift.laws.signals.low_pass import low_pass
 from tandemlift.loop.perception import Estimators, EstimatorState, NominalVehicle, TareAtTime, TareInHover
 from tandemlift.settings import InertialSensor, Mission
 from tandemlift.vehicle import Vehicle
@@ -68,6 +69,13 @@ def _inertial(s: InertialSensor, chance: np.random.Generator) -> SensorGrade:
     return SensorGrade(s.noise, chance.standard_normal((1, 3)) * s.bias, s.drift, 0.0, s.range)
 
 
+def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
+    """The windage of a vehicle as it is believed to be, with a low-pass of a bandwidth [rad/s]."""
+    beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
+    quadrotors = np.sum([np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
+    return PayloadDrag(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
+
+
 def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings: Any) -> tuple[Any, Any]:
     """The estimators of a mission and their memory at t = 0, as the vehicle is believed to be; or `Nothing`."""
     if isinstance(readings, Nothing):
@@ -90,7 +98,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         tare_duration=e.tare_duration,
         identify_mass=e.identify_mass,
         disagreement_limit=e.disagreement_limit,
-        windage=Nothing() if e.wind_compensation == "none" else payload_drag(vehicle, e.wind_bandwidth, step),
+        windage=Nothing() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, step),
     )
     observer = navigator(
         vehicle.center_of_mass,

@@ -1,6 +1,6 @@
 """Elementary functions of symbols: branch-free, so that a block of flights evaluates them in vector registers.
 
-Cody-Waite argument reduction and minimax polynomials. `tests/laws/test_elementary.py` holds them against exact values:
+Cody-Waite argument reduction and minimax polynomials. `tests/trace/test_elementary.py` holds them against exact values:
 log within 1 ulp, exp 1.25, atan2 2.75, tanh 2.75, sin and cos 2 for |x| ≤ 1e3 and 2.75 for |x| ≤ 1e5, and powers
 within a relative (2 + p |ln x|) 2⁻⁵². A zero of either sign is taken as +0. Method: Muller, Elementary Functions, 3rd
 ed., chapters 3 and 11.

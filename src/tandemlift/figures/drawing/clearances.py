@@ -11,7 +11,6 @@ from tandemlift.common.types import Array
 from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import parts_layout
 from tandemlift.laws.mechanics.rectangle import edges_of, offset, offset_from_top, wall
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import beam_axis, on_beam, point_by_edge, point_by_top
@@ -49,7 +48,11 @@ def clearances(flight: Flight) -> Clearances:
     payload = vehicle.payload
     if not (payload.length and payload.radius):
         return Clearances(guards, None)
-    axis, half, beam = beam_axis(parts_layout(vehicle), s), 0.5 * payload.length, np.full(len(flight.time), np.inf)
+    axis, half, beam = (
+        beam_axis(vec3(-vehicle.center_of_mass), s),
+        0.5 * payload.length,
+        np.full(len(flight.time), np.inf),
+    )
     for one in upright:
         ways = [offset(one, on_beam(axis, end)) for end in (-half, half)]
         ways += [offset(edge, on_beam(axis, point_by_edge(axis, half, edge))) for edge in edges_of(one)]

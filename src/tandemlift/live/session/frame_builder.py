@@ -32,8 +32,8 @@ class FrameBuilder:
     def __init__(self, mission: Mission, engine: str, setup: FlightSetup) -> None:
         self.scene = scene_of(mission, engine)
         self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
-        self._phases, self._columns = tables_of(mission)["phases"], channel_columns(setup.p.sample)
-        self._start = setup.p.flying.moving.state
+        self._phases, self._columns = tables_of(mission)["phases"], channel_columns(setup.plan.sample)
+        self._start = setup.plan.flying.moving.state
 
     def values(self, sample: Array, at: float) -> dict[str, Array]:
         """The values of the fields in a sample, at a time [s]."""

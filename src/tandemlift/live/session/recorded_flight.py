@@ -14,7 +14,7 @@ import numpy as np
 
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.types import Array
-from tandemlift.engines.registry import EngineBody, engine_named
+from tandemlift.engines.registry import EngineBody
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, VirtualHandInput
 from tandemlift.live.session.snapshot import FlightSnapshot
@@ -24,15 +24,14 @@ from tandemlift.settings import Mission
 from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, take_metrics
-from tandemlift.simulation.stepping import Stepper
+from tandemlift.simulation.stepping import Stepper, body_in
 from tandemlift.trace import flat, leaves, unflat
-from tandemlift.vehicle import Vehicle
 
 
 class FlightSetup(NamedTuple):
     """A mission put together, and its body if that is in another engine; nothing is compiled yet."""
 
-    p: FlightPlan
+    plan: FlightPlan
     body: EngineBody | None
 
 
@@ -42,11 +41,8 @@ def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
-    chosen, p = engine_named(engine), FlightPlan(mission)
-    plant = p.flying.plant
-    vehicle = Vehicle.from_settings(mission.vehicle)
-    body = chosen.start(mission, vehicle, plant.floor, plant.walls) if chosen.load else None
-    return FlightSetup(p, body)
+    plan = FlightPlan(mission)
+    return FlightSetup(plan, body_in(engine, plan))
 
 
 class RecordedFlight:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.common.phases import GUIDED, LAND, LIFT
 from tandemlift.common.types import Array
-from tandemlift.laws.guidance.phases import GUIDED, LAND, LIFT
 from tandemlift.simulation.results import channels_of
 from tandemlift.trace import leaves
 

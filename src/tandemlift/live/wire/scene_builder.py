@@ -10,11 +10,10 @@ import numpy as np
 
 from tandemlift import __version__
 from tandemlift.algebra.vector import Nothing
+from tandemlift.common.faults import ALARM_TEXTS
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.common.types import Array
-from tandemlift.laws.guidance.fault_reactions import FAULTS, alarm_name
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.laws.mechanics.contact import soles_below
-from tandemlift.laws.sensors.health import KINDS
 from tandemlift.live.wire.frames import RATE, layout_for
 from tandemlift.live.wire.scene import (
     FlightScene,
@@ -34,7 +33,7 @@ from tandemlift.vehicle import Vehicle
 
 SPRING = SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a page's hand, where a mission has none
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
-BOX_EDGE = 0.2  # m, of the box drawn for a payload without length
+SHORT = 0.2  # m, length and width drawn for a payload without length
 BEAM_RADIUS = 0.03  # m, drawn for a beam without a radius
 
 
@@ -76,20 +75,11 @@ def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, fl
         corridor=_corridor(tables.get("corridor", {})),
         threshold=list(tables["admittance"]["threshold"]),
         spring=SPRING,
-        phases=list(NAMES),
-        alarms=alarm_names(),
+        phases=list(PHASE_NAMES),
+        alarms=list(ALARM_TEXTS),
         fields=list(layout_for(vehicle.rotor_count)),
         parameters=[],
     )
-
-
-def alarm_names() -> list[str]:
-    """An alarm's words at the place of its number; "" where no alarm has that number, as 0 for none."""
-    names = [""] * (10 * len(FAULTS) + len(KINDS) + 1)
-    for fault in range(1, len(FAULTS) + 1):
-        for kind in range(len(KINDS) + 1):
-            names[10 * fault + kind] = alarm_name(10 * fault + kind)
-    return names
 
 
 def _lowest(mission: Mission, vehicle: Vehicle) -> float:
@@ -104,7 +94,7 @@ def _vehicle(vehicle: Vehicle) -> SceneVehicle:
     if payload.length:
         length, across = payload.length, 2.0 * (payload.radius or BEAM_RADIUS)
     else:
-        length, across = BOX_EDGE, BOX_EDGE
+        length, across = SHORT, SHORT
     position = -vehicle.center_of_mass
     parts = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
     return SceneVehicle(
