@@ -18,17 +18,11 @@ class LeafSpan(NamedTuple):
 NONE = LeafSpan(0, 0)
 
 
-class DelayedSpans(NamedTuple):
-    """What is delayed in a flight: readings of the unit on board and of the motion, the rotors' commands, what is seen.
+class DelayedSpans(tuple[LeafSpan, ...]):
+    """What is delayed in a flight, as spans in the order of `loop.delays.DelayLines`, additional sensors last.
 
-    Each is a stretch of the flight, empty where there is no delay; in a row of the delay line they stand one after the
-    other.
+    A span is empty where there is no delay; in a row of the delay line they stand one after the other.
     """
-
-    unit: LeafSpan
-    motion: LeafSpan
-    command: LeafSpan
-    seen: LeafSpan
 
     @property
     def size(self) -> int:
@@ -50,14 +44,12 @@ def leaf_offset(value: Any, *path: str) -> LeafSpan:
 
 def delayed_spans(flying: Any) -> DelayedSpans:
     """What is delayed in flights like this one."""
-    late, ends = (
-        flying.delays,
-        (("readings", "unit"), ("readings", "motion"), ("rotors", "arriving"), ("partner", "seen")),
-    )
+    late = flying.delays
     if isinstance(late, Nothing):
-        return DelayedSpans(NONE, NONE, NONE, NONE)
-    spans = [
+        return DelayedSpans()
+    ends = [("readings", "imu"), ("readings", "motion"), ("rotors", "arriving"), ("partner", "seen")]
+    ends += [("readings", "additional", name) for name in getattr(late.additional, "_fields", ())]
+    return DelayedSpans(
         NONE if isinstance(mark, Nothing) else leaf_offset(flying, "moving", *end)
-        for mark, end in zip(late, ends, strict=True)
-    ]
-    return DelayedSpans._make(spans)
+        for mark, end in zip((*late[:-1], *late.additional), ends, strict=True)
+    )

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import Nothing, Quat, Vec3
-from tandemlift.laws.sensors.readings import Readings
+from tandemlift.laws.sensors.readings import Readings, by_name
 from tandemlift.loop.perception import Estimates
 
 
@@ -20,6 +20,7 @@ class MeasuredChannels(NamedTuple):
     measured_specific_force: Vec3
     measured_joint_force: Vec3
     measured_joint_torque: Vec3
+    additional: Any
 
 
 class EstimatedChannels(NamedTuple):
@@ -38,6 +39,11 @@ class EstimatedChannels(NamedTuple):
     push_usable: Any
 
 
+def channels_of_additional(readings: Any) -> Any:
+    """The type of the channels of additional sensors: `measured_NAME` for each."""
+    return by_name(tuple(f"measured_{name}" for name in readings._fields))
+
+
 @choice
 def shown_readings(readings: Any) -> Any:
     """The channels of readings."""
@@ -50,9 +56,17 @@ def _no_readings(readings):
 
 @shown_readings.register(Readings)
 def _readings(readings):
-    m, u = readings.motion, readings.unit
+    m, u = readings.motion, readings.imu
+    more = [reading.value for reading in readings.additional]
     return MeasuredChannels(
-        m.position, m.velocity, m.attitude, u.rates, u.specific_force, u.joint_force, u.joint_torque
+        m.position,
+        m.velocity,
+        m.attitude,
+        u.rates,
+        u.specific_force,
+        u.joint_force,
+        u.joint_torque,
+        channels_of_additional(readings.additional)(*more),
     )
 
 

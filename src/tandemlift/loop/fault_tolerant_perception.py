@@ -6,13 +6,14 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum, where
+from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import Vec3
 from tandemlift.laws.estimation.navigation import centre_of_mass
 from tandemlift.laws.estimation.push_estimate import PushEstimate
 from tandemlift.laws.guidance.supervision import SensorStatus, sensor_status
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.sensors.readings import Readings, Sensors, SensorState, sense
-from tandemlift.laws.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults, chosen, chosen_attitude
+from tandemlift.laws.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults
 from tandemlift.laws.sensors.watchdog import PredictedReadings, Watchdog, WatchdogReport, WatchdogState, watchdog_step
 from tandemlift.loop.estimate_channels import shown_estimate
 from tandemlift.loop.perception import (
@@ -40,7 +41,7 @@ class FaultySensorsState(NamedTuple):
     """Memory of both."""
 
     sensing: SensorState
-    spoiling: SensorFaultState
+    faults: SensorFaultState
 
 
 class WatchedEstimators(NamedTuple):
@@ -70,8 +71,8 @@ class CheckedEstimates(NamedTuple):
 @measure.register(FaultySensors)
 def _sensed_and_spoiled(sensors, memory, state, felt, believed, noise):
     readings, sensing = sense(sensors.sensors, memory.sensing, state, felt, believed, noise)
-    given, spoiling = apply_faults(sensors.faults, memory.spoiling, readings)
-    return given, FaultySensorsState(sensing, spoiling)
+    given, faults = apply_faults(sensors.faults, memory.faults, readings)
+    return given, FaultySensorsState(sensing, faults)
 
 
 @law
@@ -84,18 +85,7 @@ def predicted(k: Estimators, m: EstimatorState) -> PredictedReadings:
 def trusted_push(p: PushEstimate, r: WatchdogReport) -> PushEstimate:
     """The push, trusted only where joints and accelerometer can be."""
     well = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0)
-    return PushEstimate(
-        p.measured,
-        p.measured_moment,
-        p.force,
-        p.moment,
-        p.point,
-        p.payload_mass,
-        p.disagreement,
-        p.trusted * well,
-        p.armed,
-        p.usable * well,
-    )
+    return p._replace(trusted=p.trusted * well, usable=p.usable * well)
 
 
 @law
@@ -106,7 +96,7 @@ def at_best(s: State, readings: Readings, r: WatchdogReport, rates: Vec3) -> Sta
     return State(
         chosen(no_force, v.position, s.position),
         chosen(no_force, v.velocity, s.velocity),
-        chosen_attitude(no_turn, v.attitude, s.attitude),
+        chosen(no_turn, v.attitude, s.attitude),
         chosen(no_turn, rates, s.rates),
     )
 

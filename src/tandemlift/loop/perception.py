@@ -148,7 +148,7 @@ def _unknowing(estimators, memory, readings, t, dt):
 
 @estimate_all.register(Estimators)
 def _estimated(estimators, memory, readings, t, dt):
-    push, push_memory = estimate(estimators.push, memory.push, readings.unit, t)
+    push, push_memory = estimate(estimators.push, memory.push, readings.imu, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
     return Estimates(push, state, estimators.vehicle), EstimatorState(push_memory, state_memory)
 
@@ -181,7 +181,7 @@ def _true_state(reads, true, readings, known):
 @read_state.register(MeasurementSource)
 def _measured_state(reads, true, readings, known):
     motion = readings.motion
-    return State(motion.position, motion.velocity, motion.attitude, readings.unit.rates)
+    return State(motion.position, motion.velocity, motion.attitude, readings.imu.rates)
 
 
 @read_state.register(EstimateSource)

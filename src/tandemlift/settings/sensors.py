@@ -30,6 +30,7 @@ DRIFT = "growth of the error, a random walk"
 STEP = "step of quantisation"
 RANGE = "largest reading, either way"
 FINE = f"0 for none, or at least {FINEST:g}"
+THE_SENSORS = "the sensor's"
 STEPS = "at most 10,000 steps"
 
 
@@ -87,6 +88,29 @@ class MotionSensor(Table):
     )
 
 
+class AdditionalSensorTable(Table):
+    """`[[sensors.additional]]`: sensors beyond those that the pilot needs, one table each, with a clock of their own.
+
+    Their samples are recorded in channel `measured_NAME`. CONTRIBUTING.md tells how to add a sensor.
+    """
+
+    name: str = key(..., None, "name of the sensor, such as \"altimeter\"", example="altimeter")
+    noise: Size = key(0.0, THE_SENSORS, NOISE)
+    bias: Size = key(0.0, THE_SENSORS, BIAS)
+    drift: Size = key(0.0, f"{THE_SENSORS}/√s", DRIFT)
+    resolution: Resolution = key(0.0, THE_SENSORS, STEP, rule=FINE)
+    range: Positive = key(1e6, THE_SENSORS, RANGE, source=BOUNDLESS)
+    interval: Interval = key(
+        0.0, "s", "time between samples, rounded to whole steps; 0 samples at every step"
+    )
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay of a sample beyond the one step after which any sample is known, rounded to whole steps",
+        rule=STEPS,
+    )
+
+
 class SensorsTable(Table):
     """`[sensors]`: simulated sensors; errors are independent along each axis.
 
@@ -115,6 +139,7 @@ class SensorsTable(Table):
     accelerometer: Accelerometer = Accelerometer()
     gyroscope: Gyroscope = Gyroscope()
     motion: MotionSensor = MotionSensor()
+    additional: tuple[AdditionalSensorTable, ...] = ()
 
 
 Sensor = Literal["imu", "motion", "joints", "accelerometer", "gyroscope", "position", "velocity", "attitude"]
@@ -164,6 +189,6 @@ class SensorFaultTable(Table):
     )
     size: Axes3 = key(
         (0.0, 0.0, 0.0),
-        "the sensor's",
+        THE_SENSORS,
         "offset, or the reading in its place; a force for joints, a rotation about body axes [rad] for the attitude",
     )
