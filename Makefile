@@ -18,7 +18,8 @@ live: .venv/run  ## push it by hand, in the browser
 
 test: lint types imports tests   ## lint, types, import directions, all tests
 
-page: web/node_modules/.package-lock.json  ## build the live page from web/, checked and tested (needs Node.js 20)
+page: .venv/run web/node_modules/.package-lock.json  ## build the live page from web/, checked and tested (needs Node.js 20)
+	$(BIN)/python tools/wire_types.py
 	npm --prefix web run --silent check
 	npm --prefix web test --silent
 	npm --prefix web run --silent build

@@ -87,7 +87,7 @@ def listen(version: str, *, everything: bool) -> Listener:
 def topics() -> dict[str, str]:
     """Every topic that has a message for each sample, but odometry."""
     from tandemlift.export.topics import recipes_of
-    from tandemlift.live.session import Session
+    from tandemlift.live.session.session import Session
     from tandemlift.missions import load_mission
     from tandemlift.ros.sample_queue import SampleQueue, as_flight
     from tandemlift.vehicle import Vehicle

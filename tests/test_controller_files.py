@@ -116,7 +116,7 @@ def test_an_unchanged_file_is_run_once_and_an_edited_one_anew(own):
     file = own(LAW)
     first = load_controller(file)
     assert load_controller(file) is first
-    own(edited(LAW, ("stiffness: Positive3 = 4.0", "stiffness: Positive3 = 5.0")))
+    own(edited(LAW, ("stiffness: Positive3 = key(4.0,", "stiffness: Positive3 = key(5.0,")))
     second = load_controller(file)
     assert second is not first
     assert tl.load_mission("hover", controller=second).controller.stiffness == (5.0, 5.0, 5.0)

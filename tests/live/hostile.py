@@ -6,7 +6,7 @@ import json
 import random
 from collections.abc import Callable, Iterator
 
-from tandemlift.live.messages import KINDS
+from tandemlift.live.wire.page_messages import PAGE_MESSAGES
 
 GOOD = [
     {"type": "grab", "seq": 1, "point": [0.0, 1.0, 0.0], "target": [1.0, 2.0, 3.0], "at": "point"},
@@ -77,7 +77,9 @@ def one_key_less(r: random.Random) -> str:
 
 
 def another_type(r: random.Random) -> str:
-    return json.dumps({**r.choice(GOOD), "type": r.choice([*KINDS, "Grab", "status", "scene", "eval", 7, None])})
+    return json.dumps(
+        {**r.choice(GOOD), "type": r.choice([*PAGE_MESSAGES, "Grab", "status", "scene", "eval", 7, None])}
+    )
 
 
 def deep(r: random.Random) -> str:

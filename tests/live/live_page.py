@@ -20,7 +20,7 @@ from urllib.parse import urlsplit
 from patience import PATIENCE, joined, until
 from websockets.sync.client import ClientConnection, connect
 
-from tandemlift.live.server import Server, serve_until_stopped
+from tandemlift.live.server import PageServer, serve_until_stopped
 
 PAGE = {
     "index.html": b"""<!doctype html><html><head><meta charset="utf-8"><title>page</title>
@@ -43,7 +43,7 @@ def put_page(folder):
 class Running:
     """A server that serves until it is stopped."""
 
-    def __init__(self, server: Server) -> None:
+    def __init__(self, server: PageServer) -> None:
         self.server = server
         self._ready = threading.Event()
         self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()), name="server", daemon=True)

@@ -10,24 +10,34 @@ import numpy as np
 from patience import PATIENCE, joined
 
 from tandemlift.common.errors import InputError
-from tandemlift.live.frames import fields_of, frames_of
-from tandemlift.live.messages import Force, Grab, Message, Move, Release, Reset, Restore, Save, Set
-from tandemlift.live.scene import SPRING, scene_of
+from tandemlift.live.wire.frames import layout_for, pack_frames
+from tandemlift.live.wire.page_messages import (
+    ForceMessage,
+    GrabMessage,
+    MoveMessage,
+    PageMessage,
+    ReleaseMessage,
+    ResetMessage,
+    RestoreMessage,
+    SaveMessage,
+    SetMessage,
+)
+from tandemlift.live.wire.scene_builder import SPRING, scene_of
 from tandemlift.missions import load_mission
 
 STEP, MASS, DAMPING = 0.002, 2.0, 6.0
 
 
 class StandIn:
-    """Heeds what touches the beam, one setting, a reset and a save; notes every message that reaches it."""
+    """Applies messages for the beam, one parameter, a reset and a save; notes every message that reaches it."""
 
     def __init__(self, mission: str = "hover", *, wait: threading.Event | None = None) -> None:
         self.mission = load_mission(mission)
-        controls = [{"key": "admittance.mass", "label": "virtual mass", "value": [1.0], "min": [0.1], "max": [9.0]}]
-        self.scene = scene_of(self.mission, "compiled", controls=controls)
-        self.fields = fields_of(8)
+        parameters = [{"key": "admittance.mass", "label": "virtual mass", "value": [1.0], "min": [0.1], "max": [9.0]}]
+        self.scene = scene_of(self.mission, "compiled", parameters=parameters)
+        self.fields = layout_for(8)
         self.generation, self.steps, self.released = 0, 0, 0
-        self.heard: list[Message] = []
+        self.heard: list[PageMessage] = []
         self._wait = wait  # for which changes wait
         self._lock, self._over = threading.Lock(), threading.Event()
         self._thread = threading.Thread(target=self._fly, name="stand-in", daemon=True)
@@ -65,7 +75,7 @@ class StandIn:
                 "hand_target": np.zeros(3) if self._target is None else self._target,
                 "seq": self._seq,
             }
-            return frames_of(self.fields, values).tobytes()
+            return pack_frames(self.fields, values).tobytes()
 
     def status(self) -> dict[str, Any]:
         return {"phase": "guided", "alarm": "", "paused": False, "speed": 1.0, "factor": 1.0, "behind_ms": 0.0}
@@ -75,31 +85,31 @@ class StandIn:
             self.released += 1
             self._target, self._force = None, np.zeros(3)
 
-    def apply(self, message: Message, seq: int) -> Any:
-        if isinstance(message, Set | Save | Reset) and self._wait:
+    def apply(self, message: PageMessage) -> list[Any]:
+        if isinstance(message, SetMessage | SaveMessage | ResetMessage) and self._wait:
             assert self._wait.wait(PATIENCE)
         with self._lock:
             self.heard.append(message)
-            self._seq = seq
-            return self._heeded(message)
+            self._seq = message.seq
+            return self._applied(message)
 
-    def _heeded(self, message: Message) -> Any:
-        if isinstance(message, Grab | Move):
+    def _applied(self, message: PageMessage) -> list[Any]:
+        if isinstance(message, GrabMessage | MoveMessage):
             self._target = np.array(message.target)
-        elif isinstance(message, Force):
+        elif isinstance(message, ForceMessage):
             self._force = np.array(message.force)
-        elif isinstance(message, Release):
+        elif isinstance(message, ReleaseMessage):
             self._target, self._force = None, np.zeros(3)
-        elif isinstance(message, Reset):
+        elif isinstance(message, ResetMessage):
             self.generation += 1
             self._x, self._v = np.zeros(3), np.zeros(3)
-        elif isinstance(message, Save):
-            return {"type": "done", "what": "save", "detail": message.name}
-        elif isinstance(message, Restore):
+        elif isinstance(message, SaveMessage):
+            return [{"type": "done", "what": "save", "detail": message.name}]
+        elif isinstance(message, RestoreMessage):
             keys = [message.key] if message.key else ["admittance.mass", "admittance.damping"]
             return [{"type": "changed", "key": key, "value": [1.0], "duration": 0.0} for key in keys]
-        elif isinstance(message, Set):
+        elif isinstance(message, SetMessage):
             if message.key != "admittance.mass":
                 raise InputError(f"{message.key}: cannot be changed in flight")
-            return {"type": "changed", "key": message.key, "value": message.value, "duration": 0.5}
-        return None
+            return [{"type": "changed", "key": message.key, "value": message.value, "duration": 0.5}]
+        return []

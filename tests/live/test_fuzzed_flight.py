@@ -12,11 +12,12 @@ from patience import until
 
 import tandemlift as tl
 from tandemlift.live import viewers
-from tandemlift.live.frames import read_frames
-from tandemlift.live.messages import read_message
-from tandemlift.live.pages import page_files
-from tandemlift.live.server import Server
-from tandemlift.live.session import Session
+from tandemlift.live.dispatch import Dispatcher
+from tandemlift.live.page_files import page_files
+from tandemlift.live.server import PageServer
+from tandemlift.live.session.session import Session
+from tandemlift.live.wire.frames import read_frames
+from tandemlift.live.wire.reading import read_message
 
 SOCKETS, HOSTILE, RUDE = 5, 15_000, 6_000  # sockets, and messages through each of them
 AT_ONCE = 250
@@ -32,13 +33,13 @@ GUIDED = {
 class Noting(Session):
     """A flight that notes every message which reaches it."""
 
-    def apply(self, message, seq):
+    def apply(self, message):
         self.heard.append(message)
-        return super().apply(message, seq)
+        return super().apply(message)
 
 
-class Counting(Server):
-    """A server that counts the messages that come out of its sockets."""
+class CountingDispatcher(Dispatcher):
+    """Counts the messages that come out of the sockets."""
 
     count = 0
 
@@ -47,21 +48,22 @@ class Counting(Server):
         """Whether changes are still to be made."""
         return bool(self._tasks)
 
-    def _hear(self, viewer, text):
+    def receive(self, viewer, text):
         self.count += 1
-        super()._hear(viewer, text)
+        super().receive(viewer, text)
 
 
 @pytest.fixture
 def flown(tmp_path, monkeypatch):
     """A flight in hover, and its server."""
-    monkeypatch.setattr(viewers, "MOST_MESSAGES", math.inf)  # else the first two thousand in a second are the last
+    monkeypatch.setattr(viewers, "MAX_MESSAGES", math.inf)  # else the first two thousand in a second are the last
     flight = Noting(tl.load_mission("hover", GUIDED), out=tmp_path / "out")
     flight.prepare()
     flight.heard = []
     for _ in range(round(8.0 / flight._flight.dt)):
         flight._flight.advance()
-    server = Running(Counting(page_files(put_page(tmp_path / "page")), flight, port=0))
+    monkeypatch.setattr("tandemlift.live.server.Dispatcher", CountingDispatcher)
+    server = Running(PageServer(page_files(put_page(tmp_path / "page")), flight, port=0))
     yield flight, server
     server.stop()
 
@@ -93,8 +95,8 @@ def test_after_a_hundred_thousand_hostile_messages_it_flies_on_and_follows_a_han
             assert all(np.isfinite(value).all() for value in seen().values())
         for attack in attacks:
             attack.result()
-        until(lambda: not server.server.waiting, "the end of all changes")
-        assert server.server.count >= 100_000
+        until(lambda: not server.server._dispatcher.waiting, "the end of all changes")
+        assert server.server._dispatcher.count >= 100_000
         good.text("status", viewers=1, holder="none")
         _check_heard(flight.heard)
         for message in (

@@ -22,12 +22,12 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.cli.main import cli
-from tandemlift.live import pages
-from tandemlift.live.frames import fields_of, read_frames
-from tandemlift.live.pages import page_files
+from tandemlift.live import page_files as pages
+from tandemlift.live.page_files import page_files
 from tandemlift.live.replay import replay_files, replay_html, scene_and_frames
-from tandemlift.live.scene import alarm_names, scene_of
-from tandemlift.live.server import Server
+from tandemlift.live.server import PageServer
+from tandemlift.live.wire.frames import layout_for, read_frames
+from tandemlift.live.wire.scene_builder import alarm_names, scene_of
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +39,7 @@ def flight():
 @pytest.fixture
 def page(tmp_path, monkeypatch):
     folder = put_page(tmp_path / "site" / "page")
-    monkeypatch.setattr(pages, "PAGE", folder)
+    monkeypatch.setattr(pages, "PAGE_FOLDER", folder)
     return folder
 
 
@@ -87,7 +87,7 @@ def test_frames_are_the_channels_of_the_flight_to_the_last_bit_of_float32(flight
         "velocity": "velocity",
         "reference": "reference_position",
         "push": "push_force",
-        "heard": "push_force",
+        "pilot_push": "push_force",
         "thrusts": "rotor_thrusts",
     }.items():
         assert np.array_equal(found[field], flight[channel][at].astype("<f4")), field
@@ -138,7 +138,7 @@ def test_what_a_pilot_by_hand_shows_is_shown(flight):
     }
     assert scene["phases"][int(last["phase"][0])] == "land"
     assert scene["alarms"][int(last["alarm"][0])] == "gyroscope frozen"
-    assert last["heard"] == [0.5] * 3
+    assert last["pilot_push"] == [0.5] * 3
     assert last["disturbance"] == [0.25] * 3
     assert last["wind"] == [2.0] * 3
 
@@ -166,7 +166,7 @@ def test_samples_that_are_no_numbers_are_left_out(flight):
 
 def test_a_scene_is_the_vehicle_of_the_mission():
     mission = tl.load_mission("zigzag")
-    scene = json.loads(json.dumps(scene_of(mission, "compiled", controls=[{"key": "a"}]), allow_nan=False))
+    scene = json.loads(json.dumps(scene_of(mission, "compiled", parameters=[{"key": "a"}]), allow_nan=False))
     vehicle = scene["vehicle"]
     assert vehicle["mass"] == 3.5
     assert [len(q["rotors"]) for q in vehicle["quadrotors"]] == [4, 4]
@@ -180,7 +180,7 @@ def test_a_scene_is_the_vehicle_of_the_mission():
     assert scene["ground"] is True
     assert scene["floor"] == pytest.approx(0.03 + first["position"][2] - 0.18, abs=1e-3)  # it stands on its feet
     assert scene["threshold"] == list(mission.admittance.threshold)
-    assert scene["controls"] == [{"key": "a"}]
+    assert scene["parameters"] == [{"key": "a"}]
     assert scene["fields"][-1] == ["thrusts", 8]
 
 
@@ -202,7 +202,7 @@ def test_the_walls_of_a_scene_are_half_a_width_from_the_centreline():
 def test_every_kind_of_mission_has_a_scene(name):
     scene = scene_of(tl.load_mission(name), "compiled")
     json.dumps(scene, allow_nan=False)
-    assert scene["fields"] == [list(f) for f in fields_of(4 * len(scene["vehicle"]["quadrotors"]))]
+    assert scene["fields"] == list(layout_for(4 * len(scene["vehicle"]["quadrotors"])))
 
 
 def test_an_alarm_is_named_at_its_number():
@@ -254,7 +254,7 @@ def test_no_name_of_a_mission_ends_the_data(flight):
 
 
 def test_a_replay_is_served_without_a_socket(flight, page):
-    server = Running(Server(replay_files(flight, page_files()), port=0))
+    server = Running(PageServer(replay_files(flight, page_files()), port=0))
     try:
         status, headers, body = server.get("/")
         assert (status, headers["Content-Type"]) == (200, "text/html; charset=utf-8")
@@ -313,7 +313,7 @@ def test_without_websockets_it_says_what_to_install(flight, run, tmp_path, monke
 
 def test_a_port_that_is_taken_is_told_of(flight, run, tmp_path, page):
     flight.save(tmp_path / "flight.npz")
-    server = Running(Server(page_files(), port=0))
+    server = Running(PageServer(page_files(), port=0))
     try:
         result = run("replay", "flight.npz", "--no-browser", "--port", str(server.port))
         assert f"--port {server.port}: taken by another program" in str(result.exception)
@@ -328,12 +328,12 @@ def test_the_address_is_printed_and_ctrl_c_ends_it_well(verb, flight, page, tmp_
     code = f"""
         import pathlib, sys, types
         from tandemlift.cli.main import main
-        from tandemlift.live import pages
+        from tandemlift.live import page_files as pages
         from standin import StandIn
-        pages.PAGE = pathlib.Path({str(page)!r})
-        session = types.ModuleType("tandemlift.live.session")
+        pages.PAGE_FOLDER = pathlib.Path({str(page)!r})
+        session = types.ModuleType("tandemlift.live.session.session")
         session.Session = lambda mission, engine, out: StandIn(mission.mission.name)
-        sys.modules["tandemlift.live.session"] = session
+        sys.modules["tandemlift.live.session.session"] = session
         main()
     """
     target = {"live": "hover", "replay": "flight.npz"}[verb]

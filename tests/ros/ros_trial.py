@@ -6,7 +6,7 @@ from collections import defaultdict
 from rosbags.typesys import Stores, get_typestore
 
 from tandemlift.export.messages import MessageTypes, modern
-from tandemlift.live.session import Session
+from tandemlift.live.session.session import Session
 from tandemlift.ros.node import FlightNode
 
 STORE = get_typestore(Stores.ROS2_HUMBLE)

@@ -16,7 +16,7 @@ from patience import completed
 
 from tandemlift.cli.main import cli, main
 from tandemlift.common.errors import InputError
-from tandemlift.live.pace import MOST_BEHIND
+from tandemlift.live.session.pacing import MOST_BEHIND
 from tandemlift.ros.clock import Clock
 from tandemlift.ros.dds_types import PACKAGES
 from tandemlift.ros.package import folder
@@ -212,12 +212,12 @@ def test_the_extra_installs_what_ros_2_needs():
 
 def test_stamps_are_even_and_the_time_of_day_also_after_a_delay_that_is_not_made_good(trial, monkeypatch):
     earlier = time.time_ns()
-    clock, pace, step = Clock(trial.session), trial.session.pace, trial.session.flight.step
+    clock, pace, step = Clock(trial.session), trial.session.pacer, trial.session.flight.step
     now, wall = time.time_ns(), [pace._then]
     before = [clock.stamp(k) for k in range(step, step + 1000, 10)]
     assert np.all(np.diff(before) == 10_000_000)
     assert earlier - 1 <= before[0] <= now + 1
-    monkeypatch.setattr("tandemlift.live.pace.time", SimpleNamespace(perf_counter=lambda: wall[0]))
+    monkeypatch.setattr("tandemlift.live.session.pacing.time", SimpleNamespace(perf_counter=lambda: wall[0]))
     wall[0] += 3.0  # s, in which nothing was flown
     pace.due()
     assert clock.late == pytest.approx(3.0 - MOST_BEHIND)

@@ -1,42 +1,49 @@
-// Brings the parts together: what comes from the flight goes to the picture, what a person does goes to the flight.
+// Connects the parts: what comes from the flight goes to the picture, what a person does goes to the flight.
 
 import { Matrix4 } from "three";
 
+import { ForceInput } from "./hand/force_input.ts";
 import { Grab } from "./hand/grab.ts";
-import { Pushes } from "./hand/pushes.ts";
+import type { HandOptions } from "./hand/options.ts";
 import { byId } from "./ui/dom.ts";
-import { Frontend } from "./ui/frontend.ts";
-import { Follow, type View } from "./view/follow.ts";
-import { type Choice, type Graphics, Pace, suited } from "./view/graphics.ts";
+import { Shell, type ShellPage } from "./ui/shell.ts";
+import { ChaseCamera, type View } from "./view/camera.ts";
+import { FrameRate, type Graphics, type GraphicsChoice, suitableGraphics } from "./view/graphics.ts";
 import { Label } from "./view/labels.ts";
-import { Picture, type Shown } from "./view/picture.ts";
+import { type Overlays, Picture } from "./view/picture.ts";
 import { Stage } from "./view/stage.ts";
 import { beamAxis } from "./view/vehicle.ts";
 import type { Frame } from "./wire/frames.ts";
 import { Latency } from "./wire/latency.ts";
-import { type Outgoing, perAxis, type Scene, type Setting, type Status, THRESHOLD } from "./wire/protocol.ts";
-import type { Recorded } from "./wire/recorded.ts";
-import type { Listener, Source } from "./wire/source.ts";
+import {
+  type FlightScene,
+  type PageMessage,
+  type ParameterValue,
+  type StatusMessage,
+  STIFFNESS,
+  THRESHOLD,
+} from "./wire/messages.generated.ts";
+import { perAxis } from "./wire/parameters.ts";
+import type { Replay } from "./wire/replay.ts";
+import type { FlightListener, FlightSource } from "./wire/source.ts";
 
-const STIFFNESS = "person.stiffness"; // of the hand's spring
-const STALE = 100; // ms, after which the same moment is drawn again: overlays may have been switched
-const LET_GO = 3; // statuses of a grab that the server knows nothing of
+const REDRAW_AFTER = 100; // ms: overlays may have been switched although nothing moved
+const LET_GO_AFTER = 3; // statuses in which the server knows nothing of the grab
 
-export class App implements Listener {
-  readonly shown: Shown = { push: true, zone: true, ghost: true, thrust: true, wind: true, trail: true };
+export class App implements FlightListener, ShellPage {
+  readonly hand: HandOptions = { at: "point", plane: "facing", force: 3, directions: "view" };
+  readonly overlays: Overlays = { push: true, zone: true, ghost: true, thrust: true, wind: true, trail: true };
   readonly latency = new Latency();
-  readonly pace = new Pace();
-  readonly follow: Follow;
-  readonly pushes: Pushes;
-  grabAt: "point" | "centre" = "point";
-  plane: "facing" | "level" = "facing";
+  readonly frameRate = new FrameRate();
+  readonly camera: ChaseCamera;
   current: Frame | null = null;
   private readonly stage: Stage;
   private readonly grab: Grab;
-  private readonly front: Frontend;
+  private readonly force: ForceInput;
+  private readonly shell: Shell;
   private readonly labels = { push: new Label(byId("labels"), "push"), wind: new Label(byId("labels"), "wind") };
   private picture: Picture | null = null;
-  private graphics: Choice = "auto";
+  private choice: GraphicsChoice = "auto";
   private last = 0;
   private drawn: Frame | null = null;
   private drawnAt = 0;
@@ -44,27 +51,26 @@ export class App implements Listener {
   private unheld = 0;
 
   constructor(
-    private readonly source: Source,
-    readonly replay: Recorded | null,
+    private readonly source: FlightSource,
+    readonly replay: Replay | null,
   ) {
     const surface = byId("surface");
-    this.stage = new Stage(surface, suited());
+    this.stage = new Stage(surface, suitableGraphics());
     const camera = this.stage.camera;
-    const send = (message: Outgoing, since: number): void => {
+    const send = (message: PageMessage, since: number): void => {
       this.send(message, since);
     };
     this.grab = new Grab({
       camera,
       surface,
       send,
+      options: this.hand,
       frame: () => this.current,
       axis: () => (this.picture && !this.replay ? beamAxis(this.picture.scene.vehicle.payload) : null),
-      atCentre: () => this.grabAt === "centre",
-      level: () => this.plane === "level",
     });
-    this.follow = new Follow(camera, surface);
-    this.pushes = new Pushes(camera, send, replay === null);
-    this.front = new Frontend(this);
+    this.camera = new ChaseCamera(camera, surface);
+    this.force = new ForceInput(camera, this.hand, send, replay === null);
+    this.shell = new Shell(this);
   }
 
   start(): void {
@@ -72,12 +78,14 @@ export class App implements Listener {
     requestAnimationFrame(this.tick);
   }
 
+  // ShellPage
+
   retry(): void {
     this.source.retry?.();
   }
 
-  /** Sends a message; its delay is measured if it began with a hand's event at `since` [ms]. */
-  send(message: Outgoing, since?: number): void {
+  /** Sends a message; its delay is measured if it began with a person's event at `since` [ms]. */
+  send(message: PageMessage, since?: number): void {
     const seq = this.source.send(message);
     if (seq !== null && since !== undefined) this.latency.note(seq, since, performance.now());
   }
@@ -86,28 +94,28 @@ export class App implements Listener {
     return this.stage.canvas;
   }
 
-  get level(): Graphics {
+  get graphics(): Graphics {
     return this.stage.graphics;
   }
 
   look(view: View): void {
-    if (this.picture) this.follow.look(view, this.picture.center, this.picture.reach);
+    if (this.picture) this.camera.look(view, this.picture.center, this.picture.reach);
   }
 
-  setGraphics(choice: Choice): void {
-    this.graphics = choice;
-    this.rebuild(choice === "auto" ? suited() : choice);
+  setGraphics(choice: GraphicsChoice): void {
+    this.choice = choice;
+    this.rebuild(choice === "auto" ? suitableGraphics() : choice);
   }
 
-  // Listener
+  // FlightListener
 
-  scene(scene: Scene): void {
+  scene(scene: FlightScene): void {
     const first = this.picture === null;
     this.grab.cancel();
     this.current = null;
     this.picture?.remove();
     this.picture = new Picture(scene, this.stage, this.labels);
-    this.front.scene(scene);
+    this.shell.scene(scene);
     if (!first) return;
     // where the vehicle stands is known with the first frame; until then, near the origin
     this.picture.center.set(0, 0, 1);
@@ -118,37 +126,37 @@ export class App implements Listener {
     if (!frame.drawable) return;
     if (!this.current) this.picture?.center.set(...frame.vector("position"));
     this.current = frame;
-    this.front.frame(frame);
+    this.shell.frame(frame);
   }
 
-  status(status: Status): void {
+  status(status: StatusMessage): void {
     this.unheld = this.grab.pulling && status.holder !== "you" ? this.unheld + 1 : 0;
-    if (this.unheld > LET_GO) this.grab.cancel(); // the server has let go
-    this.front.status(status);
+    if (this.unheld > LET_GO_AFTER) this.grab.cancel(); // the server has let go
+    this.shell.status(status);
   }
 
-  changed(key: string, value: Setting, duration: number): void {
+  changed(key: string, value: ParameterValue, duration: number): void {
     if (this.picture && key === THRESHOLD) this.picture.threshold = perAxis(value);
     if (this.picture && key === STIFFNESS) this.picture.stiffness = Number(value);
-    this.front.changed(key, value, duration);
+    this.shell.changed(key, value, duration);
   }
 
   refused(what: string, reason: string): void {
     if (what.startsWith("grab")) this.grab.cancel();
-    this.front.refused(what, reason);
+    this.shell.refused(what, reason);
   }
 
   done(what: string, detail: string): void {
-    this.front.done(what, detail);
+    this.shell.done(what, detail);
   }
 
-  lost(retryAt: number | null): void {
+  disconnected(retryAt: number): void {
     this.grab.cancel();
-    this.front.lost(retryAt);
+    this.shell.disconnected(retryAt);
   }
 
-  found(): void {
-    this.front.found();
+  connected(): void {
+    this.shell.connected();
   }
 
   private readonly tick = (now: number): void => {
@@ -156,24 +164,24 @@ export class App implements Listener {
     const passed = Math.min((now - this.last) / 1000, 0.1);
     this.last = now;
     this.source.tick?.(now);
-    const { current, picture } = this;
-    if (current && picture) {
-      picture.update(current, this.grab.hand, this.shown);
-      this.follow.update(picture.center, this.grab.pulling, passed);
-      this.grab.flush();
-      this.pushes.flush(this.grab.pulling);
-      // the same picture again would keep the processor from hearing of what is new
-      if (current !== this.drawn || this.moved() || now - this.drawnAt > STALE) {
-        picture.draw();
-        [this.drawn, this.drawnAt] = [current, now];
-        this.eye.copy(this.stage.camera.matrixWorld);
-        this.latency.drawn(current.scalar("seq"), performance.now());
-      }
-    }
-    this.front.tick(now);
-    const slow = this.pace.tick(now, this.drawnAt === now);
-    if (slow && this.graphics === "auto" && !this.front.filming) this.rebuild("light");
+    if (this.current && this.picture) this.draw(this.current, this.picture, now, passed);
+    this.shell.tick(now);
+    const slow = this.frameRate.tick(now, this.drawnAt === now);
+    if (slow && this.choice === "auto" && !this.shell.recording) this.rebuild("light");
   };
+
+  private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
+    picture.update(frame, this.grab.hand, this.overlays);
+    this.camera.update(picture.center, this.grab.pulling, passed);
+    this.grab.flush();
+    this.force.flush(this.grab.pulling);
+    // the same picture again would keep the processor from receiving what is new
+    if (frame === this.drawn && !this.moved() && now - this.drawnAt <= REDRAW_AFTER) return;
+    picture.draw();
+    [this.drawn, this.drawnAt] = [frame, now];
+    this.eye.copy(this.stage.camera.matrixWorld);
+    this.latency.drawn(frame.scalar("seq"), performance.now());
+  }
 
   /** Whether the camera stands elsewhere than in the last picture. */
   private moved(): boolean {
@@ -181,7 +189,7 @@ export class App implements Listener {
     return !this.eye.equals(this.stage.camera.matrixWorld);
   }
 
-  /** Draws on at another level of graphics. */
+  /** Continues at another level of graphics. */
   private rebuild(graphics: Graphics): void {
     if (graphics === this.stage.graphics) return;
     this.stage.build(graphics);

@@ -2,8 +2,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { between, Frame, Layout } from "../src/wire/frames.ts";
+import type { FrameFieldName } from "../src/wire/messages.generated.ts";
 
-const FIELDS: [string, number][] = [
+const FIELDS: [FrameFieldName, number][] = [
   ["time", 1],
   ["position", 3],
   ["attitude", 4],

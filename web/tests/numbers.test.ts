@@ -1,11 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { short, Slide } from "../src/ui/numbers.ts";
+import { formatNumber, SliderScale } from "../src/ui/numbers.ts";
 import { Latency } from "../src/wire/latency.ts";
 
 test("numbers are shown with four figures at most", () => {
-  assert.deepEqual([0, 0.1 + 0.2, 12345.678, -2.5].map(short), ["0", "0.3", "12350", "-2.5"]);
+  assert.deepEqual([0, 0.1 + 0.2, 12345.678, -2.5].map(formatNumber), ["0", "0.3", "12350", "-2.5"]);
 });
 
 test("a slider goes from end to end, and comes back to where it was put", () => {
@@ -14,7 +14,7 @@ test("a slider goes from end to end, and comes back to where it was put", () => 
     [0.01, 20],
     [-8, 8],
   ] as const) {
-    const slide = new Slide(low, high);
+    const slide = new SliderScale(low, high);
     assert.equal(slide.place(low), 0);
     assert.equal(slide.place(high), 1000);
     assert.equal(slide.value(1000), high);
@@ -23,7 +23,7 @@ test("a slider goes from end to end, and comes back to where it was put", () => 
 });
 
 test("a wide range is fine where values are small", () => {
-  assert.ok(new Slide(0.001, 10).value(500) < 0.2);
+  assert.ok(new SliderScale(0.001, 10).value(500) < 0.2);
 });
 
 test("the delay of a message ends with the first picture that echoes it", () => {

@@ -124,10 +124,10 @@ def _views(photos: Sequence[Photo]) -> Figure | None:
 def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
     """Fly a mission that nobody but Gazebo's topic pushes, until Ctrl-C."""
     from tandemlift.gazebo_app.flying import opened
-    from tandemlift.live.by_hand import by_hand
-    from tandemlift.live.recorded import RecordedFlight
+    from tandemlift.live.session.interactive_mission import interactive_mission
+    from tandemlift.live.session.recorded_flight import RecordedFlight
 
-    mission = by_hand(mission)
+    mission = interactive_mission(mission)
     with opened(mission, window=window, real_time=True) as gazebo, _until_stopped() as stopped:
         recorded = RecordedFlight(mission, "gazebo")
         _tell_how_to_push(mission, gazebo)

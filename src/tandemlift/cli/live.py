@@ -12,7 +12,7 @@ from tandemlift.cli.run import load
 from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
 
 if TYPE_CHECKING:
-    from tandemlift.live.session import Session
+    from tandemlift.live.session.session import Session
     from tandemlift.settings import Mission
 
 DEFAULT, OUT = "zigzag", Path("out/live")
@@ -53,15 +53,15 @@ def live(
     needs_live()
     engine_named(engine)
     session = session_of(load(mission, settings), engine, Path(out))
-    from tandemlift.live.pages import page_files
-    from tandemlift.live.server import Server
+    from tandemlift.live.page_files import page_files
+    from tandemlift.live.server import PageServer
 
-    serve_here(Server(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
+    serve_here(PageServer(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
     leave(0)  # it may still be compiling
 
 
 def session_of(mission: Mission, engine: str, out: Path = OUT) -> Session:
     """A flight in real time, checked; nothing is compiled yet."""
-    from tandemlift.live.session import Session
+    from tandemlift.live.session.session import Session
 
     return Session(mission, engine, out)

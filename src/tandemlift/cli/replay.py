@@ -54,7 +54,7 @@ def _write(path: Path, flight: Flight) -> None:
     Raises:
         InputError: it cannot be written there.
     """
-    from tandemlift.live.pages import page_files
+    from tandemlift.live.page_files import page_files
     from tandemlift.live.replay import replay_html
 
     if path.suffix.lower() not in (".html", ".htm"):
@@ -70,8 +70,8 @@ def _write(path: Path, flight: Flight) -> None:
 def _serve(flight: Flight, port: int, *, browser: bool) -> None:
     """Serve a flight's page until Ctrl-C."""
     needs_live()
-    from tandemlift.live.pages import page_files
+    from tandemlift.live.page_files import page_files
     from tandemlift.live.replay import replay_files
-    from tandemlift.live.server import Server
+    from tandemlift.live.server import PageServer
 
-    serve_here(Server(replay_files(flight, page_files()), host=HOST, port=port), flight.name, browser=browser)
+    serve_here(PageServer(replay_files(flight, page_files()), host=HOST, port=port), flight.name, browser=browser)

@@ -16,7 +16,7 @@ from tandemlift.common.errors import InputError
 from tandemlift.ros.sample_queue import every_of
 
 if TYPE_CHECKING:
-    from tandemlift.live.session import Session
+    from tandemlift.live.session.session import Session
     from tandemlift.ros.middleware import Middleware
 
 BAD_ENDS = ("lost", "failed")

@@ -16,7 +16,7 @@ from tandemlift.cli.run import echo
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.live.server import Server
+    from tandemlift.live.server import PageServer
 
 HOST, PORT = "127.0.0.1", 8710
 
@@ -31,7 +31,7 @@ def needs_live() -> None:
         raise InputError("the live page needs websockets: pip install 'tandemlift[live]'")
 
 
-def serve_here(server: Server, what: str, *, browser: bool) -> None:
+def serve_here(server: PageServer, what: str, *, browser: bool) -> None:
     """Serve until Ctrl-C; say `what` is to be seen, and where, and open it in a browser."""
     from tandemlift.live.server import serve_until_stopped
 

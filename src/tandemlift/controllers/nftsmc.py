@@ -84,7 +84,7 @@ class NFTSMCSettings(ControllerTable):
         choices={"zero": "taken to be zero", "filtered": "of a second-order command filter, which the law then tracks"},
     )
     filter_bandwidth: Annotated[float, Field(gt=0.0, le=1e4)] = key(
-        60.0, "rad/s", "bandwidth of that command filter", source="chosen"
+        60.0, "rad/s", "bandwidth of the command filter of attitude_reference_derivatives", source="chosen"
     )
     euler_rates: Literal["exact", "body"] = key(
         "exact",

@@ -46,19 +46,19 @@ class PIDSettings(CascadeTable):
     filter_bandwidth: Bandwidth = key(13.5, "rad/s", ATTITUDE_FILTER, source=TUNED)
     position_p: Positive3 = key((4.36, 0.765, 2.26), "1/s", "wanted velocity over the position error", source=TUNED)
     velocity_p: Positive3 = key((3.09, 3.11, 18.1), "1/s", "wanted acceleration over the velocity error", source=TUNED)
-    velocity_i: NonNegative3 = key((0.414, 0.279, 2.04), "1/s²", "its integral gain", source=TUNED)
-    velocity_d: NonNegative3 = key((0.0628, 0.039, 0.0138), "1", "its derivative gain", source=TUNED)
+    velocity_i: NonNegative3 = key((0.414, 0.279, 2.04), "1/s²", "integral gain of the velocity error", source=TUNED)
+    velocity_d: NonNegative3 = key((0.0628, 0.039, 0.0138), "1", "derivative gain of the velocity error", source=TUNED)
     velocity_i_limit: NonNegative3 = key(
-        (2.0, 2.0, 2.0), "m/s²", "largest acceleration from the integral", source="chosen"
+        (2.0, 2.0, 2.0), "m/s²", "largest acceleration from the velocity integral", source="chosen"
     )
     attitude_p: Positive3 = key((3.45, 0.173, 2.43), "1/s", "wanted rates over the attitude error", source=TUNED)
     rate_p: Positive3 = key(
         (7.94, 20.5, 3.87), "1/s", "wanted angular acceleration over the error of the rates", source=TUNED
     )
-    rate_i: NonNegative3 = key((0.904, 1.93, 0.0707), "1/s²", "its integral gain", source=TUNED)
-    rate_d: NonNegative3 = key((0.0191, 0.178, 0.0439), "1", "its derivative gain", source=TUNED)
+    rate_i: NonNegative3 = key((0.904, 1.93, 0.0707), "1/s²", "integral gain of the error of the rates", source=TUNED)
+    rate_d: NonNegative3 = key((0.0191, 0.178, 0.0439), "1", "derivative gain of the error of the rates", source=TUNED)
     rate_i_limit: NonNegative3 = key(
-        (2.0, 2.0, 0.3), "rad/s²", "largest angular acceleration from the integral", source="chosen"
+        (2.0, 2.0, 0.3), "rad/s²", "largest angular acceleration from the integral of the rates", source="chosen"
     )
     derivative_bandwidth: Bandwidth = key(
         254.0, "rad/s", "bandwidth of the low-pass filter in both derivatives", source=TUNED

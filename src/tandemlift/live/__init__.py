@@ -1,5 +1,5 @@
-"""A flight that people watch, and push, in a page of their browser: live or again.
+"""The live page: a flight in real time that people watch and push in their browser, or a saved one played again.
 
-`messages` is what a page may say, `scene` and `frames` what it is told, `server` between them. No request leaves the
-machine. Needs the extra `live`.
+`server` serves the page, `session` flies, and `wire` says what goes between them. No request leaves the machine. Needs
+the extra `live`.
 """

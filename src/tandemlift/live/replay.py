@@ -1,6 +1,6 @@
-"""A flight to look at again in the live page: its scene and frames, as data in the page itself.
+"""A saved flight played again in the live page: its scene and frames are data in the page itself.
 
-A page that finds an element with the id `flight` plays what is in it and opens no socket.
+A page that has an element with the id `flight` plays the data in it and opens no socket.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import json
 import math
 import re
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,14 +18,15 @@ from numpy.typing import NDArray
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.live.frames import RATE, fields_of, frames_of
-from tandemlift.live.scene import scene_of_tables
-from tandemlift.live.values import values_of
+from tandemlift.live.wire.frame_values import field_values
+from tandemlift.live.wire.frames import RATE, layout_for, pack_frames
+from tandemlift.live.wire.scene import FlightScene, SceneReplay
+from tandemlift.live.wire.scene_builder import scene_of_tables
 from tandemlift.rendering.stage import FlightStage
 from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle
 
-MOST_FRAMES = 36_000  # ten minutes of them; a longer flight has fewer a second
+MAX_FRAMES = 36_000  # ten minutes at the full rate; a longer flight has fewer frames a second
 OFFLINE = (
     "default-src 'none'; script-src 'sha256-{script}'; style-src 'unsafe-inline'; img-src data: blob:; "
     "media-src blob:; base-uri 'none'; form-action 'none'"
@@ -35,7 +35,7 @@ SCRIPT = r"<script\b[^>]*\bsrc=[\"']?(?:\./|/)?page\.js[\"']?[^>]*>\s*</script>"
 STYLE = r"<link\b[^>]*\bhref=[\"']?(?:\./|/)?page\.css[\"']?[^>]*>"
 
 
-def scene_and_frames(flight: Flight) -> tuple[dict[str, Any], NDArray[np.float32]]:
+def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
     """The scene of a flight and its frames (count, width): samples of its log, 60 a second at most.
 
     Raises:
@@ -44,23 +44,23 @@ def scene_and_frames(flight: Flight) -> tuple[dict[str, Any], NDArray[np.float32
     stage = FlightStage(flight)
     vehicle = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
     shown = np.flatnonzero(np.isin(flight.time, stage.time))
-    shown = shown[:: _every(flight.time[shown])]
+    shown = shown[:: _stride(flight.time[shown])]
     channels = {name: flight[name][shown] for name in flight.channels}
-    values = values_of(channels, flight.time[shown], flight.mission["phases"])
-    frames = frames_of(fields_of(vehicle.rotor_count), values, len(shown))
-    span = {"start": float(flight.time[shown[0]]), "end": float(flight.time[shown[-1]]), "speed": 1}
-    engine = flight.version.get("engine", "")
-    return {**scene_of_tables(flight.mission, vehicle, engine, stage.floor), "replay": span}, frames
+    values = field_values(channels, flight.time[shown], flight.mission["phases"])
+    frames = pack_frames(layout_for(vehicle.rotor_count), values, len(shown))
+    scene = scene_of_tables(flight.mission, vehicle, flight.version.get("engine", ""), stage.floor)
+    scene["replay"] = SceneReplay(start=float(flight.time[shown[0]]), end=float(flight.time[shown[-1]]), speed=1)
+    return scene, frames
 
 
 def replay_files(flight: Flight, files: Mapping[str, bytes]) -> dict[str, bytes]:
-    """The files of the page, with a flight in it."""
+    """The files of the page, with a flight in its data element."""
     html = _with_data(_text(files, "/index.html"), _data(flight)).encode()
     return {**files, "/": html, "/index.html": html}
 
 
 def replay_html(flight: Flight, files: Mapping[str, bytes]) -> str:
-    """One page that holds everything, plays a flight without a network, and may not use one."""
+    """One self-contained page that plays a flight; its policy allows it no network."""
     html = _with_data(_text(files, "/index.html"), _data(flight))
     script = re.sub(r"</(script)", r"<\\/\1", _text(files, "/page.js"), flags=re.I).replace("<!--", r"<\!--")
     style = re.sub(r"</(style)", r"<\\/\1", _text(files, "/page.css"), flags=re.I)
@@ -70,16 +70,16 @@ def replay_html(flight: Flight, files: Mapping[str, bytes]) -> str:
     return _once(r"<head\b[^>]*>", f'<head><meta http-equiv="Content-Security-Policy" content="{policy}">', html)
 
 
-def _every(time: Array) -> int:
-    """Of how many samples one is shown."""
+def _stride(time: Array) -> int:
+    """The n of 'every n-th sample is shown'."""
     if len(time) < 2:
         return 1
     interval = float(np.median(np.diff(time)))
-    return max(1, math.ceil(1.0 / (RATE * interval) - 1e-6), math.ceil(len(time) / MOST_FRAMES))
+    return max(1, math.ceil(1.0 / (RATE * interval) - 1e-6), math.ceil(len(time) / MAX_FRAMES))
 
 
 def _data(flight: Flight) -> str:
-    """An element of scene and frames; no text of a mission can end it."""
+    """The element with scene and frames; no text of a mission can end it."""
     scene, frames = scene_and_frames(flight)
     data = {"scene": scene, "frames": base64.b64encode(frames.tobytes()).decode()}
     text = json.dumps(data, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
@@ -99,7 +99,7 @@ def _once(pattern: str, new: str, html: str) -> str:
 
 
 def _text(files: Mapping[str, bytes], path: str) -> str:
-    """A file as the browser's parser reads it, which knows one kind of line end."""
+    """A file with the line ends that a browser's parser makes of it, so that its hash is right."""
     if path not in files:
         raise InputError(f"the page has no {path[1:]}; it is built from web/ and ships with an installed tandemlift")
     return files[path].decode("utf-8").replace("\r\n", "\n").replace("\r", "\n")

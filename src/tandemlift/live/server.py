@@ -1,6 +1,6 @@
 """The server of the live page: files over HTTP and a WebSocket at /ws, on one port of this machine.
 
-The flight goes on in a thread of its own and never waits for a page. A page that goes away lets go of the beam.
+The flight goes on in a thread of its own and never waits for a page. A page that is gone lets go of the beam.
 """
 
 from __future__ import annotations
@@ -10,88 +10,32 @@ import logging
 import socket
 from collections.abc import Callable, Mapping
 from http import HTTPStatus
-from typing import Any, Protocol, Self
+from typing import Self
 
-from websockets.asyncio.server import Server as Sockets
+from websockets.asyncio.server import Server as SocketServer
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
-from tandemlift.common.errors import InputError
-from tandemlift.live.frames import RATE
-from tandemlift.live.guard import HOST, PORT, Asked, Guard, listen
-from tandemlift.live.messages import (
-    MAX_SIZE,
-    Kill,
-    Message,
-    Move,
-    Ping,
-    Refusal,
-    Reset,
-    Restore,
-    Save,
-    Set,
-    Tare,
-    about,
-    read_message,
-)
-from tandemlift.live.pages import kind_of
+from tandemlift.live.access import HOST, PORT, AccessControl, RequestHead, listen
+from tandemlift.live.dispatch import Dispatcher, LiveFlight
+from tandemlift.live.page_files import media_type_of
 from tandemlift.live.viewers import FAREWELL, Viewer, Viewers, dismiss
+from tandemlift.live.wire.frames import RATE
+from tandemlift.live.wire.reading import MAX_SIZE
+from tandemlift.live.wire.server_messages import SceneMessage
 
 STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
-MAX_WAITING = 16  # changes that are yet to be made
-SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be old news
-SLOW = (Set, Restore, Tare, Kill, Reset, Save)  # may compile or write
+SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be outdated when it arrives
 
-Answer = dict[str, Any] | list[dict[str, Any]] | None  # one text, several, or none
-
-log = logging.getLogger(__name__)
-quiet = logging.getLogger(f"{__name__}.sockets")  # of what strangers send; heard only by those who ask
-quiet.addHandler(logging.NullHandler())
-quiet.propagate = False
+strangers = logging.getLogger(f"{__name__}.sockets")  # invalid requests; logged only where somebody listens
+strangers.addHandler(logging.NullHandler())
+strangers.propagate = False
 
 
-class LiveFlight(Protocol):
-    """A flight that goes on while people watch; its methods may be called from any thread.
-
-    There is a scene, a frame and a status from the beginning, also while it is still being prepared.
-
-    Attributes:
-        generation: grows with every reset, after which `scene` is a new one.
-    """
-
-    generation: int
-
-    @property
-    def scene(self) -> dict[str, Any]:
-        """What a viewer must know, as `scene.scene_of` makes it."""
-
-    def start(self) -> None:
-        """Begin to fly, in a thread of its own, where it is prepared first."""
-
-    def stop(self) -> None:
-        """End that thread, at once."""
-
-    def frame(self) -> bytes:
-        """The latest state, as the scene's `fields` say."""
-
-    def status(self) -> dict[str, Any]:
-        """Phase, alarm, pace and so on, for people."""
-
-    def apply(self, message: Message, seq: int) -> Answer:
-        """Heed a message; what to answer to its sender, or to all if it is of type "changed".
-
-        Raises:
-            InputError: it cannot be done; the text says why.
-        """
-
-    def release(self) -> None:
-        """Nobody holds the beam any more."""
-
-
-class Server:
+class PageServer:
     """Serves a page, and a flight if there is one.
 
     Args:
@@ -106,16 +50,16 @@ class Server:
     ) -> None:
         self._files, self._flight, self._host, self._port = files, flight, host, port
         self.viewers = Viewers()
-        self._somebody = asyncio.Event()
-        self._turns, self._tasks = (asyncio.Lock(), asyncio.Lock()), set[asyncio.Task[None]]()
+        self._dispatcher = Dispatcher(flight, self.viewers) if flight else None
+        self._watched = asyncio.Event()  # set once there is a viewer
         self._generation = 0
-        self._guard: Guard
-        self._sockets: Sockets
+        self._access: AccessControl
+        self._sockets: SocketServer
 
     @property
     def address(self) -> str:
-        """To open in a browser, once it serves."""
-        return self._guard.address
+        """The address to open in a browser, once the server listens."""
+        return self._access.address
 
     async def __aenter__(self) -> Self:
         """Listen, and begin the flight.
@@ -124,9 +68,9 @@ class Server:
             InputError: it cannot listen there.
         """
         listening = listen(self._host, self._port)
-        self._guard = Guard(self._host, listening.getsockname()[1])
+        self._access = AccessControl(self._host, listening.getsockname()[1])
         self._sockets = await serve(
-            self._attend,
+            self._serve_viewer,
             sock=listening,
             process_request=self._respond,
             process_response=self._protect,
@@ -135,7 +79,7 @@ class Server:
             max_size=MAX_SIZE,
             ping_interval=3.0,
             ping_timeout=6.0,
-            logger=quiet,
+            logger=strangers,
         )
         if self._flight:
             self._generation = self._flight.generation
@@ -143,9 +87,9 @@ class Server:
         return self
 
     async def __aexit__(self, *_: object) -> None:
-        """Say good-bye, and end the flight."""
-        for task in self._tasks:
-            task.cancel()
+        """Close all connections, and end the flight."""
+        if self._dispatcher:
+            self._dispatcher.cancel()
         self._sockets.close()
         try:
             async with asyncio.timeout(FAREWELL):
@@ -156,32 +100,32 @@ class Server:
         if self._flight:
             await asyncio.to_thread(self._flight.stop)
 
-    async def show(self) -> None:
+    async def broadcast(self) -> None:
         """Send frames and the status to all viewers until cancelled."""
         clock, tick = asyncio.get_running_loop().time, 0
         due = clock()
         while True:
             if self._flight is None or not self.viewers:
-                self._somebody.clear()
-                await self._somebody.wait()
+                self._watched.clear()
+                await self._watched.wait()
                 due = clock()
-            self._show_once(tick)
+            self._broadcast_once(tick)
             tick += 1
             due = max(due + 1.0 / RATE, clock() - 1.0 / RATE)
             await asyncio.sleep(due - clock())
 
-    def _show_once(self, tick: int) -> None:
+    def _broadcast_once(self, tick: int) -> None:
         flight = self._flight
         assert flight is not None
         if flight.generation != self._generation:
             self._generation = flight.generation
             self._let_go()
-            self.viewers.tell({"type": "scene", **flight.scene})
-        self.viewers.show(flight.frame())
+            self.viewers.send(SceneMessage(type="scene", **flight.scene))
+        self.viewers.send_frame(flight.frame())
         if self.viewers.is_hung():
             self._let_go()
         if tick % STATUS_EVERY == 0:
-            self.viewers.tell_status(flight.status())
+            self.viewers.send_status(flight.status())
 
     def _let_go(self) -> None:
         assert self._flight is not None
@@ -191,38 +135,39 @@ class Server:
     # HTTP
 
     def _respond(self, connection: ServerConnection, request: Request) -> Response | None:
-        """The answer to a request; None to go on with the handshake of a WebSocket."""
-        asked = Asked.of(request)
-        refusal = self._guard.refusal(asked)
+        """The response to a request; None to go on with the handshake of a WebSocket."""
+        head = RequestHead.of(request)
+        refusal = self._access.refusal(head)
         if refusal:
             return connection.respond(*refusal)
-        if asked.socket and self._flight:
+        if head.socket and self._flight:
             full = len(self.viewers) >= MAX_VIEWERS
             return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "too many viewers\n") if full else None
-        if asked.path not in self._files:
+        if head.path not in self._files:
             return connection.respond(HTTPStatus.NOT_FOUND, "not found\n")
-        return _file(asked.path, self._files[asked.path], self._guard.cookie(asked))
+        return _file(head.path, self._files[head.path], self._access.cookie(head))
 
     def _protect(self, connection: ServerConnection, request: Request, response: Response) -> None:
-        """Put the headers that keep others out into an answer."""
-        for name, value in self._guard.headers(Asked.of(request)).items():
+        """Put the security headers into a response."""
+        for name, value in self._access.headers(RequestHead.of(request)).items():
             response.headers[name] = value
 
     # WebSocket
 
-    async def _attend(self, connection: ServerConnection) -> None:
+    async def _serve_viewer(self, connection: ServerConnection) -> None:
         """Serve a viewer until it is gone."""
         assert self._flight is not None
+        assert self._dispatcher is not None
         connection.transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
         viewer = Viewer(connection)
-        viewer.tell({"type": "scene", **self._flight.scene})
+        viewer.send(SceneMessage(type="scene", **self._flight.scene))
         self.viewers.join(viewer)
-        self.viewers.tell_status(self._flight.status())
-        self._somebody.set()
+        self.viewers.send_status(self._flight.status())
+        self._watched.set()
         flooding = False
         try:
             async for text in connection:
-                self._hear(viewer, text)
+                self._dispatcher.receive(viewer, text)
                 if flooding := viewer.is_flooding():
                     break
         except ConnectionClosed:
@@ -233,70 +178,19 @@ class Server:
         if flooding:
             await dismiss(connection)
 
-    def _hear(self, viewer: Viewer, text: str | bytes) -> None:
-        """Heed a text of a viewer, or say why not."""
-        try:
-            message = read_message(text)
-            if isinstance(message, Ping):
-                viewer.tell({"type": "pong", "t": message.t})
-            elif isinstance(message, SLOW):
-                self._start_change(viewer, message)
-            elif self.viewers.admits(viewer, message):
-                self._answer(viewer, self._applied(message))
-                self.viewers.note(viewer, message)
-                if isinstance(message, Move) and self._flight:
-                    viewer.echo(self._flight.frame)
-        except Refusal as refusal:
-            viewer.refuse(refusal)
 
-    def _applied(self, message: Message) -> Answer:
-        """What the flight answers.
-
-        Raises:
-            Refusal: it cannot heed the message.
-        """
-        assert self._flight is not None
-        try:
-            return self._flight.apply(message, message.seq)
-        except InputError as error:
-            raise Refusal(about(message), str(error)) from error
-        except Exception as error:
-            log.exception("%s failed", about(message))
-            raise Refusal(about(message), f"an error in tandemlift: {error!r}"[:300]) from error
-
-    def _answer(self, viewer: Viewer, answer: Answer) -> None:
-        for text in [answer] if isinstance(answer, dict) else answer or ():
-            if text["type"] in ("changed", "scene"):
-                self.viewers.tell(text)
-            else:
-                viewer.tell(text)
-
-    def _start_change(self, viewer: Viewer, message: Message) -> None:
-        """Make a change that may take long in another thread, one after another; the hand does not wait for it."""
-        if len(self._tasks) >= MAX_WAITING:
-            raise Refusal(about(message), f"{MAX_WAITING} changes are still to be made")
-        task = asyncio.create_task(self._change(viewer, message))
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
-
-    async def _change(self, viewer: Viewer, message: Message) -> None:
-        async with self._turns[isinstance(message, Save)]:  # nothing waits for what is saved
-            try:
-                self._answer(viewer, await asyncio.to_thread(self._applied, message))
-            except Refusal as refusal:
-                viewer.refuse(refusal)
-
-
-async def serve_until_stopped(server: Server, opened: Callable[[str], None]) -> None:
-    """Serve until cancelled; `opened` is told the address once there is something to see."""
+async def serve_until_stopped(server: PageServer, opened: Callable[[str], None]) -> None:
+    """Serve until cancelled; `opened` is called with the address once pages can be opened."""
     async with server:
         opened(server.address)
-        await server.show()
+        await server.broadcast()
 
 
 def _file(path: str, content: bytes, cookie: str | None) -> Response:
-    """The answer that gives a file, and a cookie if there is one to set."""
-    headers = Headers([("Content-Type", kind_of(path)), ("Content-Length", str(len(content))), ("Connection", "close")])
+    """The response with a file, and a cookie if there is one to set."""
+    headers = Headers(
+        [("Content-Type", media_type_of(path)), ("Content-Length", str(len(content))), ("Connection", "close")]
+    )
     if cookie:
         headers["Set-Cookie"] = cookie
     return Response(HTTPStatus.OK.value, HTTPStatus.OK.phrase, headers, content)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from tandemlift.export.messages import SECOND
-from tandemlift.live.session import Session
+from tandemlift.live.session.session import Session
 
 
 class Clock:
@@ -22,7 +22,7 @@ class Clock:
     @property
     def late(self) -> float:
         """By how much the flight is late for good [s]."""
-        return self._session.pace.forgotten
+        return self._session.pacer.forgotten
 
     def stamp(self, step: int) -> int:
         """The time of day of the step that is flown now [ns]."""

@@ -9,7 +9,7 @@ from functools import partial
 from tandemlift.export.recipes import WRENCH
 from tandemlift.export.topics import ROOT
 from tandemlift.flight.record import Flight
-from tandemlift.live.session import Session
+from tandemlift.live.session.session import Session
 from tandemlift.missions import tables_of
 from tandemlift.ros.clock import Clock
 from tandemlift.ros.diagnostics import KIND, TOPIC, FlightDiagnostics

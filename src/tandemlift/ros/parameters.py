@@ -1,4 +1,4 @@
-"""Parameters: the controls of a mission, by the keys that the mission has them under, changed while it flies.
+"""Parameters of a mission that are changed while it flies, by their keys in the mission.
 
 `admittance.mass`, `admittance.stiffness` and `admittance.damping_ratio` are called as ros2_controllers' admittance
 controller calls them, and mean the same; the ratio is D/(2 √(M K)) of each axis with stiffness, and 0 of one without.
@@ -13,9 +13,9 @@ from typing import Any
 from pydantic import ValidationError
 
 from tandemlift.common.errors import InputError, unknown
-from tandemlift.live.controls import controls_of
-from tandemlift.live.messages import Set
-from tandemlift.live.session import Session
+from tandemlift.live.session.session import Session
+from tandemlift.live.session.tunable_parameters import parameters_of
+from tandemlift.live.wire.page_messages import SetMessage
 from tandemlift.missions.values import shown
 from tandemlift.ros.diagnostics import Tell
 from tandemlift.ros.middleware import Middleware
@@ -49,9 +49,9 @@ class Parameters:
 
     def _values(self) -> Iterator[tuple[str, Any]]:
         now = self._session.flight.now
-        for control in controls_of(now, self._first):
-            if control["key"] not in SPRING:
-                yield control["key"], control["value"]
+        for parameter in parameters_of(now, self._first):
+            if parameter["key"] not in SPRING:
+                yield parameter["key"], parameter["value"]
         yield RATIO, damping_ratio(now)
 
     def _set(self, key: str, value: Any) -> None:
@@ -61,19 +61,19 @@ class Parameters:
                 raise unknown("parameter", key, known)
             if key == RATIO:
                 key, value = DAMPING, damping_of(self._session.flight.now, value)
-            self._session.apply(_message(key, value), 0)
+            self._session.apply(_message(key, value))
         except InputError as error:
             self._tell(f"parameter refused: {error}")
 
 
-def _message(key: str, value: Any) -> Set:
+def _message(key: str, value: Any) -> SetMessage:
     """What is said to a session to set a key.
 
     Raises:
         InputError: the value is of no kind that a setting has.
     """
     try:
-        return Set(type="set", seq=0, key=key, value=tuple(value) if isinstance(value, list) else value)
+        return SetMessage(seq=0, key=key, value=tuple(value) if isinstance(value, list) else value)
     except ValidationError:
         raise InputError(f"{key} = {shown(value)}: must be a number, a list of numbers, or a word") from None
 

@@ -15,9 +15,9 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.export.frames import ALIGNED, BASE, WORLD, fixed, to_body, to_world
-from tandemlift.live.messages import Force
-from tandemlift.live.recorded import RecordedFlight
-from tandemlift.live.session import Session
+from tandemlift.live.session.recorded_flight import RecordedFlight
+from tandemlift.live.session.session import Session
+from tandemlift.live.wire.page_messages import ForceMessage
 from tandemlift.ros.diagnostics import Tell
 from tandemlift.vehicle import Vehicle
 
@@ -67,7 +67,7 @@ class Pushes:
 
     def _push(self, force: Array, point: Array) -> None:
         (x, y, z), (along, left, up) = force.tolist(), point.tolist()
-        self._session.apply(Force(type="force", seq=0, force=(x, y, z), point=(along, left, up)), 0)
+        self._session.apply(ForceMessage(seq=0, force=(x, y, z), point=(along, left, up)))
 
     def _read(self, message: Any) -> tuple[Array, Array]:
         """Force [N, world axes] and where it acts [m, body axes] of a message.

@@ -9,8 +9,8 @@ from typing import Literal
 from tandemlift.common.errors import InputError
 from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
 from tandemlift.laws.guidance.phases import NAMES
-from tandemlift.live.messages import Ask, Tare
-from tandemlift.live.session import Session
+from tandemlift.live.session.session import Session
+from tandemlift.live.wire.page_messages import AskMessage, TareMessage
 from tandemlift.ros.middleware import Answer
 
 COMES_TO = {"lift": "lift", "land": "land", "stop": "stopped"}  # the phase that a request leads to
@@ -36,7 +36,8 @@ class RequestServices:
         """Ask for one of `REQUESTS`: whether it is done or has begun, and what there is to say of it."""
         try:
             if what == "tare":
-                return True, self._session.apply(Tare(type="tare", seq=0), 0)["detail"]
+                answers = self._session.apply(TareMessage(seq=0))
+                return True, next(answer["detail"] for answer in answers if answer["type"] == "done")
             return self._ask(what)
         except InputError as error:
             return False, str(error)
@@ -45,7 +46,7 @@ class RequestServices:
         phase = self._phase()
         if phase not in POSSIBLE[what]:
             raise InputError(f"{what}: not while the phase is {phase}")
-        self._session.apply(Ask.model_validate({"type": "ask", "seq": 0, "what": what}), 0)
+        self._session.apply(AskMessage.model_validate({"seq": 0, "what": what}))
         for _ in range(round(PATIENCE / NAP)):
             if self._phase() == COMES_TO[what]:
                 return True, COMES_TO[what]

@@ -12,7 +12,7 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.live.recorded import RecordedFlight
+from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.simulation.results import channels_of
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first

@@ -12,7 +12,7 @@ from tandemlift.common.types import Array
 from tandemlift.export.frames import ALIGNED, BASE, WORLD, to_world
 from tandemlift.export.messages import MessageTypes
 from tandemlift.laws.mechanics.rotation import rotation_from_euler
-from tandemlift.live.values import points_of
+from tandemlift.live.wire.frame_values import points_of
 from tandemlift.models.visuals import VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.stage import GLASS, PUSH, WALL
 from tandemlift.ros.drawing import MARKERS, MarkerWriter

@@ -21,5 +21,5 @@ class ChangeTable(Table):
         ..., "s", "start of the change, rounded to a whole step", rule="not before the change above it", example=10.0
     )
     key: str = facts.key(..., None, "dotted key that changes, as for --set", example="admittance.damping")
-    value: Any = facts.key(..., None, "its new value", rule="as the key takes it", example=[4.0, 4.0, 4.0])
-    duration: NonNegative = facts.key(0.0, "s", "time within which its numbers move there, in a straight line")
+    value: Any = facts.key(..., None, "new value of the key", rule="as the key takes it", example=[4.0, 4.0, 4.0])
+    duration: NonNegative = facts.key(0.0, "s", "time within which numbers move to the new value, in a straight line")

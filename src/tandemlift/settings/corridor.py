@@ -30,9 +30,9 @@ class WallTable(Table):
     The guard spheres of the quadrotors and the beam touch them.
     """
 
-    start: Point2 = key(..., "m", "one end, x and y", example=[2.0, -3.0])
-    end: Point2 = key(..., "m", "the other end, x and y", rule="1 mm or more from the start", example=[2.0, 3.0])
-    top: float = key(2.5, "m", "height z of its top", source="chosen")
+    start: Point2 = key(..., "m", "one end of the wall, x and y", example=[2.0, -3.0])
+    end: Point2 = key(..., "m", "the wall's other end, x and y", rule="1 mm or more from the start", example=[2.0, 3.0])
+    top: float = key(2.5, "m", "height z of the wall's top", source="chosen")
 
 
 def sides(centreline: Sequence[Sequence[float]], width: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -139,7 +139,7 @@ class ObserverTable(Table):
     model: Literal["none", "extended-state", "super-twisting"] = key(
         "none",
         None,
-        "the observer",
+        "model of the observer",
         choices={
             "none": "no observer",
             "extended-state": "linear",
@@ -173,7 +173,7 @@ class DetectionTable(Table):
     model: Literal["none", "residual"] = key(
         "none",
         None,
-        "the detection",
+        "model of the detection",
         choices={"none": "no detection", "residual": "likelihood-ratio tests of the momentum residual"},
     )
     bandwidth: Bandwidth = key(
@@ -204,7 +204,7 @@ class DetectionTable(Table):
         40.0, "1", "detection threshold: twice the log-likelihood ratio of a failed rotor against none", source=CHOSEN
     )
     isolation_margin: Positive = key(
-        3.0, "1", "twice the log-likelihood ratio by which the rotor must lead any other", source=CHOSEN
+        3.0, "1", "twice the log-likelihood ratio by which the failed rotor must lead any other", source=CHOSEN
     )
     unexplained_fraction: Fraction = key(
         0.25,
@@ -212,11 +212,11 @@ class DetectionTable(Table):
         "largest fraction of the residual's square that the failed rotor may leave unexplained",
         source=CHOSEN,
     )
-    dwell: NonNegative = key(0.012, "s", "time for which all of that must hold", source=CHOSEN)
+    dwell: NonNegative = key(0.012, "s", "time for which all these criteria must hold", source=CHOSEN)
     retest_time: NonNegative = key(
         0.2,
         "s",
-        "time for which the rotor is then commanded its hover thrust on trial, and may be restored; after it, "
+        "time for which a rotor declared failed is commanded its hover thrust on trial, and may be restored; after it, "
         "the landing begins",
         source=CHOSEN,
     )

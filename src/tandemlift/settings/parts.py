@@ -39,7 +39,7 @@ Areas = Annotated[tuple[Size, Size, Size], PerAxis(3)]
 class Payload(Table):
     """`[vehicle.payload]`: a thin beam along body y, or any body with a mass and principal moments of inertia."""
 
-    mass: Positive = key(..., "kg", "mass", example=0.5)
+    mass: Positive = key(..., "kg", "mass of the payload", example=0.5)
     length: Positive | None = key(
         None, "m", "length of the beam, along body y", unset="inertia must be given", example=2.0
     )
@@ -47,7 +47,7 @@ class Payload(Table):
     inertia: Inertia | None = key(
         None,
         "kg m²",
-        "principal moments of inertia about its centre of mass, body axes",
+        "principal moments of inertia about the payload's centre of mass, body axes",
         rule="none above the sum of the other two",
         unset="that of the beam",
         example=[0.1667, 0.000625, 0.1667],
@@ -98,39 +98,39 @@ class Quadrotor(Table):
     0.
     """
 
-    mass: Positive = key(..., "kg", "mass", example=1.5)
+    mass: Positive = key(..., "kg", "mass of the quadrotor", example=1.5)
     inertia: Inertia = key(
         ...,
         "kg m²",
-        "principal moments of inertia about its centre of mass",
+        "principal moments of inertia about the quadrotor's centre of mass",
         rule="none above the sum of the other two",
         example=[0.029125, 0.029125, 0.055225],
     )
     position: Exactly3 = key(
         ...,
         "m",
-        "position of its centre of mass from the payload's, body axes",
+        "position of the quadrotor's centre of mass from the payload's, body axes",
         example=[0.0, 1.0, 0.075],
     )
     layout: Literal["+", "x"] = key(
         "x",
         None,
-        "where its rotors are",
+        "where the rotors are",
         example="+",
         choices={"+": "at +x, +y, -x, -y", "x": "45° further"},
     )
     arm: Positive | None = key(
         None,
         "m",
-        "distance from its centre of mass to each rotor",
+        "distance from the quadrotor's centre of mass to each rotor",
         unset="rotor_positions must be given",
         example=0.25,
     )
     rotor_positions: tuple[Corner, Corner, Corner, Corner] | None = key(
         None,
         "m",
-        "x and y of each rotor from its centre of mass",
-        rule="such that every moment can be made",
+        "x and y of each rotor from the quadrotor's centre of mass",
+        rule="four pairs within ±1000, such that every moment can be made",
         unset="by layout and arm",
         example=[[0.25, 0.0], [0.0, 0.25], [-0.25, 0.0], [0.0, -0.25]],
     )
@@ -138,7 +138,7 @@ class Quadrotor(Table):
         (1, -1, 1, -1),
         "1",
         "sign of each rotor's reaction torque on the body, about z",
-        rule="such that every moment can be made",
+        rule="each 1 or -1, such that every moment can be made",
         source="neighbours turn against each other",
     )
     thrust_constant: Positive = key(..., "N/(rad/s)²", "thrust of a rotor over its speed squared", example=5.84e-6)
@@ -150,18 +150,24 @@ class Quadrotor(Table):
     joint: Joint | None = key(
         None,
         "m",
-        "position of its joint and force sensor from the payload's centre of mass, body axes",
-        unset="below its centre of mass, at the height of the payload's",
+        "position of the joint and its force sensor from the payload's centre of mass, body axes",
+        unset="below the quadrotor's centre of mass, at the height of the payload's",
         example=[0.0, 1.0, 0.0],
     )
     guard_radius: Length = key(
-        0.375, "m", "radius of the sphere about it that touches walls", source="chosen: an arm of 0.25 m and a rotor"
+        0.375,
+        "m",
+        "radius of the sphere about the quadrotor that touches walls",
+        source="chosen: arm and rotor",
     )
     feet_spread: Length = key(
-        0.12, "m", "distance of each of its four feet from its centre, along x and along y", source="chosen"
+        0.12, "m", "distance of each of four feet from the quadrotor's centre, along x and along y", source="chosen"
     )
     feet_depth: Length = key(
-        0.18, "m", "distance of its soles below its centre", source="chosen, so that the beam stays off the floor"
+        0.18,
+        "m",
+        "distance of the soles below the quadrotor's centre",
+        source="chosen: the beam stays off the floor",
     )
     drag_area: Areas = key(
         (0.02, 0.02, 0.05),

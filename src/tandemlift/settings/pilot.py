@@ -114,7 +114,7 @@ class AllocationTable(Table):
     method: Literal["pseudo-inverse", "constrained"] = key(
         "pseudo-inverse",
         None,
-        "the method",
+        "how the wrench is distributed over the rotors",
         choices={
             "pseudo-inverse": "the paper's weighted pseudo-inverse",
             "constrained": "beyond a rotor's limits, the thrusts within them that come closest to the wrench",
@@ -159,7 +159,7 @@ class PhasesTable(Table):
         "when the rotors turn",
         choices={
             "always": "all the time",
-            "flight": "from the start of the lift to the end of the landing; needs a floor",
+            "flight": "from the start of the lift to the end of the landing (needs a floor)",
         },
     )
 
@@ -195,7 +195,7 @@ class PilotTable(Table):
         choices={
             "truth": "the simulation",
             "measurement": "the last sample of the joints' force sensors",
-            "estimate": "that sample after a low-pass filter; zero before the tare ends and while the joints disagree",
+            "estimate": "that sample after a low-pass filter, zero before the tare ends and while the joints disagree",
         },
     )
 
@@ -219,7 +219,7 @@ class EstimatorTable(Table):
         "when the force sensors are tared",
         choices={
             "clock": "at tare_start",
-            "hover": "once the vehicle has hovered steadily for a second; needs guidance by hand",
+            "hover": "once the vehicle has hovered steadily for a second (needs guidance by hand)",
         },
     )
     tare_start: NonNegative | None = key(
@@ -261,12 +261,12 @@ class EstimatorTable(Table):
         choices={
             "none": "nothing",
             "quadrotors": "the wind on the payload along body x and y, estimated from the outside forces on the "
-            "quadrotors by the ratio of drag areas; needs quadrotors with drag along both",
+            "quadrotors by the ratio of drag areas (needs quadrotors with drag along both)",
         },
     )
     wind_bandwidth: Bandwidth = key(
         25.0,
         "rad/s",
-        "bandwidth of the second-order low-pass filter on it; lower for noisy joints, higher for gusts",
+        "bandwidth of the low-pass filter on the estimated wind force; lower for noisy joints, higher for gusts",
         source="chosen",
     )

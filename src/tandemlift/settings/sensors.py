@@ -122,7 +122,7 @@ class SensorsTable(Table):
     model: Literal["none", "simulated"] = key(
         "none",
         None,
-        "the sensors",
+        "model of the sensors",
         choices={"none": "no sensors: the pilot reads the truth", "simulated": "sensors with the errors of this table"},
     )
     interval: Interval = key(
@@ -173,7 +173,7 @@ class SensorFaultTable(Table):
     kind: Literal["stale", "frozen", "nan", "bias", "range"] = key(
         ...,
         None,
-        "how it fails",
+        "how the sensor fails",
         example="frozen",
         choices={
             "stale": "a device sends nothing new",

@@ -114,7 +114,7 @@ class LimitsTable(Table):
     rates: Positive = key(8.0, "rad/s", "largest angular speed", source=CHOSEN)
     rates_time: NonNegative = key(0.2, "s", "time for which the angular speed may exceed its limit", source=CHOSEN)
     tracking_error: Positive = key(0.5, "m", "largest distance from the reference", source=CHOSEN)
-    tracking_error_time: NonNegative = key(1.0, "s", "time for which the distance may exceed its limit", source=CHOSEN)
+    tracking_error_time: NonNegative = key(1.0, "s", "time for which it may exceed its limit", source=CHOSEN)
 
 
 class ReactionsTable(Table):
@@ -148,8 +148,8 @@ class SupervisionTable(Table):
     model: Literal["none", "watch"] = key(
         "none",
         None,
-        "the supervision",
-        choices={"none": "no supervision", "watch": 'all of it; needs `pilot.guidance = "hand"`'},
+        "model of the supervision",
+        choices={"none": "no supervision", "watch": 'all of it (needs `pilot.guidance = "hand"`)'},
     )
     hold_timeout: Positive = key(5.0, "s", "time for which a fault may hold the vehicle before it lands", source=CHOSEN)
     recovery_time: Positive = key(1.0, "s", "time without a fault after which a hold ends", source=CHOSEN)

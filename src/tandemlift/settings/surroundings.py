@@ -19,11 +19,11 @@ class GustTable(Table):
     """`[[wind.gusts]]`: gusts on top of the mean wind, one table each, as in MIL-F-8785C, 3.7.3."""
 
     velocity: Annotated[Speeds, PerAxis(3, single=False)] = key(
-        ..., "m/s", "peak velocity, world axes", example=[2.0, 0.0, 0.0]
+        ..., "m/s", "peak velocity of the gust, world axes", example=[2.0, 0.0, 0.0]
     )
-    start: float = key(..., "s", "when it begins to rise", example=12.0)
-    rise: Positive = key(..., "s", "time in which it rises as 1 − cos, and in which it falls again", example=1.0)
-    hold: NonNegative | None = key(None, "s", "time for which it holds its peak", unset="it stays", example=2.0)
+    start: float = key(..., "s", "time at which the gust begins to rise", example=12.0)
+    rise: Positive = key(..., "s", "time in which the gust rises as 1 − cos, and in which it falls again", example=1.0)
+    hold: NonNegative | None = key(None, "s", "time for which the gust holds its peak", unset="it stays", example=2.0)
 
 
 class WindTable(Table):
@@ -33,7 +33,7 @@ class WindTable(Table):
     """
 
     model: Literal["none", "air"] = key(
-        "none", None, "the wind", choices={"none": "no moving air", "air": "moving air with drag"}
+        "none", None, "model of the wind", choices={"none": "no moving air", "air": "moving air with drag"}
     )
     velocity: Annotated[Speeds, PerAxis(3)] = key((0.0, 0.0, 0.0), "m/s", "mean velocity, world axes")
     turbulence: Turbulence = key(
@@ -64,7 +64,7 @@ class GroundTable(Table):
     """`[ground]`: a level floor on which the quadrotors' feet stand, with friction; nothing but feet touches it."""
 
     model: Literal["none", "floor"] = key(
-        "none", None, "the ground", choices={"none": "no ground", "floor": "a level floor"}
+        "none", None, "model of the ground", choices={"none": "no ground", "floor": "a level floor"}
     )
     height: float | None = key(
         None,

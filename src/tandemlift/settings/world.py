@@ -36,7 +36,7 @@ class InitialTable(Table):
     position: Axes3 = key(
         (0.0, 0.0, 0.0), "m", "position of the system's centre of mass, world axes", example=[0.3, -0.3, 0.0]
     )
-    velocity: Axes3 = key((0.0, 0.0, 0.0), "m/s", "its velocity, world axes")
+    velocity: Axes3 = key((0.0, 0.0, 0.0), "m/s", "velocity of the system's centre of mass, world axes")
     euler: Annotated[Axes3, AfterValidator(_upright)] = key(
         (0.0, 0.0, 0.0),
         "rad",
@@ -52,7 +52,7 @@ class PushTable(Table):
 
     force: Exactly3 = key(..., "N", "peak force, world axes", example=[3.0, 0.0, 0.0])
     time: float = key(..., "s", "time of the peak", example=14.0)
-    sigma: Positive = key(..., "s", "width", example=0.6)
+    sigma: Positive = key(..., "s", "standard deviation σ of the push over time", example=0.6)
     point: Exactly3 = key((0.0, 0.0, 0.0), "m", "point of application, body axes, from the system's centre of mass")
 
 
@@ -81,7 +81,7 @@ class ActuatorsTable(Table):
     model: Literal["ideal", "rotors"] = key(
         "ideal",
         None,
-        "the rotors",
+        "model of the rotors",
         choices={
             "ideal": "the commanded wrench acts exactly, and nothing is clamped",
             "rotors": "rotors with limits, lag and faults, which must be able to lift the vehicle's real weight",
@@ -108,10 +108,10 @@ class FaultTable(Table):
         ..., "1", "number of the quadrotor, from 1", rule="at most the number of quadrotors", example=1
     )
     rotor: Annotated[int, Field(ge=1, le=4)] = key(
-        ..., "1", "number of its rotor, in the order of layout or rotor_positions", example=1
+        ..., "1", "number of the rotor, in the order of layout or rotor_positions", example=1
     )
     time: NonNegative = key(..., "s", "start of the fault", example=15.0)
-    efficiency: Fraction = key(0.0, "1", "fraction of its thrust that is left")
+    efficiency: Fraction = key(0.0, "1", "fraction of the rotor's thrust that is left")
     known_after: NonNegative | None = key(
         None, "s", "delay until the 'constrained' allocation knows of it", unset="it never knows", example=0.05
     )

@@ -1,34 +1,35 @@
-// Taking hold of the beam with mouse or touch, and pulling it in the plane that faces the camera.
+// Holds the beam by mouse or touch, and pulls it in a plane that faces the camera or is level.
 
 import { type PerspectiveCamera, Vector2, Vector3 } from "three";
 
-import type { Hand } from "../view/picture.ts";
-import type { Axis } from "../view/vehicle.ts";
-import type { Outgoing, Vector } from "../wire/protocol.ts";
 import {
   add,
-  deeper,
+  depthAfterWheel,
   dot,
-  less,
+  meetLevelPlane,
+  meetPlane,
   nearestToRay,
-  onLevel,
-  onPlane,
   type Ray,
   size,
-  turned,
-  unturned,
-} from "./geometry.ts";
+  subtract,
+  toBody,
+  toWorld,
+} from "../math/vectors.ts";
+import type { HandView } from "../view/picture.ts";
+import type { Axis } from "../view/vehicle.ts";
 import type { Frame } from "../wire/frames.ts";
+import type { PageMessage, Vector } from "../wire/messages.generated.ts";
+import type { HandOptions } from "./options.ts";
 
-const FAT = 0.07; // m around the beam where it can be taken hold of
-const FINGER = 30; // pixels around it for a finger
-const CURSOR = 12; // pixels around it for a mouse
+const MARGIN = 0.07; // m around the beam within which it can be held
+const FINGER = 30; // pixels around it, for a finger
+const CURSOR = 12; // pixels around it, for a mouse
 const LINE = 33; // pixels of a line, for wheels that count lines
 const FAR = 40; // m from the eye: a level plane ends there
 const STILL = 1e-4; // m: a smaller move is not sent
-const APART = 7; // ms between two moves at least: mice tell of up to a thousand a second
+const MOVE_INTERVAL = 7; // ms between two moves at least: some mice report a thousand a second
 
-interface Grip {
+interface Held {
   pointer: number;
   point: Vector; // body: what the spring pulls at
   offset: Vector; // world: from the cursor in its plane to the target
@@ -37,78 +38,77 @@ interface Grip {
   target: Vector;
 }
 
-/** What a grab needs to know of the page. */
-export interface Reach {
+/** What a grab needs of the page. */
+export interface GrabContext {
   camera: PerspectiveCamera;
   surface: HTMLElement;
   frame(): Frame | null;
   axis(): Axis | null;
-  atCentre(): boolean;
-  level(): boolean;
-  send(message: Outgoing, since: number): void;
+  readonly options: HandOptions;
+  send(message: PageMessage, since: number): void;
 }
 
 export class Grab {
-  private grip: Grip | null = null;
+  private held: Held | null = null;
   private cursor = new Vector2();
   private stamp = 0;
   private sent = 0;
-  private over: Vector | null = null; // body: where the cursor could take hold
+  private over: Vector | null = null; // body: where the cursor could hold the beam
   private second: { pointer: number; y: number } | null = null;
 
-  constructor(private readonly page: Reach) {
+  constructor(private readonly page: GrabContext) {
     const { surface } = page;
     const early = { capture: true, passive: false };
     surface.addEventListener("pointerdown", this.down, early);
     surface.addEventListener("pointermove", this.move, early);
-    surface.addEventListener("pointerrawupdate", this.hurry as EventListener, early);
+    surface.addEventListener("pointerrawupdate", this.moveNow as EventListener, early);
     surface.addEventListener("wheel", this.wheel, early);
     for (const kind of ["pointerup", "pointercancel", "lostpointercapture"] as const) {
       surface.addEventListener(kind, this.up, early);
     }
     surface.addEventListener("pointerleave", () => (this.over = null));
-    // the dead man's handle: nobody who looks away holds the beam
+    // dead man's switch: a page without the focus does not hold the beam
     window.addEventListener("blur", this.release);
     document.addEventListener("visibilitychange", this.release);
   }
 
   get pulling(): boolean {
-    return this.grip !== null;
+    return this.held !== null;
   }
 
-  get hand(): Hand {
-    if (this.grip) return { kind: "pull", point: this.grip.point, target: this.grip.target };
+  get hand(): HandView {
+    if (this.held) return { kind: "pull", point: this.held.point, target: this.held.target };
     return this.over ? { kind: "offer", point: this.over } : { kind: "none" };
   }
 
   /** Sends at most one move, to where the cursor is as the camera stands now. */
   flush(): void {
-    if (!this.grip) return;
-    const target = this.targetOf(this.grip);
-    if (!target || size(less(target, this.grip.target)) < STILL) return;
-    this.grip.target = target;
+    if (!this.held) return;
+    const target = this.targetOf(this.held);
+    if (!target || size(subtract(target, this.held.target)) < STILL) return;
+    this.held.target = target;
     this.sent = performance.now();
     this.page.send({ type: "move", target }, this.stamp || this.sent);
     this.stamp = 0;
   }
 
   release = (): void => {
-    if (!this.grip) return;
+    if (!this.held) return;
     this.cancel();
     this.page.send({ type: "release" }, performance.now());
   };
 
-  /** Lets go without a word: the server knows already. */
+  /** Lets go without a message: the server knows already. */
   cancel(): void {
-    if (!this.grip) return;
-    const { pointer } = this.grip;
-    this.grip = this.second = this.over = null;
+    if (!this.held) return;
+    const { pointer } = this.held;
+    this.held = this.second = this.over = null;
     if (this.page.surface.hasPointerCapture(pointer)) this.page.surface.releasePointerCapture(pointer);
     this.page.surface.classList.remove("pulling");
   }
 
   private readonly down = (event: PointerEvent): void => {
-    if (this.grip) {
+    if (this.held) {
       // a second finger sets the depth
       this.second = { pointer: event.pointerId, y: event.clientY };
       event.stopImmediatePropagation();
@@ -122,57 +122,57 @@ export class Grab {
     event.preventDefault();
     (document.activeElement as HTMLElement | null)?.blur();
     this.page.surface.setPointerCapture(event.pointerId);
-    this.take(event, place);
+    this.begin(event, place);
   };
 
-  private take(event: PointerEvent, place: Vector): void {
+  private begin(event: PointerEvent, place: Vector): void {
     const frame = this.page.frame()!;
-    const centre = this.page.atCentre();
+    const centre = this.page.options.at === "centre";
     const point: Vector = centre ? [0, 0, 0] : place;
-    const world = add(frame.vector("position"), turned(frame.attitude, place));
+    const world = add(frame.vector("position"), toWorld(frame.attitude, place));
     const eye = this.page.camera.position.toArray();
-    const depth = dot(less(world, eye), this.ahead());
-    const height = this.page.level() ? world[2] : null;
+    const depth = dot(subtract(world, eye), this.ahead());
+    const height = this.page.options.plane === "level" ? world[2] : null;
     const hit = this.hit(depth, height) ?? world;
-    const target = add(frame.vector("position"), turned(frame.attitude, point));
-    this.grip = { pointer: event.pointerId, point, offset: less(target, hit), depth, height, target };
+    const target = add(frame.vector("position"), toWorld(frame.attitude, point));
+    this.held = { pointer: event.pointerId, point, offset: subtract(target, hit), depth, height, target };
     this.page.surface.classList.add("pulling");
     this.page.send({ type: "grab", point, target, at: centre ? "centre" : "point" }, event.timeStamp);
   }
 
   private readonly move = (event: PointerEvent): void => {
-    if (this.grip) event.stopImmediatePropagation();
+    if (this.held) event.stopImmediatePropagation();
     if (this.second?.pointer === event.pointerId) {
-      this.reach(2 * (event.clientY - this.second.y));
+      this.shiftPlane(2 * (event.clientY - this.second.y));
       this.second.y = event.clientY;
     }
-    if (this.grip && event.pointerId !== this.grip.pointer) return;
+    if (this.held && event.pointerId !== this.held.pointer) return;
     this.note(event);
-    if (this.grip || event.pointerType !== "mouse") return;
+    if (this.held || event.pointerType !== "mouse") return;
     this.over = event.buttons ? null : this.pick(CURSOR);
     this.page.surface.classList.toggle("over", this.over !== null);
   };
 
-  /** A move goes out as soon as the mouse tells of it, where the browser says so before the next picture. */
-  private readonly hurry = (event: PointerEvent): void => {
-    if (event.pointerId !== this.grip?.pointer || performance.now() - this.sent < APART) return;
+  /** Sends a move with the event, where the browser reports it before the next picture. */
+  private readonly moveNow = (event: PointerEvent): void => {
+    if (event.pointerId !== this.held?.pointer || performance.now() - this.sent < MOVE_INTERVAL) return;
     this.note(event);
     this.flush();
   };
 
   private readonly up = (event: PointerEvent): void => {
     if (this.second?.pointer === event.pointerId) this.second = null;
-    if (this.grip?.pointer !== event.pointerId) return;
+    if (this.held?.pointer !== event.pointerId) return;
     event.stopImmediatePropagation();
     this.release();
   };
 
   private readonly wheel = (event: WheelEvent): void => {
-    if (!this.grip) return;
+    if (!this.held) return;
     event.stopImmediatePropagation();
     event.preventDefault();
     const pixels = event.deltaMode ? LINE * event.deltaY : event.deltaY;
-    this.reach(Math.max(-300, Math.min(300, pixels)));
+    this.shiftPlane(Math.max(-300, Math.min(300, pixels)));
     this.stamp ||= event.timeStamp;
   };
 
@@ -183,21 +183,21 @@ export class Grab {
     this.stamp ||= event.timeStamp;
   }
 
-  private targetOf(grip: Grip): Vector | null {
-    const hit = this.hit(grip.depth, grip.height);
-    return hit && add(hit, grip.offset);
+  private targetOf(held: Held): Vector | null {
+    const hit = this.hit(held.depth, held.height);
+    return hit && add(hit, held.offset);
   }
 
   private hit(depth: number, height: number | null): Vector | null {
-    return height === null ? onPlane(this.ray(), this.ahead(), depth) : onLevel(this.ray(), height, FAR);
+    return height === null ? meetPlane(this.ray(), this.ahead(), depth) : meetLevelPlane(this.ray(), height, FAR);
   }
 
-  /** Moves the hand across its plane: away from the eye, or up. */
-  private reach(pixels: number): void {
-    const grip = this.grip!;
-    const deep = deeper(grip.depth, pixels);
-    if (grip.height === null) grip.depth = deep;
-    else grip.height += 0.3 * (deep - grip.depth);
+  /** Moves the plane of the hand: away from the eye, or up. */
+  private shiftPlane(pixels: number): void {
+    const held = this.held!;
+    const deep = depthAfterWheel(held.depth, pixels);
+    if (held.height === null) held.depth = deep;
+    else held.height += 0.3 * (deep - held.depth);
   }
 
   /** The point of the beam's axis under the cursor, body axes; null if the cursor is not near it. */
@@ -206,13 +206,13 @@ export class Grab {
     if (!frame || !axis) return null;
     const ray = this.ray();
     const inBody: Ray = {
-      origin: unturned(frame.attitude, less(ray.origin, frame.vector("position"))),
-      direction: unturned(frame.attitude, ray.direction),
+      origin: toBody(frame.attitude, subtract(ray.origin, frame.vector("position"))),
+      direction: toBody(frame.attitude, ray.direction),
     };
     const { point, gap, depth } = nearestToRay(inBody, axis.from, axis.to);
     const { camera, surface } = this.page;
     const perPixel = (2 * depth * Math.tan((camera.fov * Math.PI) / 360)) / surface.clientHeight;
-    return gap < Math.max(axis.radius + FAT, axis.radius + pixels * perPixel) ? point : null;
+    return gap < Math.max(axis.radius + MARGIN, axis.radius + pixels * perPixel) ? point : null;
   }
 
   private ray(): Ray {

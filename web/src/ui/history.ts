@@ -1,11 +1,11 @@
-// The last seconds of the flight for the plots, in columns.
+// The last seconds of the flight, in columns for the plots.
 
 import type { Frame } from "../wire/frames.ts";
-import type { Scene } from "../wire/protocol.ts";
+import type { FrameFieldName, FlightScene } from "../wire/messages.generated.ts";
 
 export const SPAN = 20; // s
 const RATE = 20; // samples/s that are kept
-const ROOM = SPAN * RATE + 2;
+const CAPACITY = SPAN * RATE + 2;
 
 export class History {
   readonly names: string[];
@@ -13,8 +13,8 @@ export class History {
   private first = 0;
   private end = 0;
 
-  constructor(scene: Scene) {
-    const vectors = ["push", "heard", "position", "reference", "disturbance"];
+  constructor(scene: FlightScene) {
+    const vectors = ["push", "pilot_push", "position", "reference", "disturbance"];
     const rotors = scene.vehicle.quadrotors.flatMap((q) => q.rotors).length;
     this.names = [
       "time",
@@ -22,7 +22,7 @@ export class History {
       ...vectors.flatMap((name) => [0, 1, 2].map((i) => `${name}${i}`)),
       ...Array.from({ length: rotors }, (_, i) => `thrusts${i}`),
     ];
-    for (const name of this.names) this.columns.set(name, new Float64Array(2 * ROOM));
+    for (const name of this.names) this.columns.set(name, new Float64Array(2 * CAPACITY));
   }
 
   get latest(): number {
@@ -49,14 +49,14 @@ export class History {
   }
 
   private write(frame: Frame): void {
-    if (this.end === 2 * ROOM) {
+    if (this.end === 2 * CAPACITY) {
       for (const column of this.columns.values()) column.copyWithin(0, this.first, this.end);
       this.end -= this.first;
       this.first = 0;
     }
     for (const [name, column] of this.columns) column[this.end] = valueOf(frame, name);
     this.end += 1;
-    if (this.end - this.first > ROOM) this.first += 1;
+    if (this.end - this.first > CAPACITY) this.first += 1;
     const times = this.columns.get("time")!;
     while (times[this.end - 1] - times[this.first] > SPAN) this.first += 1;
   }
@@ -65,6 +65,6 @@ export class History {
 function valueOf(frame: Frame, name: string): number {
   if (name === "time" || name === "phase") return frame.scalar(name);
   const cut = name.search(/\d+$/);
-  const field = name.slice(0, cut);
+  const field = name.slice(0, cut) as FrameFieldName;
   return frame.layout.has(field) ? frame.values[frame.layout.place(field).start + Number(name.slice(cut))] : NaN;
 }

@@ -2,8 +2,8 @@
 
 import { byId, el } from "./dom.ts";
 
-const STAY = 6000; // ms
-const MOST = 4;
+const SHOWN_FOR = 6000; // ms
+const MAX_NOTICES = 4;
 
 export class Notices {
   private readonly place = byId("notices");
@@ -14,7 +14,7 @@ export class Notices {
     byId("retry").addEventListener("click", retry);
   }
 
-  say(text: string, kind: "done" | "refused"): void {
+  show(text: string, kind: "done" | "refused"): void {
     const same = [...this.place.children].find((one) => one.textContent === text);
     same?.remove();
     const notice = el("p", { class: kind }, text);
@@ -22,25 +22,25 @@ export class Notices {
       notice.remove();
     });
     this.place.append(notice);
-    while (this.place.children.length > MOST) this.place.firstElementChild?.remove();
+    while (this.place.children.length > MAX_NOTICES) this.place.firstElementChild?.remove();
     window.setTimeout(() => {
       notice.remove();
-    }, STAY);
+    }, SHOWN_FOR);
   }
 
-  lost(retryAt: number | null): void {
+  disconnected(retryAt: number): void {
     this.banner.hidden = false;
     document.body.classList.add("lost");
     window.clearInterval(this.timer);
     const count = (): void => {
-      const left = retryAt === null ? 0 : Math.ceil((retryAt - performance.now()) / 1000);
+      const left = Math.ceil((retryAt - performance.now()) / 1000);
       byId("lost-wait").textContent = left > 0 ? `Trying again in ${left} s.` : "Trying again \u2026";
     };
     count();
     this.timer = window.setInterval(count, 250);
   }
 
-  found(): void {
+  connected(): void {
     window.clearInterval(this.timer);
     this.banner.hidden = true;
     document.body.classList.remove("lost");

@@ -1,33 +1,33 @@
-// Numbers for people: short, and sliders that are fine where the values are small.
+// Numbers as text, and the scales of sliders.
 
 /** A number with four figures at most. */
-export function short(value: number): string {
+export function formatNumber(value: number): string {
   if (value === 0 || !Number.isFinite(value)) return String(value);
   return String(Number(value.toPrecision(4)));
 }
 
-/** A slider from 0 to 1000 over a range; by ratio if the range spans more than two decades. */
-export class Slide {
-  private readonly byRatio: boolean;
+/** The scale of a slider from 0 to 1000; logarithmic if high / low is above 60. */
+export class SliderScale {
+  private readonly logarithmic: boolean;
 
   constructor(
     private readonly low: number,
     private readonly high: number,
   ) {
-    this.byRatio = low > 0 && high / low > 60;
+    this.logarithmic = low > 0 && high / low > 60;
   }
 
   place(value: number): number {
     const bounded = Math.min(Math.max(value, this.low), this.high);
-    const share = this.byRatio
+    const fraction = this.logarithmic
       ? Math.log(bounded / this.low) / Math.log(this.high / this.low)
       : (bounded - this.low) / (this.high - this.low);
-    return Math.round(1000 * share);
+    return Math.round(1000 * fraction);
   }
 
   value(place: number): number {
-    const share = place / 1000;
-    const raw = this.byRatio ? this.low * (this.high / this.low) ** share : this.low + share * (this.high - this.low);
+    const fraction = place / 1000;
+    const raw = this.logarithmic ? this.low * (this.high / this.low) ** fraction : this.low + fraction * (this.high - this.low);
     return Number(raw.toPrecision(3));
   }
 }

@@ -1,4 +1,4 @@
-// One plot of the last seconds, with its head: name, unit, legend, and a choice where there is one.
+// One plot of the last seconds, with its title, unit, legend, and a choice where there is one.
 
 import uPlot from "uplot";
 
@@ -13,7 +13,7 @@ export interface Curve {
   width?: number;
 }
 
-export interface Look {
+export interface PlotOptions {
   title: string;
   unit: string;
   curves: Curve[];
@@ -33,7 +33,7 @@ export class Plot {
   private readonly plot: uPlot;
   private dirty = true;
 
-  constructor(look: Look, graphics: Graphics) {
+  constructor(look: PlotOptions, graphics: Graphics) {
     const keys = look.curves.flatMap((curve) => (curve.label ? [key(curve, curve.label)] : []));
     const head = el("header", {}, el("b", {}, look.title), look.more ?? el("small", {}, look.unit));
     head.append(el("span", { class: "keys" }, ...keys));
@@ -60,7 +60,7 @@ export class Plot {
   }
 }
 
-/** Makes canvases that the processor draws on, not a graphics card: one that is only played is slow at thin lines. */
+/** Makes canvases that the processor draws: an emulated graphics card is slow at thin lines. */
 function onProcessor<T>(make: () => T): T {
   const canvas = HTMLCanvasElement.prototype as { getContext: (kind: string, options?: object) => unknown };
   const { getContext } = canvas;
@@ -82,7 +82,7 @@ function key(curve: Curve, text: string): HTMLElement {
   return el("span", {}, mark, named ? text : "");
 }
 
-function options(look: Look): uPlot.Options {
+function options(look: PlotOptions): uPlot.Options {
   return {
     width: 200,
     height: 100,
@@ -113,8 +113,8 @@ function series(stroke: string, dash: number[] | undefined, width = 1.5): uPlot.
 
 const seconds = (value: number): string => (value < 0 ? "" : `${value} s`);
 
-/** The values to show: all, with some room, and never so few that noise fills the plot. */
-function span(low: number | null, high: number | null, { least, fromZero }: Look): [number, number] {
+/** The range to show: all values, with some room, and at least `least`, so that noise does not fill the plot. */
+function span(low: number | null, high: number | null, { least, fromZero }: PlotOptions): [number, number] {
   if (low === null || high === null || !Number.isFinite(low + high)) return [0, least];
   const missing = Math.max(least - (high - low), 0) / 2;
   const room = 0.06 * Math.max(high - low, least);

@@ -1,14 +1,14 @@
-// The four plots: push against threshold, reference against actual, thrusts, and what the observer believes.
+// The four plots: push and threshold, position and reference, thrusts, estimated disturbance and phases.
 
 import type uPlot from "uplot";
 
 import { ahead } from "../view/quadrotor.ts";
 import type { Graphics } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
-import type { Scene, Vector } from "../wire/protocol.ts";
+import type { FlightScene, Vector } from "../wire/messages.generated.ts";
 import { choice } from "./dom.ts";
 import { History } from "./history.ts";
-import { phaseTint } from "./modes.ts";
+import { phaseTint } from "./phases.ts";
 import { band, level, Plot } from "./plot.ts";
 
 const AXES = ["#c8372d", "#2c8a57", "#2f6fb0"];
@@ -16,20 +16,26 @@ const NAMES = ["x", "y", "z"];
 const FRONTS = ["#e8641b", "#f29a4a", "#b5440a", "#f7b977"];
 const REARS = ["#2f6fb0", "#6ea3d6", "#1b4a7d", "#9cc3e6"];
 
+/** A plot, and the columns that it shows. */
+interface PlotOf {
+  plot: Plot;
+  columns: () => Float64Array[];
+}
+
 export class Plots {
   readonly history: History;
-  threshold: Vector | null;
-  private readonly all: { plot: Plot; columns: () => Float64Array[] }[];
-  private difference = false;
+  threshold: Vector;
+  private readonly all: PlotOf[];
+  private asError = false;
   private turn = 0;
 
   constructor(
-    private readonly scene: Scene,
+    private readonly scene: FlightScene,
     private readonly place: HTMLElement,
     private readonly graphics: Graphics,
   ) {
     this.history = new History(scene);
-    this.threshold = scene.threshold ?? null;
+    this.threshold = scene.threshold;
     this.all = [this.pushes(), this.tracking(), this.thrusts(), this.disturbance()];
     place.replaceChildren(...this.all.map(({ plot }) => plot.card));
   }
@@ -46,49 +52,49 @@ export class Plots {
     plot.update(this.history.latest, [this.history.column("time"), ...columns()]);
   }
 
-  private of(field: string): Float64Array[] {
+  private vector(field: string): Float64Array[] {
     return [0, 1, 2].map((i) => this.history.column(`${field}${i}`));
   }
 
-  private pushes(): { plot: Plot; columns: () => Float64Array[] } {
-    const felt = AXES.map((color, i) => ({ color, label: NAMES[i] }));
-    const heard = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "heard" }) }));
+  private pushes(): PlotOf {
+    const actual = AXES.map((color, i) => ({ color, label: NAMES[i] }));
+    const pilot = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "pilot" }) }));
     const under = (plot: uPlot): void => {
-      for (const limit of new Set(this.threshold ?? [])) {
+      for (const limit of new Set(this.threshold)) {
         level(plot, limit, "#8d949e");
         level(plot, -limit, "#8d949e");
       }
     };
-    const plot = new Plot({ title: "Push", unit: "N", curves: [...heard, ...felt], least: 1.2, under }, this.graphics);
-    return { plot, columns: () => [...this.of("heard"), ...this.of("push")] };
+    const plot = new Plot({ title: "Push", unit: "N", curves: [...pilot, ...actual], least: 1.2, under }, this.graphics);
+    return { plot, columns: () => [...this.vector("pilot_push"), ...this.vector("push")] };
   }
 
-  private tracking(): { plot: Plot; columns: () => Float64Array[] } {
-    const wanted = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "ref." }) }));
+  private tracking(): PlotOf {
+    const reference = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "ref." }) }));
     const actual = AXES.map((color, i) => ({ color, label: NAMES[i] }));
-    const more = choice("What is shown", { place: "m", off: "off, cm" }, "place", (value) => {
-      this.difference = value === "off";
+    const more = choice("What is shown", { position: "m", error: "error, cm" }, "position", (value) => {
+      this.asError = value === "error";
     });
-    const curves = [...wanted, ...actual];
+    const curves = [...reference, ...actual];
     const plot = new Plot({ title: "Position", unit: "", curves, least: 0.5, more }, this.graphics);
-    return { plot, columns: () => (this.difference ? this.off() : [...this.of("reference"), ...this.of("position")]) };
+    return { plot, columns: () => (this.asError ? this.error() : [...this.vector("reference"), ...this.vector("position")]) };
   }
 
-  /** Reference and actual, less the reference [cm]. */
-  private off(): Float64Array[] {
-    const [wanted, actual] = [this.of("reference"), this.of("position")];
-    const gaps = actual.map((column, i) => column.map((value, k) => 100 * (value - wanted[i][k])));
-    return [...wanted.map((column) => new Float64Array(column.length)), ...gaps];
+  /** Reference and position minus the reference [cm]. */
+  private error(): Float64Array[] {
+    const [reference, actual] = [this.vector("reference"), this.vector("position")];
+    const gaps = actual.map((column, i) => column.map((value, k) => 100 * (value - reference[i][k])));
+    return [...reference.map((column) => new Float64Array(column.length)), ...gaps];
   }
 
-  private thrusts(): { plot: Plot; columns: () => Float64Array[] } {
+  private thrusts(): PlotOf {
     const { quadrotors } = this.scene.vehicle;
     const curves = quadrotors.flatMap((q, n) =>
       q.rotors.map((_, i) => ({ color: (ahead(q, i) ? FRONTS : REARS)[n % 4], width: 1.2 })),
     );
-    const most = new Set(quadrotors.flatMap((q) => q.rotors.map((r) => r.max_thrust)));
+    const limits = new Set(quadrotors.flatMap((q) => q.rotors.map((r) => r.max_thrust)));
     const under = (plot: uPlot): void => {
-      for (const limit of most) level(plot, limit, "#d5281b");
+      for (const limit of limits) level(plot, limit, "#d5281b");
     };
     const labelled = curves.map((c, i) => ({
       ...c,
@@ -100,16 +106,16 @@ export class Plots {
     return { plot, columns: () => curves.map((_, i) => this.history.column(`thrusts${i}`)) };
   }
 
-  private disturbance(): { plot: Plot; columns: () => Float64Array[] } {
+  private disturbance(): PlotOf {
     const curves = AXES.map((color, i) => ({ color, label: NAMES[i] }));
     const under = (plot: uPlot): void => {
       for (const { from, to, phase } of this.phases()) {
-        const name = this.scene.phases[phase] ?? "";
+        const name = this.scene.phases[phase];
         band(plot, from, to, phaseTint(name), name);
       }
     };
     const plot = new Plot({ title: "Disturbance, phase", unit: "N", curves, least: 1, under }, this.graphics);
-    return { plot, columns: () => this.of("disturbance") };
+    return { plot, columns: () => this.vector("disturbance") };
   }
 
   /** Stretches of time with one phase each. */

@@ -1,7 +1,7 @@
-// The controls of a replay: play, pace, and where in the flight one is.
+// The buttons of a replay: play, speed, and a slider for the time.
 
-import type { Scene } from "../wire/protocol.ts";
-import type { Recorded } from "../wire/recorded.ts";
+import type { SceneReplay } from "../wire/messages.generated.ts";
+import type { Replay } from "../wire/replay.ts";
 import { button, el, icon } from "./dom.ts";
 
 const PACES = ["0.1", "0.25", "0.5", "1", "2", "4"];
@@ -15,14 +15,13 @@ export class Timeline {
 
   constructor(
     place: HTMLElement,
-    scene: Scene,
-    private readonly flight: Recorded,
+    { start, end, speed }: SceneReplay,
+    private readonly flight: Replay,
     film: () => void,
   ) {
-    const { start, end, speed } = scene.replay!;
     this.bar = el("input", { type: "range", min: start, max: end, step: 0.01, value: start, "aria-label": "Time" });
     this.bar.addEventListener("input", () => {
-      flight.go(this.bar.valueAsNumber);
+      flight.seek(this.bar.valueAsNumber);
     });
     this.player = button("pause", "", "Play or pause (P)", () => {
       this.toggle();
@@ -30,12 +29,12 @@ export class Timeline {
     const options = PACES.map((pace) =>
       el("option", { value: pace, selected: Number(pace) === speed }, `\u00d7${pace}`),
     );
-    const paces = el("select", { "aria-label": "Pace" }, ...options);
+    const paces = el("select", { "aria-label": "Speed" }, ...options);
     paces.addEventListener("change", () => {
       flight.setSpeed(Number(paces.value));
       paces.blur();
     });
-    const video = button("video", "Film", "Record a video of the picture", film, "film");
+    const video = button("video", "Video", "Record a video of the picture", film, "film");
     const time = el("output", {}, this.clock, el("span", {}, ` / ${end.toFixed(1)} s`));
     place.replaceChildren(el("div", { class: "strip timeline" }, this.player, this.bar, time, paces, video));
   }
@@ -44,8 +43,8 @@ export class Timeline {
     this.flight.play(!this.flight.playing);
   }
 
-  step(ways: number): void {
-    this.flight.go(this.bar.valueAsNumber + ways * STEP);
+  step(direction: number): void {
+    this.flight.seek(this.bar.valueAsNumber + direction * STEP);
   }
 
   update(time: number): void {

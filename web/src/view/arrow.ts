@@ -1,8 +1,8 @@
-// An arrow that points where something acts, as long as it is strong.
+// An arrow from where something acts, of a length that shows its strength.
 
 import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshLambertMaterial, Quaternion, Vector3 } from "three";
 
-import type { Vector } from "../wire/protocol.ts";
+import type { Vector } from "../wire/messages.generated.ts";
 
 const ALONG = new Vector3(0, 1, 0); // along which three.js builds cylinders
 
@@ -37,9 +37,9 @@ export class Arrow {
     if (!this.group.visible) return;
     // a short arrow is a small one, as its length has to tell
     const length = strength * this.scale;
-    const share = Math.min(length / (8 * this.radius), 1);
-    const neck = length / share - 7 * this.radius;
-    this.group.scale.setScalar(share);
+    const fraction = Math.min(length / (8 * this.radius), 1);
+    const neck = length / fraction - 7 * this.radius;
+    this.group.scale.setScalar(fraction);
     this.group.position.copy(from);
     this.group.quaternion.copy(new Quaternion().setFromUnitVectors(ALONG, way.divideScalar(strength)));
     this.shaft.scale.y = neck;

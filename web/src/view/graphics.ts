@@ -1,13 +1,13 @@
-// How much the machine can draw: all, or light graphics where a processor does the work of a graphics card.
+// The level of graphics: full, or light where a processor does the work of a graphics card.
 
 export type Graphics = "full" | "light";
-export type Choice = "auto" | Graphics;
+export type GraphicsChoice = "auto" | Graphics;
 
 const SLOW = 25; // frames/s: below it, light graphics
 const PATIENCE = 3; // s
 
-/** What suits the machine, as its renderer names itself. */
-export function suited(): Graphics {
+/** What suits the machine, by the name of its renderer. */
+export function suitableGraphics(): Graphics {
   const context = document.createElement("canvas").getContext("webgl2");
   if (!context) return "light";
   const info = context.getExtension("WEBGL_debug_renderer_info");
@@ -16,15 +16,15 @@ export function suited(): Graphics {
   return /swiftshader|llvmpipe|software|softpipe|basic render/i.test(String(name)) ? "light" : "full";
 }
 
-/** Counts pictures, and tells when there was time for too few for a while. */
-export class Pace {
+/** Measures the pictures drawn per second, and detects a machine that is too slow. */
+export class FrameRate {
   rate = 0; // pictures/s over the last second
   private drawn = 0;
   private count = 0;
   private since = 0;
   private slow = 0; // s
 
-  /** There was time for a picture at `now` [ms]; true if the machine has been too slow for `PATIENCE`. */
+  /** The browser was ready for a picture at `now` [ms]; true if it has been too slow for `PATIENCE`. */
   tick(now: number, drawn: boolean): boolean {
     this.count += 1;
     if (drawn) this.drawn += 1;

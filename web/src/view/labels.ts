@@ -1,4 +1,4 @@
-// Small texts over the picture that stay with what they name.
+// Small texts over the picture that move with what they label.
 
 import type { PerspectiveCamera, Vector3 } from "three";
 

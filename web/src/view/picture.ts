@@ -1,12 +1,12 @@
-// The whole picture of a scene: everything that a frame moves, and the overlays that one may switch off.
+// The whole picture of a scene: everything that a frame moves, and overlays that may be switched off.
 
 import { Group, Line, Mesh, Vector3 } from "three";
 
-import { size } from "../hand/geometry.ts";
+import { size } from "../math/vectors.ts";
 import type { Frame } from "../wire/frames.ts";
-import type { Scene, Vector } from "../wire/protocol.ts";
+import type { FlightScene, Vector } from "../wire/messages.generated.ts";
 import { Arrow } from "./arrow.ts";
-import { Hold } from "./hold.ts";
+import { HandMarker } from "./hand.ts";
 import { Label } from "./labels.ts";
 import { PUSH, WIND } from "./palette.ts";
 import { FlatShadow } from "./shadow.ts";
@@ -16,17 +16,17 @@ import { Ghost, Vehicle } from "./vehicle.ts";
 import { World } from "./world.ts";
 
 export type Overlay = "push" | "zone" | "ghost" | "thrust" | "wind" | "trail";
-export type Shown = Record<Overlay, boolean>;
+export type Overlays = Record<Overlay, boolean>;
 
-/** What a hand of this page does at the moment. */
-export type Hand =
+/** The hand of this page as it is drawn: none, over the beam, or pulling. */
+export type HandView =
   { kind: "none" } | { kind: "offer"; point: Vector } | { kind: "pull"; point: Vector; target: Vector };
 
 export class Picture {
   readonly vehicle: Vehicle;
   readonly center = new Vector3();
   readonly reach: number;
-  threshold: Vector | null;
+  threshold: Vector;
   stiffness: number;
   private readonly root = new Group();
   private readonly world: World;
@@ -34,23 +34,23 @@ export class Picture {
   private readonly shadow: FlatShadow;
   private readonly push = new Arrow(PUSH, 0.02, 0.22, 0.05);
   private readonly wind = new Arrow(WIND, 0.014, 0.14, 0.1);
-  private readonly hold = new Hold();
+  private readonly hold = new HandMarker();
   private readonly trail = new Trail();
   private readonly plumb: Plumb;
   private time = NaN;
 
   constructor(
-    readonly scene: Scene,
+    readonly scene: FlightScene,
     private readonly stage: Stage,
     private readonly labels: { push: Label; wind: Label },
   ) {
     this.vehicle = new Vehicle(scene, stage.graphics);
     this.world = new World(scene, stage.graphics);
     this.ghost = new Ghost(this.vehicle.outline);
-    this.shadow = new FlatShadow(this.vehicle.outline, scene.floor ?? 0);
-    this.plumb = new Plumb(scene.floor ?? 0);
-    this.threshold = scene.threshold ?? null;
-    this.stiffness = scene.spring?.stiffness ?? 0;
+    this.shadow = new FlatShadow(this.vehicle.outline, scene.floor);
+    this.plumb = new Plumb(scene.floor);
+    this.threshold = scene.threshold;
+    this.stiffness = scene.spring.stiffness;
     this.reach = reachOf(scene);
     this.shadow.mesh.visible = scene.ground && stage.graphics === "light";
     const arrows = [this.push.group, this.wind.group, this.hold.group];
@@ -71,7 +71,7 @@ export class Picture {
     this.labels.wind.hide();
   }
 
-  update(frame: Frame, hand: Hand, shown: Shown): void {
+  update(frame: Frame, hand: HandView, shown: Overlays): void {
     const time = frame.scalar("time");
     const passed = Math.min(Math.max(time - this.time, 0), 0.1) || 0;
     if (time < this.time - 0.001 || time > this.time + 1) this.trail.clear();
@@ -104,11 +104,11 @@ export class Picture {
   private showReference(frame: Frame, position: Vector, shown: boolean): void {
     const reference = frame.vector("reference");
     const gap = Math.hypot(...reference.map((r, i) => r - position[i]));
-    if (shown && frame.layout.has("reference")) this.ghost.place(reference, frame.scalar("reference_yaw"), gap);
+    if (shown) this.ghost.place(reference, frame.scalar("reference_yaw"), gap);
     else this.ghost.group.visible = false;
   }
 
-  private showForces(frame: Frame, shown: Shown): void {
+  private showForces(frame: Frame, shown: Overlays): void {
     const [push, wind] = [frame.vector("push"), frame.vector("wind")];
     this.push.show(this.inWorld(frame.vector("push_point")), shown.push ? push : [0, 0, 0]);
     const above = this.center.clone().add(new Vector3(0, 0, 0.55 + 0.1 * this.reach));
@@ -121,10 +121,10 @@ export class Picture {
     else this.labels.wind.hide();
   }
 
-  private showHand(frame: Frame, hand: Hand, shown: boolean): void {
+  private showHand(frame: Frame, hand: HandView, shown: boolean): void {
     const zone = shown ? this.zone() : null;
     if (hand.kind === "pull") this.hold.show(this.inWorld(hand.point), new Vector3(...hand.target), zone);
-    else if (frame.scalar("held") > 0 && frame.layout.has("hand_target")) {
+    else if (frame.scalar("held") > 0) {
       const target = new Vector3(...frame.vector("hand_target"));
       this.hold.show(this.inWorld(frame.vector("hand_point")), target, zone);
     } else if (hand.kind === "offer") this.hold.offer(this.inWorld(hand.point));
@@ -133,12 +133,12 @@ export class Picture {
 
   /** Half the sides of the zone in which the spring pulls less than the threshold [m]. */
   private zone(): Vector3 | null {
-    if (!this.threshold || this.stiffness <= 0) return null;
+    if (this.stiffness <= 0) return null;
     return new Vector3(...this.threshold).divideScalar(this.stiffness).clampScalar(0.003, 2);
   }
 }
 
-function reachOf(scene: Scene): number {
+function reachOf(scene: FlightScene): number {
   const { quadrotors, payload } = scene.vehicle;
   const ways = quadrotors.flatMap((q) => q.rotors.map((r) => size(r.position) + r.radius));
   return Math.max(payload.length / 2, ...ways);

@@ -2,36 +2,34 @@
 
 import type { BufferGeometry } from "three";
 
-import type { Quadrotor } from "../wire/protocol.ts";
+import type { SceneQuadrotor } from "../wire/messages.generated.ts";
 import { CARBON, FRONT, GUARD, JOINT, METAL, REAR, SHELL } from "./palette.ts";
 import { at, ball, box, lathe, type Place, ring, rod, strut } from "./shapes.ts";
 
 const POSTS = 12; // of a guard
 
 /** How far the rotors are from the centre, on average [m]: all else is as large as that. */
-export function spread(quadrotor: Quadrotor): number {
+export function spread(quadrotor: SceneQuadrotor): number {
   const [x, y] = quadrotor.position;
   const ways = quadrotor.rotors.map(({ position }) => Math.hypot(position[0] - x, position[1] - y));
   return ways.reduce((a, b) => a + b, 0) / ways.length || quadrotor.arm;
 }
 
 /** Whether a rotor is in front of its quadrotor's centre. */
-export function ahead(quadrotor: Quadrotor, rotor: number): boolean {
+export function ahead(quadrotor: SceneQuadrotor, rotor: number): boolean {
   return quadrotor.rotors[rotor].position[0] > quadrotor.position[0] + 1e-6;
 }
 
-export function guardRadius(quadrotor: Quadrotor): number {
-  const [x, y] = quadrotor.position;
-  const reach = quadrotor.rotors.map((r) => Math.hypot(r.position[0] - x, r.position[1] - y) + r.radius);
-  return quadrotor.guard ?? Math.max(...reach);
+export function guardRadius(quadrotor: SceneQuadrotor): number {
+  return quadrotor.guard;
 }
 
 /** Height of a rotor's disc in body axes: above the arms, even where a mission puts it at the centre's height. */
-export function hubHeight(quadrotor: Quadrotor, rotor: number): number {
+export function hubHeight(quadrotor: SceneQuadrotor, rotor: number): number {
   return Math.max(quadrotor.rotors[rotor].position[2], quadrotor.position[2] + 0.2 * spread(quadrotor));
 }
 
-export function quadrotorParts(quadrotor: Quadrotor, sides: number): BufferGeometry[] {
+export function quadrotorParts(quadrotor: SceneQuadrotor, sides: number): BufferGeometry[] {
   const size = spread(quadrotor);
   const center = at(...quadrotor.position);
   const hull = shell(size, sides).map((part) => part.translate(center.x, center.y, center.z));
@@ -64,7 +62,7 @@ function shell(size: number, sides: number): BufferGeometry[] {
 }
 
 /** Booms out to the guard, with a motor and a coloured hub under each rotor. */
-function arms(quadrotor: Quadrotor, size: number, sides: number): BufferGeometry[] {
+function arms(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGeometry[] {
   const center = at(...quadrotor.position);
   const reach = guardRadius(quadrotor);
   return quadrotor.rotors.flatMap(({ position }, i) => {
@@ -82,7 +80,7 @@ function arms(quadrotor: Quadrotor, size: number, sides: number): BufferGeometry
 }
 
 /** Two rings around all rotors, held apart by posts. */
-function guard(quadrotor: Quadrotor, size: number, sides: number): BufferGeometry[] {
+function guard(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGeometry[] {
   const center = at(...quadrotor.position);
   const radius = guardRadius(quadrotor);
   const [low, high] = [lifted(center, 0.02 * size), lifted(center, 0.26 * size)];
@@ -94,10 +92,10 @@ function guard(quadrotor: Quadrotor, size: number, sides: number): BufferGeometr
   return [ring(low, radius, 0.035 * size, GUARD, sides), ring(high, radius, 0.018 * size, GUARD, sides), ...posts];
 }
 
-function legs(quadrotor: Quadrotor, size: number, sides: number): BufferGeometry[] {
+function legs(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGeometry[] {
   const center = at(...quadrotor.position);
-  const across = quadrotor.feet?.spread ?? 0.48 * size;
-  const depth = quadrotor.feet?.depth ?? 0.72 * size;
+  const across = quadrotor.feet.spread;
+  const depth = quadrotor.feet.depth;
   const corners: [number, number][] = [
     [1, 1],
     [-1, 1],

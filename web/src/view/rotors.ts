@@ -18,7 +18,7 @@ import {
   Vector3,
 } from "three";
 
-import type { Scene } from "../wire/protocol.ts";
+import type { FlightScene } from "../wire/messages.generated.ts";
 import type { Graphics } from "./graphics.ts";
 import { CARBON, FRONT, REAR } from "./palette.ts";
 import { ahead, hubHeight } from "./quadrotor.ts";
@@ -48,7 +48,7 @@ export class Rotors {
   private readonly shafts: InstancedMesh;
   private readonly heads: InstancedMesh;
 
-  constructor(scene: Scene, graphics: Graphics) {
+  constructor(scene: FlightScene, graphics: Graphics) {
     this.places = scene.vehicle.quadrotors.flatMap((quadrotor) =>
       quadrotor.rotors.map((rotor, i) => ({
         hub: new Vector3(rotor.position[0], rotor.position[1], hubHeight(quadrotor, i)),

@@ -1,8 +1,8 @@
-// The way flown in the last seconds, and a plumb line from the vehicle to the floor.
+// The path flown in the last seconds, and a vertical line from the vehicle to the floor.
 
 import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, LineSegments } from "three";
 
-import type { Vector } from "../wire/protocol.ts";
+import type { Vector } from "../wire/messages.generated.ts";
 import { PATH } from "./palette.ts";
 
 const KEPT = 600;

@@ -11,12 +11,12 @@ import {
   MeshStandardMaterial,
 } from "three";
 
-import type { Payload, Quaternion, Scene, Vector } from "../wire/protocol.ts";
+import type { FlightScene, Quaternion, ScenePayload, SceneQuadrotor, Vector } from "../wire/messages.generated.ts";
 import type { Graphics } from "./graphics.ts";
 import { CARBON, JOINT, METAL, PATH, WOOD } from "./palette.ts";
 import { quadrotorParts, spread } from "./quadrotor.ts";
 import { Rotors } from "./rotors.ts";
-import { at, box, rod, strut, together } from "./shapes.ts";
+import { at, rod, strut, together } from "./shapes.ts";
 
 export interface Axis {
   from: Vector;
@@ -24,8 +24,8 @@ export interface Axis {
   radius: number;
 }
 
-/** The line in body axes along which the payload can be taken hold of. */
-export function beamAxis(payload: Payload): Axis {
+/** The line in body axes along which the payload can be held. */
+export function beamAxis(payload: ScenePayload): Axis {
   const [x, y, z] = payload.position;
   const half = payload.length / 2;
   return { from: [x, y - half, z], to: [x, y + half, z], radius: Math.max(payload.width, payload.height) / 2 };
@@ -36,7 +36,7 @@ export class Vehicle {
   readonly outline: BufferGeometry; // the solid, as rough as a shadow or a ghost of it may be
   readonly rotors: Rotors;
 
-  constructor(scene: Scene, graphics: Graphics) {
+  constructor(scene: FlightScene, graphics: Graphics) {
     const solid = solidOf(scene, graphics === "full" ? 20 : 7);
     this.outline = graphics === "full" ? solid : solidOf(scene, 5);
     const body = new Mesh(solid, surface(graphics));
@@ -79,16 +79,13 @@ function surface(graphics: Graphics): Material {
   return new MeshStandardMaterial({ vertexColors: true, roughness: 0.5, metalness: 0.15, side: DoubleSide });
 }
 
-function solidOf(scene: Scene, sides: number): BufferGeometry {
+function solidOf(scene: FlightScene, sides: number): BufferGeometry {
   const { quadrotors, payload } = scene.vehicle;
   const parts = quadrotors.flatMap((quadrotor) => quadrotorParts(quadrotor, sides));
   return together([...beamParts(payload, sides), ...quadrotors.flatMap((q) => mount(payload, q, sides)), ...parts]);
 }
 
-function beamParts(payload: Payload, sides: number): BufferGeometry[] {
-  const [x, y, z] = payload.position;
-  if (!payload.length)
-    return [box(at(x, y, z), [payload.width || 0.2, payload.width || 0.2, payload.height || 0.2], WOOD)];
+function beamParts(payload: ScenePayload, sides: number): BufferGeometry[] {
   const { from, to, radius } = beamAxis(payload);
   const ends = [from, to].map((end) => {
     const cap = 0.012;
@@ -98,10 +95,10 @@ function beamParts(payload: Payload, sides: number): BufferGeometry[] {
 }
 
 /** The strut from the beam to a quadrotor, with the sensor's collar. */
-function mount(payload: Payload, quadrotor: Scene["vehicle"]["quadrotors"][number], sides: number): BufferGeometry[] {
+function mount(payload: ScenePayload, quadrotor: SceneQuadrotor, sides: number): BufferGeometry[] {
   const axis = beamAxis(payload);
   const center = at(...quadrotor.position);
-  const along = (quadrotor.joint ?? quadrotor.position)[1];
+  const along = quadrotor.joint[1];
   const joint = at(axis.from[0], Math.min(Math.max(along, axis.from[1]), axis.to[1]), axis.from[2]);
   const way = center.clone().sub(joint);
   if (way.length() < 1e-3) return [];

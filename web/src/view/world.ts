@@ -1,4 +1,4 @@
-// What stands still: the floor with its grid, the corridor and its walls, through which one can see.
+// What stands still: the floor with its grid, and the corridor with its transparent walls.
 
 import {
   BackSide,
@@ -18,7 +18,7 @@ import {
   Vector3,
 } from "three";
 
-import type { Scene, Wall } from "../wire/protocol.ts";
+import type { FlightScene, SceneWall } from "../wire/messages.generated.ts";
 import type { Graphics } from "./graphics.ts";
 import { together } from "./shapes.ts";
 import { FLOOR, FRAME, GRID, HAZE, LANE, WALL, ZENITH } from "./palette.ts";
@@ -38,8 +38,8 @@ export class World {
   private readonly ground = new Group();
   private readonly walls: Walls | null;
 
-  constructor(scene: Scene, graphics: Graphics) {
-    this.ground.position.z = scene.floor ?? 0;
+  constructor(scene: FlightScene, graphics: Graphics) {
+    this.ground.position.z = scene.floor;
     // in light graphics the background is the floor: it costs nothing
     if (scene.ground && graphics === "full") this.ground.add(floor());
     this.ground.add(grid(graphics === "full" ? EXTENT : NEAR));
@@ -47,7 +47,7 @@ export class World {
     if (graphics === "full") this.group.add(sky());
     this.walls = scene.walls.length ? new Walls(scene.walls, graphics) : null;
     if (this.walls) this.group.add(...this.walls.parts);
-    if (scene.corridor?.centreline.length) this.group.add(lane(scene, graphics));
+    if (scene.corridor) this.group.add(lane(scene, graphics));
   }
 
   /** Keeps the floor below the vehicle, and the walls that hide it thin. */
@@ -64,7 +64,7 @@ class Walls {
   private readonly paint: BufferAttribute;
   private readonly places: { center: Vector3; across: Vector3; seenThrough: boolean }[];
 
-  constructor(walls: Wall[], graphics: Graphics) {
+  constructor(walls: SceneWall[], graphics: Graphics) {
     const boxes = walls.map((wall) => new BoxGeometry(...wall.size).rotateZ(wall.heading).translate(...wall.center));
     const edges = together(boxes.map((box) => new EdgesGeometry(box)));
     const shape = together(boxes);
@@ -131,7 +131,7 @@ function grid(near: number): LineSegments {
 }
 
 /** The floor of the corridor, brighter than the rest. */
-function lane(scene: Scene, graphics: Graphics): Mesh {
+function lane(scene: FlightScene, graphics: Graphics): Mesh {
   const { centreline, width } = scene.corridor!;
   const corners: number[] = [];
   const faces: number[] = [];
@@ -147,7 +147,7 @@ function lane(scene: Scene, graphics: Graphics): Mesh {
   const look = { color: LANE, depthWrite: false };
   const mesh = new Mesh(shape, graphics === "light" ? new MeshBasicMaterial(look) : new MeshLambertMaterial(look));
   mesh.receiveShadow = graphics === "full";
-  mesh.position.z = scene.floor ?? 0;
+  mesh.position.z = scene.floor;
   mesh.renderOrder = -1;
   return mesh;
 }

@@ -1,15 +1,15 @@
-// The socket to the server: decodes what comes, numbers what goes, and comes back when it was lost.
+// The socket to the server: decodes what it sends, numbers the page's messages, and reconnects.
 
 import { Layout } from "./frames.ts";
-import type { Incoming, Outgoing } from "./protocol.ts";
-import type { Listener, Source } from "./source.ts";
+import type { ServerMessage, PageMessage } from "./messages.generated.ts";
+import type { FlightListener, FlightSource } from "./source.ts";
 
 const FIRST_WAIT = 500; // ms
 const LONGEST_WAIT = 5000;
 
-export class Connection implements Source {
+export class Connection implements FlightSource {
   private socket: WebSocket | null = null;
-  private listener: Listener | null = null;
+  private listener: FlightListener | null = null;
   private layout: Layout | null = null;
   private seq = 0;
   private wait = FIRST_WAIT;
@@ -17,12 +17,12 @@ export class Connection implements Source {
 
   constructor(private readonly address: string) {}
 
-  start(listener: Listener): void {
+  start(listener: FlightListener): void {
     this.listener = listener;
     this.open();
   }
 
-  send(message: Outgoing): number | null {
+  send(message: PageMessage): number | null {
     if (this.socket?.readyState !== WebSocket.OPEN) return null;
     this.seq += 1;
     this.socket.send(JSON.stringify({ ...message, seq: this.seq }));
@@ -39,7 +39,7 @@ export class Connection implements Source {
     const socket = new WebSocket(this.address);
     socket.binaryType = "arraybuffer";
     socket.onmessage = ({ data }: MessageEvent<ArrayBuffer | string>) => {
-      this.hear(data);
+      this.receive(data);
     };
     socket.onclose = () => {
       this.closed();
@@ -49,33 +49,33 @@ export class Connection implements Source {
 
   private closed(): void {
     this.socket = null;
-    this.listener?.lost(performance.now() + this.wait);
+    this.listener?.disconnected(performance.now() + this.wait);
     this.timer = window.setTimeout(() => {
       this.open();
     }, this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
   }
 
-  private hear(data: ArrayBuffer | string): void {
+  private receive(data: ArrayBuffer | string): void {
     if (typeof data === "string") {
-      this.answer(JSON.parse(data) as Incoming);
+      this.handle(JSON.parse(data) as ServerMessage);
       return;
     }
     const frame = this.layout?.decode(data);
     if (frame) this.listener?.frame(frame);
   }
 
-  private answer(message: Incoming): void {
+  private handle(message: ServerMessage): void {
     const to = this.listener!;
     switch (message.type) {
       case "scene":
         this.layout = new Layout(message.fields);
         this.wait = FIRST_WAIT;
-        to.found();
+        to.connected();
         to.scene(message);
         break;
       case "status":
-        // who holds the beam and says nothing is taken for hung, and lets go
+        // the server takes the beam from a page that is silent
         if (message.holder === "you") this.send({ type: "ping", t: performance.now() });
         to.status(message);
         break;
@@ -93,7 +93,7 @@ export class Connection implements Source {
   }
 }
 
-/** Where the page's own server listens; the token of the page's address goes along. */
+/** The address of the page's own server, with the token of the page's address. */
 export function socketAddress(page: Location): string {
   const scheme = page.protocol === "https:" ? "wss:" : "ws:";
   return `${scheme}//${page.host}/ws${page.search}`;

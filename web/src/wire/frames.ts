@@ -1,13 +1,13 @@
 // Frames: float32, little endian, laid out as the scene's `fields` say.
 
-import type { Quaternion, Vector } from "./protocol.ts";
+import { type FrameFieldName, JUMPING_FIELDS, type Quaternion, type Vector } from "./messages.generated.ts";
 
 /** Where each field of a frame lies. */
 export class Layout {
   readonly size: number;
-  private readonly places = new Map<string, { start: number; length: number }>();
+  private readonly places = new Map<FrameFieldName, { start: number; length: number }>();
 
-  constructor(fields: readonly (readonly [string, number])[]) {
+  constructor(fields: readonly (readonly [FrameFieldName, number])[]) {
     let start = 0;
     for (const [name, length] of fields) {
       this.places.set(name, { start, length });
@@ -16,11 +16,11 @@ export class Layout {
     this.size = start;
   }
 
-  has(name: string): boolean {
+  has(name: FrameFieldName): boolean {
     return this.places.has(name);
   }
 
-  place(name: string): { start: number; length: number } {
+  place(name: FrameFieldName): { start: number; length: number } {
     return this.places.get(name) ?? { start: 0, length: 0 };
   }
 
@@ -29,37 +29,37 @@ export class Layout {
     return bytes.byteLength === 4 * this.size ? new Frame(this, floats(bytes)) : null;
   }
 
-  /** The names of the fields whose values may be mixed between two frames. */
-  smooth(): string[] {
-    return [...this.places.keys()].filter((name) => !["phase", "alarm", "held", "seq"].includes(name));
+  /** The fields that may be interpolated between two frames. */
+  smooth(): FrameFieldName[] {
+    return [...this.places.keys()].filter((name) => !JUMPING_FIELDS.includes(name));
   }
 }
 
-/** One moment of the flight; a field that the server does not send reads as zeros. */
+/** One moment of the flight; a field that is not in it reads as zeros. */
 export class Frame {
   constructor(
     readonly layout: Layout,
     readonly values: Float32Array,
   ) {}
 
-  /** Whether it says where the vehicle is; a flight that diverged may not. */
+  /** Whether position and attitude are valid; those of a flight that diverged may not be. */
   get drawable(): boolean {
-    const spot = [...this.vector("position"), ...this.attitude];
-    return spot.every(Number.isFinite) && Math.hypot(...this.attitude) > 0.5;
+    const numbers = [...this.vector("position"), ...this.attitude];
+    return numbers.every(Number.isFinite) && Math.hypot(...this.attitude) > 0.5;
   }
 
-  scalar(name: string): number {
+  scalar(name: FrameFieldName): number {
     const { start, length } = this.layout.place(name);
     return length ? this.values[start] : 0;
   }
 
-  vector(name: string): Vector {
+  vector(name: FrameFieldName): Vector {
     const { start, length } = this.layout.place(name);
     const v = this.values;
     return length === 3 ? [v[start], v[start + 1], v[start + 2]] : [0, 0, 0];
   }
 
-  list(name: string): Float32Array {
+  list(name: FrameFieldName): Float32Array {
     const { start, length } = this.layout.place(name);
     return this.values.subarray(start, start + length);
   }
@@ -71,7 +71,7 @@ export class Frame {
   }
 }
 
-/** Float32 of little-endian bytes on any machine. */
+/** Float32 numbers of little-endian bytes, on a machine of any byte order. */
 export function floats(bytes: ArrayBuffer): Float32Array {
   if (LITTLE) return new Float32Array(bytes);
   const view = new DataView(bytes);
@@ -80,14 +80,14 @@ export function floats(bytes: ArrayBuffer): Float32Array {
 
 const LITTLE = new Uint8Array(new Uint32Array([1]).buffer)[0] === 1;
 
-/** A frame between two: `share` 0 is the first, 1 the second. States and flags jump, all else is mixed. */
-export function between(a: Frame, b: Frame, share: number): Frame {
+/** A frame between two: `fraction` 0 is the first, 1 the second. Flags jump, all else is interpolated. */
+export function between(a: Frame, b: Frame, fraction: number): Frame {
   const values = Float32Array.from(a.values);
   for (const name of a.layout.smooth()) {
     const { start, length } = a.layout.place(name);
-    const turned = name === "attitude" && opposed(a, b, start) ? -1 : 1;
+    const sign = name === "attitude" && opposed(a, b, start) ? -1 : 1;
     for (let i = start; i < start + length; i++) {
-      values[i] = (1 - share) * a.values[i] + share * turned * b.values[i];
+      values[i] = (1 - fraction) * a.values[i] + fraction * sign * b.values[i];
     }
     if (name === "attitude") normalise(values, start);
   }

@@ -1,14 +1,14 @@
-// How long it takes from a hand's event until a picture shows what came of it.
+// The delay from a person's event to a picture that shows its effect.
 
 const KEPT = 60;
-const STALE = 2000; // ms: what has not come back by then was dropped on its way
+const STALE = 2000; // ms: a message that has not come back by then was dropped
 
-/** Times of messages by their number, and the median of the last delays. */
+/** Notes when messages were sent, by their number; median of the last delays. */
 export class Latency {
   private sent: { seq: number; at: number }[] = [];
   private delays: number[] = [];
 
-  /** A message was sent for an event at `at` [ms]; clocks of events that cannot be right are not believed. */
+  /** A message was sent for an event at `at` [ms]; an impossible time of an event is replaced by `now`. */
   note(seq: number, at: number, now: number): void {
     this.sent.push({ seq, at: at <= now && now - at < STALE ? at : now });
   }

@@ -1,23 +1,23 @@
 // Where a flight comes from: a server, or the page itself. The rest of the page does not know which.
 
 import type { Frame } from "./frames.ts";
-import type { Outgoing, Scene, Setting, Status } from "./protocol.ts";
+import type { FlightScene, PageMessage, ParameterValue, StatusMessage } from "./messages.generated.ts";
 
-export interface Listener {
-  scene(scene: Scene): void;
+export interface FlightListener {
+  scene(scene: FlightScene): void;
   frame(frame: Frame): void;
-  status(status: Status): void;
-  changed(key: string, value: Setting, duration: number): void;
+  status(status: StatusMessage): void;
+  changed(key: string, value: ParameterValue, duration: number): void;
   refused(what: string, reason: string): void;
   done(what: string, detail: string): void;
-  lost(retryAt: number | null): void;
-  found(): void;
+  connected(): void;
+  disconnected(retryAt: number): void; // ms, by the page's clock
 }
 
-export interface Source {
-  start(listener: Listener): void;
-  /** Sends a message; its number, or null if nobody can hear it. */
-  send(message: Outgoing): number | null;
+export interface FlightSource {
+  start(listener: FlightListener): void;
+  /** Sends a message; its number, or null if it cannot be sent. */
+  send(message: PageMessage): number | null;
   /** Before each picture: a source that keeps its own time moves on. */
   tick?(now: number): void;
   retry?(): void;

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable
 
 from tandemlift.common.errors import InputError
-from tandemlift.flight.old_names import renamed_key
+from tandemlift.flight.old_names import renamed_setting, warn_of_old_names
 from tandemlift.missions.reference.sections import EXTENDS, Key, Section, default_words, sections
 from tandemlift.missions.values import shown
 
@@ -19,7 +19,9 @@ def explained(name: str) -> str:
     Raises:
         InputError: there is none of that name; the message names the three nearest.
     """
-    plain = plain_name(renamed_key(name))
+    new, _, notices = renamed_setting(name, None)
+    warn_of_old_names("explain", notices)
+    plain = plain_name(new)
     if plain == "extends":
         return f"extends: {EXTENDS.meaning}."
     found = [(section, key) for section in sections() for key in section.keys if plain_name(key.name) == plain]
@@ -91,9 +93,7 @@ def _in_short(key: Key) -> str:
 
 
 def _unknown(name: str, plain: str) -> InputError:
-    names = {plain_name(key.name): key.name for section in sections() for key in section.keys}
-    tables = {section.name: section.name for section in sections()}
-    near = nearest_three(plain, {**tables, **names})
+    near = nearest_three(plain, {plain_name(key.name): key.name for section in sections() for key in section.keys})
     return InputError(f"there is no key {shown(name)}; the nearest are {', '.join(near)}")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tandemlift.missions.reference.sections import EXTENDS, Key, Section, default_words, sections
+from tandemlift.missions.reference.sections import EXTENDS, Key, Section, default_words, is_of_the_package, sections
 from tandemlift.missions.values import shown
 
 HEAD = """\
@@ -12,8 +12,8 @@ HEAD = """\
 
 This page is made by `tandemlift explain --markdown > docs/keys.md`; [missions.md](missions.md) says how a mission is
 written. SI units, angles in rad. World axes have z up; body axes are fixed to the vehicle. Six-vectors run x, y, z,
-roll, pitch, yaw. In dotted keys a number picks an entry of a list, 0 the first. All numbers are finite. A key with a
-default may be left out, and so may a table with nothing but such keys.
+roll, pitch, yaw. In dotted keys a number picks an entry of a list, 0 the first. All numbers are finite. A key that is
+not required may be left out, and so may a table with nothing but such keys.
 """
 COLUMNS = "| key | unit | default | allowed | meaning | source of the default |\n|---|---|---|---|---|---|"
 
@@ -21,7 +21,8 @@ COLUMNS = "| key | unit | default | allowed | meaning | source of the default |\
 def keys_page() -> str:
     """The page: a table of keys for each table of a mission."""
     extends = f"\n`extends` (before all tables): {EXTENDS.meaning}.\n"
-    return HEAD + extends + "".join(_section(section) for section in sections())
+    ours = (section for section in sections() if is_of_the_package(section.controller))
+    return HEAD + extends + "".join(_section(section) for section in ours)
 
 
 def _section(section: Section) -> str:
@@ -39,7 +40,9 @@ def _row(key: Key) -> str:
 
 def _default(key: Key) -> str:
     words = default_words(key)
-    return f"`{words}`" if key.default is not None else words
+    if key.field.is_required():
+        return words
+    return f"if left out, {words}" if key.default is None else f"`{words}`"
 
 
 def _allowed(key: Key) -> str:

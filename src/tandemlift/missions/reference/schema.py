@@ -128,6 +128,12 @@ def _required(model: Model) -> Schema:
     return {"required": names, **({"properties": inner} if inner else {})} if names else {}
 
 
+def _described(schema: Schema) -> Schema:
+    """What a key is, without what it may be: other controllers may have it too."""
+    inner = {name: _described(below) for name, below in schema.get("properties", {}).items()}
+    return {"description": schema["description"], **({"properties": inner} if inner else {})}
+
+
 def _controllers() -> Schema:
     """The controller's table: any name, for a controller of one's own; the keys of a registered one are checked."""
     known = {name: CONTROLLERS[name].settings for name in sorted(CONTROLLERS)}
@@ -135,7 +141,7 @@ def _controllers() -> Schema:
     for name, model in known.items():
         keys = {key: _field(field) for key, field in model.model_fields.items() if key != "name"}
         for key, schema in keys.items():
-            shown.setdefault(key, {"description": schema.get("description", "")})
+            shown.setdefault(key, _described(schema))
         named = {"properties": {"name": {"const": name}}, "required": ["name"]}
         cases.append({"if": named, "then": {"properties": keys, "propertyNames": {"enum": ["name", *keys]}}})
     title = {"description": f"{facts_of(ControllerTable.model_fields['name']).meaning}.", "examples": list(known)}

@@ -85,10 +85,9 @@ def sections() -> Iterator[Section]:
             yield from _sections(name, field)
 
 
-def keys() -> Iterator[Key]:
-    """Every key of every table; keys that controllers share come once for each."""
-    for section in sections():
-        yield from section.keys
+def is_of_the_package(controller: str) -> bool:
+    """Whether a section's controller, if it has one, comes with tandemlift and not from a file of one's own."""
+    return not controller or CONTROLLERS[controller].start.__module__.startswith("tandemlift.")
 
 
 def _controllers() -> Iterator[Section]:

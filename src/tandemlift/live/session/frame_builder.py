@@ -1,0 +1,56 @@
+"""The frames of a flight in progress, and the frame that is shown before it begins."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.common.types import Array
+from tandemlift.live.session.recorded_flight import FlightSetup
+from tandemlift.live.wire.frame_values import channel_columns, field_values
+from tandemlift.live.wire.frames import layout_for, pack_frames
+from tandemlift.live.wire.scene_builder import scene_of
+from tandemlift.missions import tables_of
+from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+
+class FrameBuilder:
+    """Builds the frames of a mission's flight.
+
+    Args:
+        mission: what is flown.
+        engine: name of the body's engine.
+        setup: of the same mission.
+
+    Attributes:
+        scene: what a page must know before frames mean anything.
+    """
+
+    def __init__(self, mission: Mission, engine: str, setup: FlightSetup) -> None:
+        self.scene = scene_of(mission, engine)
+        self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
+        self._phases, self._columns = tables_of(mission)["phases"], channel_columns(setup.p.sample)
+        self._start = setup.p.flying.moving.state
+
+    def values(self, sample: Array, at: float) -> dict[str, Array]:
+        """The values of the fields in a sample, at a time [s]."""
+        channels = {name: sample[columns] for name, columns in self._columns.items()}
+        return field_values(channels, np.array([at]), self._phases)
+
+    def frame(self, values: dict[str, ArrayLike]) -> bytes:
+        """The frame of some values."""
+        return pack_frames(self._layout, values).tobytes()
+
+    def first(self) -> bytes:
+        """The frame of a flight that has not begun."""
+        s = self._start
+        at: dict[str, Any] = {
+            "position": s.position,
+            "attitude": s.attitude,
+            "velocity": s.velocity,
+            "reference": s.position,
+        }
+        return self.frame({name: np.array(value) for name, value in at.items()})

@@ -1,0 +1,133 @@
+"""Real time: how many steps are due by the clock, and what would keep the flight from them."""
+
+from __future__ import annotations
+
+import gc
+import sys
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+MOST_BEHIND = 0.1  # s of flight; what is due beyond is dropped, and the flight is late for good
+WINDOW = 1.0  # s, over which the pace is measured
+BATCH = 25  # steps between two looks at the clock
+PAUSE = 0.002  # s, between looks at the clock while no full batch is due
+YIELD = 1e-4  # s, left to other threads after a full batch
+SWITCH_INTERVAL = 2e-4  # s, for which another thread may keep the interpreter from the flight
+NEVER = 10**9  # collections of young garbage for each of the old
+
+
+class Pacer:
+    """Says how many steps are due.
+
+    Args:
+        dt: of a step [s].
+
+    Attributes:
+        speed: flight time over wall time, as asked for.
+        paused: whether time stands still.
+        behind: flight time that is due [s].
+        most_behind: the most that was due since this was last set to 0 [s].
+        forgotten: flight time that was due and will never be flown [s].
+    """
+
+    def __init__(self, dt: float) -> None:
+        self.dt, self.speed, self.paused, self.behind = dt, 1.0, False, 0.0
+        self.most_behind, self.forgotten = 0.0, 0.0
+        self._then = time.perf_counter()
+        self._flown: deque[tuple[float, int]] = deque()
+
+    def begin(self) -> None:
+        """Count time from now on."""
+        self.behind, self._then = 0.0, time.perf_counter()
+
+    def due(self) -> int:
+        """Steps to be flown now."""
+        now = time.perf_counter()
+        passed, self._then = now - self._then, now
+        if self.paused:
+            self.behind = 0.0
+            return 0
+        due = self.behind + passed * self.speed
+        self.behind = min(due, MOST_BEHIND)
+        self.forgotten += due - self.behind
+        self.most_behind = max(self.most_behind, self.behind)
+        return int(self.behind / self.dt)
+
+    def flew(self, steps: int) -> None:
+        """Note that so many steps were flown."""
+        self.behind -= steps * self.dt
+        now = time.perf_counter()
+        self._flown.append((now, steps))
+        while self._flown and now - self._flown[0][0] > WINDOW:
+            self._flown.popleft()
+
+    @property
+    def factor(self) -> float:
+        """Flight time over wall time, during the last second."""
+        if len(self._flown) < 2:
+            return 0.0
+        span = time.perf_counter() - self._flown[0][0]
+        return sum(steps for _, steps in list(self._flown)[1:]) * self.dt / max(span, 1e-3)
+
+
+class RealTimeThread:
+    """A thread that prepares a flight, then takes its steps as they are due.
+
+    Args:
+        pacer: says how many are due.
+        lock: held while steps are taken.
+        prepare: whether the flight can be flown; called once, in the thread.
+        fly: takes at most so many steps; how many it took.
+    """
+
+    def __init__(
+        self, pacer: Pacer, lock: threading.RLock, prepare: Callable[[], bool], fly: Callable[[int], int]
+    ) -> None:
+        self._pacer, self._lock, self._prepare, self._fly = pacer, lock, prepare, fly
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="flight", daemon=True)
+
+    def start(self) -> None:
+        """Prepare the flight, and fly."""
+        self._thread.start()
+
+    def stop(self, *, wait: bool) -> None:
+        """End the thread; if `wait`, return when it has ended."""
+        self._stopping.set()
+        if wait and self._thread.is_alive():
+            self._thread.join()
+
+    def _run(self) -> None:
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH_INTERVAL)
+        try:
+            if self._prepare():
+                with without_full_collections():
+                    self._keep_pace()
+        finally:
+            sys.setswitchinterval(interval)
+
+    def _keep_pace(self) -> None:
+        self._pacer.begin()
+        while not self._stopping.is_set():
+            with self._lock:
+                steps = self._fly(min(self._pacer.due(), BATCH))
+                self._pacer.flew(steps)
+            time.sleep(PAUSE if steps < BATCH else YIELD)
+
+
+@contextmanager
+def without_full_collections() -> Iterator[None]:
+    """Leave out full garbage collections, which would stop the flight for 10 to 100 ms."""
+    young, middle, _ = before = gc.get_threshold()
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(young, middle, NEVER)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
+        gc.unfreeze()

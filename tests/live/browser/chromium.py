@@ -1,0 +1,174 @@
+"""The live page in Debian's Chromium: what a person does there, and what one who only watches sees."""
+
+import contextlib
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+import patient_server
+import pytest
+from patience import PATIENCE, ended, joined, said, until
+from PIL import Image
+
+from tandemlift.live.wire.frames import read_frames
+
+CHROMIUM = Path("/usr/bin/chromium")
+if not os.environ.get("TANDEMLIFT_REQUIRE_ALL"):
+    pytest.importorskip("playwright")
+    if not CHROMIUM.exists():
+        pytest.skip("Debian's Chromium is not installed", allow_module_level=True)
+
+from playwright.sync_api import sync_playwright  # noqa: E402
+from websockets.exceptions import ConnectionClosed  # noqa: E402
+from websockets.sync.client import connect  # noqa: E402
+
+FLAGS = (
+    *("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
+)
+SETTINGS = {
+    "pilot.guidance": "hand",
+    "phases.rotors": "flight",
+    "ground.model": "floor",
+    "compliance.yaw.model": "yielding",
+    "admittance.threshold": 0.3,
+}
+SIZE = {"width": 800, "height": 450}
+MS = 1e3 * PATIENCE
+
+
+class Live:
+    """`tandemlift live`, as a person starts it but for its patience, and what it shows to one who only watches."""
+
+    def __init__(self, out, program=patient_server.__file__):
+        settings = [f"--set={key}={value}" for key, value in SETTINGS.items()]
+        command = [sys.executable, program, "live", "hover", "--no-browser", "--port=0", f"--out={out}"]
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+        self.process = subprocess.Popen([*command, *settings], stdout=subprocess.PIPE, text=True, env=environment)
+        try:
+            self.begin(out)
+        except BaseException:
+            ended(self.process, signal.SIGKILL)
+            raise
+
+    def begin(self, out):
+        """See what it shows."""
+        self.address = said(self.process, r"http://\S+")[0]
+        self.out, self.scene, self.frame, self.frames, self.status = out, None, None, 0, {}
+        self.watching = threading.Thread(target=self.watch, name="who watches", daemon=True)
+        self.watching.start()
+        self.until(lambda: self.scene and self.frame and self.status, "a scene, a frame and a status")
+
+    def watch(self):
+        """Keep what is told last."""
+        where = {"uri": self.address.replace("http", "ws") + "ws", "origin": self.address.rstrip("/")}
+        patient = {"open_timeout": PATIENCE, "ping_timeout": None}
+        with contextlib.suppress(ConnectionClosed), connect(**where, **patient) as socket:
+            for told in socket:
+                if isinstance(told, bytes):
+                    self.frame = told
+                    self.frames += 1
+                else:
+                    self.heed(json.loads(told))
+
+    def heed(self, told):
+        if told["type"] == "scene":
+            self.scene = told
+        elif told["type"] == "status":
+            self.status = told
+
+    def look(self):
+        """The latest frame."""
+        fields = tuple(map(tuple, self.scene["fields"]))
+        return {name: value[0] for name, value in read_frames(fields, self.frame).items()}
+
+    def until(self, true, what):
+        """As `until`, as long as it is told anything."""
+
+        def found():
+            assert self.watching.is_alive(), f"the server hung up before {what} came"
+            return true()
+
+        return until(found, what)
+
+    def wait(self, true, what):
+        return self.until(lambda: next((seen for seen in [self.look()] if true(seen)), None), what)
+
+    def wait_status(self, true, what):
+        self.until(lambda: true(self.status), what)
+
+    def wait_frames(self, count):
+        """Wait for so many frames of now; what is seen in the last one."""
+        end = self.frames + count
+        self.until(lambda: self.frames >= end, f"{count} frames")
+        return self.look()
+
+    def close(self):
+        assert ended(self.process) == 0
+        joined(self.watching)
+
+
+@contextlib.contextmanager
+def launched():
+    """A browser."""
+    with sync_playwright() as playwright:
+        one = playwright.chromium.launch(executable_path=str(CHROMIUM), args=FLAGS, timeout=MS)
+        yield one
+        one.close()
+
+
+def opened(browser, address, prepare=lambda page: None, **options):
+    """A page, and the list of what went wrong on it; `prepare` is done to it before it opens the address."""
+    page = browser.new_context(viewport=SIZE, **options).new_page()
+    page.set_default_timeout(MS)
+    prepare(page)
+    page.wrong = []
+    page.on("pageerror", lambda error: page.wrong.append(str(error)))
+    page.on("console", lambda said: page.wrong.append(said.text) if said.type == "error" else None)
+    page.goto(address)
+    page.wait_for_selector("#surface canvas")
+    return page
+
+
+def middle_of_the_beam(page):
+    """Where on the page the middle of the wooden beam is: the middle of what has its colour."""
+
+    def seen():
+        box = page.locator("#surface canvas").bounding_box()
+        image = np.asarray(Image.open(io.BytesIO(page.screenshot(clip=box))).convert("RGB")).astype(int)
+        r, g, b = image[..., 0], image[..., 1], image[..., 2]
+        rows, columns = np.nonzero((r > 1.25 * g) & (g > 1.25 * b) & (r > 70) & (r < 215))
+        return None if len(rows) < 100 else (box["x"] + np.median(columns), box["y"] + np.median(rows))
+
+    return until(seen, "a beam on the page")
+
+
+def rests(seen):
+    return np.abs(seen["velocity"]).max() < 0.02 and seen["held"] == 0.0
+
+
+def panel(page, key):
+    """The box of a setting, its group opened."""
+    if page.get_attribute("#show-panel", "aria-pressed") != "true":
+        page.click("#show-panel")
+    box = page.locator(f"[data-key='{key}']")
+    group = page.locator("#panel details", has=box)
+    if group.get_attribute("open") is None:
+        group.locator("summary").click()
+    return box
+
+
+def grabbed(page, live):
+    """The beam held at its middle; where on the page that is."""
+    live.wait(rests, "rest")
+    x, y = middle_of_the_beam(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
+    return x, y

@@ -1,0 +1,81 @@
+"""The buttons below the picture."""
+
+import numpy as np
+import pytest
+from patience import until
+
+import tandemlift as tl
+
+
+def test_time_stands_still_while_it_is_paused(page, live):
+    page.keyboard.press("p")
+    live.wait_status(lambda status: status["paused"], "a pause")
+    then = live.wait_frames(2)["time"]
+    assert live.wait_frames(20)["time"] == then
+    page.keyboard.press("p")
+    live.wait_status(lambda status: not status["paused"], "time going on")
+
+
+def test_time_passes_as_slowly_as_is_asked(page, live):
+    page.get_by_label("Speed of the flight").select_option("0.25")
+    live.wait_status(lambda status: status["speed"] == 0.25, "a quarter of the pace")
+    page.get_by_label("Speed of the flight").select_option("1")
+    live.wait_status(lambda status: status["speed"] == 1.0, "its own pace")
+
+
+@pytest.mark.parametrize("name", ["", "a b", "../elsewhere", "x" * 65])
+def test_a_name_that_is_refused_says_why_in_the_dialog_and_another_one_is_taken(page, live, name):
+    page.click("text=Save")
+    page.fill("#save-name", name)
+    page.keyboard.press("Enter")
+    reason = page.locator("#saving .reason")
+    until(lambda: "must be 1 to 64 letters, digits, '.', '_' or '-'" in (reason.text_content() or ""), "a reason")
+    assert page.is_visible("#saving .reason")
+    assert f'save.name = "{name[:20]}' in reason.text_content()
+    assert page.locator("#notices").text_content() == ""
+    page.fill("#save-name", "taken")
+    assert not page.is_visible("#saving .reason")
+    page.keyboard.press("Enter")
+    until(lambda: not page.is_visible("#saving"), "the dialog to close")
+    until(lambda: "Saved as" in page.locator("#notices").text_content(), "a notice")
+    assert (live.out / "taken" / "flight.npz").exists()
+
+
+def test_a_name_may_be_corrected_after_the_folder_could_not_be_written(page, live):
+    (live.out / "file").write_text("no folder", "utf-8")
+    page.click("text=Save")
+    page.fill("#save-name", "file")
+    page.keyboard.press("Enter")
+    until(lambda: "file: cannot be written" in (page.locator("#saving .reason").text_content() or ""), "a reason")
+    page.get_by_role("button", name="Cancel").click()
+    assert not page.is_visible("#saving")
+
+
+def test_what_is_saved_on_the_page_flies_again_to_the_last_bit(page, live):
+    page.click("text=Save")
+    page.fill("#save-name", "from-the-page")
+    page.keyboard.press("Enter")
+    folder = live.out / "from-the-page"
+    until((folder / "flight.npz").exists, "a flight")
+    saved, again = tl.Flight.load(folder / "flight.npz"), tl.fly(tl.load_mission(folder / "recorded.toml"))
+    for channel in saved.channels:
+        np.testing.assert_array_equal(saved[channel], again[channel], channel)
+
+
+def test_who_is_not_to_be_heard_is_not_and_stop_stops_at_once(page, live):
+    page.get_by_role("button", name="Enabled").click()
+    live.wait_status(lambda status: not status["enabled"], "a pilot that does not listen")
+    page.get_by_role("button", name="Disabled").click()
+    live.wait_status(lambda status: status["enabled"], "a pilot that listens")
+    page.get_by_role("button", name="Stop").click()
+    live.wait_status(lambda status: status["phase"] in ("stopped", "lost"), "stopped rotors")
+    page.get_by_role("button", name="Reset").click()
+    live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
+
+
+def test_it_lands_is_reset_and_the_page_begins_anew(page, live):
+    page.click("text=Land")
+    live.wait_status(lambda status: status["phase"] in ("land", "idle"), "a landing")
+    page.click("text=Reset")
+    live.wait(lambda seen: seen["time"] < 5.0, "a new flight")
+    live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")

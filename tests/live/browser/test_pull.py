@@ -1,0 +1,114 @@
+"""The beam pulled by mouse and finger."""
+
+import time
+
+import numpy as np
+from chromium import grabbed, middle_of_the_beam, opened, panel, rests
+from patience import until
+from scipy.spatial.transform import Rotation
+
+
+def test_grabbed_and_pulled_the_beam_follows_the_cursor_and_rests_when_it_is_let_go(page, live):
+    page.keyboard.press("f")  # the camera does not follow: a still cursor is a still target
+    before = live.wait(rests, "rest")
+    x, y = middle_of_the_beam(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
+    for i in range(20):
+        page.mouse.move(x + 6 * i, y, steps=1)
+        time.sleep(0.02)
+    live.wait(lambda s: np.linalg.norm(s["hand_target"] - before["position"]) > 0.3, "a target that moved")
+    assert live.status["holder"] == "other"
+
+    def follows(seen):
+        return np.linalg.norm(seen["position"] - before["position"]) > 0.15 and np.linalg.norm(seen["push"]) > 0.0
+
+    live.wait(follows, "the beam to follow")
+    short = 0.3 / live.scene["spring"]["stiffness"] + 0.03  # m along each axis: the threshold, and what noise adds
+
+    def arrived(seen):
+        w, *axis = seen["attitude"]
+        grip = seen["position"] + Rotation.from_quat([*axis, w]).apply(seen["hand_point"])
+        return np.abs(seen["hand_target"] - grip).max() < short
+
+    live.wait(arrived, "the beam to arrive")
+    page.mouse.up()
+    live.wait(lambda seen: seen["held"] == 0.0, "release")
+    live.wait(rests, "rest after release")
+
+
+def test_one_holds_the_beam_at_a_time_and_a_page_that_is_closed_lets_go(page, live, browser):
+    live.wait(rests, "rest")
+    other = opened(browser, live.address)
+    x, y = middle_of_the_beam(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
+    held = live.look()["hand_point"]
+    until(
+        lambda: "else" in (other.text_content("#meters") or "") or "other" in (other.text_content("#meters") or ""),
+        "the holder told",
+    )
+    u, v = middle_of_the_beam(other)
+    other.mouse.move(u + 30, v)
+    other.mouse.down()
+    other.mouse.move(u + 60, v)
+    until(lambda: "somebody else holds the beam" in other.locator("#notices").text_content(), "a refusal")
+    assert np.allclose(live.look()["hand_point"], held, atol=1e-6)
+    other.mouse.up()
+    assert live.look()["held"] == 1.0
+    other.context.close()
+    page.context.close()
+    live.wait(lambda seen: seen["held"] == 0.0, "release by a closed page")
+    live.wait(rests, "rest")
+
+
+def test_who_looks_away_lets_go(page, live):
+    live.wait(rests, "rest")
+    page.mouse.move(*middle_of_the_beam(page))
+    page.mouse.down()
+    live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
+    page.evaluate("window.dispatchEvent(new Event('blur'))")
+    live.wait(lambda seen: seen["held"] == 0.0, "release")
+    page.mouse.up()
+
+
+def test_the_wheel_moves_the_target_away_from_who_looks(page, live):
+    grabbed(page, live)
+    before = live.look()["hand_target"]
+    page.mouse.wheel(0, -200)
+    live.wait(lambda seen: np.linalg.norm(seen["hand_target"] - before) > 0.1, "a target farther away or nearer")
+    page.mouse.up()
+    live.wait(rests, "rest")
+
+
+def test_pulled_at_the_centre_of_mass_the_hand_is_there(page, live):
+    panel(page, "admittance.mass")  # opens the panel
+    page.get_by_text("centre of mass", exact=True).click()
+    x, y = grabbed(page, live)
+    page.mouse.move(x + 40, y)
+    live.wait(lambda seen: np.linalg.norm(seen["push"]) > 0.3, "a pull")
+    assert np.abs(live.look()["hand_point"]).max() < 1e-6
+    page.mouse.up()
+    live.wait(rests, "rest")
+
+
+def test_a_finger_pulls_as_a_mouse_does(page, live):
+    live.wait(rests, "rest")
+    x, y = middle_of_the_beam(page)
+    touch = page.context.new_cdp_session(page)
+
+    def finger(kind, *points):
+        at = [{"x": float(px), "y": float(py)} for px, py in points]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+
+    finger("touchStart", (x, y))
+    live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
+    for i in range(10):
+        finger("touchMove", (x + 5 * i, y))
+        time.sleep(0.03)
+    live.wait(lambda seen: np.linalg.norm(seen["push"]) > 0.3, "a pull")
+    finger("touchEnd")
+    live.wait(lambda seen: seen["held"] == 0.0, "release")
+    live.wait(rests, "rest")

@@ -1,0 +1,39 @@
+"""Sessions that tests move themselves, not by the clock."""
+
+import tandemlift as tl
+from tandemlift.live.session.session import Session
+from tandemlift.live.wire.frames import read_frames
+from tandemlift.live.wire.page_messages import PAGE_MESSAGES
+
+GUIDED = {
+    "pilot.guidance": "hand",
+    "phases.rotors": "flight",
+    "ground.model": "floor",
+    "compliance.yaw.model": "yielding",
+}
+STIFFNESS, THRESHOLD = 6.0, 0.3  # N/m, N
+
+
+def say(session, kind, **what):
+    return session.apply(PAGE_MESSAGES[kind](seq=1, **what))
+
+
+def fly(session, seconds):
+    for _ in range(round(seconds / session._flight.dt)):
+        session._hand.expire_requests()
+        session._flight.advance()
+
+
+def seen(session):
+    fields = tuple((name, count) for name, count in session.scene["fields"])
+    return {name: value[0] for name, value in read_frames(fields, session.frame()).items()}
+
+
+def up(session):
+    fly(session, 8.0)
+    assert session.status()["phase"] in ("guided", "hold")
+    return seen(session)["position"]
+
+
+def unprepared(tmp_path, **settings):
+    return Session(tl.load_mission("hover", GUIDED | settings), out=tmp_path)

@@ -1,0 +1,8 @@
+// What a person chooses about the hand by which the page pulls, and about pushes by keys.
+
+export interface HandOptions {
+  at: "point" | "centre"; // where the spring pulls: at the point that is held, or at the centre of mass
+  plane: "facing" | "level"; // in which a drag moves the target
+  force: number; // N, of keys and gamepad
+  directions: "view" | "world"; // of keys and gamepad: as seen, or along the world's axes
+}

@@ -1,0 +1,51 @@
+// The rows of the panel about the hand: where it pulls, in which plane it moves, how keys push.
+
+import type { HandOptions } from "../hand/options.ts";
+import { choice, el } from "./dom.ts";
+
+const MIN_FORCE = 0.1; // N
+
+/** The force of the keys, which the mission's hand limits. */
+export interface LimitedForce {
+  limit(newtons: number): void;
+}
+
+export function handRows(options: HandOptions, maxForce: number): { rows: HTMLElement[]; force: LimitedForce } {
+  const { input, force } = forceInput(options);
+  force.limit(maxForce);
+  const pull = choice("Where the hand pulls", { point: "at the point", centre: "centre of mass" }, options.at, (at) => {
+    options.at = at;
+  });
+  const planes = choice("Plane of the hand", { facing: "facing me", level: "level" }, options.plane, (plane) => {
+    options.plane = plane;
+  });
+  const ways = { view: "as seen", world: "world axes" };
+  const directions = choice("Directions of the keys", ways, options.directions, (value) => {
+    options.directions = value;
+  });
+  const rows = [
+    row("Pull", pull),
+    row("Plane", planes),
+    row("Key force", el("label", { class: "newtons", for: "key-force" }, input, "N")),
+    row("Keys push", directions),
+  ];
+  return { rows, force };
+}
+
+function forceInput(options: HandOptions): { input: HTMLInputElement; force: LimitedForce } {
+  const input = el("input", { type: "number", min: MIN_FORCE, step: 0.1, value: options.force, id: "key-force" });
+  const take = (): void => {
+    options.force = Math.min(Math.max(input.valueAsNumber || options.force, MIN_FORCE), Number(input.max));
+    input.value = String(options.force);
+  };
+  input.addEventListener("change", take);
+  const limit = (newtons: number): void => {
+    input.max = String(newtons);
+    take();
+  };
+  return { input, force: { limit } };
+}
+
+function row(name: string, content: HTMLElement): HTMLElement {
+  return el("div", { class: "row" }, el("span", {}, name), content);
+}

@@ -1,0 +1,32 @@
+// The phases of a flight in words and colours.
+
+import type { Phase, StatusMessage } from "../wire/messages.generated.ts";
+
+interface PhaseLook {
+  text: string;
+  kind: "calm" | "active" | "moving" | "fault" | "off";
+  tint: string;
+}
+
+const LOOKS: Record<Phase, PhaseLook> = {
+  preparing: { text: "preparing", kind: "off", tint: "rgba(0, 0, 0, 0)" },
+  idle: { text: "on the ground", kind: "off", tint: "rgba(93, 104, 117, 0.10)" },
+  lift: { text: "lifting", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
+  guided: { text: "guided", kind: "active", tint: "rgba(31, 157, 118, 0.13)" },
+  land: { text: "landing", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
+  hold: { text: "holding", kind: "calm", tint: "rgba(47, 111, 176, 0.12)" },
+  lost: { text: "out of control", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
+  over: { text: "over: press Reset", kind: "off", tint: "rgba(93, 104, 117, 0.10)" },
+  failed: { text: "failed: press Reset", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
+  stopped: { text: "stopped", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
+};
+
+export function phaseTint(phase: Phase): string {
+  return LOOKS[phase].tint;
+}
+
+/** What the badge says: a fault before all else. */
+export function badgeOf({ phase, alarm }: StatusMessage): { text: string; kind: string } {
+  const { text, kind } = LOOKS[phase];
+  return alarm ? { text: `${text} \u00b7 fault: ${alarm}`, kind: "fault" } : { text, kind };
+}

@@ -1,0 +1,240 @@
+// Everything around the picture: bar, panel, plots, buttons, notices, and the keys that press them.
+
+import { typing } from "../hand/force_input.ts";
+import type { HandOptions } from "../hand/options.ts";
+import type { ChaseCamera, View } from "../view/camera.ts";
+import type { FrameRate, Graphics, GraphicsChoice } from "../view/graphics.ts";
+import type { Overlays } from "../view/picture.ts";
+import type { Frame } from "../wire/frames.ts";
+import type { Latency } from "../wire/latency.ts";
+import {
+  type FlightScene,
+  type PageMessage,
+  type ParameterValue,
+  type StatusMessage,
+  THRESHOLD,
+} from "../wire/messages.generated.ts";
+import { perAxis } from "../wire/parameters.ts";
+import type { Replay } from "../wire/replay.ts";
+import { Dock } from "./dock.ts";
+import { byId, choice, toggle } from "./dom.ts";
+import { timedName } from "./file_names.ts";
+import { helpDialog } from "./help.ts";
+import { SPAN } from "./history.ts";
+import { Notices } from "./notices.ts";
+import { Panel } from "./panel.ts";
+import { Plots } from "./plots.ts";
+import { SaveDialog } from "./save_dialog.ts";
+import { StatusBar } from "./status_bar.ts";
+import { Timeline } from "./timeline.ts";
+import { VideoRecorder } from "./video_recorder.ts";
+
+const TEXT_EVERY = 200; // ms
+const PLOT_EVERY = { full: 30, light: 110 }; // ms; each of the four plots is drawn at a fourth of this rate
+const VIEWS: Record<View, string> = { behind: "behind", side: "side", above: "above" };
+const NARROW = 900; // pixels: below it the panel covers the picture, and starts closed
+const LOW = 380; // pixels of height: below it the plots start closed
+
+/** What the shell needs of the page. */
+export interface ShellPage {
+  readonly replay: Replay | null;
+  readonly hand: HandOptions;
+  readonly overlays: Overlays;
+  readonly camera: ChaseCamera;
+  readonly canvas: HTMLCanvasElement;
+  readonly graphics: Graphics;
+  readonly latency: Latency;
+  readonly frameRate: FrameRate;
+  readonly current: Frame | null;
+  send(message: PageMessage): void;
+  retry(): void;
+  look(view: View): void;
+  setGraphics(choice: GraphicsChoice): void;
+}
+
+export class Shell {
+  private readonly notices: Notices;
+  private readonly bar: StatusBar;
+  private readonly panel: Panel;
+  private readonly help: HTMLDialogElement;
+  private readonly saving: SaveDialog;
+  private readonly video = new VideoRecorder();
+  private plots: Plots | null = null;
+  private dock: Dock | null = null;
+  private timeline: Timeline | null = null;
+  private mission = "flight";
+  private pulled = false;
+  private texts = 0;
+  private drawn = 0;
+
+  constructor(private readonly page: ShellPage) {
+    this.notices = new Notices(() => {
+      page.retry();
+    });
+    this.bar = new StatusBar(page.replay !== null);
+    this.panel = new Panel(byId("panel"), page);
+    this.help = helpDialog(page.replay !== null);
+    this.saving = new SaveDialog((name) => {
+      page.send({ type: "save", name });
+    });
+    byId("show-help").addEventListener("click", () => {
+      this.help.showModal();
+    });
+    foldable("show-panel", "panel", window.innerWidth >= NARROW && page.replay === null);
+    foldable("show-plots", "plots", window.innerHeight >= LOW);
+    this.makeViews();
+    if (!page.replay) this.makeDock();
+    window.addEventListener("keydown", this.key);
+  }
+
+  /** Whether a video is being recorded. */
+  get recording(): boolean {
+    return this.video.running;
+  }
+
+  scene(scene: FlightScene): void {
+    this.mission = scene.mission;
+    this.bar.scene(scene);
+    this.panel.scene(scene);
+    this.plots = new Plots(scene, byId("plots"), this.page.graphics);
+    this.dock?.reset();
+    if (!this.page.replay || !scene.replay) return;
+    this.timeline = new Timeline(byId("dock"), scene.replay, this.page.replay, () => {
+      this.toggleVideo();
+    });
+  }
+
+  frame(frame: Frame): void {
+    const jumped = this.plots?.add(frame) ?? false;
+    if (jumped && this.page.replay) for (const past of this.page.replay.before(SPAN)) this.plots?.add(past);
+    if (frame.scalar("held") > 0) this.pulled = true;
+  }
+
+  status(status: StatusMessage): void {
+    this.bar.status(status);
+    this.dock?.status(status);
+    this.panel.markFailed(status.failed_rotors);
+    this.hint(status);
+  }
+
+  changed(key: string, value: ParameterValue, duration: number): void {
+    this.panel.changed(key, value, duration);
+    if (this.plots && key === THRESHOLD) this.plots.threshold = perAxis(value);
+  }
+
+  refused(what: string, reason: string): void {
+    if (what === "save" && this.saving.refused(reason)) return;
+    const shown = this.panel.refused(what, reason);
+    if (!shown || byId("panel").hidden) this.notices.show(`${what}: ${reason}`, "refused");
+  }
+
+  done(what: string, detail: string): void {
+    if (what === "save") this.saving.done();
+    this.notices.show(what === "save" ? `Saved as ${detail}` : `${what}: ${detail}`, "done");
+  }
+
+  connected(): void {
+    this.notices.connected();
+  }
+
+  disconnected(retryAt: number): void {
+    this.notices.disconnected(retryAt);
+    this.bar.disconnected();
+    this.saving.refused("The connection is lost: the flight was not saved.");
+  }
+
+  /** After each picture. */
+  tick(now: number): void {
+    const { page } = this;
+    if (now - this.drawn > PLOT_EVERY[page.graphics]) {
+      this.plots?.draw();
+      this.drawn = now;
+    }
+    if (page.replay && page.current) this.timeline?.update(page.current.scalar("time"));
+    if (now - this.texts < TEXT_EVERY) return;
+    this.texts = now;
+    this.bar.update(page.current, page.latency.median, page.frameRate.rate);
+    if (page.current) this.panel.showThrusts(page.current.list("thrusts"));
+  }
+
+  private makeDock(): void {
+    const { page } = this;
+    const save = (): void => {
+      this.saving.open(timedName(this.mission));
+    };
+    const film = (): void => {
+      this.toggleVideo();
+    };
+    this.dock = new Dock(byId("dock"), page.send.bind(page), save, film);
+  }
+
+  private makeViews(): void {
+    const { page } = this;
+    const views = choice("View", VIEWS, "behind", (view) => {
+      page.look(view);
+    });
+    const follow = toggle("follow", true, (on) => (page.camera.following = on));
+    byId("views").replaceChildren(views, follow);
+  }
+
+  private toggleVideo(): void {
+    let reason = "";
+    if (this.video.running) this.video.stop();
+    else reason = this.video.start(this.page.canvas, timedName(this.mission));
+    if (reason) this.notices.show(reason, "refused");
+    this.dock?.filming(this.video.running);
+    byId("dock").classList.toggle("filming", this.video.running);
+  }
+
+  /** What to do first, until it was done. */
+  private hint(status: StatusMessage): void {
+    const hint = byId("hint");
+    const text = hintOf(status, this.pulled);
+    if (hint.textContent !== text) hint.textContent = text;
+    hint.hidden = text === "" || this.page.replay !== null;
+  }
+
+  private readonly key = (event: KeyboardEvent): void => {
+    if (typing(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.repeat && !event.code.startsWith("Arrow")) return;
+    this.keys().get(event.code)?.();
+  };
+
+  private keys(): Map<string, () => void> {
+    const { page, timeline } = this;
+    const views = [...byId("views").querySelectorAll<HTMLElement>("button, input")];
+    const names = ["Digit1", "Digit2", "Digit3", "KeyF"];
+    const keys = new Map(names.map((name, i) => [name, () => views[i].click()]));
+    if (timeline) {
+      keys.set("KeyP", () => timeline.toggle());
+      keys.set("ArrowLeft", () => timeline.step(-1));
+      keys.set("ArrowRight", () => timeline.step(1));
+    } else {
+      keys.set("KeyP", () => this.dock?.togglePause());
+      keys.set("KeyL", () => page.send({ type: "ask", what: "lift" }));
+      keys.set("KeyK", () => page.send({ type: "ask", what: "land" }));
+    }
+    return keys;
+  }
+}
+
+function hintOf({ phase, preparing }: StatusMessage, pulled: boolean): string {
+  if (preparing?.failure) return `The flight cannot be flown: ${preparing.failure}`;
+  if (preparing) return `Preparing the flight: ${preparing.step} \u2026`;
+  if (phase === "idle") return "Press Lift to take off.";
+  return phase === "guided" && !pulled ? "Drag the beam to pull it." : "";
+}
+
+/** Lets a button show and hide a part of the page. */
+function foldable(name: string, part: string, open: boolean): void {
+  const [handle, place] = [byId(name), byId(part)];
+  const set = (on: boolean): void => {
+    handle.setAttribute("aria-pressed", String(on));
+    place.hidden = !on;
+    document.body.classList.toggle(`no-${part}`, !on);
+  };
+  handle.addEventListener("click", () => {
+    set(place.hidden !== false);
+  });
+  set(open);
+}

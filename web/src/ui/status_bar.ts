@@ -1,0 +1,62 @@
+// The bar on top: phase, time, real-time factor, latency, who holds the beam, who watches.
+
+import type { Frame } from "../wire/frames.ts";
+import type { FlightScene, StatusMessage } from "../wire/messages.generated.ts";
+import { byId, el } from "./dom.ts";
+import { badgeOf } from "./phases.ts";
+
+const HOLDERS = { you: "you", other: "another page", none: "nobody" };
+const LATE = 0.97; // real-time factor below which the number is marked
+
+export class StatusBar {
+  private readonly values = new Map<string, HTMLElement>();
+  private readonly badge = byId("mode");
+
+  constructor(replay: boolean) {
+    const live = replay ? ["time"] : ["time", "speed", "latency", "held by", "viewers", "recorded"];
+    const meters = [...live, "pictures"].map((name) => {
+      const value = el("dd", {}, "\u2013");
+      this.values.set(name, value);
+      return el("div", { class: name.replace(" ", "-") }, el("dt", {}, name), value);
+    });
+    byId("meters").replaceChildren(...meters);
+  }
+
+  scene({ mission, engine, version }: FlightScene): void {
+    byId("mission").textContent = mission;
+    byId("mission").title = `engine ${engine}, version ${version}`;
+    document.title = `${mission} \u00b7 tandemlift`;
+  }
+
+  status(status: StatusMessage): void {
+    const { text, kind } = badgeOf(status);
+    this.badge.textContent = status.paused ? `paused \u00b7 ${text}` : text;
+    this.badge.className = `badge ${kind}`;
+    const { factor } = status;
+    const late = !status.paused && !status.preparing && factor < LATE * status.speed;
+    this.set("speed", `\u00d7${factor.toFixed(2)}`, late ? `late by ${status.behind_ms.toFixed(0)} ms` : "");
+    this.set("held by", HOLDERS[status.holder]);
+    this.set("viewers", String(status.viewers));
+    this.set("recorded", `${status.recorded_s.toFixed(0)} s`);
+  }
+
+  /** A few times a second: what changes with every picture. */
+  update(frame: Frame | null, latency: number | null, pictures: number): void {
+    if (frame) this.set("time", `${frame.scalar("time").toFixed(1)} s`);
+    this.set("latency", latency === null ? "\u2013" : `${latency.toFixed(0)} ms`);
+    this.set("pictures", `${pictures.toFixed(0)}/s`);
+  }
+
+  disconnected(): void {
+    this.badge.textContent = "no connection";
+    this.badge.className = "badge off";
+  }
+
+  private set(name: string, text: string, warning = ""): void {
+    const value = this.values.get(name);
+    if (!value) return;
+    if (value.textContent !== text) value.textContent = text;
+    value.title = warning;
+    value.classList.toggle("late", warning !== "");
+  }
+}

@@ -1,0 +1,329 @@
+// Written by tools/wire_types.py from src/tandemlift/live/wire/: change it there.
+
+export type Vector = readonly [number, number, number];
+export type Quaternion = readonly [number, number, number, number]; // w, x, y, z: body to world
+export type ParameterValue = number | boolean | string | readonly number[];
+
+export type Phase =
+  | "idle"
+  | "lift"
+  | "guided"
+  | "land"
+  | "hold"
+  | "stopped"
+  | "preparing"
+  | "failed"
+  | "lost"
+  | "over";
+
+export type FrameFieldName =
+  | "time"
+  | "position"
+  | "attitude"
+  | "velocity"
+  | "reference"
+  | "reference_yaw"
+  | "push"
+  | "push_point"
+  | "pilot_push"
+  | "disturbance"
+  | "wind"
+  | "phase"
+  | "alarm"
+  | "held"
+  | "hand_point"
+  | "hand_target"
+  | "seq"
+  | "thrusts";
+
+/** Fields of which a value between two frames means nothing. */
+export const JUMPING_FIELDS: readonly FrameFieldName[] = ["phase", "alarm", "held", "seq"];
+
+/** Parameters that the picture and the plots show. */
+export const THRESHOLD = "admittance.threshold";
+export const STIFFNESS = "person.stiffness";
+export const MAX_FORCE = "person.max_force";
+/** Bounds of numbers that the page sends. */
+export const LIMITS = {
+  kill: { rotor: { min: 0, max: 255 } },
+  speed: { factor: { min: 0.1, max: 1 } },
+  ping: { t: { min: -1e+12, max: 1e+12 } },
+} as const;
+
+/** The four feet of a quadrotor. */
+export interface SceneFeet {
+  spread: number; // of each foot from the quadrotor's centre along x and along y; m
+  depth: number; // from the quadrotor's centre down to the soles; m
+}
+
+/** A rotor. */
+export interface SceneRotor {
+  position: Vector; // m, body axes
+  spin: number; // 1 or -1: sign of its reaction torque about body z
+  radius: number; // m
+  max_thrust: number; // N
+}
+
+/** A quadrotor. */
+export interface SceneQuadrotor {
+  position: Vector; // m, body axes
+  joint: Vector; // where it is fixed to the payload; m, body axes
+  arm: number; // mean distance of its rotors from its centre; m
+  guard: number; // radius of the sphere that touches walls; m
+  feet: SceneFeet;
+  rotors: SceneRotor[];
+}
+
+/** The payload: a beam, or a box if it has no length of its own. */
+export interface ScenePayload {
+  position: Vector; // m, body axes
+  length: number; // m
+  width: number; // m
+  height: number; // m
+}
+
+/** The whole vehicle. */
+export interface SceneVehicle {
+  quadrotors: SceneQuadrotor[];
+  payload: ScenePayload;
+  mass: number; // kg
+}
+
+/** A wall. */
+export interface SceneWall {
+  center: Vector; // m, world axes
+  size: Vector; // length, thickness, height, m
+  heading: number; // of its length from world x, rad
+}
+
+/** A corridor. */
+export interface SceneCorridor {
+  centreline: [number, number][];
+  width: number; // m
+  height: number; // m
+}
+
+/** A spring with a damper. */
+export interface SceneSpring {
+  stiffness: number; // N/m
+  damping: number; // N s/m
+  max_force: number; // N
+}
+
+/** A parameter. */
+export interface SceneParameter {
+  key: string; // dotted key of the mission
+  label: string;
+  group: string;
+  value: ParameterValue;
+  initial?: ParameterValue; // the mission's value, which `restore` sets
+  unit?: string;
+  min?: number;
+  max?: number;
+  choices?: string[]; // in place of bounds
+}
+
+/** A span of time. */
+export interface SceneReplay {
+  start: number; // s
+  end: number; // s
+  speed: number; // flight time over wall time
+}
+
+/** Everything about a flight that does not change from frame to frame. */
+export interface FlightScene {
+  mission: string; // name of the mission
+  engine: string; // where the body is simulated
+  version: string; // of tandemlift
+  step: number; // of the simulation; s
+  rate: number; // frames a second, at most
+  vehicle: SceneVehicle; // in body axes, from its centre of mass
+  ground: boolean; // whether there is a floor to land on
+  floor: number; // height of the floor, or of the level that is drawn in its place; m
+  walls: SceneWall[]; // upright boxes
+  corridor: SceneCorridor | null; // drawn on the floor
+  threshold: Vector; // push on each axis below which nothing moves, N
+  spring: SceneSpring; // of the virtual hand by which a page pulls
+  phases: Phase[]; // names of the phases by their number
+  alarms: string[]; // names of the alarms by their number; empty for no alarm
+  fields: [FrameFieldName, number][]; // name and number of columns of each field of a frame
+  parameters: SceneParameter[]; // what may be changed in flight
+  replay?: SceneReplay; // span of a saved flight
+}
+
+/** The preparation of a flight. */
+export interface PreparationStatus {
+  step: string; // what is being done
+  seconds: number; // since the preparation began; s
+  failure: string; // why the mission cannot be flown; empty unless that is so
+}
+
+/** The state of a flight in words, and how it keeps up with the clock. */
+export interface FlightStatus {
+  phase: Phase; // of the flight; before it `preparing`, at its end `over`, `lost` or `failed`
+  alarm: string; // what has failed; empty if nothing has
+  enabled: boolean; // whether the pilot follows pushes
+  paused: boolean; // whether time stands still
+  speed: number; // flight time over wall time, as asked for
+  factor: number; // flight time over wall time, during the last second
+  behind_ms: number; // how late the flight was at most since the last status, ms
+  recorded_s: number; // length of the recording, s
+  failed_rotors: readonly number[]; // rotors that have stopped for good, counted over the whole vehicle from 0
+  preparing?: PreparationStatus; // before the first step
+}
+
+/** The scene: on connecting, after a reset, and when the set of parameters changes. */
+export interface SceneMessage extends FlightScene {
+  type: "scene";
+}
+
+/** The status: on connecting and four times a second. */
+export interface StatusMessage extends FlightStatus {
+  type: "status";
+  viewers: number; // pages that are connected
+  holder: "you" | "other" | "none"; // who holds the beam
+}
+
+/** To all: a parameter goes to a value within a duration. */
+export interface ChangedMessage {
+  type: "changed";
+  key: string;
+  value: ParameterValue;
+  duration: number; // s
+}
+
+/** To the page that asked: why a message is refused. */
+export interface RefusedMessage {
+  type: "refused";
+  what: string; // type of the message and its key, if it has one
+  reason: string; // names the key, the value and what is allowed
+}
+
+/** To the page that asked: `save` or `tare` is done. */
+export interface DoneMessage {
+  type: "done";
+  what: "save" | "tare";
+  detail: string; // the folder, or the time of the tare
+}
+
+/** To the page that asked: the answer to `ping`. */
+export interface PongMessage {
+  type: "pong";
+  t: number; // as it came
+}
+
+/** Hold the vehicle at a point or at its centre of mass, and pull it to a target by a spring. */
+export interface GrabMessage {
+  type: "grab";
+  point: Vector; // where the cursor takes hold; m, body axes
+  target: Vector; // where the point is to be; m, world axes
+  at: "point" | "centre"; // whether the spring pulls at the point or at the centre of mass
+}
+
+/** Pull to another target; ignored unless this page holds the beam. */
+export interface MoveMessage {
+  type: "move";
+  target: Vector; // m, world axes
+}
+
+/** Let go of the beam. */
+export interface ReleaseMessage {
+  type: "release";
+}
+
+/** Push with a force, as a keyboard or a gamepad does; a force of zero lets go. */
+export interface ForceMessage {
+  type: "force";
+  force: Vector; // N, world axes
+  point: Vector; // where it acts; m, body axes
+}
+
+/** Change a parameter. */
+export interface SetMessage {
+  type: "set";
+  key: string;
+  value: ParameterValue;
+}
+
+/** Set a parameter back to the mission's value; without a key, all of them. */
+export interface RestoreMessage {
+  type: "restore";
+  key?: string;
+}
+
+/** Ask the pilot to lift off, to land, or to stop all rotors. */
+export interface AskMessage {
+  type: "ask";
+  what: "lift" | "land" | "stop";
+}
+
+/** Let the pilot follow pushes, or not. */
+export interface EnableMessage {
+  type: "enable";
+  on: boolean;
+}
+
+/** Tare the force sensors from a second later on; only in hover, without a push. */
+export interface TareMessage {
+  type: "tare";
+}
+
+/** Stop a rotor for good. */
+export interface KillMessage {
+  type: "kill";
+  rotor: number; // counted over the whole vehicle, from 0
+}
+
+/** Stop time, or let it go on. */
+export interface PauseMessage {
+  type: "pause";
+  on: boolean;
+}
+
+/** Fly slower than real time. */
+export interface SpeedMessage {
+  type: "speed";
+  factor: number; // flight time over wall time
+}
+
+/** Begin the flight again. */
+export interface ResetMessage {
+  type: "reset";
+}
+
+/** Save what was flown so far. */
+export interface SaveMessage {
+  type: "save";
+  name: string; // 1 to 64 letters, digits, `.`, `_` or `-`; the first a letter or a digit
+}
+
+/** Ask for a `pong`; a page that holds the beam says something every 2 s at least. */
+export interface PingMessage {
+  type: "ping";
+  t: number; // ms, by the page's clock; it comes back
+}
+
+export type ServerMessage =
+  | SceneMessage
+  | StatusMessage
+  | ChangedMessage
+  | RefusedMessage
+  | DoneMessage
+  | PongMessage;
+
+export type PageMessage =
+  | GrabMessage
+  | MoveMessage
+  | ReleaseMessage
+  | ForceMessage
+  | SetMessage
+  | RestoreMessage
+  | AskMessage
+  | EnableMessage
+  | TareMessage
+  | KillMessage
+  | PauseMessage
+  | SpeedMessage
+  | ResetMessage
+  | SaveMessage
+  | PingMessage;
