@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.algebra.vector import Nothing
 from tandemlift.flight.record import CHANNELS, DERIVED
 from tandemlift.laws.guidance.guidance import HandGuidanceChannels
 from tandemlift.laws.guidance.supervision import SupervisionChannels
@@ -26,6 +27,7 @@ GROUPS = {
     "air": WindChannels,
     "contact": ContactChannels,
     "measured": MeasuredChannels,
+    "additional": Nothing,
     "estimated": EstimatedChannels,
     "disturbed": DisturbanceChannels,
     "guided": HandGuidanceChannels,

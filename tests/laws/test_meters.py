@@ -12,7 +12,7 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Vec3, spread, vec3
-from tandemlift.laws.sensors.sensor_errors import SensorGrade, displayed, no_drift, read, sensor_model
+from tandemlift.laws.sensors.noise_bias_drift import SensorGrade, displayed, no_drift, read, sensor_model
 
 from .helpers import array, numbers, random_vec3, seeds, vectors
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.files import atomic_write
+from tandemlift.common.sensors import ADDITIONAL
 from tandemlift.common.types import Array
 from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
 from tandemlift.flight.tables import to_pandas, to_xarray
@@ -95,6 +96,15 @@ CHANNELS: dict[str, Channel] = {
     "refused": Channel("1", "", "number of the check that refuses to lift or to listen; 0 for none"),
     "rotor_lost": Channel("1", "", "number of the rotor that is taken for lost, 0 for none"),
 }
+
+
+def channel_of(name: str) -> Channel:
+    """What a channel of that name holds; of an additional sensor, as that was registered."""
+    sensor = ADDITIONAL.get(name.removeprefix("measured_"))
+    if name in CHANNELS or sensor is None:
+        return CHANNELS.get(name, TIME if name == "time" else OTHER)
+    return Channel(sensor.unit, sensor.frame, f"reading of the sensor {sensor.name!r}: {sensor.meaning}")
+
 
 TIME = Channel("s", "", "time")
 OTHER = Channel("", "", "not one of tandemlift's own")
@@ -178,7 +188,7 @@ class Flight(Mapping[str, Array]):
     def info(self, name: str) -> Channel:
         """Unit, frame and meaning of a channel."""
         self[name]
-        return DERIVED[name][2] if name in DERIVED else CHANNELS.get(name, TIME if name == "time" else OTHER)
+        return DERIVED[name][2] if name in DERIVED else channel_of(name)
 
     def metrics(self) -> dict[str, Any]:
         """The flight's metrics: flat, SI, the unit at the end of each name; None where it could not be formed."""

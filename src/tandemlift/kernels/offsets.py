@@ -47,7 +47,12 @@ def delayed_spans(flying: Any) -> DelayedSpans:
     late = flying.delays
     if isinstance(late, Nothing):
         return DelayedSpans()
-    ends = [("readings", "imu"), ("readings", "motion"), ("rotors", "arriving"), ("partner", "seen")]
+    ends: list[tuple[str, ...]] = [
+        ("readings", "imu"),
+        ("readings", "motion"),
+        ("rotors", "arriving"),
+        ("partner", "seen"),
+    ]
     ends += [("readings", "additional", name) for name in getattr(late.additional, "_fields", ())]
     return DelayedSpans(
         NONE if isinstance(mark, Nothing) else leaf_offset(flying, "moving", *end)

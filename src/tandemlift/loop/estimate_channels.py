@@ -55,7 +55,7 @@ def _no_readings(readings):
 
 
 @shown_readings.register(Readings)
-def _readings(readings):
+def _readings(readings: Readings) -> Any:
     m, u = readings.motion, readings.imu
     more = [reading.value for reading in readings.additional]
     return MeasuredChannels(
@@ -81,7 +81,7 @@ def _no_estimate(known):
 
 
 @shown_estimate.register(Estimates)
-def _estimate(known):
+def _estimate(known: Estimates) -> Any:
     s, p = known.state, known.push
     return EstimatedChannels(
         s.position,

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.selection import chosen
-from tandemlift.algebra.vector import Vec3
+from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.laws.estimation.navigation import centre_of_mass
 from tandemlift.laws.estimation.push_estimate import PushEstimate
 from tandemlift.laws.guidance.supervision import SensorStatus, sensor_status
@@ -69,7 +69,9 @@ class CheckedEstimates(NamedTuple):
 
 
 @measure.register(FaultySensors)
-def _sensed_and_spoiled(sensors, memory, state, felt, believed, noise):
+def _sensed_and_spoiled(
+    sensors: FaultySensors, memory: Any, state: State, felt: Any, believed: Quat, noise: Any
+) -> Any:
     readings, sensing = sense(sensors.sensors, memory.sensing, state, felt, believed, noise)
     given, faults = apply_faults(sensors.faults, memory.faults, readings)
     return given, FaultySensorsState(sensing, faults)
@@ -102,12 +104,12 @@ def at_best(s: State, readings: Readings, r: WatchdogReport, rates: Vec3) -> Sta
 
 
 @tare_time.register(WatchedEstimators)
-def _tare_watched(estimators, guidance, t):
+def _tare_watched(estimators: WatchedEstimators, guidance: Any, t: Any) -> Any:
     return tare_begun(estimators.estimators.tare, guidance, t)
 
 
 @estimate_all.register(WatchedEstimators)
-def _watched(k, m, readings, t, dt):
+def _watched(k: WatchedEstimators, m: Any, readings: Any, t: Any, dt: Any) -> Any:
     clean, report, watching = watchdog_step(k.watchdog, m.watching, readings, predicted(k.estimators, m.remembered), dt)
     known, remembered = estimate_all(k.estimators, m.remembered, clean, t, dt)
     push, state = trusted_push(known.push, report), at_best(known.state, clean, report, watching.rates)
@@ -115,12 +117,12 @@ def _watched(k, m, readings, t, dt):
 
 
 @usable.register(CheckedEstimates)
-def _checked_readings(known, readings):
+def _checked_readings(known: CheckedEstimates, readings: Any) -> Any:
     return known.readings
 
 
 @shown_estimate.register(CheckedEstimates)
-def _shown_checked(known):
+def _shown_checked(known: CheckedEstimates) -> Any:
     return shown_estimate(Estimates(known.push, known.state, known.vehicle))
 
 
@@ -130,12 +132,12 @@ def reported_by(known: Any) -> Any:
 
 
 @reported_by.register(CheckedEstimates)
-def _reported(known):
+def _reported(known: CheckedEstimates) -> Any:
     p, r = known.push, known.report
     apart = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0 - p.trusted)
     return SensorStatus(r, apart, p.armed, p.payload_mass)
 
 
 @sensor_status.register(PerceptionData)
-def _senses(what, payload):
+def _senses(what: PerceptionData, payload: Any) -> Any:
     return reported_by(what.known)

@@ -69,9 +69,9 @@ def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> Any:
     """Which delay lines a mission has; `Nothing` if it has none."""
     if not delays.any():
         return Nothing()
-    marks = [Delayed() if d else Nothing() for d in delays]
+    imu, motion, command, seen, *more = [Delayed() if d else Nothing() for d in delays]
     names = tuple(s.name for s in mission.sensors.additional)
-    return DelayLines(*marks[: len(marks) - len(names)], by_name(names)(*marks[len(marks) - len(names) :]))
+    return DelayLines(imu, motion, command, seen, by_name(names)(*more))
 
 
 def start_metrics(far: Any, company: Any) -> RunningMetrics:

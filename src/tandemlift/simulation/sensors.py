@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.common.sensors import additional_sensor
 from tandemlift.common.types import Array
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
 from tandemlift.laws.estimation.push_estimate import push_estimator, start_push
@@ -16,7 +17,7 @@ from tandemlift.laws.mechanics.air_drag import payload_drag
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.sensors.noise_bias_drift import SensorGrade, scalar_sensor_model, sensor_model
 from tandemlift.laws.sensors.readings import AdditionalChannels, by_name, sensors, zero_noise
-from tandemlift.laws.sensors.sensor_table import additional_sensor
+from tandemlift.laws.sensors.sensor_registry import PARAMETERS
 from tandemlift.loop.perception import Estimators, EstimatorState, NominalVehicle, TareAtTime, TareInHover
 from tandemlift.settings import AdditionalSensorTable, InertialSensor, JointSensors, Mission
 from tandemlift.vehicle import Vehicle
@@ -69,19 +70,17 @@ def _inertial_grade(s: InertialSensor, chance: np.random.Generator) -> SensorGra
     return SensorGrade(noise=s.noise, bias=chance.standard_normal((1, 3)) * s.bias, drift=s.drift, limit=s.range)
 
 
-def _additional_sensors(
-    tables: Sequence[AdditionalSensorTable], step: float, chance: np.random.Generator
-) -> Any:
+def _additional_sensors(tables: Sequence[AdditionalSensorTable], step: float, chance: np.random.Generator) -> Any:
     """The parameters of additional sensors by name; `Nothing` for none."""
     return by_name(tuple(s.name for s in tables))(*[_additional(s, step, chance) for s in tables])
 
 
 def _additional(s: AdditionalSensorTable, step: float, chance: np.random.Generator) -> Any:
-    sensor, period = additional_sensor(s.name), steps_of(s.interval, step)
-    bias = chance.standard_normal(3 if sensor.is_vector else None) * s.bias
+    is_vector, period = additional_sensor(s.name).width == 3, steps_of(s.interval, step)
+    bias = chance.standard_normal(3 if is_vector else None) * s.bias
     grade = SensorGrade(noise=s.noise, bias=bias, drift=s.drift, resolution=s.resolution, limit=s.range)
-    model = (sensor_model if sensor.is_vector else scalar_sensor_model)(grade, step * period)
-    return sensor.kind(AdditionalChannels(model), float(period))
+    model = (sensor_model if is_vector else scalar_sensor_model)(grade, step * period)
+    return PARAMETERS[s.name](AdditionalChannels(model), float(period))
 
 
 def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings: Any) -> tuple[Any, Any]:

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.common.sensors import sensors_named
 from tandemlift.laws.sensors.health import AttitudeLimits, JointLimits, PerSensor, VectorLimits
 from tandemlift.laws.sensors.readings import SensorState, readings_of
 from tandemlift.laws.sensors.sensor_faults import (
@@ -16,7 +17,6 @@ from tandemlift.laws.sensors.sensor_faults import (
     all_faults,
     sensor_fault,
 )
-from tandemlift.laws.sensors.sensor_table import sensors_named
 from tandemlift.laws.sensors.watchdog import Watchdog, start_watchdog
 from tandemlift.loop.fault_tolerant_perception import (
     FaultySensors,
@@ -26,7 +26,6 @@ from tandemlift.loop.fault_tolerant_perception import (
 )
 from tandemlift.settings import Mission, SensorFaultTable
 from tandemlift.simulation.sensors import steps_of
-
 
 
 def _steps(f: SensorFaultTable, step: float) -> tuple[float, float]:

@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Quat, Vec3, dot, total
+from tandemlift.common.sensors import SENSORS, Sensor
 from tandemlift.laws.sensors.readings import Readings
-from tandemlift.laws.sensors.sensor_table import SENSORS, Sensor
 
 FROZEN, NO_NUMBER, OUT_OF_RANGE = 1.0, 2.0, 3.0
 KINDS = ("frozen", "not a number", "out of range")
@@ -123,8 +123,8 @@ def differing_components(v: Vec3, last: Vec3) -> Any:
 
 
 @choice
-def check_sample(limits: Any, sample: Any, last: Any) -> SampleChecks:
-    """The checks of a sample; it and the one before it are tuples of the sensor's quantities."""
+def check_sample(limits: Any, sample: Any, last: Any) -> Any:
+    """The `SampleChecks` of a sample; it and the one before it are tuples of the sensor's quantities."""
 
 
 @check_sample.register(VectorLimits)
@@ -145,9 +145,7 @@ def _check_joints(k: JointLimits, sample: tuple[Vec3, Vec3], last: tuple[Vec3, V
     return SampleChecks(
         not_finite=maximum(not_finite_of_sets(force), not_finite_of_sets(torque)),
         out_of_range=maximum(out_of_range_of_sets(force, k.force), out_of_range_of_sets(torque, k.torque)),
-        identical=minimum(
-            total(is_zero(differing + differs(t.x, s.x) + differs(t.y, s.y) + differs(t.z, s.z))), 1.0
-        ),
+        identical=minimum(total(is_zero(differing + differs(t.x, s.x) + differs(t.y, s.y) + differs(t.z, s.z))), 1.0),
     )
 
 

@@ -2,9 +2,9 @@
 
 The inertial measurement unit (IMU) holds an accelerometer at the payload's centre of mass and a gyroscope; the
 force-torque sensors at the joints run on its clock; all read in body axes. The motion measurement reads position and
-velocity of the system's centre of mass in world axes, and the attitude. An additional sensor (`sensor_table`) is a
-device of its own. Between samples the last one is held, no longer fresh. Delays from the sensors to the pilot are in
-the loop (`loop.delays`).
+velocity of the system's centre of mass in world axes, and the attitude. An additional sensor is a device of its own
+(`additional_sensors`). Between samples the last one is held, no longer fresh. Delays from the sensors to the pilot are
+in the loop (`loop.delays`).
 """
 
 from functools import cache
@@ -28,7 +28,7 @@ from tandemlift.laws.sensors.noise_bias_drift import (
     sensor_model,
     start_drift,
 )
-from tandemlift.laws.sensors.sensor_table import true_value
+from tandemlift.laws.sensors.sensor_registry import true_value
 
 NONE = Nothing()
 
@@ -148,9 +148,7 @@ def sample_device(k: Any, m: DeviceState, truth: Any, normals: Any) -> DeviceSta
     fresh, samples = where(due, 1.0, 0.0), sample_channels(k.channels, m.drift, truth, normals)
     held = [selected(due, new, old) for new, old in zip(samples, m.reading[:-1], strict=True)]
     drift = [next_drift(*channel, fresh) for channel in zip(k.channels, m.drift, normals, strict=True)]
-    return DeviceState(
-        type(m.reading)(*held, fresh), type(m.drift)(*drift), where(due, k.period, m.wait) - 1.0
-    )
+    return DeviceState(type(m.reading)(*held, fresh), type(m.drift)(*drift), where(due, k.period, m.wait) - 1.0)
 
 
 @law
@@ -197,7 +195,7 @@ def readings_of(m: SensorState) -> Readings:
 @cache
 def by_name(names: tuple[str, ...]) -> Any:
     """The type of values by name, one for each additional sensor; `Nothing` for none."""
-    return NamedTuple("_".join(("ByName", *names)), [(name, Any) for name in names]) if names else Nothing  # type: ignore[misc]
+    return NamedTuple("_".join(("ByName", *names)), [(name, Any) for name in names]) if names else Nothing
 
 
 def sensors(

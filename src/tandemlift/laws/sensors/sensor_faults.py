@@ -14,9 +14,9 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.common.sensors import SENSORS, additional_sensor, sensors_on
 from tandemlift.laws.mechanics.rotation_vectors import turned
 from tandemlift.laws.sensors.readings import AdditionalChannels, ImuChannels, MotionChannels, Readings, by_name
-from tandemlift.laws.sensors.sensor_table import ADDITIONAL, SENSORS, sensors_on
 
 NEVER = 1e18  # steps
 EMPTY: Mapping[str, Any] = MappingProxyType({})
@@ -203,12 +203,14 @@ def all_faults(
 
     def alone(name: str) -> DeviceFaults:
         fault = faults.get(name, SOUND)
-        return device(name, AdditionalChannels(fault if ADDITIONAL[name].is_vector else ScalarFault(fault)))
+        return device(name, AdditionalChannels(fault if additional_sensor(name).width == 3 else ScalarFault(fault)))
 
     imu = ImuChannels(**{q: by_quantity[q] for row in sensors_on("imu") for q in row.quantities}, frame=NoFault())
     motion = MotionChannels(**{q: by_quantity[q] for row in sensors_on("motion") for q in row.quantities})
     motion = motion._replace(attitude=AttitudeFault(motion.attitude))
-    return SensorFaults(device("imu", imu), device("motion", motion), by_name(tuple(additional))(*map(alone, additional)))
+    return SensorFaults(
+        device("imu", imu), device("motion", motion), by_name(tuple(additional))(*map(alone, additional))
+    )
 
 
 def _torque_fault(force: SensorFault) -> SensorFault:

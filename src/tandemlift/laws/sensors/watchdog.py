@@ -123,7 +123,7 @@ class WatchdogReport(NamedTuple):
     seen: Any
 
 
-WELL = WatchdogReport(*[0.0] * 11, seen=1.0)
+WELL = WatchdogReport._make([*[0.0] * 11, 1.0])
 
 
 class PredictedReadings(NamedTuple):
@@ -135,10 +135,10 @@ class PredictedReadings(NamedTuple):
 
 
 @law
-def lost(k: Watchdog, h: SensorHealth, frozen_samples: Any) -> Any:
+def lost(k: Watchdog, h: SensorHealth, limits: Any) -> Any:
     """What is wrong with a sensor that is lost (`KINDS`, from 1), or 0."""
     invalid = where(h.invalid_time >= k.invalid_time, h.failure, 0.0)
-    return where(h.failure > 0.0, invalid, where(h.identical >= frozen_samples, FROZEN, 0.0))
+    return where(h.failure > 0.0, invalid, where(h.identical >= limits.frozen_samples, FROZEN, 0.0))
 
 
 @law
@@ -217,14 +217,13 @@ def exceeds(difference: Vec3, gap: Any) -> Any:
 
 
 @law
-def report_of(
-    k: Watchdog, h: PerSensor, imu_age: Any, motion_age: Any, seen: Any, d: Inconsistency
-) -> WatchdogReport:
+def report_of(k: Watchdog, h: PerSensor, imu_age: Any, motion_age: Any, seen: Any, d: Inconsistency) -> WatchdogReport:
     """What is wrong, with devices of these ages [s]; `seen` is 1 once both have sent a sample."""
+    failures = PerSensor(*[lost(k, *sensor) for sensor in zip(h, k.sensors, strict=True)])
     return WatchdogReport(
-        where(imu_age >= k.stale_time, 1.0, 0.0),
-        where(motion_age >= k.stale_time, 1.0, 0.0),
-        *[lost(k, health, limits.frozen_samples) for health, limits in zip(h, k.sensors, strict=True)],
+        imu=where(imu_age >= k.stale_time, 1.0, 0.0),
+        motion=where(motion_age >= k.stale_time, 1.0, 0.0),
+        **failures._asdict(),
         attitude_inconsistent=exceeds(d.attitude, k.attitude_gap),
         velocity_inconsistent=exceeds(d.position, k.position_gap),
         speed_inconsistent=exceeds(d.velocity, k.velocity_gap),
