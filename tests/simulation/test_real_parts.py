@@ -103,10 +103,10 @@ def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
         wished = thought.decision.thrusts
         thought = thought._replace(memory=with_allocation(thought.memory, AllocationState(wished * 0.0, wished)))
         moving, sample = finish_step(flying, thought, given, k * DT, DT)
-        units.append(moving.readings.unit)
+        units.append(moving.readings.imu)
         motions.append(moving.readings.motion)
         commands.append(moving.rotors.arriving)
-        readings = Readings(late(units, UNIT, first.readings.unit), late(motions, MOTION, first.readings.motion))
+        readings = Readings(late(units, UNIT, first.readings.imu), late(motions, MOTION, first.readings.motion))
         arriving = late(commands, COMMAND - 1, first.rotors.arriving)
         moving = moving._replace(readings=readings, rotors=moving.rotors._replace(arriving=arriving))
         flying = flying._replace(moving=moving)

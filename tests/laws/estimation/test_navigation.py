@@ -15,8 +15,8 @@ from tandemlift.algebra.vector import Vec3, vec3
 from tandemlift.laws.estimation.navigation import Navigator, navigator
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.sensors.noise_bias_drift import SensorGrade
 from tandemlift.laws.sensors.readings import Sensors, sensors
-from tandemlift.laws.sensors.sensor_errors import SensorGrade
 
 CENTRE = np.array([0.02, -0.03, 0.0642857])
 LEVEL = np.array([0.0, 0.0, 9.81])
@@ -82,12 +82,12 @@ def errors(seen: Any, truth: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-@pytest.mark.parametrize(("unit_period", "motion_period"), [(1, 1), (1, 10), (4, 8)])
-def test_constant_rates_and_an_acceleration_that_grows_evenly_are_carried_exactly(unit_period, motion_period):
-    periods = {"unit_period": unit_period, "motion_period": motion_period}
+@pytest.mark.parametrize(("imu_period", "motion_period"), [(1, 1), (1, 10), (4, 8)])
+def test_constant_rates_and_an_acceleration_that_grows_evenly_are_carried_exactly(imu_period, motion_period):
+    periods = {"imu_period": imu_period, "motion_period": motion_period}
     truth = steady(3.0, (0.3, -0.4, 1.2), (1.0, -2.0, 0.5), (0.5, 0.2, -0.4))
     off = errors(estimated(truth, navigator(CENTRE, STEP, **periods), sensors(2, STEP, **periods)), truth)
-    assert max(np.abs(e[::unit_period]).max() for e in off.values()) < 1e-11
+    assert max(np.abs(e[::imu_period]).max() for e in off.values()) < 1e-11
 
 
 def test_perfect_sensors_leave_what_the_sampling_does():

@@ -84,7 +84,7 @@ NONE = DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO)
 
 
 @elementwise
-def correction(e, bandwidth, slope):
+def correction(e: Any, bandwidth: Any, slope: Any) -> Any:
     """How fast the copy is drawn to the vehicle: 2 λ e, or 2 √(L |e|) sgn e where that is less."""
     near = 2.0 * bandwidth * e
     far = 2.0 * sqrt(slope * absolute(e))
@@ -92,7 +92,7 @@ def correction(e, bandwidth, slope):
 
 
 @elementwise
-def growth(e, bandwidth, slope):
+def growth(e: Any, bandwidth: Any, slope: Any) -> Any:
     """How fast the estimate of the disturbance changes: λ² e, or L sgn e where that is less."""
     return clip(bandwidth * bandwidth * e, -slope, slope)
 
@@ -129,7 +129,9 @@ def rates_of_change(k: DisturbanceObserver, heard: Any, u: Wrench) -> Any:
 
 
 @observer_step.register(DisturbanceObserver)
-def _observed(k, memory, heard, thrusts, active, learning, dt):
+def _observed(
+    k: DisturbanceObserver, memory: Any, heard: Any, thrusts: Any, active: Any, learning: Any, dt: Any
+) -> Any:
     thrust, moment = expected(k, memory, thrusts)
     linear, angular = rates_of_change(k, heard, Wrench(thrust.value, moment.value))
     f, m = k.force_follower, k.moment_follower
@@ -155,5 +157,5 @@ def last_known(k: Any, memory: Any) -> Any:
 
 
 @last_known.register(DisturbanceObserver)
-def _known(k, memory):
+def _known(k: DisturbanceObserver, memory: Any) -> Any:
     return unmodelled(k, memory)
