@@ -14,23 +14,23 @@ import numpy as np
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import ZERO, Nothing, vec3
 from tandemlift.laws.mechanics.body import RigidBody, State, motion, rigid_body_motion, rk4
-from tandemlift.laws.mechanics.contact import Floor, slip, touch
-from tandemlift.laws.mechanics.inertia import inertia_value, turn_by
+from tandemlift.laws.mechanics.contact import Floor, floor_load, grip_after
+from tandemlift.laws.mechanics.inertia import apply_inertia, inertia_value
 from tandemlift.laws.mechanics.loads import (
     PartLoad,
     PartLoads,
     PartsLayout,
     PerfectReadings,
-    of_quadrotors,
     perfect_readings,
-    plus_zero,
     resultant,
-    under,
+    resultant_of_quadrotors,
+    with_load,
+    without_negative_zero,
 )
 from tandemlift.laws.mechanics.parts import Acceleration
 from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
-from tandemlift.laws.mechanics.walls import Walls, press
+from tandemlift.laws.mechanics.walls import Walls, wall_loads
 from tandemlift.laws.rotors.allocation import Mixer, mixer_from, wrench
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.settings import Mission, VehicleTable
@@ -103,7 +103,7 @@ def _out_of_reach(floor, b, s):
 
 @of_floor.register(Floor)
 def _floor(floor, b, s):
-    return touch(floor, b.grip, b.plant.frame, s)
+    return floor_load(floor, b.grip, b.plant.frame, s)
 
 
 @choice(absent="walls")
@@ -118,7 +118,7 @@ def _walls_out_of_reach(walls, b, s):
 
 @of_walls.register(Walls)
 def _walls(walls, b, s):
-    return press(walls, b.near, b.plant.frame, s)
+    return wall_loads(walls, b.near, b.plant.frame, s)
 
 
 @choice(absent="load")
@@ -133,7 +133,7 @@ def _of_all(load, frame, attitude):
 
 @summed.register(PartLoad)
 def _of_quadrotors(load, frame, attitude):
-    return of_quadrotors(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
+    return resultant_of_quadrotors(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
 
 
 @summed.register(ZeroLoad)
@@ -148,7 +148,7 @@ def moved_by(load: Any, body: RigidBody, rate: State) -> Any:
 
 @moved_by.register(PartLoad)
 def _pressed(load, body, rate):
-    turned = turn_by(body.inverse_inertia, load.moment)
+    turned = apply_inertia(body.inverse_inertia, load.moment)
     return State(rate.position, rate.velocity + load.force * body.inverse_mass, rate.attitude, rate.rates + turned)
 
 
@@ -181,10 +181,13 @@ def _on_none_yet(loads):
     return loads
 
 
-@under.register(ZeroLoad)
+@with_load.register(ZeroLoad)
 def _unloaded(load, frame, attitude, felt):
     return PerfectReadings(
-        felt.specific_force, plus_zero(felt.joint_force), plus_zero(felt.joint_torque), felt.contact_force
+        felt.specific_force,
+        without_negative_zero(felt.joint_force),
+        without_negative_zero(felt.joint_torque),
+        felt.contact_force,
     )
 
 
@@ -203,9 +206,11 @@ def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any
     """What is felt in state `s`, whose motion is `k1`, under thrusts [N] and the air's loads on the parts."""
     frame, q = b.plant.frame, s.attitude
     floor, walls = of_floor(b.plant.floor, b, s), of_walls(b.plant.walls, b, s)
-    felt = under(on_quadrotors(air), frame, q, perfect_readings(frame, s, Acceleration(k1.velocity, k1.rates), thrusts))
-    felt = under(on_quadrotors(floor), frame, q, felt)
-    felt = under(on_quadrotors(walls), frame, q, felt)
+    felt = with_load(
+        on_quadrotors(air), frame, q, perfect_readings(frame, s, Acceleration(k1.velocity, k1.rates), thrusts)
+    )
+    felt = with_load(on_quadrotors(floor), frame, q, felt)
+    felt = with_load(on_quadrotors(walls), frame, q, felt)
     return touched_by(summed(walls, frame, q), touched_by(summed(floor, frame, q), felt))
 
 
@@ -221,7 +226,7 @@ def _in_the_air(floor, grip, s):
 
 @gripping.register(Floor)
 def _feet(floor, grip, s):
-    return slip(floor, grip, s)
+    return grip_after(floor, grip, s)
 
 
 @law

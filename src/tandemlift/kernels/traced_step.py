@@ -17,14 +17,14 @@ from tandemlift.engines.compiled import first_motion, untouched
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, SPAN, active, draws
 from tandemlift.kernels.templates import COMMAND, Templates
 from tandemlift.laws.estimation.rotor_loss_detection import left_of, with_trials
-from tandemlift.laws.mechanics.clearance import clearance, may_press
+from tandemlift.laws.mechanics.clearance import clearance, may_touch_wall
 from tandemlift.laws.mechanics.contact import may_touch
-from tandemlift.laws.mechanics.push import moment_of, push_of
+from tandemlift.laws.mechanics.push import push_at, push_moment
 from tandemlift.laws.mechanics.rectangle import WALL
-from tandemlift.laws.mechanics.walls import consider
+from tandemlift.laws.mechanics.walls import nearest_with
 from tandemlift.laws.mechanics.wind import gust_velocity
-from tandemlift.laws.rotors.allocation import AllocationState, beyond, commanded, limits_at
-from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, begun, searched
+from tandemlift.laws.rotors.allocation import AllocationState, limits_at, outside_limits, rotor_commands
+from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, search_step, start_search
 from tandemlift.laws.signals.random_numbers import normals
 from tandemlift.loop.step import (
     PilotOutput,
@@ -57,8 +57,8 @@ class TracedSolver:
         self.rotors, self.problem_size = len(rotors), leaves(like)
         problem = self.graph.inputs("problem", like)
         search = self.graph.inputs("search", Search(AllocationState(rotors, rotors), 0.0, 0.0, 0.0))
-        self.begun = symbols(self.graph, self._unless_ended(search, begun(problem.limits, search.found)))
-        self.after = symbols(self.graph, self._unless_ended(search, searched(problem, search)))
+        self.begun = symbols(self.graph, self._unless_ended(search, start_search(problem.limits, search.found)))
+        self.after = symbols(self.graph, self._unless_ended(search, search_step(problem, search)))
 
     def _unless_ended(self, s: Search, after: Search) -> Search:
         """A search that has ended stays as it is."""
@@ -178,12 +178,12 @@ class TracedStep:
         args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
         rate = traced(first_motion)(free, *args)
         room = traced(clearance)(plant.walls, before.near, plant.frame, before.state)
-        return traced(may_press)(plant.walls, room, before.state, rate, dt)
+        return traced(may_touch_wall)(plant.walls, room, before.state, rate, dt)
 
     def _mean_push(self) -> Symbols:
         hand, attitude = self.given.hand, self.flying.moving.state.attitude
         mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
-        return [*self.all(mean.force), *self.all(traced(moment_of)(mean, attitude))]
+        return [*self.all(mean.force), *self.all(traced(push_moment)(mean, attitude))]
 
     # what is formed ahead of the step, or beside it
 
@@ -195,7 +195,7 @@ class TracedStep:
     @cached_property
     def push(self) -> Symbols:
         """A row of the table of pushes at the time `when`."""
-        return self.all(traced(push_of)(self.likes.given.hand.start, self.given_by("push", GAUSSIAN), self.when))
+        return self.all(traced(push_at)(self.likes.given.hand.start, self.given_by("push", GAUSSIAN), self.when))
 
     @cached_property
     def pressed(self) -> Symbol:
@@ -217,7 +217,7 @@ class TracedStep:
     def nearest(self) -> Symbols:
         """The nearest walls once a row of the table of walls was looked at."""
         f, wall = self.flying, self.given_by("wall", WALL)
-        return self.all(traced(consider)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))
+        return self.all(traced(nearest_with)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))
 
     @cached_property
     def touch(self) -> Symbol:
@@ -238,7 +238,7 @@ def limited(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
     how, decision = pilot.allocation, thought.decision
     wished = decision.thrusts
     limits = traced(limits_at)(how, traced(left_of)(pilot.detection, held.detection), t)
-    outside = total(traced(beyond)(wished, limits)) > 0.0
+    outside = total(traced(outside_limits)(wished, limits)) > 0.0
     problem, plain, before = (
         BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits),
         AllocationState(wished * 0.0, wished),
@@ -249,5 +249,5 @@ def limited(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
     solver = TracedSolver(written_out(problem), owner.graph.rolls_from)
     needs = LimitProblem(outside, owner.all(problem), owner.all(plain), owner.all(search), solver)
     solved = owner.given_by("solved", written_out(plain))
-    commands = traced(with_trials)(pilot.detection, held.detection, traced(commanded)(how, solved.thrusts, t), t)
+    commands = traced(with_trials)(pilot.detection, held.detection, traced(rotor_commands)(how, solved.thrusts, t), t)
     return needs, traced(with_thrusts)(decision, commands), traced(with_allocation)(thought.memory, solved)

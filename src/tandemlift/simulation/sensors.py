@@ -10,7 +10,7 @@ import numpy as np
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
 from tandemlift.laws.estimation.push_estimate import push_estimator, start_push
-from tandemlift.laws.mechanics.air_drag import PayloadDrag
+from tandemlift.laws.estimation.wind_compensation import PayloadDrag
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.sensors.readings import SensorNoise, sensors
 from tandemlift.laws.sensors.sensor_errors import SensorGrade

@@ -24,7 +24,7 @@ from tandemlift.laws.guidance.supervision import (
     timed,
 )
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.rotors.dynamics import efficiency_at
+from tandemlift.laws.rotors.rotor_faults import efficiency_at
 from tandemlift.laws.sensors.health import any_of, no_number
 from tandemlift.laws.sensors.sensor_faults import chosen, chosen_attitude
 from tandemlift.laws.sensors.watchdog import unsound

@@ -13,7 +13,7 @@ from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
-from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.mechanics.rotation import rotated_by
 from tandemlift.laws.sensors.sensor_errors import PERFECT, SensorGrade, SensorModel, no_drift, read, sensor_model
 
 
@@ -128,7 +128,7 @@ def sample_motion(k: Sensors, s: State, n: SensorNoise) -> MotionReading:
     return MotionReading(
         s.position + n.position * k.position,
         s.velocity + n.velocity * k.velocity,
-        turned(s.attitude, n.attitude * k.attitude),
+        rotated_by(s.attitude, n.attitude * k.attitude),
         1.0,
     )
 

@@ -16,8 +16,7 @@ import numpy as np
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.vector import Mat3, Vec3, apply, each, spread, vec3
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.rotation_vectors import quaternion_of_turn
+from tandemlift.laws.mechanics.rotation import quaternion_from_rotation_vector, rotation_from_quaternion
 
 ROUNDING = 6755399441055744.0  # 1.5 · 2⁵²: a sum with it has no fraction left
 
@@ -83,7 +82,7 @@ def _rows(value: Any, count: int) -> np.ndarray:
 
 def _sensor_axes(turn: np.ndarray) -> np.ndarray:
     """Axes (3 × 3, rows) of a sensor turned by a rotation vector; exactly the body's for none."""
-    return np.array(rotation_from_quaternion(quaternion_of_turn(vec3(turn)))).T
+    return np.array(rotation_from_quaternion(quaternion_from_rotation_vector(vec3(turn)))).T
 
 
 def sensor_model(grade: SensorGrade, interval: float, count: int | None = None) -> SensorModel:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, each
-from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.mechanics.rotation import rotated_by
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
 
 NEVER = 1e18  # steps
@@ -91,7 +91,7 @@ def spoil_joints(f: SensorFault, x: Vec3, given: Vec3, size: Vec3, step: Any) ->
 def spoil_attitude(f: SensorFault, x: Quat, given: Quat, step: Any) -> Quat:
     """An attitude's reading under a fault."""
     off = f.size.x * (1.0 - f.keep)
-    q = turned(x, f.size * (f.keep * during(f.start, f.end, step)))
+    q = rotated_by(x, f.size * (f.keep * during(f.start, f.end, step)))
     return Quat(
         spoiled(q.w, given.w, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
         spoiled(q.x, given.x, off, f.start, f.end, f.frozen, f.keep, f.poison, step),

@@ -21,8 +21,7 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, dot
 from tandemlift.laws.mechanics.body import UP, State
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.rotation_vectors import turn_left, turned
+from tandemlift.laws.mechanics.rotation import rotated_by, rotation_between, rotation_from_quaternion
 from tandemlift.laws.sensors.health import (
     FROZEN,
     FrozenLimits,
@@ -189,14 +188,14 @@ def inconsistency_after(
     k: Watchdog, m: Inconsistency, u: ImuReading, v: MotionReading, lost: Any, dt: Any
 ) -> Inconsistency:
     """What measurements differ by, with a sample; `lost` is 1 if one of them is, and nothing is compared."""
-    so_far, reached = turned(m.turned, u.rates * dt), m.reached + v.velocity * dt
+    so_far, reached = rotated_by(m.turned, u.rates * dt), m.reached + v.velocity * dt
     pull = apply(rotation_from_quaternion(v.attitude), u.specific_force) - UP * GRAVITY
     gained = m.gained + pull * dt
     new, none = v.fresh, maximum(v.fresh, lost)
     keep = (1.0 - k.forgets * new) * (1.0 - lost)
     taken = new * (1.0 - lost)
     return Inconsistency(
-        m.attitude * keep + turn_left(so_far, v.attitude) * taken,
+        m.attitude * keep + rotation_between(so_far, v.attitude) * taken,
         m.way * keep + (v.position - reached) * taken,
         m.speed * keep + (v.velocity - gained) * taken,
         chosen_attitude(none, v.attitude, so_far),
@@ -231,7 +230,7 @@ def turning_of(
     k: Watchdog, m: WatchdogState, u: ImuReading, attitude: Quat, fresh: Any, heard: Any, p: PredictedReadings
 ) -> Vec3:
     """The rates [rad/s]: of the gyroscope while it is `heard` (1), else as the measured attitude turns."""
-    seen = turn_left(m.good.motion.attitude, attitude) * k.per_interval
+    seen = rotation_between(m.good.motion.attitude, attitude) * k.per_interval
     return chosen(heard, u.rates - p.gyroscope_bias, m.rates + (seen - m.rates) * (k.turn_share * fresh))
 
 

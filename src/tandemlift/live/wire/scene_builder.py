@@ -13,7 +13,7 @@ from tandemlift.algebra.vector import Nothing
 from tandemlift.common.types import Array
 from tandemlift.laws.guidance.fault_reactions import FAULTS, alarm_name
 from tandemlift.laws.guidance.phases import NAMES
-from tandemlift.laws.mechanics.contact import soles_below
+from tandemlift.laws.mechanics.contact import sole_positions
 from tandemlift.laws.sensors.health import KINDS
 from tandemlift.live.wire.frames import RATE, layout_for
 from tandemlift.live.wire.scene import (
@@ -95,7 +95,7 @@ def alarm_names() -> list[str]:
 def _lowest(mission: Mission, vehicle: Vehicle) -> float:
     """Height of the soles at the start of a level flight [m]."""
     fleet = vehicle.quadrotors
-    soles = soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
     return float(mission.initial.position[2] + np.min(soles[:, 2]))
 
 
