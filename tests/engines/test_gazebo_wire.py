@@ -11,14 +11,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from patience import PATIENCE, ended, said
+from plugin_peer import BadNetwork, Plugin, RigidBody
 
 import tandemlift as tl
 from tandemlift.engines.gazebo import GazeboBody, start_state_of, world_of
 from tandemlift.engines.gazebo_server import free_port
 from tandemlift.engines.gazebo_wire import Wire
 from tandemlift.models.sdf import rotors_of
-
-from .plugin import BadNetwork, Plugin, RigidBody
 
 DT = 1e-3
 MISSION = {

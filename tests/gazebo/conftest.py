@@ -1,5 +1,6 @@
 """A Gazebo server whose pilots come and go."""
 
+import os
 import shlex
 import socket
 import time
@@ -94,3 +95,20 @@ def over_ros():
     server = Gazebo(over_ros=True)
     yield server
     server.close()
+
+
+WINDY = {
+    "wind.model": "air",
+    "wind.velocity": [3.0, -2.0, 0.3],
+    "wind.turbulence": 1.0,
+    "disturbance.moment": [0.05, 0.02, 0.01],
+    "plant.mass_scale": 1.1,
+}
+
+
+def runs(server):
+    """Whether a process is a gzserver that has not ended."""
+    try:
+        return os.readlink(f"/proc/{server}/exe").rpartition("/")[2].startswith("gzserver")
+    except FileNotFoundError:
+        return False

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from patience import ended, said, until
+from repository import ROOT as REPOSITORY
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Quat
@@ -24,7 +25,7 @@ from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from .conftest import SILENT_OVER_ROS, fly
 
 pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore")]  # rospy is of another age
-DOCS = Path(__file__).parents[2] / "docs/gazebo.md"
+DOCS = REPOSITORY / "docs/gazebo.md"
 FIND = "import sys, threading; sys.path += sys.argv[1:]; threading.Thread.isAlive = threading.Thread.is_alive\n"
 PILOT = """
 from tandemlift.engines.gazebo_ros import RosWire

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from law_values import flat, rebuilt, record
+from machine_code import answers
 
 from tandemlift.algebra.ops import power
 from tandemlift.algebra.vector import (
@@ -32,9 +34,6 @@ from tandemlift.laws.mechanics.push import PointPush
 from tandemlift.laws.mechanics.rectangle import Wall
 from tandemlift.laws.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors, thrust_limits
 from tandemlift.laws.signals import low_pass, trajectories
-
-from .helpers import flat, rebuilt, record
-from .machine_code import answers
 
 V = Vec3(0.0, 0.0, 0.0)
 M = Mat3(V, V, V)
@@ -120,11 +119,11 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     ),
     "share of a wrench": (thrust_limits.achieved_fraction, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
     "what joints feel": (loads.perfect_readings, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
-    "what joints pass on": (loads.with_load, (LOADS.quadrotors, FRAME, Q, FELT)),
+    "what joints pass on": (loads.readings_with_load, (LOADS.quadrotors, FRAME, Q, FELT)),
     "loads together": (loads.resultant, (FRAME, Q, LOADS)),
-    "feet on the floor": (contact.floor_load, (FLOOR, GRIP, FRAME, STATE)),
-    "feet that slip": (contact.grip_after, (FLOOR, GRIP, STATE)),
-    "near walls": (walls.wall_loads, (WALLS, NEAR, FRAME, STATE)),
+    "feet on the floor": (contact.feet_load, (FLOOR, GRIP, FRAME, STATE)),
+    "feet that slip": (contact.grips_after_step, (FLOOR, GRIP, STATE)),
+    "near walls": (walls.near_wall_loads, (WALLS, NEAR, FRAME, STATE)),
     "nearest walls": (walls.nearest_with, (WALLS, UPRIGHT, NEAR, FRAME, STATE)),
     "motion, pushed at points": (motion, (BODY, State(V, V, Q, V), Wrench(0.0, V), PointPush(V, M))),
 }

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from tandemlift.flight.record import Flight
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 FILES = ("mission.toml", "flight.npz", "metrics.json", "report.html")
 
@@ -73,7 +73,7 @@ def _check_room(folder: Path, files: Sequence[str]) -> None:
 def write_results(flight: Flight, folder: Path, *, figures: bool, views: Figure | None = None) -> None:
     """Write all that `tandemlift run` leaves behind, and photographs if given, replacing what an earlier run left."""
     from tandemlift.figures.drawing.style import save
-    from tandemlift.figures.registry import FIGURES, VIEWS, figures_of, save_figures
+    from tandemlift.figures.registry import VIEWS, captions, figures_of, save_figures
     from tandemlift.missions import format_toml
     from tandemlift.report.flight_report import write_report
 
@@ -82,7 +82,7 @@ def write_results(flight: Flight, folder: Path, *, figures: bool, views: Figure 
     flight.save(folder / "flight.npz")
     with atomic_write(folder / "metrics.json") as partial:
         partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
-    for name in (*FIGURES, VIEWS):
+    for name in captions():
         for kind in ("png", "pdf"):
             (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
     if figures:

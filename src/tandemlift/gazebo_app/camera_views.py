@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
-from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.flight.record import Flight
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.models.cameras import FixedCamera
+from tandemlift.vehicle import Vehicle
 
 FAR = 5.0  # reaches of the vehicle, from it to a camera
 HEIGHT, ASIDE = np.radians([34.0, 24.0])  # rad, of a camera over the horizon and beside the way
@@ -43,7 +43,7 @@ def shots_of(flight: Flight) -> list[ViewRequest]:
         "at the end of its way",
         "landed" if stands[1] else "at the end",
     )
-    reach = float(np.linalg.norm(vehicle_of(flight).lever_arms, axis=1).max()) + 0.5
+    reach = float(np.linalg.norm(Vehicle.from_mission(flight.mission).lever_arms, axis=1).max()) + 0.5
     return [
         ViewRequest(title, float(flight.time[k]), _eye(f"view_{letter}", flight, k, FAR * reach))
         for letter, title, k in zip("abcd", titles, _moments(flight), strict=True)
@@ -60,7 +60,7 @@ def _moments(flight: Flight) -> tuple[int, int, int, int]:
     way = _way(flight)
     halfway, arrived = (int(np.searchsorted(way, share * way[-1])) for share in (0.5, 0.98))
     if "phase" in flight:
-        guided = np.flatnonzero(flight["phase"] == NAMES.index("guided"))
+        guided = np.flatnonzero(flight["phase"] == GUIDED)
         arrived = int(guided[-1]) if len(guided) else arrived
     return 0, halfway, max(arrived, halfway), int(np.searchsorted(flight.time, flight.time[-1] - BEFORE))
 

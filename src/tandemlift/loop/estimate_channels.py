@@ -47,7 +47,13 @@ def shown_readings(readings: Any) -> Any:
 def _readings(readings):
     m, u = readings.motion, readings.unit
     return MeasuredChannels(
-        m.position, m.velocity, m.attitude, u.rates, u.specific_force, u.joint_force, u.joint_torque
+        measured_position=m.position,
+        measured_velocity=m.velocity,
+        measured_attitude=m.attitude,
+        measured_rates=u.rates,
+        measured_specific_force=u.specific_force,
+        measured_joint_force=u.joint_force,
+        measured_joint_torque=u.joint_torque,
     )
 
 
@@ -60,15 +66,15 @@ def shown_estimate(known: Any) -> Any:
 def _estimate(known):
     s, p = known.state, known.push
     return EstimatedChannels(
-        s.position,
-        s.velocity,
-        s.attitude,
-        s.rates,
-        p.measured,
-        p.force,
-        p.moment,
-        p.point,
-        p.payload_mass,
-        p.disagreement,
-        p.trusted * p.armed,
+        estimated_position=s.position,
+        estimated_velocity=s.velocity,
+        estimated_attitude=s.attitude,
+        estimated_rates=s.rates,
+        push_measured=p.measured,
+        push_estimate=p.force,
+        push_moment_estimate=p.moment,
+        push_point_estimate=p.point,
+        payload_mass_estimate=p.payload_mass,
+        sensor_disagreement=p.disagreement,
+        push_usable=p.trusted * p.armed,
     )

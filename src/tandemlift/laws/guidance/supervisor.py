@@ -5,9 +5,10 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, total
+from tandemlift.common.phases import HOLD, IDLE, STOPPED
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, with_speed
 from tandemlift.laws.guidance.fault_reactions import HOLDS, LANDS, FaultReaction, strongest_reaction
-from tandemlift.laws.guidance.phases import HOLD, IDLE, STOPPED, PhaseState
+from tandemlift.laws.guidance.phases import PhaseState
 from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.guidance.supervision import (
     FREE,
@@ -16,10 +17,10 @@ from tandemlift.laws.guidance.supervision import (
     Supervision,
     SupervisionChannels,
     SupervisionState,
+    active_faults,
     bounds_of,
-    faults_of,
+    refusal_to_follow,
     refusal_to_lift,
-    refusal_to_listen,
     sensor_status,
     timed,
 )
@@ -70,9 +71,9 @@ def _supervised(k, m, heard, phase, wants, t, dt):
     timers = timed(k, m, senses, state, own, own.thrust / maximum(most, 1e-9), phase.phase, dt)
     idle = where(phase.phase == IDLE, 1.0, 0.0)
     grounded = maximum(idle, where(phase.phase == STOPPED, 1.0, 0.0))
-    faults = faults_of(k, senses, timers, state, own, phase.phase)
+    faults = active_faults(k, senses, timers, state, own, phase.phase)
     after = reacted(k, m, strongest_reaction(faults, k.reactions), timers, state, idle, dt)
-    refused = refusal_to_lift(k, senses, state, own, after.reaction, most), refusal_to_listen(k, senses)
+    refused = refusal_to_lift(k, senses, state, own, after.reaction, most), refusal_to_follow(k, senses)
     return bounds_of(k, senses, after, refused, grounded), with_refusals(after, refused[0] * wants, refused[1])
 
 

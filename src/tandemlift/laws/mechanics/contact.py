@@ -7,10 +7,10 @@ pad. With the penetration δ of the pad and the displacement e of the joint from
 
 Both forces are passive. In N, k δ is a spring and the rest dissipates c δ̇², or −k δ δ̇ where N is cut to 0, which
 happens only for δ̇ < −k δ/c. In F, k_t e is a spring and the rest dissipates power as long as |k_t e| ≤ μ N.
-`grip_after` enforces that at the end of every step, with the smaller N of its start and its end, so that a foot that
-has just landed stores no energy. Below μ N the anchor does not move: a vehicle at rest stays where it is.
+`grips_after_step` enforces that at the end of every step, with the smaller N of its start and its end, so that a foot
+that has just landed stores no energy. Below μ N the anchor does not move: a vehicle at rest stays where it is.
 
-A step evaluates `floor_load` at every stage with the anchors held, then `grip_after`. Only feet touch the floor.
+A step evaluates `feet_load` at every stage with the anchors held, then `grips_after_step`. Only feet touch the floor.
 """
 
 from typing import NamedTuple
@@ -142,7 +142,7 @@ def slide_grip(floor: Floor, foot: Foot, grip: FootGrip) -> FootGrip:
 
 
 @law
-def floor_load(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> PartLoad:
+def feet_load(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> PartLoad:
     """Load of the floor on every quadrotor, as sets: force, and moment about each quadrotor's centre of mass."""
     R = rotation_from_quaternion(s.attitude)
     a, b, c, d = feet_at(floor, s, R)
@@ -158,7 +158,7 @@ def floor_load(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> Pa
 
 
 @law
-def grip_after(floor: Floor, grip: Quarters, s: State) -> Quarters:
+def grips_after_step(floor: Floor, grip: Quarters, s: State) -> Quarters:
     """The memory after a step that ends in state `s`: feet in the air and sliding feet get new anchors."""
     a, b, c, d = feet_at(floor, s, rotation_from_quaternion(s.attitude))
     return Quarters(
@@ -272,4 +272,4 @@ def sinkage_of(floor: Floor, weight: float) -> float:
 def start_foot_grip(floor: Floor, s: State) -> Quarters:
     """The memory of feet whose anchors are where the feet are in state `s`."""
     none = floor.feet.first.x * 0.0
-    return grip_after(floor, Quarters(*[FootGrip(none, none, none)] * 4), s)
+    return grips_after_step(floor, Quarters(*[FootGrip(none, none, none)] * 4), s)

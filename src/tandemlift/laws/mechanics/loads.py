@@ -157,11 +157,11 @@ def without_negative_zero(v: Vec3) -> Vec3:
 
 
 @choice(absent="readings")
-def with_load(load: PartLoad | Nothing, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> Any:
+def readings_with_load(load: PartLoad | Nothing, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> Any:
     """The readings with a load on the quadrotors, which their joints transmit to the payload."""
 
 
-@with_load.register(PartLoad)
+@readings_with_load.register(PartLoad)
 def _loaded(load: PartLoad, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> PerfectReadings:
     force = without_negative_zero(apply_transposed(rotation_from_quaternion(attitude), load.force))
     torque = readings.joint_torque + without_negative_zero(load.moment - cross(frame.joints, force))

@@ -9,7 +9,7 @@ N acts along the line between the nearest points, F against the sliding velocity
 to a wall is continuous, so k δ is a spring, and both forces are passive.
 
 Which walls are near changes slowly: `nearest_with` looks at all of them now and then, from `no_walls_near` on.
-`wall_loads` measures the distance to the near ones in every state, so it stays exact in between.
+`near_wall_loads` measures the distance to the near ones in every state, so it stays exact in between.
 """
 
 from typing import Any, NamedTuple
@@ -195,7 +195,7 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
 
 
 @law
-def wall_loads(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> PartLoads:
+def near_wall_loads(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> PartLoads:
     """Loads of the near walls on all parts."""
     R = rotation_from_quaternion(s.attitude)
     spin, arm = apply(R, s.rates), apply(R, frame.quadrotors)

@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Quat, Vec3, dot, total
+from tandemlift.common.faults import SYMPTOMS
 from tandemlift.laws.sensors.readings import ImuReading, Readings
 
-FROZEN, NO_NUMBER, OUT_OF_RANGE = 1.0, 2.0, 3.0
-KINDS = ("frozen", "not a number", "out of range")
+FROZEN, NO_NUMBER, OUT_OF_RANGE = (1.0 + i for i in range(len(SYMPTOMS)))
 UNIT_NORM = 0.05  # by which an attitude's norm may differ from 1
 
 

@@ -98,7 +98,7 @@ class WatchdogState(NamedTuple):
 
 
 class WatchdogReport(NamedTuple):
-    """What is wrong: 1 or 0, or what is wrong with a sensor (`KINDS`, from 1; 0 for nothing).
+    """What is wrong: 1 or 0, or what is wrong with a sensor (`SYMPTOMS`, from 1; 0 for nothing).
 
     `imu` and `motion`: stale. `seen`: 1 once both devices have been heard.
     """
@@ -130,7 +130,7 @@ class PredictedReadings(NamedTuple):
 
 @law
 def wrong_with(k: Watchdog, h: SensorHealth, alike: Any) -> Any:
-    """What is wrong with a sensor for too long (`KINDS`), or 0."""
+    """What is wrong with a sensor for too long (`SYMPTOMS`), or 0."""
     bad = where(h.silent >= k.invalid, h.wrong, 0.0)
     return where(h.wrong > 0.0, bad, where(h.same >= alike, FROZEN, 0.0))
 
