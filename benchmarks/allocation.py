@@ -22,15 +22,8 @@ from tandemlift.algebra.vector import Vec3, each
 from tandemlift.kernels.limit_solver import write_solver
 from tandemlift.kernels.traced_step import TracedSolver
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import AllocationState, Mixer
-from tandemlift.laws.rotors.thrust_limits import (
-    BoundedProblem,
-    Search,
-    search_step,
-    start_search,
-    weighted_rows,
-    weights_of,
-)
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
+from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, search_step, start_search
 from tandemlift.trace import Function, Module, double, flat, leaves
 from tandemlift.trace.functions import compiled
 from tandemlift.trace.machine import BEST, Loaded

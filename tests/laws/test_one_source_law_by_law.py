@@ -32,7 +32,7 @@ from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, motion
 from tandemlift.laws.mechanics.inertia import gyroscopic
 from tandemlift.laws.mechanics.push import PointPush
 from tandemlift.laws.mechanics.rectangle import Wall
-from tandemlift.laws.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors, thrust_limits
+from tandemlift.laws.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
 from tandemlift.laws.signals import low_pass, trajectories
 
 V = Vec3(0.0, 0.0, 0.0)
@@ -117,7 +117,7 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
         wind_compensation.wind_on_payload,
         (wind_compensation.PayloadDrag(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0),
     ),
-    "share of a wrench": (thrust_limits.achieved_fraction, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
+    "share of a wrench": (allocation.achieved_fraction, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
     "what joints feel": (loads.perfect_readings, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
     "what joints pass on": (loads.readings_with_load, (LOADS.quadrotors, FRAME, Q, FELT)),
     "loads together": (loads.resultant, (FRAME, Q, LOADS)),

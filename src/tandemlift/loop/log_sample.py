@@ -22,9 +22,8 @@ from tandemlift.laws.mechanics.push import PushSamples, push_moment
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, wrap_angle
 from tandemlift.laws.person.person import PersonState
 from tandemlift.laws.person.virtual_hand import VirtualHandState
-from tandemlift.laws.rotors.allocation import wrench
+from tandemlift.laws.rotors.allocation import achieved_fraction, wrench
 from tandemlift.laws.rotors.rotors import IdealRotors, Rotors
-from tandemlift.laws.rotors.thrust_limits import achieved_fraction
 from tandemlift.loop.estimate_channels import shown_estimate, shown_readings
 from tandemlift.loop.running_metrics import StepErrors, effort_of
 

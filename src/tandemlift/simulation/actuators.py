@@ -6,11 +6,11 @@ from typing import Any
 
 from tandemlift.algebra.vector import Nothing, each, spread
 from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.allocation import wrench_scale
 from tandemlift.laws.rotors.ground_effect import FreeAir, GroundEffect
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, rotor_faults
 from tandemlift.laws.rotors.rotor_lag import lag
 from tandemlift.laws.rotors.rotors import IdealRotors, Rotors, RotorState
-from tandemlift.laws.rotors.thrust_limits import wrench_scale
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 

@@ -12,8 +12,7 @@ from machine_code import answers
 
 from tandemlift.algebra.vector import each, vec3
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import Mixer
-from tandemlift.laws.rotors.thrust_limits import achieved_fraction, wrench_scale
+from tandemlift.laws.rotors.allocation import Mixer, achieved_fraction, wrench_scale
 
 
 def share(c: Craft, wanted: Any, f: Any) -> float:

@@ -8,10 +8,10 @@ from scipy.integrate import quad
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.rotors.allocation import wrench_scale
 from tandemlift.laws.rotors.ground_effect import FreeAir, ground_effect_ratio
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults
 from tandemlift.laws.rotors.rotors import IdealRotors, RotorState, rotors_step
-from tandemlift.laws.rotors.thrust_limits import wrench_scale
 from tandemlift.missions import load_mission
 from tandemlift.simulation.actuators import ground_effect_from, rotors_from
 from tandemlift.vehicle import Vehicle

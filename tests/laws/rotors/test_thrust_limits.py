@@ -29,8 +29,8 @@ from law_values import random_vehicle
 from scipy.optimize import linprog
 
 from tandemlift.kernels.context import aligned
-from tandemlift.laws.rotors.allocation import AllocationState
-from tandemlift.laws.rotors.thrust_limits import limited_thrusts, weighted_rows, weights_of
+from tandemlift.laws.rotors.allocation import AllocationState, weighted_rows, weights_of
+from tandemlift.laws.rotors.thrust_limits import limited_thrusts
 
 
 @EVERY

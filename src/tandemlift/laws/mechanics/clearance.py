@@ -11,7 +11,7 @@ from tandemlift.algebra.ops import least, minimum, sqrt
 from tandemlift.algebra.types import Condition, Number, PerQuadrotor
 from tandemlift.algebra.vector import Nothing, Vec3, apply, dot
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import PartsLayout
+from tandemlift.laws.mechanics.loads import PartsLayout, translated
 from tandemlift.laws.mechanics.rectangle import offset, offset_from_top
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import (
@@ -23,7 +23,6 @@ from tandemlift.laws.mechanics.walls import (
     beam_point,
     point_by_edge,
     point_by_top,
-    translated,
 )
 
 FAR = 1000.0  # m

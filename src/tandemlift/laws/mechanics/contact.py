@@ -196,6 +196,12 @@ def mobility(points: Array, mass: float, inertia: Array) -> float:
     return float(np.linalg.eigvals(np.linalg.solve(inertias, stiffness)).real.max())
 
 
+def surface_mobility(center: Array, radius: float, mass: float, inertia: Array) -> float:
+    """The largest `mobility` [1/kg] of the points where the principal axes leave a sphere."""
+    axes = np.linalg.eigh(inertia)[1].T * radius
+    return max(mobility(center + side[None], mass, inertia) for side in (*axes, *-axes))
+
+
 def softened_for_step(stiffness: float, damping: float, body_mobility: float, step: float) -> tuple[float, float]:
     """Stiffness [N/m] and damping [N·s/m] of springs, reduced, if need be, to what a step [s] can resolve.
 

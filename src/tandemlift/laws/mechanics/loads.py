@@ -128,6 +128,18 @@ def add_to_each(x: Number, k: Number) -> Number:
 
 
 @law
+def scaled(v: Vec3, k: Number) -> Vec3:
+    """v k, where either may be of sets."""
+    return Vec3(k * v.x, k * v.y, k * v.z)
+
+
+@law
+def translated(origin: Vec3, v: Vec3) -> Vec3:
+    """origin + v, where v may be of sets."""
+    return Vec3(add_to_each(v.x, origin.x), add_to_each(v.y, origin.y), add_to_each(v.z, origin.z))
+
+
+@law
 def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
     """Specific force [m/s², body axes] at the point r [m, body axes] from the system's centre of mass."""
     # paper: kinematic_equ

@@ -21,10 +21,22 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.types import Number, PerQuadrotor
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
-from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.contact import friction_factor, mobility, softened_for_step, spring_damper
-from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
+from tandemlift.laws.mechanics.contact import (
+    friction_factor,
+    mobility,
+    softened_for_step,
+    spring_damper,
+    surface_mobility,
+)
+from tandemlift.laws.mechanics.loads import (
+    PartLoad,
+    PartLoads,
+    PartsLayout,
+    scaled,
+    sum_over_set,
+    translated,
+)
 from tandemlift.laws.mechanics.rectangle import (
     WALL,
     Wall,
@@ -51,8 +63,7 @@ class Beam(NamedTuple):
 class Walls(NamedTuple):
     """Contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]; `guards`: radius of every quadrotor's sphere [m].
 
-    `beam`: a `Beam`, or `Nothing` if the payload has no shape; `reach`: how far all these reach from the centre of
-    mass [m].
+    `beam`: a `Beam`, or `Nothing` if the payload has no shape; `reach` [m]: of all these from the centre of mass.
     """
 
     stiffness: Number
@@ -100,18 +111,6 @@ def inverse_root(square: Number) -> Number:
 def penetration(distance: Number, radius: Number) -> Number:
     """Penetration [m] of a sphere whose centre is at a distance."""
     return radius - distance
-
-
-@law
-def scaled(v: Vec3, k: Number) -> Vec3:
-    """v k, where either may be of sets."""
-    return Vec3(k * v.x, k * v.y, k * v.z)
-
-
-@law
-def translated(origin: Vec3, v: Vec3) -> Vec3:
-    """origin + v, where v may be of sets."""
-    return Vec3(add_to_each(v.x, origin.x), add_to_each(v.y, origin.y), add_to_each(v.z, origin.z))
 
 
 @law
@@ -248,12 +247,6 @@ def no_walls_near(w: Walls) -> NearWalls:
     """No wall is near."""
     walls, ends = [Wall(*[each(n)(*[v] * n) for v in WALL]) for n in (len(w.guards), 2)]
     return NearWalls(walls, walls, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Nothing())
-
-
-def surface_mobility(center: Array, radius: float, mass: float, inertia: Array) -> float:
-    """The largest `mobility` [1/kg] of the points where the principal axes leave a sphere."""
-    axes = np.linalg.eigh(inertia)[1].T * radius
-    return max(mobility(center + side[None], mass, inertia) for side in (*axes, *-axes))
 
 
 def walls(

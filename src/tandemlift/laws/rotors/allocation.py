@@ -2,12 +2,14 @@
 
 from typing import Any, NamedTuple
 
-from numpy.typing import NDArray
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from tandemlift.algebra.law import choice, elementwise, law
-from tandemlift.algebra.ops import maximum, where
+from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Vec3, dot, each
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
 
@@ -92,8 +94,47 @@ def wrench(effect: Mixer, thrusts: PerRotor) -> Wrench:
     )
 
 
+@law
+def achieved_fraction(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: PerRotor) -> Number:
+    """Fraction of a wanted wrench that thrusts give: 1 − ‖B f − τ‖/‖τ‖ in units of `scale`, in [0, 1]; 1 for τ = 0.
+
+    Args:
+        effect: B, by rows.
+        scale: one over the size of each component, as of `wrench_scale`.
+        wanted: τ [N, N·m body axes].
+        thrusts: f [N], a set.
+    """
+    made = wrench(effect, thrusts)
+    short, moment = (made.thrust - wanted.thrust) * scale.thrust, (made.moment - wanted.moment) * scale.moment
+    whole, turning = wanted.thrust * scale.thrust, wanted.moment * scale.moment
+    size = whole * whole + dot(turning, turning)
+    lost = (short * short + dot(moment, moment)) / where(size > 0.0, size, 1.0)
+    return where(size > 0.0, clip(1.0 - sqrt(lost), 0.0, 1.0), 1.0)
+
+
 def mixer_from(rows: NDArray[Any]) -> Mixer:
     """A 4 × 4N matrix as a Mixer."""
     cls = each(rows.shape[1])
     thrust, roll, pitch, yaw = (cls(*map(float, row)) for row in rows)
     return Mixer(thrust, roll, pitch, yaw)
+
+
+def weights_of(effect: Array, priorities: ArrayLike) -> Array:
+    """The diagonal of W (4): priority over row rms of the effect B (4 × n), so that priorities compare rotor for rotor.
+
+    Args:
+        effect: B (4 × n), rows thrust, roll, pitch, yaw.
+        priorities: four numbers > 0, thrust, roll, pitch, yaw.
+    """
+    return np.asarray(priorities, dtype=float) / np.sqrt(np.mean(np.square(effect), axis=1))
+
+
+def weighted_rows(effect: Array, weights: Array) -> Array:
+    """W B (4 × n), C-contiguous, the rows of a `thrust_limits.BoundedProblem`."""
+    return np.ascontiguousarray(weights[:, None] * effect)
+
+
+def wrench_scale(effect: Array) -> Wrench:
+    """1 / row rms of the effect B (4 × n): makes the four components of a wrench comparable (`achieved_fraction`)."""
+    thrust, roll, pitch, yaw = (float(w) for w in weights_of(effect, np.ones(4)))
+    return Wrench(thrust, Vec3(roll, pitch, yaw))

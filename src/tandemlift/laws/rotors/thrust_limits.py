@@ -25,20 +25,23 @@ import functools
 import operator
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import ArrayLike
-
-from tandemlift.algebra.law import elementwise, law
-from tandemlift.algebra.ops import absolute, clip, sqrt, where
+from tandemlift.algebra.law import elementwise
+from tandemlift.algebra.ops import absolute, where
 from tandemlift.algebra.types import Condition, Number, PerRotor
-from tandemlift.algebra.vector import Vec3, dot, each
-from tandemlift.common.types import Array
+from tandemlift.algebra.vector import each
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import AllocationState, Mixer, wrench
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer
+from tandemlift.laws.rotors.normal_equations import (
+    GAMMA,
+    WrenchVector,
+    factored,
+    free_rotors,
+    solved,
+    summed_from,
+)
 
 ACCURACY = 1e-9  # N, of every thrust, where the rounding of the given numbers allows it
 ROUNDING = 2.220446049250313e-16  # of a double
-GAMMA = 1e-3  # of thrusts away from the pseudo-inverse's, against the weighted wrench
 
 
 class BoundedProblem(NamedTuple):
@@ -64,81 +67,9 @@ class Search(NamedTuple):
     ended: Number
 
 
-class WrenchVector(NamedTuple):
-    """Four numbers, one for each component of a wrench."""
-
-    thrust: Number
-    roll: Number
-    pitch: Number
-    yaw: Number
-
-
-class Factor(NamedTuple):
-    """L D Lᵀ of a 4 × 4 matrix: L by columns, then 1/D."""
-
-    rt: Number
-    pt: Number
-    yt: Number
-    pr: Number
-    yr: Number
-    yp: Number
-    t: Number
-    r: Number
-    p: Number
-    y: Number
-
-
-def weights_of(effect: Array, priorities: ArrayLike) -> Array:
-    """The diagonal of W (4): priority over row rms of the effect B (4 × n), so that priorities compare rotor for rotor.
-
-    Args:
-        effect: B (4 × n), rows thrust, roll, pitch, yaw.
-        priorities: four numbers > 0, thrust, roll, pitch, yaw.
-    """
-    return np.asarray(priorities, dtype=float) / np.sqrt(np.mean(np.square(effect), axis=1))
-
-
-def weighted_rows(effect: Array, weights: Array) -> Array:
-    """W B (4 × n), C-contiguous, the rows of a `BoundedProblem` problem."""
-    return np.ascontiguousarray(weights[:, None] * effect)
-
-
-def wrench_scale(effect: Array) -> Wrench:
-    """1 / row rms of the effect B (4 × n): makes the four components of a wrench comparable (`achieved_fraction`)."""
-    thrust, roll, pitch, yaw = (float(w) for w in weights_of(effect, np.ones(4)))
-    return Wrench(thrust, Vec3(roll, pitch, yaw))
-
-
-@law
-def achieved_fraction(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: PerRotor) -> Number:
-    """Fraction of a wanted wrench that thrusts give: 1 − ‖B f − τ‖/‖τ‖ in units of `scale`, in [0, 1]; 1 for τ = 0.
-
-    Args:
-        effect: B, by rows.
-        scale: one over the size of each component, as of `wrench_scale`.
-        wanted: τ [N, N·m body axes].
-        thrusts: f [N], a set.
-    """
-    made = wrench(effect, thrusts)
-    short, moment = (made.thrust - wanted.thrust) * scale.thrust, (made.moment - wanted.moment) * scale.moment
-    whole, turning = wanted.thrust * scale.thrust, wanted.moment * scale.moment
-    size = whole * whole + dot(turning, turning)
-    lost = (short * short + dot(moment, moment)) / where(size > 0.0, size, 1.0)
-    return where(size > 0.0, clip(1.0 - sqrt(lost), 0.0, 1.0), 1.0)
-
-
-def _summed(start: Number, parts: PerRotor) -> Number:
-    """start + the values of a set, one after the other."""
-    return functools.reduce(operator.add, parts, start)
-
-
 def _numbered(like: PerRotor) -> PerRotor:
     """0, 1, 2, … as a set."""
     return each(len(like))(*map(float, range(len(like))))
-
-
-def _at_least(x: Number, least: Number) -> Number:
-    return where(least > x, least, x)
 
 
 @elementwise
@@ -162,45 +93,6 @@ def feasible(limits: PerRotor, held: AllocationState) -> AllocationState:
     top = _top(limits)
     side = _side(held.active, top)
     return AllocationState(side, _standing(held.thrusts, side, top))
-
-
-@elementwise
-def _free(active: Number) -> Number:
-    return 1.0 - absolute(active)
-
-
-def _factored(rows: Mixer, active: PerRotor) -> Factor:
-    """L D Lᵀ = γI + C Cᵀ over the free rotors. No pivot is below γ but for rounding."""
-    free = _free(active)
-    thrust, roll, pitch, yaw = rows
-    fr, fp, fy = roll * free, pitch * free, yaw * free
-    tt, rr = _summed(GAMMA, thrust * free * thrust), _summed(GAMMA, fr * roll)
-    pp, yy = _summed(GAMMA, fp * pitch), _summed(GAMMA, fy * yaw)
-    rt, pt, yt = _summed(0.0, fr * thrust), _summed(0.0, fp * thrust), _summed(0.0, fy * thrust)
-    pr, yr, yp = _summed(0.0, fp * roll), _summed(0.0, fy * roll), _summed(0.0, fy * pitch)
-    t = 1.0 / tt
-    lrt, lpt, lyt = rt * t, pt * t, yt * t
-    r = 1.0 / _at_least(rr - lrt * rt, GAMMA)
-    pr, yr = pr - lpt * rt, yr - lyt * rt
-    lpr, lyr = pr * r, yr * r
-    p = 1.0 / _at_least(pp - lpt * pt - lpr * pr, GAMMA)
-    yp = yp - lyt * pt - lyr * pr
-    lyp = yp * p
-    y = 1.0 / _at_least(yy - lyt * yt - lyr * yr - lyp * yp, GAMMA)
-    return Factor(lrt, lpt, lyt, lpr, lyr, lyp, t, r, p, y)
-
-
-def _solved(k: Factor, b: WrenchVector) -> WrenchVector:
-    """(L D Lᵀ)⁻¹ b."""
-    u0 = b.thrust
-    u1 = b.roll - k.rt * u0
-    u2 = b.pitch - k.pt * u0 - k.pr * u1
-    u3 = b.yaw - k.yt * u0 - k.yr * u1 - k.yp * u2
-    x3 = u3 * k.y
-    x2 = u2 * k.p - k.yp * x3
-    x1 = u1 * k.r - k.pr * x2 - k.yr * x3
-    x0 = u0 * k.t - k.rt * x1 - k.pt * x2 - k.yt * x3
-    return WrenchVector(x0, x1, x2, x3)
 
 
 def _residual(p: BoundedProblem, thrusts: PerRotor) -> WrenchVector:
@@ -249,7 +141,7 @@ def _clipped(p: BoundedProblem, now: AllocationState, pull: PerRotor) -> tuple[A
     x = now.thrusts + pull * (1.0 / GAMMA)
     met = _side_reached(now.active, x, p.limits)
     kept = _if_free(now.active, _within(x, p.limits, now.thrusts), now.thrusts)
-    return AllocationState(met, kept), _summed(0.0, _newly_held(now.active, met)) > 0.0
+    return AllocationState(met, kept), summed_from(0.0, _newly_held(now.active, met)) > 0.0
 
 
 @elementwise
@@ -312,11 +204,11 @@ def _either(condition: Condition, a: AllocationState, b: AllocationState) -> All
 def search_step(p: BoundedProblem, s: Search) -> Search:
     """One iteration of the active-set method."""
     now, opening = s.found, s.opening > 0.0
-    factor = _factored(p.rows, now.active)
+    factor = factored(p.rows, now.active)
     r = _residual(p, now.thrusts)
     pull = _transposed_times(p.rows, r) + (p.unlimited - now.thrusts) * GAMMA
-    freely = pull * _free(now.active)
-    mu = _solved(factor, WrenchVector(*[_summed(0.0, row * freely) for row in p.rows]))
+    freely = pull * free_rotors(now.active)
+    mu = solved(factor, WrenchVector(*[summed_from(0.0, row * freely) for row in p.rows]))
     eased = pull - _transposed_times(p.rows, mu)
     clipped, was_clipped = _clipped(p, now, eased)
     advanced, was_cut = _advanced(p, now, eased)
