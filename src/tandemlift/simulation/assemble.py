@@ -18,7 +18,7 @@ from tandemlift.laws.mechanics.clearance import clearance
 from tandemlift.laws.mechanics.contact import start_foot_grip
 from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.sensors.readings import by_name, readings_of, start_sensing
-from tandemlift.laws.signals.random_numbers import keys_of
+from tandemlift.laws.signals.random_numbers import key_from_seed
 from tandemlift.loop.delays import Delayed, DelayLines
 from tandemlift.loop.perception import READS, PilotSources
 from tandemlift.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
@@ -92,7 +92,7 @@ def assemble(mission: Mission) -> AssembledFlight:
     plant = start_plant(mission, vehicle, floor, walls)
     grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
     delays = delays_from(mission)
-    rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, late=bool(delays[2]))
+    rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, delayed=bool(delays[2]))
     weather, eddies = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
     near, hand = near_walls_from(walls), PushSamples(push, push, push)
@@ -116,5 +116,5 @@ def assemble(mission: Mission) -> AssembledFlight:
         given,
         input_tables_from(mission, path_legs_from(mission, partner, state)),
         delays,
-        np.array(keys_of(mission.mission.seed)),
+        np.array(key_from_seed(mission.mission.seed)),
     )

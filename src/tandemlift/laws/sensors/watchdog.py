@@ -22,8 +22,7 @@ from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, dot
 from tandemlift.laws.mechanics.body import UP, State
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.rotation_vectors import turn_left, turned
+from tandemlift.laws.mechanics.rotation import rotated_by, rotation_between, rotation_from_quaternion
 from tandemlift.laws.sensors.health import (
     FROZEN,
     PerSensor,
@@ -194,14 +193,14 @@ def inconsistency_after(
     k: Watchdog, m: Inconsistency, imu: ImuReading, v: MotionReading, invalid: Any, dt: Any
 ) -> Inconsistency:
     """The differences after a step of dt [s]; while a measurement is `invalid` (1), nothing is compared."""
-    attitude, position = turned(m.integrated_attitude, imu.rates * dt), m.integrated_position + v.velocity * dt
+    attitude, position = rotated_by(m.integrated_attitude, imu.rates * dt), m.integrated_position + v.velocity * dt
     acceleration = apply(rotation_from_quaternion(v.attitude), imu.specific_force) - UP * GRAVITY
     velocity = m.integrated_velocity + acceleration * dt
     restart = maximum(v.fresh, invalid)
     keep = (1.0 - k.forgetting * v.fresh) * (1.0 - invalid)
     compared = v.fresh * (1.0 - invalid)
     return Inconsistency(
-        attitude=m.attitude * keep + turn_left(attitude, v.attitude) * compared,
+        attitude=m.attitude * keep + rotation_between(attitude, v.attitude) * compared,
         position=m.position * keep + (v.position - position) * compared,
         velocity=m.velocity * keep + (v.velocity - velocity) * compared,
         integrated_attitude=chosen(restart, v.attitude, attitude),
@@ -236,7 +235,7 @@ def substitute_rates(
     k: Watchdog, m: WatchdogState, imu: ImuReading, attitude: Quat, fresh: Any, measured: Any, p: PredictedReadings
 ) -> Vec3:
     """The rates [rad/s]: of the gyroscope while they are `measured` (1), else the derivative of the attitude."""
-    derivative = turn_left(m.valid.motion.attitude, attitude) * k.motion_rate
+    derivative = rotation_between(m.valid.motion.attitude, attitude) * k.motion_rate
     return chosen(measured, imu.rates - p.gyroscope_bias, m.rates + (derivative - m.rates) * (k.rates_gain * fresh))
 
 
