@@ -9,12 +9,14 @@ for its own type of gains. Written as a law it compiles into the loop; registere
 function will do, at a few microseconds a step.
 """
 
-from tandemlift.controllers import geometric, lqr, nftsmc, pid, smc, super_twisting  # register themselves
 from tandemlift.controllers.interface import NO_DISTURBANCE, Command, Disturbance, Measured, NoMemory, control
 from tandemlift.controllers.loading import load_controller
 from tandemlift.controllers.registry import CONTROLLERS, Controller, controller, file_of, register
 from tandemlift.controllers.trial import error_text
 from tandemlift.laws.signals.trajectories import Reference
+
+# isort: split
+from tandemlift.controllers import geometric, lqr, nftsmc, pid, smc, super_twisting  # register themselves
 
 __all__ = [
     "CONTROLLERS",
