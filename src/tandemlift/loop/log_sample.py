@@ -188,7 +188,7 @@ def _some_contact(floor, felt):
 @law
 def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
     """The sample of a step, at its start."""
-    state, felt, read = flying.moving.state, moved.felt, thought.decision
+    state, felt, read = flying.moving.state, moved.readings, thought.decision
     guidance, command = read.guidance, read.command
     target = guidance.reference.trajectory
     return Sample(
