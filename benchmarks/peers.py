@@ -142,7 +142,7 @@ HEADER = (
     "one flight, ns/step",
     "many, M steps/s, 1 core",
     "2 cores",
-    "ours is faster by (one / 1 core / 2 cores)",
+    "tandemlift is faster by (one / 1 core / 2 cores)",
 )
 
 
