@@ -137,7 +137,7 @@ def _cells(result: dict[str, Any]) -> list[str]:
 
 
 HEADER = (
-    "what",
+    "simulator",
     "what a step is",
     "one flight, ns/step",
     "many, M steps/s, 1 core",

@@ -40,7 +40,7 @@ def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -
             began = time.perf_counter()
             before, after = memory.k, memory.fly(stop)
             spent = time.perf_counter() - began
-            memory.code.spent(spent)
+            memory.code.add_time(spent)
             yield after
             if after < min(stop, p.steps):
                 return

@@ -61,7 +61,7 @@ class Pilot:
         self._context.view(np.float64)[-1] = self._dt
         self._code = code
         code.optimise()
-        return code.called("sample", self._context.ctypes.data)
+        return code.bound("sample", self._context.ctypes.data)
 
     def step(
         self,

@@ -145,7 +145,7 @@ class Simulation:
         if self.k == p.late_step < p.steps:
             (self._early,) = take_metrics(stepper.a, stepper.p.flying, 1)
         if self.k % TOLD_EVERY == 0:
-            stepper.code.spent(self._wall - self._told)
+            stepper.code.add_time(self._wall - self._told)
             self._told = self._wall
 
     # what there is to know

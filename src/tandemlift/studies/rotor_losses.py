@@ -94,7 +94,9 @@ def rows_of(kind: str, outcomes: list[dict[str, Any]]) -> Iterator[Row]:
         said.format(*worst),
         within,
     )
-    yield Row("the same: correct rotor identified", f"{count} of {count}", f"{len(found)} of {count}", len(found) == count)
+    yield Row(
+        "the same: correct rotor identified", f"{count} of {count}", f"{len(found)} of {count}", len(found) == count
+    )
     times = 1e3 * np.array(found)
     yield below(
         "the same: detection time, median / 95 % / max", np.quantile(times, [0.5, 0.95, 1.0]), [100.0] * 3, "ms", 0

@@ -49,7 +49,13 @@ def real_row(flight: Flight) -> Row:
     """Mission iris as it is: biases, drift, misalignment, its own state estimate, from the floor and back to it."""
     lifted, landing = flight.mission["phases"]["lift_start"], flight.mission["phases"]["land_start"]
     values = rms(errors(flight, max(LATE, lifted), landing))
-    return below("`iris` unchanged: from the floor, with sensor biases and its own state estimate", values, (4.0, 4.0, 1.0), "mm", 2)
+    return below(
+        "`iris` unchanged: from the floor, with sensor biases and its own state estimate",
+        values,
+        (4.0, 4.0, 1.0),
+        "mm",
+        2,
+    )
 
 
 def wrong_belief(flight: Flight, what: str) -> Iterator[Row]:
@@ -84,7 +90,8 @@ def draws(bench: Bench) -> Iterator[Row]:
     flights = bench.fly([drawn(rng, number) for number in range(bench.draws)])
     failed = sum(flight.divergence is not None for flight in flights)
     values = np.array([rms(errors(flight)) for flight in flights if flight.divergence is None])
-    yield Row(f"{bench.draws} random draws of all deviations together: failures", "0", str(failed), failed == 0)
+    what = f"{bench.draws} random draws of all deviations together: failures"
+    yield Row(what, "0", str(failed), failed == 0)
     yield below("the same: worst RMSE x / y / z", values.max(axis=0), (25.0, 25.0, 3.0), "mm")
     yield Row(
         "the same: median RMSE x / y / z", "", f"{' / '.join(f'{v:.1f}' for v in np.median(values, axis=0))} mm", None
