@@ -100,7 +100,7 @@ COPIED = {  # topic: type, frame, {where in the message: channel}
     "push/gated": (WRENCH, "base_world", {"wrench.force": "admittance_force"}),
     "push/measured": (WRENCH, "base_world", {"wrench.force": "push_measured"}),
     "push/estimated": (WRENCH, "base_world", {"wrench.force": "push_estimate"}),
-    "push/heard": (WRENCH, "base_world", {"wrench.force": "push_heard"}),
+    "push/filtered": (WRENCH, "base_world", {"wrench.force": "push_filtered"}),
     "disturbance": (WRENCH, "base_world", {"wrench.force": "disturbance_force"}),
     "wind/force": (WRENCH, "base_world", {"wrench.force": "wind_force"}),
     "contact/force": (WRENCH, "base_world", {"wrench.force": "contact_force"}),
@@ -168,7 +168,7 @@ def test_a_wrench_in_world_axes_has_its_moment_in_world_axes_too(read, flight, t
     np.testing.assert_allclose(found, turned(flight, moment), rtol=0, atol=1e-14)
 
 
-@pytest.mark.parametrize("topic", ["push/gated", "push/measured", "push/heard", "wind/force", "contact/force"])
+@pytest.mark.parametrize("topic", ["push/gated", "push/measured", "push/filtered", "wind/force", "contact/force"])
 def test_a_force_alone_has_no_torque(read, topic):
     assert not numbers(read[f"/tandemlift/{topic}"], *xyz("wrench.torque")).any()
 
@@ -214,7 +214,7 @@ def test_every_rotor_has_its_name_and_thrust(read, flight, topic, channel):
 def test_what_the_pilot_knows_besides_bears_the_names_of_channels(read, flight):
     messages = read["/tandemlift/pilot"]
     names = [messages[0][2][f"name.{i}"] for i in range(sum(key.startswith("name.") for key in messages[0][2]))]
-    assert {"phase", "push_on.x", "push_on.y", "push_on.z", "payload_mass_estimate", "alarm"} <= set(names)
+    assert {"phase", "push_active.x", "push_active.y", "push_active.z", "payload_mass_estimate", "alarm"} <= set(names)
     told = numbers(messages, *(f"position.{i}" for i in range(len(names))))
     for name, column in zip(names, told.T, strict=True):
         channel, _, axis = name.partition(".")

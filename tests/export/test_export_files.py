@@ -54,7 +54,7 @@ def test_the_columns_of_a_table_are_named_by_channel_unit_and_component(flight, 
         "joint_force[N].2.x": flight["joint_force"][:, 3],
         "measured_joint_torque[N m].1.y": flight["measured_joint_torque"][:, 1],
         "payload_mass_estimate[kg]": flight["payload_mass_estimate"],
-        "disturbance_turning_residual[rad/s^2].x": flight["disturbance_turning_residual"][:, 0],
+        "disturbance_angular_residual[rad/s^2].x": flight["disturbance_angular_residual"][:, 0],
     }.items():
         np.testing.assert_array_equal(table[heading], values)
     assert [h for h in table if not h.startswith("rotor_") and re.search(r"\.\d+$", h)] == []

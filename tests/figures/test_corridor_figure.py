@@ -8,7 +8,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.figures.corridor import NEWTON, arrows, instants
 from tandemlift.figures.drawing.clearances import clearances, grips
-from tandemlift.figures.registry import FIGURES, figures_of
+from tandemlift.figures.registry import figures, figures_of
 from tandemlift.flight.record import Divergence
 from tandemlift.missions import tables_of
 from tandemlift.settings import wall_tables
@@ -52,7 +52,7 @@ def test_the_grip_is_along_the_beam_where_the_person_holds_on():
 
 def test_walls_vehicle_path_and_pushes_are_drawn_where_they_were():
     flight = moved()
-    above, below = FIGURES["corridor"](flight).axes
+    above, below = figures()["corridor"].draw(flight).axes
     walls = [line.get_xydata() for line in above.get_lines() if line.get_gid() == "wall"]
     assert np.array_equal(walls, [[w["start"], w["end"]] for w in wall_tables(flight.mission)])
     (path,) = (line.get_xydata() for line in above.get_lines() if line.get_gid() == "path")
@@ -80,9 +80,9 @@ def test_it_is_a_figure_of_flights_among_walls_only():
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_it_draws_a_flight_of_few_samples_or_one_that_diverged(count):
     flight = moved(count=count)
-    FIGURES["corridor"](flight)
+    figures()["corridor"].draw(flight)
     if count > 1:
         flight["position"][-1] = np.nan
         lost = dataclasses.replace(flight, divergence=Divergence("position", 0.1, np.nan, "must be finite"))
-        figure = FIGURES["corridor"](lost)
+        figure = figures()["corridor"].draw(lost)
         assert "diverged" in figure.get_supxlabel()

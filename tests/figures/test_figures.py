@@ -15,13 +15,13 @@ from patience import completed
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.figures.captions import CAPTIONS
 from tandemlift.figures.drawing import style as figure_style
 from tandemlift.figures.drawing.series import decimate, intervals, normalised
 from tandemlift.figures.drawing.skeleton import skeleton
 from tandemlift.figures.drawing.vehicle import weight_of
-from tandemlift.figures.registry import FIGURES, VIEWS, figures_of, save_figures
+from tandemlift.figures.registry import VIEWS, captions, figures, figures_of, save_figures
 from tandemlift.flight.record import Divergence
+from tandemlift.vehicle import Vehicle
 
 RUNAWAY = {
     "controller.gains.lambda_1": 0.0,
@@ -71,7 +71,7 @@ def flights(paper):
 @pytest.fixture(scope="module")
 def drawn(paper):
     """The figures of the paper's flight."""
-    return {name: draw(paper) for name, draw in figures_of(paper).items()}
+    return {name: figure.draw(paper) for name, figure in figures_of(paper).items()}
 
 
 @pytest.fixture(scope="module")
@@ -100,8 +100,8 @@ def projection(paper, arrows):
 def test_the_figures_are_those_that_were_promised_in_that_order():
     of_the_paper = ["reference", "path", "tracking", "inputs", "interaction"]
     of_parts = ["push", "disturbance", "joints", "rotors", "surroundings", "corridor"]
-    assert list(FIGURES) == [*of_the_paper, *of_parts]
-    assert list(CAPTIONS) == [*FIGURES, VIEWS]
+    assert list(figures()) == [*of_the_paper, *of_parts]
+    assert list(captions()) == [VIEWS, *figures()]
 
 
 def test_the_drawing_library_is_loaded_only_to_draw_and_never_with_a_window_system(paper, tmp_path):
@@ -110,7 +110,7 @@ def test_the_drawing_library_is_loaded_only_to_draw_and_never_with_a_window_syst
 import sys, tandemlift.figures.registry
 from tandemlift.flight.record import Flight
 assert "matplotlib" not in sys.modules
-tandemlift.figures.registry.FIGURES["reference"](Flight.load({str(flight)!r}))
+tandemlift.figures.registry.figures()["reference"].draw(Flight.load({str(flight)!r}))
 assert "matplotlib.figure" in sys.modules and "matplotlib.pyplot" not in sys.modules
 """
     completed([sys.executable, "-W", "error", "-c", code], check=True)
@@ -142,7 +142,7 @@ def test_the_drawn_beam_is_as_long_as_the_beam_and_as_tilted_as_the_vehicle(pape
     assert abs(attitude[1:]).max() > 0.05
     expected = Rotation.from_quat(np.roll(attitude, -1)).apply(ends) + paper["position"][0]
 
-    drawn = skeleton(paper.mission["vehicle"]).placed(paper["position"][0], attitude)
+    drawn = skeleton(Vehicle.from_mission(paper.mission)).placed(paper["position"][0], attitude)
     assert drawn.beam == pytest.approx(expected, abs=1e-12)
     assert np.linalg.norm(drawn.beam[1] - drawn.beam[0]) == pytest.approx(2.0)
     beams = [line.get_xydata() for line in path_figure.axes[0].get_lines() if line.get_gid() == "payload"]
@@ -154,7 +154,7 @@ def test_rotors_stand_an_arm_from_where_their_quadrotor_is_mounted(layout, first
     table = tl.load_mission("paper").model_dump(mode="json", exclude_none=True)["vehicle"]
     for quadrotor in table["quadrotors"]:
         quadrotor["layout"] = layout
-    body = skeleton(table)
+    body = skeleton(Vehicle.from_mission({"vehicle": table}))
     mounts = body.struts[:, 1]
     assert mounts[0] - mounts[1] == pytest.approx([0.0, 2.0, 0.0])
     hubs = body.rotors.mean(axis=1).reshape(2, 4, 3) - mounts[:, None]
@@ -207,7 +207,7 @@ def test_a_disturbed_start_does_not_hide_the_rest(paper, drawn, flights):
     assert start.get_ylim()[0] < roll.min() < -1000.0
     assert whole.get_ylim()[0] > 2.0 * late.min() > -500.0
     assert whole.get_ylim()[0] < late.min() < late.max() < whole.get_ylim()[1]
-    assert len(FIGURES["inputs"](flights["hover"]).axes) == 4
+    assert len(figures()["inputs"].draw(flights["hover"]).axes) == 4
 
 
 def test_the_thrust_is_compared_with_the_weight(paper, drawn):
@@ -257,8 +257,8 @@ NAMES = [
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_figure_of_every_flight_is_drawn_whole_without_a_warning(flights, name):
-    for figure_name, draw in figures_of(flights[name]).items():
-        figure = draw(flights[name])
+    for figure_name, kind in figures_of(flights[name]).items():
+        figure = kind.draw(flights[name])
         width, height = figure.get_size_inches()
         assert 3.5 <= round(width, 3) <= 7.16
         notes = [text.get_text() for text in figure.texts]
@@ -273,7 +273,7 @@ def test_a_long_flight_stays_small_and_keeps_its_peaks(paper, tmp_path):
     at = np.arange(1_000_000) % len(paper.time)
     channels = {name: values[at] for name, values in paper.channels.items()}
     long = dataclasses.replace(paper, time=np.arange(len(at)) * 0.01, channels=channels)
-    figure = FIGURES["inputs"](long)
+    figure = figures()["inputs"].draw(long)
     lines = [line for ax in figure.axes for line in ax.get_lines()]
     assert max(len(line.get_xdata()) for line in lines) <= 2402
     assert min(np.min(line.get_ydata()) for line in lines) == paper["moment"].min()
@@ -303,7 +303,8 @@ def test_saving_writes_every_figure_as_png_and_pdf_and_tells_how_far_it_is(paper
 
 
 def test_the_same_flight_gives_the_same_bytes(paper, tmp_path):
-    first, second = (figure_style.save(FIGURES["interaction"](paper), tmp_path / f"{n}.pdf").read_bytes() for n in "ab")
+    draw = figures()["interaction"].draw
+    first, second = (figure_style.save(draw(paper), tmp_path / f"{n}.pdf").read_bytes() for n in "ab")
     assert first == second
 
 

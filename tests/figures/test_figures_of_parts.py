@@ -13,7 +13,7 @@ from tandemlift.figures.drawing.ground import clearance, floor_height
 from tandemlift.figures.drawing.scene import NEAR, on_paper
 from tandemlift.figures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
 from tandemlift.figures.drawing.vehicle import payload_mass_of
-from tandemlift.figures.registry import FIGURES, figures_of, save_figures
+from tandemlift.figures.registry import figures, figures_of, save_figures
 from tandemlift.flight.record import Divergence
 from tandemlift.models.surroundings import floor_from
 from tandemlift.vehicle import Vehicle
@@ -21,7 +21,7 @@ from tandemlift.vehicle import Vehicle
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}
 AIR = ("wind_velocity", "wind_force")
 KNOWN = ("push_measured", "push_estimate", "push_usable")
-OBSERVED = ("disturbance_force", "disturbance_moment", "disturbance_residual", "disturbance_turning_residual")
+OBSERVED = ("disturbance_force", "disturbance_moment", "disturbance_residual", "disturbance_angular_residual")
 
 
 def cut(flight, count, **changes):
@@ -88,13 +88,13 @@ def paper():
 
 @pytest.fixture(scope="module")
 def drawn(windy):
-    return {name: FIGURES[name](windy) for name in ("push", "joints", "rotors", "surroundings")}
+    return {name: figures()[name].draw(windy) for name in ("push", "joints", "rotors", "surroundings")}
 
 
 def test_a_flight_has_the_figures_of_its_parts_and_no_others(windy, paper):
     always = ["reference", "path", "tracking", "inputs", "interaction", "joints"]
     assert list(figures_of(paper)) == always
-    assert list(figures_of(windy)) == [name for name in FIGURES if name != "corridor"]  # it has no walls
+    assert list(figures_of(windy)) == [name for name in figures() if name != "corridor"]  # it has no walls
     assert "push" not in figures_of(without(windy, *KNOWN))
     assert "disturbance" not in figures_of(without(windy, *OBSERVED))
     assert "rotors" not in figures_of(without(windy, "rotor_commands"))
@@ -107,7 +107,7 @@ def test_saving_leaves_out_what_the_flight_does_not_have(windy, tmp_path):
     bare = cut(without(windy, *KNOWN, *OBSERVED, "rotor_commands"), 20)
     told = []
     files = save_figures(bare, tmp_path, lambda *counts: told.append(counts))
-    assert {f.stem for f in files} == set(FIGURES) - {"push", "disturbance", "rotors", "corridor"}
+    assert {f.stem for f in files} == set(figures()) - {"push", "disturbance", "rotors", "corridor"}
     assert told[-1] == (7, 7)
 
 
@@ -115,7 +115,7 @@ def test_saving_leaves_out_what_the_flight_does_not_have(windy, tmp_path):
 def test_figures_of_fleets_of_any_size_are_drawn_whole(windy, count):
     flight = of_count(cut(windy, 2000), count)
     for name in ("joints", "rotors"):
-        figure = FIGURES[name](flight)
+        figure = figures()[name].draw(flight)
         width, height = figure.get_size_inches()
         cut_off = figure.get_tightbbox().extents * [-1.0, -1.0, 1.0, 1.0] > [0.01, 0.01, width + 0.01, height + 0.01]
         assert not cut_off.any(), name
@@ -131,8 +131,8 @@ def test_every_figure_of_flights_that_end_early_is_drawn_whole_without_a_warning
     for values in huge.channels.values():
         values[-1], values[-2], values[-3], values[-4] = np.nan, np.inf, -np.inf, 1e300
     flight = {"one sample": cut(windy, 1), "no sample": cut(windy, 0), "diverged to infinity": huge}[name]
-    for figure_name, draw in figures_of(flight).items():
-        figure = draw(flight)
+    for figure_name, kind in figures_of(flight).items():
+        figure = kind.draw(flight)
         width, height = figure.get_size_inches()
         if name == "no sample":
             continue  # lines without a point have no extent to check
@@ -157,7 +157,7 @@ def test_the_push_is_grey_where_it_is_not_usable_and_blue_during_the_tare(windy)
     usable = np.ones(len(flight.time))
     usable[flight.time < 12.0] = usable[(flight.time > 40.0) & (flight.time < 41.0)] = 0.0
     flight = dataclasses.replace(flight, channels=flight.channels | {"push_usable": usable})
-    for panel in FIGURES["push"](flight).axes:
+    for panel in figures()["push"].draw(flight).axes:
         half = flight.mission["mission"]["log_interval"] / 2.0 + 1e-9
         assert shaded(panel, PALE) == pytest.approx(np.array([[0.0, 12.0], [40.0, 41.0]]), abs=2.0 * half)
         assert shaded(panel, LIGHT_BLUE) == pytest.approx(np.array([[9.0, 12.0]]), abs=half)
@@ -174,7 +174,7 @@ def test_where_a_push_acts_is_told_from_the_payload_and_only_while_it_is_large_e
     ]
     vehicle = windy.mission["vehicle"] | {"quadrotors": [first | {"mass": 3.0}, second]}
     flight = with_mission(dataclasses.replace(windy, channels=channels), vehicle=vehicle, pushes=pushes)
-    panel = FIGURES["push"](flight).axes[3]
+    panel = figures()["push"].draw(flight).axes[3]
     across, along, estimate = lines(panel)
     seen = across[np.isfinite(across[:, 1])]
     half = 0.6 * np.sqrt(2.0 * np.log(3.0 / windy.mission["estimator"]["min_force"]))
@@ -190,7 +190,7 @@ def test_where_a_push_acts_is_told_from_the_payload_and_only_while_it_is_large_e
 def test_the_payload_that_flew_has_what_the_vehicle_weighs_more(windy):
     heavier = with_mission(windy, plant=windy.mission["plant"] | {"mass_scale": 3.8 / 3.5})
     assert payload_mass_of(heavier) == pytest.approx(0.8)
-    panel = FIGURES["push"](heavier).axes[4]
+    panel = figures()["push"].draw(heavier).axes[4]
     assert panel.get_lines()[0].get_ydata() == pytest.approx([0.8, 0.8])
     assert_drawn(lines(panel)[0], windy.time, windy["payload_mass_estimate"])
 
@@ -198,7 +198,7 @@ def test_the_payload_that_flew_has_what_the_vehicle_weighs_more(windy):
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_joints_are_drawn_quadrotor_by_quadrotor_with_what_was_measured_behind(windy, count):
     flight = of_count(windy, count)
-    axes = np.reshape(FIGURES["joints"](flight).axes, (count, 2))
+    axes = np.reshape(figures()["joints"].draw(flight).axes, (count, 2))
     for row, pair in enumerate(axes):
         for panel, name in zip(pair, ("joint_force", "joint_torque"), strict=True):
             measured, true = np.split(np.array(panel.get_lines(), dtype=object)[:6], 2)
@@ -211,7 +211,7 @@ def test_joints_are_drawn_quadrotor_by_quadrotor_with_what_was_measured_behind(w
 
 
 def test_joints_of_a_flight_without_sensors_are_scaled_to_what_follows_a_disturbed_start(paper):
-    figure = FIGURES["joints"](paper)
+    figure = figures()["joints"].draw(paper)
     assert len(figure.legends[0].get_texts()) == 3
     late = paper.time > 1.0
     for row in range(2):
@@ -228,7 +228,7 @@ def test_every_rotor_is_drawn_between_its_limits(windy, count):
     flight = of_count(windy, count)
     quadrotor = flight.mission["vehicle"]["quadrotors"][0]
     most = quadrotor["thrust_constant"] * quadrotor["max_speed"] ** 2
-    *panels, share = FIGURES["rotors"](flight).axes
+    *panels, share = figures()["rotors"].draw(flight).axes
     assert len(panels) == 4 * count
     for rotor, panel in enumerate(panels):
         command, thrust = lines(panel)
@@ -237,13 +237,13 @@ def test_every_rotor_is_drawn_between_its_limits(windy, count):
         limits = [line.get_ydata()[0] for line in panel.get_lines()[2:]]
         assert limits == pytest.approx([0.0, most])
         assert panel.get_ylim()[0] < 0.0 < most < panel.get_ylim()[1]
-    assert_drawn(lines(share)[0], flight.time, flight["allocation_share"])
+    assert_drawn(lines(share)[0], flight.time, flight["allocation_fraction"])
 
 
 def test_commands_far_beyond_the_limits_do_not_hide_the_thrust(windy):
     wild = dataclasses.replace(windy, channels=windy.channels | {"rotor_commands": 1e3 * windy["rotor_commands"]})
-    low, high = FIGURES["rotors"](wild).axes[0].get_ylim()
-    assert (low, high) == FIGURES["rotors"](windy).axes[0].get_ylim()
+    low, high = figures()["rotors"].draw(wild).axes[0].get_ylim()
+    assert (low, high) == figures()["rotors"].draw(windy).axes[0].get_ylim()
     assert high < 10.0
 
 
@@ -251,7 +251,7 @@ def test_a_fault_is_marked_at_its_time_and_lowers_the_limit_to_what_is_left(wind
     fault = {"quadrotor": 2, "rotor": 3, "time": 15.0, "efficiency": 0.25, "known_after": 0.05}
     late = fault | {"rotor": 4, "time": 1e3}
     flight = with_mission(windy, faults=[fault, late])
-    figure = FIGURES["rotors"](flight)
+    figure = figures()["rotors"].draw(flight)
     quadrotor = flight.mission["vehicle"]["quadrotors"][1]
     most = quadrotor["thrust_constant"] * quadrotor["max_speed"] ** 2
     marked = [[line for line in ax.get_lines() if line.get_gid() == "fault"] for ax in figure.axes]
@@ -261,7 +261,7 @@ def test_a_fault_is_marked_at_its_time_and_lowers_the_limit_to_what_is_left(wind
     assert np.interp([14.9, 15.1], limit[:, 0], limit[:, 1]) == pytest.approx([most, 0.25 * most])
     assert [text.get_text() for text in figure.axes[6].texts] == ["25 % left"]
     assert "rotor fails" in [text.get_text() for text in figure.legends[0].get_texts()]
-    quiet = FIGURES["rotors"](with_mission(windy, faults=[late]))
+    quiet = figures()["rotors"].draw(with_mission(windy, faults=[late]))
     assert "rotor fails" not in [text.get_text() for text in quiet.legends[0].get_texts()]
 
 
@@ -271,9 +271,9 @@ def test_wind_contact_and_height_are_drawn_as_far_as_there_are_any(windy, drawn)
     for panel, name in zip(axes, (*AIR, "contact_force"), strict=False):
         for axis in range(3):
             assert_drawn(lines(panel)[axis], windy.time, windy[name][:, axis])
-    assert len(FIGURES["surroundings"](without(windy, *AIR)).axes) == 2
+    assert len(figures()["surroundings"].draw(without(windy, *AIR)).axes) == 2
     unbound = with_mission(without(windy, "contact_force"), ground={"model": "none"})
-    assert len(FIGURES["surroundings"](unbound).axes) == 2
+    assert len(figures()["surroundings"].draw(unbound).axes) == 2
 
 
 def test_grey_is_where_the_vehicle_is_in_contact(windy, drawn):
@@ -324,16 +324,16 @@ def on_the_paper(points, corners):
 
 
 def test_the_floor_is_filled_at_its_height_and_none_where_there_is_none(windy, paper):
-    ((corners, _),) = polygons(FIGURES["path"](windy), "floor")
+    ((corners, _),) = polygons(figures()["path"].draw(windy), "floor")
     level = corners - on_paper([0.0, 0.0, floor_height(windy)])
     places = np.linalg.solve(on_paper(np.eye(3)[:2]).T, level.T)
     assert places == pytest.approx(np.round(places), abs=1e-9), "the floor ends on the grid of metres"
     path = windy["position"].T[:2]
     assert (places.min(axis=1) <= path.min(axis=1)).all()
     assert (places.max(axis=1) >= path.max(axis=1)).all()
-    assert polygons(FIGURES["path"](paper), "floor") == []
+    assert polygons(figures()["path"].draw(paper), "floor") == []
     deep = with_mission(windy, ground={"model": "floor", "height": -100.0})
-    assert polygons(FIGURES["path"](deep), "floor") == []
+    assert polygons(figures()["path"].draw(deep), "floor") == []
 
 
 def test_walls_are_drawn_where_they_stand_before_or_behind_the_path(windy):
@@ -343,7 +343,7 @@ def test_walls_are_drawn_where_they_stand_before_or_behind_the_path(windy):
     ends = {"near": middle[:2] + 2.0 * away, "far": middle[:2] - 2.0 * away, "lost": middle[:2] + 500.0}
     walls = [{"start": list(p - 0.2 * along), "end": list(p + 0.2 * along), "top": 1.25} for p in ends.values()]
     floor = floor_height(windy)
-    figure = FIGURES["path"](with_mission(windy, walls=walls))
+    figure = figures()["path"].draw(with_mission(windy, walls=walls))
     near, far = polygons(figure, "wall")
     (path,) = (line for line in figure.axes[0].get_lines() if line.get_gid() == "path")
     assert near[1] > path.get_zorder() > far[1]
@@ -351,11 +351,11 @@ def test_walls_are_drawn_where_they_stand_before_or_behind_the_path(windy):
         stands = [[*wall[end], z] for end in ("start", "end") for z in (floor, 1.25)]
         assert all(on_the_paper(stands, corners))
     assert "wall" in [text.get_text() for text in figure.legends[0].get_texts()]
-    assert "wall" not in [text.get_text() for text in FIGURES["path"](windy).legends[0].get_texts()]
+    assert "wall" not in [text.get_text() for text in figures()["path"].draw(windy).legends[0].get_texts()]
 
 
 def test_a_long_wall_is_cut_off_and_does_not_shrink_the_path(windy):
-    bare = FIGURES["path"](windy).axes[0]
+    bare = figures()["path"].draw(windy).axes[0]
     wall = {"start": [-500.0, 2.5], "end": [500.0, 2.5], "top": 90.0}
-    walled = FIGURES["path"](with_mission(windy, walls=[wall])).axes[0]
+    walled = figures()["path"].draw(with_mission(windy, walls=[wall])).axes[0]
     assert np.ptp(walled.get_xlim()) < 2.0 * np.ptp(bare.get_xlim())

@@ -1,10 +1,15 @@
 """The channels of a flight: those of the parts that its mission has, each of its width, all of them in the table."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.flight.record import CHANNELS, DERIVED
+from tandemlift.algebra.vector import Nothing
+from tandemlift.flight.channel_tables import with_tables
+from tandemlift.flight.channels import CHANNELS, DERIVED
+from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.laws.guidance.guidance import HandGuidanceChannels
 from tandemlift.laws.guidance.supervision import SupervisionChannels
 from tandemlift.loop.estimate_channels import EstimatedChannels, MeasuredChannels
@@ -26,6 +31,7 @@ GROUPS = {
     "air": WindChannels,
     "contact": ContactChannels,
     "measured": MeasuredChannels,
+    "additional": Nothing,
     "estimated": EstimatedChannels,
     "disturbed": DisturbanceChannels,
     "guided": HandGuidanceChannels,
@@ -42,24 +48,22 @@ def channels_in(names):
 ALWAYS = [name for name in Sample._fields if name not in GROUPS]
 
 
-def test_the_table_of_channels_is_complete():
+def test_a_step_logs_the_channels_of_the_record_and_no_others_in_its_order():
     assert list(CHANNELS) == channels_in(Sample._fields)
-    assert all(channel.unit and channel.meaning for channel in CHANNELS.values())
-    scalars = ("allocation_share", "payload_mass_estimate", "push_usable", "rotor_lost")
-    scalars += ("phase", "added_damping", "alarm", "refused")
-    assert all(bool(channel.frame) != (name in scalars) for name, channel in CHANNELS.items())
+    assert len(CHANNELS) == sum(len(group.channels) for group in CHANNEL_GROUPS), "a name in two groups"
     assert not set(DERIVED) & set(CHANNELS)
 
 
-WIDTHS = {  # of channels that are not of three numbers, for n quadrotors
-    **dict.fromkeys(["attitude", "measured_attitude", "estimated_attitude"], lambda n: 4),
-    **dict.fromkeys(["thrust", "allocated_thrust", "allocation_share", "push_point_estimate"], lambda n: 1),
-    **dict.fromkeys(["payload_mass_estimate", "sensor_disagreement", "push_usable"], lambda n: 1),
-    **dict.fromkeys(["phase", "added_damping", "reference_yaw_rate"], lambda n: 1),
-    **dict.fromkeys(["alarm", "refused", "rotor_lost"], lambda n: 1),
-    **dict.fromkeys(["rotor_thrusts", "rotor_commands"], lambda n: 4 * n),
-    **dict.fromkeys(["joint_force", "joint_torque", "measured_joint_force", "measured_joint_torque"], lambda n: 3 * n),
-}
+def test_a_channel_says_its_unit_its_meaning_and_in_which_frame_a_vector_is():
+    assert all(channel.unit and channel.meaning for channel in CHANNELS.values())
+    assert [name for name, channel in CHANNELS.items() if channel.width > 1 and not channel.frame] == []
+    assert {channel.per for channel in CHANNELS.values()} == {"", "rotor", "quadrotor"}
+
+
+def test_the_tables_of_the_documents_are_made_from_the_record():
+    page = (Path(__file__).parent.parent / "docs" / "flights.md").read_text("utf-8")
+    assert page == with_tables(page), "run: python -m tandemlift.flight.channel_tables docs/flights.md"
+    assert all(f"| `{name}` |" in page for name in CHANNELS)
 
 
 def unflown(changes, count=2):
@@ -98,7 +102,7 @@ def test_channels_are_there_if_and_only_if_the_mission_has_their_part(groups):
 def test_all_channels_have_their_widths(count):
     flight = unflown(WHOLE, count)
     widths = {name: (1 if array.ndim == 1 else array.shape[1]) for name, array in flight.items()}
-    assert widths == {name: WIDTHS.get(name, lambda n: 3)(count) for name in CHANNELS}
+    assert widths == {name: channel.columns(count, 4 * count) for name, channel in CHANNELS.items()}
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
@@ -107,6 +111,6 @@ def test_channels_have_their_widths_for_any_number_of_quadrotors(count):
     spread = [quadrotor | {"position": [0.3 * i, 1.0, 0.1]} for i in range(count)]
     flight = tl.fly(tl.load_mission("flight-ready", {"vehicle.quadrotors": spread, "mission.duration": 0.05}))
     widths = {name: (1 if array.ndim == 1 else array.shape[1]) for name, array in flight.items()}
-    assert widths == {name: WIDTHS.get(name, lambda n: 3)(count) for name in ALWAYS}
+    assert widths == {name: CHANNELS[name].columns(count, 4 * count) for name in ALWAYS}
     assert {len(array) for array in flight.values()} == {len(flight.time)} == {6}
     assert np.allclose(flight["rotor_thrusts"].sum(axis=1), flight["thrust"], rtol=1e-12)

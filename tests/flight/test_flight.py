@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.flight.record import DERIVED
+from tandemlift.flight.channels import DERIVED
 
 NAMES = [  # of metrics.json, with how many numbers each has (0: one, not in a list)
     ("position_rmse_m", 3),
@@ -82,7 +82,7 @@ def test_an_unknown_channel_is_told_with_a_suggestion(short):
 
 def test_a_flight_tells_what_it_is_and_what_its_channels_are(short):
     assert repr(short) == "<Flight paper: 101 samples to 1 s, 20 channels>"
-    assert short.info("velocity") == ("m/s", "world", "of the centre of mass")
+    assert short.info("velocity") == ("m/s", "world", "velocity of the centre of mass", 3, "")
     assert short.info("velocity_error").unit == "m/s"
     assert short.info("time").unit == "s"
     assert short["time"] is short.time

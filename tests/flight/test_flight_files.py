@@ -11,7 +11,8 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.flight.record import CHANNELS, FORMAT, Divergence, Flight
+from tandemlift.flight.channels import CHANNELS
+from tandemlift.flight.record import FORMAT, Divergence, Flight
 
 
 @pytest.fixture(scope="module")

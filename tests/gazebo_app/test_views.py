@@ -14,8 +14,8 @@ from tandemlift.cli.main import main
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.figures.drawing.style import save
 from tandemlift.figures.registry import save_figures
+from tandemlift.figures.views import draw
 from tandemlift.gazebo_app.camera_views import views_from
-from tandemlift.gazebo_app.photographs import draw_views
 from tandemlift.missions import tables_of
 from tandemlift.models.cameras import FixedCamera, add_cameras
 from tandemlift.models.sdf import world
@@ -90,7 +90,7 @@ def picture(color):
 
 def test_pictures_are_drawn_side_by_side_and_come_first_in_the_report(flight, tmp_path):
     colors = ("red", "lime", "blue", "yellow")
-    path = save(draw_views([(f"view {c}", picture(c)) for c in colors]), tmp_path / "views.png")
+    path = save(draw([(f"view {c}", picture(c)) for c in colors]), tmp_path / "views.png")
     drawn = matplotlib.image.imread(path)[:, :, :3]
     high, wide = drawn.shape[:2]
     middles = [drawn[int(y * high), int(x * wide)] for y in (0.3, 0.8) for x in (0.25, 0.75)]

@@ -13,8 +13,7 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.figures.captions import CAPTIONS
-from tandemlift.figures.registry import figures_of, save_figures
+from tandemlift.figures.registry import captions, figures_of, save_figures
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.missions import tables_of
 from tandemlift.report.flight_files import write_flight_files
@@ -123,10 +122,10 @@ def test_the_page_says_its_language_its_title_and_fits_a_phone(page):
 def test_every_figure_is_there_with_its_size_a_description_and_a_caption(page, paper):
     images, names = page.all("img"), list(figures_of(paper))
     assert [figure["id"] for figure in page.all("figure")] == names
-    assert [image["alt"] for image in images] == [CAPTIONS[name].alt for name in names]
+    assert [image["alt"] for image in images] == [captions()[name].alt for name in names]
     assert all(300 < int(image["width"]) < 1100 and 200 < int(image["height"]) < 1100 for image in images)
     for name in names:
-        assert html.escape(CAPTIONS[name].text) in page.text
+        assert html.escape(captions()[name].text) in page.text
 
 
 def test_the_engine_is_told_at_the_top(page, windy, paper, write):

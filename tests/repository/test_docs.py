@@ -9,7 +9,6 @@ from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.cli.main import cli
-from tandemlift.flight.record import CHANNELS, DERIVED
 
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 CODE = [
@@ -62,14 +61,6 @@ def test_the_makefile_has_the_targets_of_the_readme():
 def test_links_within_the_project_lead_somewhere(path):
     for target in re.findall(r"\]\((?!https?:)([^)#]+)", path.read_text("utf-8")):
         assert (path.parent / target).exists(), target
-
-
-def test_the_table_of_channels_is_the_channels():
-    text = (ROOT / "docs" / "flights.md").read_text("utf-8")
-    for name, channel in CHANNELS.items():
-        row = rf"\| `{name}` \| \S+ \| {re.escape(channel.unit)} \| {channel.frame} \| {re.escape(channel.meaning)} \|"
-        assert re.search(row, text), name
-    assert all(f"`{name}`" in text for name in DERIVED)
 
 
 def test_the_table_of_metrics_names_every_metric():

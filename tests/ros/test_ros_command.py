@@ -18,9 +18,9 @@ from repository import ROOT
 from tandemlift.cli.main import cli, main
 from tandemlift.common.errors import InputError
 from tandemlift.live.session.pacing import MOST_BEHIND
-from tandemlift.ros.clock import Clock
 from tandemlift.ros.dds_types import PACKAGES
-from tandemlift.ros.package import folder
+from tandemlift.ros.ros1 import folder
+from tandemlift.ros.sample_queue import Clock
 
 
 @pytest.mark.parametrize(

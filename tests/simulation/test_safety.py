@@ -128,7 +128,7 @@ def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
     landed = down & (flight.time > 10.0)
     assert landed.any()
     assert not flight["admittance_force"][landed & (flight.time > 17.0)].any()
-    assert not flight["push_on"][landed].any()
+    assert not flight["push_active"][landed].any()
 
 
 @pytest.mark.parametrize(
@@ -144,7 +144,7 @@ def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
 )
 def test_a_check_that_fails_refuses(changes, check, fly):
     flight = fly(changes)
-    assert check in flight["refused"]
+    assert check in flight["failed_check"]
     assert "guided" not in [what for _, what in flight.metrics()["events"]]
     if check < 8:
         assert flight["phase"].max() == 0.0

@@ -12,9 +12,9 @@ import pytest
 import tandemlift as tl
 from tandemlift.cli.main import main
 from tandemlift.controllers import CONTROLLERS
-from tandemlift.figures.controller_comparison import draw_errors, draw_thrusts
 from tandemlift.missions import built_in, tables_of, to_toml
 from tandemlift.report.controller_comparison import COLUMNS, write_comparison
+from tandemlift.report.controller_figures import draw_errors, draw_thrusts
 from tandemlift.studies.controller_comparison import (
     Entrant,
     Entry,

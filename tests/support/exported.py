@@ -7,7 +7,8 @@ import numpy as np
 from messages_as_numbers import flat
 
 import tandemlift as tl
-from tandemlift.flight.record import CHANNELS, Divergence, Flight
+from tandemlift.flight.channels import CHANNELS
+from tandemlift.flight.record import Divergence, Flight
 from tandemlift.missions import tables_of
 
 SAMPLES = 40
@@ -15,16 +16,11 @@ SAMPLES = 40
 
 def anything(name, count, rng):
     """Numbers for a channel of a vehicle of so many quadrotors."""
-    if name in ("rotor_thrusts", "rotor_commands"):
-        return rng.standard_normal((SAMPLES, 4 * count))
-    if "joint_" in name:
-        return rng.standard_normal((SAMPLES, 3 * count))
+    columns = CHANNELS[name].columns(count, 4 * count)
     if name.endswith("attitude"):
         q = rng.standard_normal((SAMPLES, 4))
         return q / np.linalg.norm(q, axis=1, keepdims=True)
-    if CHANNELS[name].frame in ("world", "body", "zxy") and name not in ("reference_yaw_rate", "sensor_disagreement"):
-        return rng.standard_normal((SAMPLES, 3))
-    return rng.standard_normal(SAMPLES)
+    return rng.standard_normal((SAMPLES, columns) if columns > 1 else SAMPLES)
 
 
 def flight_of(mission, **changes):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from tandemlift.flight.record import Flight
     from tandemlift.gazebo_app.flying import GazeboSession, Photo
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 
 @click.command()
@@ -119,18 +119,18 @@ def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool)
 
 
 def _photographs(photos: Sequence[Photo]) -> Figure | None:
-    from tandemlift.gazebo_app.photographs import draw_views
+    from tandemlift.figures.views import draw
 
     if not photos:
         return None
-    return draw_views([(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in photos])
+    return draw([(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in photos])
 
 
 def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
     """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
     from tandemlift.gazebo_app.flying import running_gazebo
     from tandemlift.live.session.interactive_mission import interactive_mission
-    from tandemlift.live.session.recorded_flight import RecordedFlight
+    from tandemlift.simulation.recorded_flight import RecordedFlight
 
     mission = interactive_mission(mission)
     with running_gazebo(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:

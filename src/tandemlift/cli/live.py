@@ -20,7 +20,7 @@ from tandemlift.common.errors import InputError
 if TYPE_CHECKING:
     from tandemlift.live.server import PageServer
     from tandemlift.live.session.session import Session
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 HOST, PORT = "127.0.0.1", 8710
 DEFAULT, OUT = "zigzag", Path("out/live")

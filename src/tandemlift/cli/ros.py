@@ -65,7 +65,7 @@ def ros(
       3   the vehicle was lost, or the flight failed
     """
     from tandemlift.engines.registry import engine_named
-    from tandemlift.ros.package import folder as package
+    from tandemlift.ros.ros1 import folder as package
     from tandemlift.ros.selection import middleware_of, version_for
 
     if folder:
@@ -104,7 +104,7 @@ def _split_arguments(words: tuple[str, ...]) -> tuple[str, list[str]]:
 def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
     """Fly until the flight ends; its last phase."""
     from tandemlift.ros.node import FlightNode
-    from tandemlift.ros.package import start_rviz
+    from tandemlift.ros.ros1 import start_rviz
 
     beside = start_rviz() if rviz else None
     front = FlightNode(session, middleware, rate)

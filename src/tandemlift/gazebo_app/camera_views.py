@@ -12,9 +12,9 @@ import numpy as np
 
 from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
-from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.flight.record import Flight
 from tandemlift.models.cameras import FixedCamera
+from tandemlift.vehicle import Vehicle
 
 DISTANCE = 5.0  # from the vehicle to a camera, as a multiple of the vehicle's reach
 ELEVATION, OFFSET = np.radians([34.0, 24.0])  # rad, of a camera above the horizon and beside the way
@@ -43,7 +43,7 @@ def views_from(flight: Flight) -> list[ViewRequest]:
         "at the end of its way",
         "landed" if stands[1] else "at the end",
     )
-    reach = float(np.linalg.norm(vehicle_of(flight).lever_arms, axis=1).max()) + 0.5
+    reach = float(np.linalg.norm(Vehicle.from_mission(flight.mission).lever_arms, axis=1).max()) + 0.5
     return [
         ViewRequest(title, float(flight.time[k]), _camera(f"view_{letter}", flight, k, DISTANCE * reach))
         for letter, title, k in zip("abcd", titles, _moments(flight), strict=True)

@@ -8,9 +8,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
-from tandemlift.laws.mechanics.clearance import nearer_of
-
-LATE = 10.0  # s: "after 10 s" leaves the disturbed start out
+from tandemlift.laws.mechanics.clearance import smaller_clearance
 
 
 class StepErrors(NamedTuple):
@@ -98,7 +96,7 @@ def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
         c.push_sum + x.push,
         c.power_sum + x.power,
         c.saturated + x.saturated,
-        nearer_of(c.clearance, x.clearance),
+        smaller_clearance(c.clearance, x.clearance),
         added(c.effort, x.effort),
         c.triggers + x.hearing * (1.0 - c.hearing),
         x.hearing,
@@ -110,7 +108,7 @@ def _root_mean(squares: Any, steps: float) -> list[float] | None:
 
 
 def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
-    """The metrics from the tallies before and after `LATE`, with steps of `step` [s]; None where there is none."""
+    """The metrics from the sums before and after 10 s, with steps of `step` [s]; None where there is none."""
     steps = early.steps + late.steps
     return {
         "position_rmse_m": _root_mean(early.position_squares + late.position_squares, steps),

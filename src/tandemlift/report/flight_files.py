@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Progress
-from tandemlift.figures.registry import FIGURES, VIEWS, save_figure, save_figures
+from tandemlift.figures.registry import VIEWS, captions, save_figure, save_figures
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import write_report
@@ -39,7 +39,7 @@ def write_flight_files(
     flight.save(folder / "flight.npz")
     with atomic_write(folder / "metrics.json") as partial:
         partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
-    for name in (*FIGURES, VIEWS):
+    for name in captions():
         for kind in ("png", "pdf"):
             (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
     if figures:

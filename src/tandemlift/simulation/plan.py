@@ -10,9 +10,9 @@ import numpy as np
 
 from tandemlift.algebra.vector import ZERO, each, layout
 from tandemlift.controllers import NoMemory, control
+from tandemlift.flight.record import LATE
 from tandemlift.kernels import FlightStart, Kernels, PythonController, TimeGrid
 from tandemlift.laws.person.caller_inputs import CallerInput
-from tandemlift.loop.running_metrics import LATE
 from tandemlift.settings import Mission
 from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import flat

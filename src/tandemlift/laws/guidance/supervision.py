@@ -154,7 +154,7 @@ class SupervisionChannels(NamedTuple):
     """What a supervision shows."""
 
     alarm: Any
-    refused: Any
+    failed_check: Any
 
 
 FREE = SupervisionOutput(PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0)

@@ -15,6 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from tandemlift.common.types import Array
+from tandemlift.figures.drawing.figure import Caption
 from tandemlift.figures.drawing.panels import extent, fit, line, time_axis
 from tandemlift.figures.drawing.series import drawable
 from tandemlift.figures.drawing.start import LONG, START
@@ -22,6 +23,21 @@ from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, GREY, LIGHT_BLU
 from tandemlift.flight.record import Flight
 from tandemlift.studies.controller_comparison import LEAST, ScoredPart, airborne, moving_axes, parts_of, scored
 
+CAPTIONS = {
+    "errors": Caption(
+        "Errors",
+        "Position errors in the air, desired minus actual, of all controllers. The time before the first push, with "
+        "take-off or a disturbed start, has a scale of its own. Axes along which no error reaches 1 µm are left out. "
+        "Flights that diverge do not set the scale.",
+        "Panels over time for each axis: the position error of every controller, before the first push and after.",
+    ),
+    "thrusts": Caption(
+        "Thrusts",
+        "Mean thrust of all rotors (line), and the range from the smallest to the largest thrust of any rotor (band). "
+        "Each panel has the scale of the time after the first second; its range is given above it.",
+        "A panel over time for each controller: mean thrust of the rotors, and the band from smallest to largest.",
+    ),
+}
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 COLOURS = (BLUE, VERMILLION, GREEN, BLACK, "#E69F00", "#CC79A7", "#56B4E9", GREY)  # Okabe and Ito
 LEAST_SPAN = 2e3 * LEAST["position_max_error_m"]  # mm, of an axis of errors
@@ -156,3 +172,11 @@ def draw_thrusts(flights: Mapping[str, Flight]) -> Figure:
     for ax in axes.flat[len(flights) :]:
         ax.set_visible(False)
     return figure
+
+
+def figures_of(flights: Mapping[str, Flight]) -> dict[str, Figure]:
+    """The figures of a comparison by name; without the errors where none reaches 1 µm."""
+    drawn = {"thrusts": draw_thrusts(flights)}
+    if any(any(moving_axes(flights.values(), part)) for part in parts_of(flights.values())):
+        drawn = {"errors": draw_errors(flights)} | drawn
+    return drawn

@@ -9,14 +9,20 @@ from collections.abc import Sequence
 import matplotlib.image
 from matplotlib.figure import Figure
 
+from tandemlift.figures.drawing.figure import Caption
 from tandemlift.figures.drawing.style import PAGE, styled
 
+CAPTION = Caption(
+    "Photographs",
+    "The flight as seen by cameras in Gazebo.",
+    "Photographs of the vehicle in its surroundings, each with its letter, what it shows, and the time.",
+)
 ACROSS = 2  # pictures side by side
 HEAD = 0.24  # in, over each picture
 
 
 @styled
-def draw_views(pictures: Sequence[tuple[str, bytes]]) -> Figure:
+def draw(pictures: Sequence[tuple[str, bytes]]) -> Figure:
     """Draw pictures, each with its title.
 
     Args:

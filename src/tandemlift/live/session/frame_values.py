@@ -20,7 +20,7 @@ CHANNELS = {  # of each field: the channels that it may come from, the best firs
     "velocity": ("velocity",),
     "reference": ("reference_position",),
     "push": ("push_force",),
-    "pilot_push": ("push_heard", "push_estimate", "push_force"),
+    "pilot_push": ("push_filtered", "push_estimate", "push_force"),
     "disturbance": ("disturbance_force",),
     "wind": ("wind_velocity",),
     "alarm": ("alarm",),

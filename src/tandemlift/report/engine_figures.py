@@ -13,14 +13,28 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
+from tandemlift.figures.drawing.figure import Caption, with_walls
 from tandemlift.figures.drawing.panels import fit, line, time_axis, value_ticks
 from tandemlift.figures.drawing.series import decimate
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, LIGHT_BLUE, PAGE, VERMILLION, styled
-from tandemlift.figures.registry import among_walls
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
 from tandemlift.studies.engine_comparison import QUANTITIES, apart
 
+CAPTIONS = {
+    "flights": Caption(
+        "Flights",
+        "Path of the centre of mass from above, if there are walls, and its position over time, in every engine; the "
+        "first is drawn widest.",
+        "The path from above with walls, and panels over time for x, y and z, with one line for each engine.",
+    ),
+    "differences": Caption(
+        "Differences",
+        "Difference of each engine’s flight from that of the first: distance of positions, angle between attitudes, "
+        "largest component of the differences of the forces and torques at the joints and of the push estimate.",
+        "A panel over time for each quantity, with a logarithmic scale and a line for each engine but the first.",
+    ),
+}
 LOOKS: tuple[dict[str, Any], ...] = (
     {"color": LIGHT_BLUE, "lw": 4.5},
     {"color": BLUE, "lw": 1.8},
@@ -58,7 +72,7 @@ def _from_above(ax: Any, flights: Mapping[str, Flight]) -> None:
 def draw_over_each_other(flights: Mapping[str, Flight]) -> Figure:
     """Draw the ways from above [m], if there are walls, and the positions x, y, z [m] over time."""
     first = next(iter(flights.values()))
-    walls = among_walls(first)
+    walls = with_walls(first)
     span = np.ptp(first["position"][:, :2], axis=0) + 4.0
     tall = float(np.clip(PAGE * span[1] / span[0], *TALL))
     heights = [tall, ROW, ROW, ROW] if walls else [ROW, ROW, ROW]
@@ -97,3 +111,8 @@ def draw_differences(flights: Mapping[str, Flight]) -> Figure:
     figure.align_ylabels(axes)
     _legend(figure, [f"{name} from {next(iter(flights))}" for name in list(flights)[1:]], first=1)
     return figure
+
+
+def figures_of(flights: Mapping[str, Flight]) -> dict[str, Figure]:
+    """The figures of a comparison by name."""
+    return {"flights": draw_over_each_other(flights), "differences": draw_differences(flights)}
