@@ -52,7 +52,7 @@ def delayed_spans(flying: Any) -> DelayedSpans:
     """What is delayed in flights like this one."""
     late, ends = (
         flying.delays,
-        (("readings", "unit"), ("readings", "motion"), ("rotors", "arriving"), ("partner", "seen")),
+        (("readings", "unit"), ("readings", "motion"), ("rotors", "arriving"), ("person", "view")),
     )
     if isinstance(late, Nothing):
         return DelayedSpans(NONE, NONE, NONE, NONE)

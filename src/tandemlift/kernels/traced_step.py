@@ -125,7 +125,7 @@ class TracedStep:
             self.given_by("hand", likes.given.hand),
             self.given_by("gust", ZERO),
             self.given_by("noise", likes.given.noise),
-            self.flying.moving.partner,
+            self.flying.moving.person,
             self.given_by("external", likes.given.external),
         )
         self.given = traced(with_person)(self.flying, outer, self.t, self.dt)
@@ -166,7 +166,7 @@ class TracedStep:
 
     def _limited(self, thought: PilotOutput) -> PilotOutput:
         self.limits, decision, memory = limited(self, self.flying.pilot, self.flying.moving.memory, thought, self.t)
-        return PilotOutput(thought.known, thought.believed, decision, memory, thought.estimator)
+        return thought._replace(decision=decision, memory=memory)
 
     def _swung(self, plant: Any, acting: Any) -> Any:
         return traced(step_body)(plant, self.flying.moving, acting, self.given.hand, self.dt)
@@ -174,7 +174,7 @@ class TracedStep:
     def _pressing(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""
         before, plant, dt = self.flying.moving, self.flying.plant, self.dt
-        free, air = untouched(plant), acting.weather.loads
+        free, air = untouched(plant), acting.wind.loads
         args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
         rate = traced(first_motion)(free, *args)
         room = traced(clearance)(plant.walls, before.near, plant.frame, before.state)

@@ -208,29 +208,29 @@ def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSam
         felt.joint_force,
         felt.joint_torque,
         actuated(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
-        air_of(acting.weather.loads, acting.weather.velocity),
+        air_of(acting.wind.loads, acting.wind.velocity),
         contact_of(flying.plant.floor, felt),
         shown_readings(flying.moving.readings),
-        shown_estimate(thought.known),
-        disturbed(flying.pilot.observer, read.unknown),
-        guidance.shown,
+        shown_estimate(thought.estimates),
+        disturbed(flying.pilot.observer, read.disturbance),
+        guidance.channels,
         watched(flying.pilot.detection, thought.memory.detection),
     )
 
 
-@choice(absent="partner")
-def effort(partner: Any, x: Sample) -> Any:
+@choice(absent="person")
+def effort(person: Any, x: Sample) -> Any:
     """What a step costs the person who guides the vehicle."""
 
 
 @effort.register(PersonState)
-def _somebody(partner, x):
-    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+def _somebody(person, x):
+    return effort_of(where(person.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
 @effort.register(VirtualHandState)
-def _a_hand(partner, x):
-    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+def _a_hand(person, x):
+    return effort_of(where(person.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
 @choice(absent=0.0)
@@ -257,6 +257,6 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
         dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
         saturated(flying.rotors, thought.decision.thrusts) * thrust_fraction(thought.decision.guidance.running),
         clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
-        effort(flying.moving.partner, x),
-        hearing(thought.decision.guidance.shown),
+        effort(flying.moving.person, x),
+        hearing(thought.decision.guidance.channels),
     )

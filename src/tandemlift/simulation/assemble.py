@@ -64,9 +64,11 @@ def delays_from(mission: Mission) -> NDArray[np.int64]:
     return np.array([*steps, max(sight, 0) * accompanied], dtype=np.int64)
 
 
-def start_metrics(far: Any, company: Any) -> RunningMetrics:
+def start_metrics(far: Any, memory_of_person: Any) -> RunningMetrics:
     """The tally of a flight before its first step; `far`: the clearance before any wall was looked at."""
-    return EMPTY._replace(clearance=far, effort=company if isinstance(company, Nothing) else NO_EFFORT)
+    return EMPTY._replace(
+        clearance=far, effort=memory_of_person if isinstance(memory_of_person, Nothing) else NO_EFFORT
+    )
 
 
 def assemble(mission: Mission) -> AssembledFlight:
@@ -83,10 +85,10 @@ def assemble(mission: Mission) -> AssembledFlight:
     grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
     delays = delays_from(mission)
     rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, late=bool(delays[2]))
-    weather, eddies = start_weather(mission, vehicle, chance)
+    wind, eddies = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
     near, hand = near_walls_from(walls), PushSamples(push, push, push)
-    devices, hiss = sensors_from(mission, vehicle, chance)
+    devices, sensor_noise = sensors_from(mission, vehicle, chance)
     sensing: Any = Nothing()
     if not isinstance(devices, Nothing):
         felt = readings_at_rest(plant, state, grip, near, thrusts, hand)
@@ -94,17 +96,29 @@ def assemble(mission: Mission) -> AssembledFlight:
     readings = Nothing() if isinstance(devices, Nothing) else sensing.readings
     estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
-    partner, company, twitch = start_person(mission, vehicle, state)
-    tally = start_metrics(clearance(walls, near, plant.frame, state), company)
-    moving = FlightState(state, memory, eddies, grip, near, sensing, known, spinning, readings, company, tally, 0.0)
-    reads = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
+    person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
+    moving = FlightState(
+        state=state,
+        memory=memory,
+        wind=eddies,
+        grip=grip,
+        near=near,
+        sensing=sensing,
+        estimator=known,
+        rotors=spinning,
+        readings=readings,
+        person=memory_of_person,
+        metrics=start_metrics(clearance(walls, near, plant.frame, state), memory_of_person),
+        diverged=0.0,
+    )
+    sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
     late = DelayLines(*[Delayed() if d else Nothing() for d in delays]) if delays.any() else Nothing()
-    flying = FlightModel(moving, pilot, plant, rotors, weather, devices, estimators, reads, partner, late)
-    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(weather), hiss, twitch), company)
+    flying = FlightModel(moving, pilot, plant, rotors, wind, devices, estimators, sources, person, late)
+    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), sensor_noise, tremor_noise), memory_of_person)
     return AssembledFlight(
         flying,
         given,
-        input_tables_from(mission, path_legs_from(mission, partner, state)),
+        input_tables_from(mission, path_legs_from(mission, person, state)),
         delays,
         np.array(keys_of(mission.mission.seed)),
     )

@@ -61,10 +61,10 @@ def clearances(flight: Flight) -> Clearances:
 
 def grips(flight: Flight) -> Array | None:
     """Where the person of [person] holds on (T, 3) [m, world axes], or None without one."""
-    partner = flight.mission.get("person", {"model": "none"})
-    if partner["model"] in ("none", "grab"):
+    person = flight.mission.get("person", {"model": "none"})
+    if person["model"] in ("none", "grab"):
         return None
-    along = 0.0 if partner["model"] == "two-hands" else partner["grip"]
+    along = 0.0 if person["model"] == "two-hands" else person["grip"]
     arm = vec3(np.array([0.0, along, 0.0]) - vehicle_of(flight).center_of_mass)
     R = rotation_from_quaternion(Quat(*flight["attitude"].T))
     ways = np.column_stack([row.x * arm.x + row.y * arm.y + row.z * arm.z for row in R])

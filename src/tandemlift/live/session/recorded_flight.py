@@ -16,7 +16,7 @@ from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.types import Array
 from tandemlift.engines.registry import EngineBody, engine_named
 from tandemlift.kernels import leaf_offset
-from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, VirtualHandInput
+from tandemlift.laws.person.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.live.session.snapshot import FlightSnapshot
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions import changed
@@ -113,7 +113,7 @@ class RecordedFlight:
     @property
     def hand(self) -> VirtualHandInput:
         """The hand as it was last moved."""
-        return unflat(self._stepper.a[self._stepper.hand], NOBODY_HOLDS)
+        return unflat(self._stepper.a[self._stepper.hand], HAND_RELEASED)
 
     def advance(self) -> None:
         """Take a step."""
