@@ -102,7 +102,7 @@ def test_a_hand_that_holds_still_is_a_spring_and_a_damper_whatever_is_seen():
         memory = person_step(person, memory, NO_PUSH, at(ZERO), CALM, k * DT, DT).memory
     state = at((0.02, -0.01, 0.0), (0.1, 0.0, -0.2))
     seen = memory._replace(view=person_view(person.grip, at((3.0, 1.0, 0.0))))
-    force = array(person_step(person, seen, NO_PUSH, state, CALM, 3.0, DT).hand.start.force)
+    force = array(person_step(person, seen, NO_PUSH, state, CALM, 3.0, DT).push.start.force)
     grip = array(person.grip) + array(state.position)
     assert force == pytest.approx(200.0 * (array(memory.leg.end) - grip) - 15.0 * array(state.velocity), abs=0.02)
 

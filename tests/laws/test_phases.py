@@ -152,8 +152,8 @@ def test_a_landing_is_no_faster_than_allowed_and_as_deep_as_told():
 
 def test_hovering_counts_from_steady_flight():
     _, m, _ = flown(3.3 + 2.0)
-    assert m.hovered == pytest.approx(2.0 - SETTLING_TIME, abs=2 * DT)
-    assert flown(3.2)[1].hovered == -SETTLING_TIME
+    assert m.hover_time == pytest.approx(2.0 - SETTLING_TIME, abs=2 * DT)
+    assert flown(3.2)[1].hover_time == -SETTLING_TIME
 
 
 def test_nobody_asks_for_nothing():

@@ -113,7 +113,7 @@ def _by_clock(tare, guidance, t):
 
 @tare_begun.register(TareInHover)
 def _in_hover(tare, guidance, t):
-    return guidance.phase.hovered
+    return guidance.phase.hover_time
 
 
 @choice(absent="t")

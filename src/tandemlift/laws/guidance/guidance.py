@@ -123,7 +123,7 @@ class HandGuidanceChannels(NamedTuple):
     push_on: Vec3
     added_damping: Any
     reference_yaw_rate: Any
-    supervision: Any
+    supervised: Any
 
 
 class Guidance(NamedTuple):
