@@ -1,4 +1,4 @@
-"""What goes through delay lines: readings on their way to the pilot, commands to the rotors, what a person sees."""
+"""Delay lines: of readings on their way to the pilot, of commands to the rotors, of the view of a person."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from typing import Any, NamedTuple
 
 
 class Delayed(NamedTuple):
-    """Marks what is delayed; by how many steps is data of the loop."""
+    """Marks a delayed signal; the number of steps is data of the loop."""
 
 
 class DelayLines(NamedTuple):
-    """Of the readings of the unit on board, of those of the motion, of the rotors' commands, of what a person sees.
+    """Of the readings of the IMU and of the motion measurement, of the rotors' commands, of the view of a person.
 
-    `Delayed` or `Nothing` each.
+    Each is `Delayed` or `Nothing`.
     """
 
     unit: Any
     motion: Any
     command: Any
-    seen: Any
+    view: Any

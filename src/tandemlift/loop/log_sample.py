@@ -234,13 +234,13 @@ def _a_hand(person, x):
 
 
 @choice(absent=0.0)
-def hearing(shown: Any) -> Any:
-    """1 while a push is heard along any axis, else 0; from what guidance shows."""
+def push_active(channels: Any) -> Any:
+    """1 while a push is active along any axis, else 0; from the channels of guidance."""
 
 
-@hearing.register(HandGuidanceChannels)
-def _heard(shown):
-    return greatest(shown.push_on)
+@push_active.register(HandGuidanceChannels)
+def _by_hand(channels: HandGuidanceChannels) -> Any:
+    return greatest(channels.push_on)
 
 
 @law
@@ -258,5 +258,5 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
         saturated(flying.rotors, thought.decision.thrusts) * thrust_fraction(thought.decision.guidance.running),
         clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
         effort(flying.moving.person, x),
-        hearing(thought.decision.guidance.channels),
+        push_active(thought.decision.guidance.channels),
     )
