@@ -7,9 +7,10 @@ turn about +z, 2 and 4 about −z. Thrust is along body z, so heights do not ent
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -43,7 +44,7 @@ def mixer_inverse(quadrotor: Quadrotor) -> Array:
     return np.asarray(np.linalg.inv(A), dtype=np.float64)
 
 
-def shift(mass: float, d: Array) -> Array:
+def parallel_axis_term(mass: float, d: Array) -> Array:
     """Parallel-axis term of a mass at d: m (dᵀd I − d dᵀ) [kg m²]."""
     return mass * (d @ d * np.eye(3) - np.outer(d, d))
 
@@ -79,6 +80,18 @@ class Vehicle:
         """The vehicle that a mission describes; the same object for the same table, as many missions share one."""
         return Vehicle(table.payload, table.quadrotors, table.drag)
 
+    @classmethod
+    def from_mission(cls, mission: Mapping[str, Any]) -> Vehicle:
+        """The vehicle that the pilot of a mission knows, from the mission's nested tables, as a flight has them.
+
+        Raises:
+            InputError: the mission has none that can be read.
+        """
+        try:
+            return cls.from_settings(VehicleTable.model_validate(mission["vehicle"]))
+        except (KeyError, ValueError) as error:
+            raise InputError(f"the mission's vehicle cannot be read: {error}") from error
+
     @property
     def count(self) -> int:
         """N, the number of quadrotors."""
@@ -108,9 +121,9 @@ class Vehicle:
     @cached_property
     def inertia(self) -> Array:
         """J_t [kg m²] about the system's centre of mass, body axes (3 × 3)."""
-        total = np.diag(self.payload.moments) + shift(self.payload.mass, self.center_of_mass)
+        total = np.diag(self.payload.moments) + parallel_axis_term(self.payload.mass, self.center_of_mass)
         for q, d in zip(self.quadrotors, self.lever_arms, strict=True):
-            total = total + np.diag(q.inertia) + shift(q.mass, d)
+            total = total + np.diag(q.inertia) + parallel_axis_term(q.mass, d)
         return total
 
     @cached_property

@@ -7,7 +7,7 @@ from typing import get_args
 import pytest
 
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS, REACTION_MEANINGS, REACTIONS, Reaction
-from tandemlift.flight.record import CHANNELS
+from tandemlift.flight.channels import CHANNELS
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
 from tandemlift.laws.guidance.preflight_checks import first_failed
 from tandemlift.settings import SupervisionTable
@@ -85,7 +85,7 @@ faults.ALARM_TEXTS = faults._alarm_texts()
 import tandemlift as tl
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
 from tandemlift.missions.reference.markdown import keys_page
-from tandemlift.live.wire.scene_builder import scene_of
+from tandemlift.live.session.scene_builder import scene_of
 
 mission = tl.load_mission("iris", {"pilot.guidance": "hand", "supervision.model": "watch",
                                    "supervision.reactions.battery": "land"})

@@ -2,10 +2,10 @@
 
 import re
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
+from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing
@@ -17,7 +17,7 @@ from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.settings.supervision import SupervisionTable
 from tandemlift.simulation.assemble import assemble
 
-TEXT = (Path(__file__).parents[2] / "docs" / "safety.md").read_text("utf-8")
+TEXT = (ROOT / "docs" / "safety.md").read_text("utf-8")
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle
 QUIET = [{"sensor": "position", "kind": "bias", "time": 1000.0}]  # no fault, in the same compiled loop
 FLOWN = {
@@ -128,7 +128,7 @@ def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
     landed = down & (flight.time > 10.0)
     assert landed.any()
     assert not flight["admittance_force"][landed & (flight.time > 17.0)].any()
-    assert not flight["push_on"][landed].any()
+    assert not flight["push_active"][landed].any()
 
 
 @pytest.mark.parametrize(
@@ -144,7 +144,7 @@ def test_after_a_landing_a_push_is_neither_heard_nor_countered(fly):
 )
 def test_a_check_that_fails_refuses(changes, check, fly):
     flight = fly(changes)
-    assert check in flight["refused"]
+    assert check in flight["failed_check"]
     assert "guided" not in [what for _, what in flight.metrics()["events"]]
     if check < 8:
         assert flight["phase"].max() == 0.0

@@ -7,10 +7,10 @@ import random
 
 import numpy as np
 import pytest
-from exact import once, rounded
+from exact_functions import once, rounded
 from hypothesis import given
 from hypothesis import strategies as st
-from test_random_graphs import any_number, bits
+from odd_numbers import any_number, bits
 
 from tandemlift.algebra.law import Elementwise, Nothing, choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, minimum, where

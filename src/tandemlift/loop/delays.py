@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.algebra.vector import Nothing
+
 
 class Delayed(NamedTuple):
     """Marks a delayed signal; the number of steps is data of the loop."""
@@ -12,10 +14,11 @@ class Delayed(NamedTuple):
 class DelayLines(NamedTuple):
     """Of the readings of the IMU and of the motion measurement, of the rotors' commands, of the view of a person.
 
-    Each is `Delayed` or `Nothing`.
+    Each is `Delayed` or `Nothing`; those of additional sensors' readings by name.
     """
 
-    unit: Any
+    imu: Any
     motion: Any
     command: Any
     view: Any
+    additional: Any = Nothing()

@@ -10,21 +10,20 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, greatest, minimum, where
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
-from tandemlift.engines.compiled import DistantFloor
+from tandemlift.engines.compiled_contact import DistantFloor
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
 from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
 from tandemlift.laws.guidance.guidance import HandGuidanceChannels, thrust_fraction
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.mechanics.clearance import clearance
 from tandemlift.laws.mechanics.contact import Floor
-from tandemlift.laws.mechanics.loads import PartLoads, PerfectReadings, total_of_each
-from tandemlift.laws.mechanics.push import PushSamples, moment_of
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, turned_least
+from tandemlift.laws.mechanics.loads import PartLoads, PerfectReadings, sum_over_set
+from tandemlift.laws.mechanics.push import PushSamples, push_moment
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, wrap_angle
 from tandemlift.laws.person.person import PersonState
 from tandemlift.laws.person.virtual_hand import VirtualHandState
-from tandemlift.laws.rotors.allocation import wrench
-from tandemlift.laws.rotors.dynamics import IdealRotors, Rotors
-from tandemlift.laws.rotors.thrust_limits import given_share
+from tandemlift.laws.rotors.allocation import achieved_fraction, wrench
+from tandemlift.laws.rotors.rotors import IdealRotors, Rotors
 from tandemlift.loop.estimate_channels import shown_estimate, shown_readings
 from tandemlift.loop.running_metrics import StepErrors, effort_of
 
@@ -68,7 +67,7 @@ class ActuatorChannels(NamedTuple):
     rotor_commands: Any
     allocated_thrust: Any
     allocated_moment: Vec3
-    allocation_share: Any
+    allocation_fraction: Any
 
 
 class WindChannels(NamedTuple):
@@ -87,7 +86,7 @@ class ContactChannels(NamedTuple):
 class DetectionChannels(NamedTuple):
     """Of the detection of lost rotors: the number of the rotor that is taken for lost, 0 for none."""
 
-    rotor_lost: Any
+    failed_rotor: Any
 
 
 class DisturbanceChannels(NamedTuple):
@@ -96,7 +95,7 @@ class DisturbanceChannels(NamedTuple):
     disturbance_force: Vec3
     disturbance_moment: Vec3
     disturbance_residual: Vec3
-    disturbance_turning_residual: Vec3
+    disturbance_angular_residual: Vec3
 
 
 @choice(absent="observer")
@@ -106,7 +105,12 @@ def disturbed(observer: Any, unknown: DisturbanceEstimate) -> Any:
 
 @disturbed.register(DisturbanceObserver)
 def _an_observer(observer, unknown):
-    return DisturbanceChannels(unknown.force, unknown.moment, unknown.residual, unknown.turning_residual)
+    return DisturbanceChannels(
+        disturbance_force=unknown.force,
+        disturbance_moment=unknown.moment,
+        disturbance_residual=unknown.residual,
+        disturbance_angular_residual=unknown.turning_residual,
+    )
 
 
 @choice(absent="detection")
@@ -134,7 +138,7 @@ def _within_limits(rotors, effect, command, commands):
     thrusts = clip(commands, 0.0, rotors.max_thrust)
     given = wrench(effect, thrusts)
     return ActuatorChannels(
-        commands, given.thrust, given.moment, given_share(effect, rotors.per_reach, command, thrusts)
+        commands, given.thrust, given.moment, achieved_fraction(effect, rotors.wrench_scale, command, thrusts)
     )
 
 
@@ -166,7 +170,7 @@ def air_of(loads: Any, velocity: Any) -> Any:
 
 @air_of.register(PartLoads)
 def _some_air(loads, velocity):
-    return WindChannels(velocity, loads.payload.force + total_of_each(loads.quadrotors.force))
+    return WindChannels(velocity, loads.payload.force + sum_over_set(loads.quadrotors.force))
 
 
 @choice(absent="floor")
@@ -183,38 +187,38 @@ def _some_contact(floor, felt):
 @law
 def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
     """The sample of a step, at its start."""
-    state, felt, read = flying.moving.state, moved.felt, thought.decision
+    state, felt, read = flying.moving.state, moved.readings, thought.decision
     guidance, command = read.guidance, read.command
     target = guidance.reference.trajectory
     return Sample(
-        state.position,
-        state.velocity,
-        state.attitude,
-        euler_from_quaternion(state.attitude).angles,
-        state.rates,
-        target.position,
-        target.velocity,
-        target.acceleration,
-        command.euler,
-        guidance.admittance.position,
-        guidance.admittance.velocity,
-        guidance.admittance.acceleration,
-        guidance.force,
-        hand.start.force,
-        moment_of(hand.start, state.attitude),
-        command.wrench.thrust,
-        command.wrench.moment,
-        acting.thrusts,
-        felt.joint_force,
-        felt.joint_torque,
-        actuated(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
-        air_of(acting.wind.loads, acting.wind.velocity),
-        contact_of(flying.plant.floor, felt),
-        shown_readings(flying.moving.readings),
-        shown_estimate(thought.estimates),
-        disturbed(flying.pilot.observer, read.disturbance),
-        guidance.channels,
-        watched(flying.pilot.detection, thought.memory.detection),
+        position=state.position,
+        velocity=state.velocity,
+        attitude=state.attitude,
+        euler=euler_from_quaternion(state.attitude).angles,
+        rates=state.rates,
+        reference_position=target.position,
+        reference_velocity=target.velocity,
+        reference_acceleration=target.acceleration,
+        reference_euler=command.euler,
+        admittance_position=guidance.admittance.position,
+        admittance_velocity=guidance.admittance.velocity,
+        admittance_acceleration=guidance.admittance.acceleration,
+        admittance_force=guidance.force,
+        push_force=hand.start.force,
+        push_moment=push_moment(hand.start, state.attitude),
+        thrust=command.wrench.thrust,
+        moment=command.wrench.moment,
+        rotor_thrusts=acting.thrusts,
+        joint_force=felt.joint_force,
+        joint_torque=felt.joint_torque,
+        actuated=actuated(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
+        air=air_of(acting.wind.loads, acting.wind.velocity),
+        contact=contact_of(flying.plant.floor, felt),
+        measured=shown_readings(flying.moving.readings),
+        estimated=shown_estimate(thought.estimates),
+        disturbed=disturbed(flying.pilot.observer, read.disturbance),
+        guided=guidance.channels,
+        watched=watched(flying.pilot.detection, thought.memory.detection),
     )
 
 
@@ -240,23 +244,24 @@ def push_active(channels: Any) -> Any:
 
 @push_active.register(HandGuidanceChannels)
 def _by_hand(channels: HandGuidanceChannels) -> Any:
-    return greatest(channels.push_on)
+    return greatest(channels.push_active)
 
 
 @law
 def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
     """What a sample adds to the tally."""
     return StepErrors(
-        x.reference_position - x.position,
-        x.reference_velocity - x.velocity,
-        turned_least(x.reference_euler - x.euler),
-        x.euler,
-        x.thrust,
-        x.moment,
-        x.push_force,
-        dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
-        saturated(flying.rotors, thought.decision.thrusts) * thrust_fraction(thought.decision.guidance.running),
-        clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
-        effort(flying.moving.person, x),
-        push_active(thought.decision.guidance.channels),
+        position=x.reference_position - x.position,
+        velocity=x.reference_velocity - x.velocity,
+        attitude=wrap_angle(x.reference_euler - x.euler),
+        tilt=x.euler,
+        thrust=x.thrust,
+        moment=x.moment,
+        push=x.push_force,
+        power=dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
+        saturated=saturated(flying.rotors, thought.decision.thrusts)
+        * thrust_fraction(thought.decision.guidance.running),
+        clearance=clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
+        effort=effort(flying.moving.person, x),
+        push_active=push_active(thought.decision.guidance.channels),
     )

@@ -8,9 +8,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
-from tandemlift.laws.mechanics.clearance import nearer_of
-
-LATE = 10.0  # s: "after 10 s" leaves the disturbed start out
+from tandemlift.laws.mechanics.clearance import smaller_clearance
 
 
 class StepErrors(NamedTuple):
@@ -113,7 +111,7 @@ def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
         push_sum=c.push_sum + x.push,
         power_sum=c.power_sum + x.power,
         saturated=c.saturated + x.saturated,
-        clearance=nearer_of(c.clearance, x.clearance),
+        clearance=smaller_clearance(c.clearance, x.clearance),
         effort=added(c.effort, x.effort),
         triggers=c.triggers + x.push_active * (1.0 - c.push_active),
         push_active=x.push_active,
@@ -125,7 +123,7 @@ def _root_mean(squares: Any, steps: float) -> list[float] | None:
 
 
 def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
-    """The metrics by their names in metrics.json, from those before and after `LATE`, with steps of `step` [s].
+    """The metrics by their names in metrics.json, from the sums before and after 10 s, with steps of `step` [s].
 
     None where there is nothing to form one from.
     """

@@ -13,14 +13,15 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import absolute, maximum, where
 from tandemlift.algebra.vector import Nothing, Quat, dot
-from tandemlift.engines.compiled import BodyStep, CompiledPlant, advance
+from tandemlift.engines.compiled import BodyStep, advance
+from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
 from tandemlift.laws.person.person import landing_request, person_step
-from tandemlift.laws.rotors.dynamics import drive
+from tandemlift.laws.rotors.rotors import rotors_step
 from tandemlift.loop.log_sample import errors_of, log_sample
 from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
 from tandemlift.loop.running_metrics import RunningMetrics, count
@@ -153,7 +154,7 @@ def with_caller_thrusts(output: PilotOutput, external: Any) -> PilotOutput:
 def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Actuation:
     """The response of the rotors to commanded thrusts [N] over the step from time t [s], and the wind over it."""
     before = model.moving
-    driven, rotors = drive(model.rotors, before.rotors, thrusts, before.state, t)
+    driven, rotors = rotors_step(model.rotors, before.rotors, thrusts, before.state, t)
     wind = wind_loads(model.wind, before.wind, model.plant.frame, before.state, inputs.gust, inputs.noise.wind)
     return Actuation(driven, rotors, wind)
 
@@ -171,7 +172,7 @@ def finish_sample(
 ) -> Any:
     """The end of a step once the body has moved: (`FlightState` after it, `Sample` at its start)."""
     before, noise = model.moving, inputs.noise.sensors
-    readings, sensing = measure(model.sensors, before.sensing, before.state, moved.felt, output.attitude, noise)
+    readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
     sample = log_sample(model, output, acting, moved, inputs.hand)
     after = FlightState(
         state=moved.state,

@@ -59,7 +59,7 @@ class RequestServices:
     def _reason(self) -> str:
         """Why the pilot does not do it."""
         channels = self._session.channels()
-        alarm, refused = (int(channels[n][0]) if n in channels else 0 for n in ("alarm", "refused"))
-        if refused:
-            return CHECKS[refused - 1].text
+        alarm, failed = (int(channels[n][0]) if n in channels else 0 for n in ("alarm", "failed_check"))
+        if failed:
+            return CHECKS[failed - 1].text
         return ALARM_TEXTS[alarm] if alarm else f"the pilot stays in phase {self._phase()}"

@@ -16,7 +16,7 @@ from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Vec3
 from tandemlift.laws.guidance.admittance import Admittance, anchored, soft
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
 BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias
@@ -174,9 +174,9 @@ def compliance_step(
         horizontal: the largest horizontal acceleration that the rotors can still give [m/s²].
         dt: of the step [s].
     """
-    filtered = smooth(k.input_filter, m.filtered, push)
+    filtered = low_pass_step(k.input_filter, m.filtered, push)
     beyond, band = dead_band(k.band, m.band, filtered.value, enabled, dt)
-    output = smooth(k.output_filter, m.output, beyond)
+    output = low_pass_step(k.output_filter, m.output, beyond)
     target = admittance_acceleration(k, m, output.value, damping, horizontal)
     acceleration = moved_towards(m.acceleration, target, k.limits.jerk * dt)
     position = m.position + m.velocity * dt + acceleration * (0.5 * dt * dt)

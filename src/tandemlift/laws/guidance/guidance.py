@@ -39,7 +39,7 @@ from tandemlift.laws.guidance.supervision import finish_supervision, supervise
 from tandemlift.laws.guidance.yaw_compliance import HeadingReference, yaw_step
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.laws.signals.trajectories import Reference, ScheduledPhases, Trajectory, reference
 
 
@@ -119,8 +119,8 @@ class HandGuidanceChannels(NamedTuple):
     """The channels of a guidance by hand."""
 
     phase: Any
-    push_heard: Vec3
-    push_on: Vec3
+    push_filtered: Vec3
+    push_active: Vec3
     added_damping: Any
     reference_yaw_rate: Any
     supervised: Any
@@ -343,7 +343,7 @@ def _by_hand(
     about_vertical = apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
     heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)
-    moment = smooth(g.moment, m.moment, pilot_input.moment)
+    moment = low_pass_step(g.moment, m.moment, pilot_input.moment)
     motion = Trajectory(before.position, before.velocity, after.acceleration)
     target, blind = with_lift_and_landing(g, motion, allowed), supervised.motion_unknown
     target = with_blind_descent(g.supervision, target, state, blind, is_in(phase, LAND), allowed.land.value)

@@ -4,14 +4,14 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import Nothing, choice, elementwise
 from tandemlift.algebra.ops import clip, maximum, where
+from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, with_speed
 from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.guidance.supervision import Supervision, SupervisionState
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.sensors.health import any_of, no_number
-from tandemlift.laws.sensors.sensor_faults import chosen, chosen_attitude
-from tandemlift.laws.sensors.watchdog import unsound
+from tandemlift.laws.sensors.health import any_component, not_finite
+from tandemlift.laws.sensors.watchdog import state_not_finite
 from tandemlift.laws.signals.trajectories import Trajectory
 
 TOUCHDOWN_FACTOR = 8.0  # by which a blind descent accelerates at its end, so that the feet press on the ground
@@ -39,14 +39,14 @@ def _unchecked(k: Nothing, m: Any, pilot_input: Any, thrust: Any, rotor_failed: 
 
 @usable_input.register(Supervision)
 def _with_numbers(k: Supervision, m: SupervisionState, pilot_input: Any, thrust: Any, rotor_failed: Any) -> UsableInput:
-    s, invalid = pilot_input.state, unsound(pilot_input.state)
+    s, invalid = pilot_input.state, state_not_finite(pilot_input.state)
     state = State(
         chosen(invalid, m.state.position, s.position),
         chosen(invalid, m.state.velocity, s.velocity),
-        chosen_attitude(invalid, m.state.attitude, s.attitude),
+        chosen(invalid, m.state.attitude, s.attitude),
         chosen(invalid, m.state.rates, s.rates),
     )
-    no_push = maximum(any_of(no_number(pilot_input.push)), any_of(no_number(pilot_input.moment)))
+    no_push = maximum(any_component(not_finite(pilot_input.push)), any_component(not_finite(pilot_input.moment)))
     push, moment = chosen(no_push, ZERO, pilot_input.push), chosen(no_push, ZERO, pilot_input.moment)
     return UsableInput(state, push, moment, VehicleStatus(rotor_failed, thrust, invalid))
 

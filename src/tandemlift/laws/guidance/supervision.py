@@ -36,7 +36,7 @@ from tandemlift.laws.guidance.preflight_checks import (
     sensor_status,
 )
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.rotors.dynamics import efficiency_at
+from tandemlift.laws.rotors.rotor_faults import efficiency_at
 
 TOUCHDOWN_TIME = 0.2  # s, after which a vehicle above its landing's reference is taken to stand on something
 PHASE, ALARM = 1e6, 1e2  # factors in the code of an event: phase, alarm, failed check
@@ -106,7 +106,7 @@ class SupervisionChannels(NamedTuple):
     """The channels of supervision."""
 
     alarm: Any
-    refused: Any
+    failed_check: Any
 
 
 UNSUPERVISED = SupervisionOutput(

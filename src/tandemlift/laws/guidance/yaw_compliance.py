@@ -10,8 +10,8 @@ from tandemlift.algebra.law import choice
 from tandemlift.algebra.ops import clip, where
 from tandemlift.laws.guidance.compliance import DeadBand, DeadBandState, dead_band
 from tandemlift.laws.guidance.phases import PhaseOutput
-from tandemlift.laws.mechanics.rotation import turned_least
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.mechanics.rotation import wrap_angle
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 
 class YawCompliance(NamedTuple):
@@ -68,7 +68,7 @@ def yaw_step(k: Any, m: Any, moment: Any, yaw: Any, phase: PhaseOutput, rotor_fa
 
 @yaw_step.register(FixedHeading)
 def _fixed(k: FixedHeading, m: Any, moment: Any, yaw: Any, phase: PhaseOutput, rotor_failed: Any, dt: Any) -> Any:
-    near = turned_least(yaw + clip(turned_least(k.angle - yaw), -k.max_lead_angle, k.max_lead_angle))
+    near = wrap_angle(yaw + clip(wrap_angle(k.angle - yaw), -k.max_lead_angle, k.max_lead_angle))
     return HeadingReference(where(rotor_failed > 0.0, near, k.angle), 0.0, 0.0), m
 
 
@@ -76,18 +76,18 @@ def _fixed(k: FixedHeading, m: Any, moment: Any, yaw: Any, phase: PhaseOutput, r
 def _turning(
     k: YawCompliance, m: YawState, moment: Any, yaw: Any, phase: PhaseOutput, rotor_failed: Any, dt: Any
 ) -> Any:
-    filtered = smooth(k.input_filter, m.filtered, moment)
+    filtered = low_pass_step(k.input_filter, m.filtered, moment)
     beyond, band = dead_band(k.band, m.band, filtered.value, phase.responding, dt)
-    output = smooth(k.output_filter, m.output, beyond)
+    output = low_pass_step(k.output_filter, m.output, beyond)
     acceleration = (output.value - clip(k.damping * m.rate, -k.max_moment, k.max_moment)) * k.inverse_inertia
-    ahead = turned_least(m.angle + m.rate * dt + acceleration * (0.5 * dt * dt) - yaw)
+    ahead = wrap_angle(m.angle + m.rate * dt + acceleration * (0.5 * dt * dt) - yaw)
     airborne = 1.0 - phase.grounded
     lead = k.max_lead_angle * airborne
     after = YawState(
         filtered=filtered,
         band=band,
         output=output,
-        angle=turned_least(yaw + clip(ahead, -lead, lead)),
+        angle=wrap_angle(yaw + clip(ahead, -lead, lead)),
         rate=(m.rate + acceleration * dt) * airborne,
         acceleration=acceleration,
     )

@@ -21,9 +21,9 @@ from tandemlift.algebra.vector import ZERO, Vec3, apply, cross, dot, outer
 from tandemlift.laws.guidance.requests import NO_REQUEST, OperatorRequest, operator_request
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import PointPush, PushSamples
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, turned_least
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
 from tandemlift.laws.person.tremor import Tremor, TremorNoise, TremorState, tremor_step
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 TINY = 1e-12  # m², N²: guards roots and divisions
 NEAR = 1.0  # m
@@ -205,7 +205,7 @@ def aim(k: Person, m: PersonState) -> HandTarget:
     p = p + v * ahead
     wanted = pursue(k.following, m.leg, p, v)
     moving = view.grip + view.grip_velocity * ahead + bounded(wanted + m.trim, k.arm.max_force) / k.arm.stiffness
-    off = turned_least(m.leg.heading - view.yaw - view.yaw_rate * ahead)
+    off = wrap_angle(m.leg.heading - view.yaw - view.yaw_rate * ahead)
     couple = clip(off * settings.yaw_gain - view.yaw_rate * settings.yaw_damping, -k.arm.max_couple, k.arm.max_couple)
     place = m.leg.end * settings.stays + moving * (1.0 - settings.stays)
     return HandTarget(place, couple, across(m.leg, m.leg.end - p, wanted))
@@ -260,9 +260,9 @@ def _guiding(
     trim = m.trim + target.across * (person.following.trim_rate * dt)
     after = m._replace(
         view=now,
-        place=smooth(arm.lag, m.place, target.place * holding + idle * (1.0 - holding)),
-        couple=smooth(arm.lag, m.couple, target.couple * holding),
-        grasp=smooth(arm.lag, m.grasp, holding),
+        place=low_pass_step(arm.lag, m.place, target.place * holding + idle * (1.0 - holding)),
+        couple=low_pass_step(arm.lag, m.couple, target.couple * holding),
+        grasp=low_pass_step(arm.lag, m.grasp, holding),
         trim=bounded(trim, arm.max_force) * holding,
         tremor=tremor_step(arm.tremor, m.tremor, noise),
     )
