@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
@@ -25,8 +26,6 @@ CAPTION = Caption(
     "Panels over time: disturbing force and moment, components x, y and z; the estimation error divided by λ₂.",
 )
 IN_FLIGHTS = with_any_of("disturbance_force")
-
-GUIDED = 2.0  # the phase in which a person steers
 
 
 def share_of_lambda(flight: Flight) -> Array | None:
