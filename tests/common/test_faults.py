@@ -88,7 +88,7 @@ detected = supervision.active_faults
 import tandemlift as tl
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
 from tandemlift.missions.reference.markdown import keys_page
-from tandemlift.live.wire.scene_builder import scene_of
+from tandemlift.live.session.scene_builder import scene_of
 
 mission = tl.load_mission("iris", {"pilot.guidance": "hand", "supervision.model": "watch",
                                    "supervision.reactions.battery": "land"})

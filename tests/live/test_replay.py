@@ -26,8 +26,8 @@ from tandemlift.live import page_files as pages
 from tandemlift.live.page_files import page_files
 from tandemlift.live.replay import replay_files, replay_html, scene_and_frames
 from tandemlift.live.server import PageServer
+from tandemlift.live.session.scene_builder import scene_of
 from tandemlift.live.wire.frames import layout_for, read_frames
-from tandemlift.live.wire.scene_builder import scene_of
 
 
 @pytest.fixture(scope="module")

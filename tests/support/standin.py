@@ -10,6 +10,7 @@ import numpy as np
 from patience import PATIENCE, joined
 
 from tandemlift.common.errors import InputError
+from tandemlift.live.session.scene_builder import SPRING, scene_of
 from tandemlift.live.wire.frames import layout_for, pack_frames
 from tandemlift.live.wire.page_messages import (
     ForceMessage,
@@ -22,7 +23,6 @@ from tandemlift.live.wire.page_messages import (
     SaveMessage,
     SetMessage,
 )
-from tandemlift.live.wire.scene_builder import SPRING, scene_of
 from tandemlift.missions import load_mission
 
 STEP, MASS, DAMPING = 0.002, 2.0, 6.0

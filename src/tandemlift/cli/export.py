@@ -13,7 +13,7 @@ from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 
 @click.command()

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from tandemlift.flight.record import Flight
     from tandemlift.gazebo_app.flying import GazeboSession, Photo
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 
 @click.command()
@@ -125,7 +125,7 @@ def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
     """Fly a mission that nobody but Gazebo's topic pushes, until Ctrl-C."""
     from tandemlift.gazebo_app.flying import opened
     from tandemlift.live.session.interactive_mission import interactive_mission
-    from tandemlift.live.session.recorded_flight import RecordedFlight
+    from tandemlift.simulation.recorded_flight import RecordedFlight
 
     mission = interactive_mission(mission)
     with opened(mission, window=window, real_time=True) as gazebo, _until_stopped() as stopped:

@@ -13,7 +13,7 @@ from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
 
 if TYPE_CHECKING:
     from tandemlift.live.session.session import Session
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 DEFAULT, OUT = "zigzag", Path("out/live")
 

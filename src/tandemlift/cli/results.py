@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from tandemlift.flight.record import Flight
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 FILES = ("mission.toml", "flight.npz", "metrics.json", "report.html")
 

@@ -18,7 +18,7 @@ from tandemlift.common.errors import InputError
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
     from tandemlift.flight.record import Flight
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 DIVERGED = 3
 WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set takes without quotes

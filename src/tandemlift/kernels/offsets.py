@@ -1,4 +1,4 @@
-"""Where the parts of a flight stand in its flat array, and the delay lines between them."""
+"""Offsets of a flight's parts in its flat array, and the parts that are delayed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tandemlift.trace import leaves
 
 
 class LeafSpan(NamedTuple):
-    """A stretch of leaves: where it begins, and how long it is."""
+    """A span of leaves: the first one, and how many."""
 
     at: int
     size: int
@@ -19,10 +19,9 @@ NONE = LeafSpan(0, 0)
 
 
 class DelayedSpans(NamedTuple):
-    """What is delayed in a flight: readings of the unit on board and of the motion, the rotors' commands, what is seen.
+    """The delayed parts of a flight: IMU and motion readings, rotor commands, what the person sees.
 
-    Each is a stretch of the flight, empty where there is no delay; in a row of the delay line they stand one after the
-    other.
+    Each is a span of the flight's numbers, empty without delay. A row of the delay lines holds them one after another.
     """
 
     unit: LeafSpan
@@ -37,7 +36,7 @@ class DelayedSpans(NamedTuple):
 
 
 def leaf_offset(value: Any, *path: str) -> LeafSpan:
-    """The stretch of leaves of a part of a nested value; an empty one where the path ends in `Nothing`."""
+    """The span of a part of a nested value; an empty one where the path ends in `Nothing`."""
     at = 0
     for name in path:
         if name not in value._fields:
@@ -49,15 +48,12 @@ def leaf_offset(value: Any, *path: str) -> LeafSpan:
 
 
 def delayed_spans(flying: Any) -> DelayedSpans:
-    """What is delayed in flights like this one."""
-    late, ends = (
-        flying.delays,
-        (("readings", "unit"), ("readings", "motion"), ("rotors", "arriving"), ("partner", "seen")),
-    )
-    if isinstance(late, Nothing):
+    """The delayed parts of flights like this one."""
+    paths = (("readings", "unit"), ("readings", "motion"), ("rotors", "arriving"), ("partner", "seen"))
+    if isinstance(flying.delays, Nothing):
         return DelayedSpans(NONE, NONE, NONE, NONE)
     spans = [
-        NONE if isinstance(mark, Nothing) else leaf_offset(flying, "moving", *end)
-        for mark, end in zip(late, ends, strict=True)
+        NONE if isinstance(delay, Nothing) else leaf_offset(flying, "moving", *path)
+        for delay, path in zip(flying.delays, paths, strict=True)
     ]
     return DelayedSpans._make(spans)

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.live.wire.frame_values import field_values
+from tandemlift.live.session.frame_values import field_values
+from tandemlift.live.session.scene_builder import scene_of_tables
 from tandemlift.live.wire.frames import RATE, layout_for, pack_frames
 from tandemlift.live.wire.scene import FlightScene, SceneReplay
-from tandemlift.live.wire.scene_builder import scene_of_tables
 from tandemlift.rendering.stage import FlightStage
 from tandemlift.vehicle import Vehicle
 

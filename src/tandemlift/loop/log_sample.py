@@ -12,7 +12,7 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, greatest, minimum, where
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
-from tandemlift.engines.compiled import DistantFloor
+from tandemlift.engines.compiled_contact import DistantFloor
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
 from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
 from tandemlift.laws.guidance.guidance import HandGuidanceChannels, thrust_fraction

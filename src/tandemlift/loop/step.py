@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import absolute, maximum, where
 from tandemlift.algebra.vector import Nothing, Quat, dot
-from tandemlift.engines.compiled import BodyStep, CompiledPlant, advance
+from tandemlift.engines.compiled import BodyStep, advance
+from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.laws.guidance.requests import UNAWARE, operator_of
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import Push, PushSamples

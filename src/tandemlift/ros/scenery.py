@@ -10,7 +10,7 @@ import numpy as np
 from tandemlift.common.types import Array
 from tandemlift.export.frames import ALIGNED, BASE, WORLD, quaternions, to_world
 from tandemlift.export.messages import MessageTypes
-from tandemlift.live.wire.frame_values import points_of
+from tandemlift.live.session.frame_values import points_of
 from tandemlift.models.visuals import VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.stage import GLASS, PUSH, WALL
 from tandemlift.ros.drawing import MARKERS, MarkerWriter

@@ -60,7 +60,7 @@ class FlightPlan:
     @property
     def sample(self) -> Any:
         """The layout of a row of the log."""
-        return self.kernels.likes.sample
+        return self.kernels.templates.sample
 
     @property
     def late_step(self) -> int:
@@ -87,7 +87,7 @@ class FlightPlan:
         numbers = np.array(flat(self.flying))
         if not self.delays.any():
             return np.zeros((1, 0))
-        row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.kernels.lines])
+        row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.kernels.delayed])
         return np.tile(row, (1 << int(self.delays.max()).bit_length(), 1))
 
 

@@ -15,8 +15,7 @@ from tandemlift.common.types import Progress
 from tandemlift.controllers import CONTROLLERS, Controller, controller, error_text, file_of
 from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import Flight
-from tandemlift.missions import load_mission
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission, load_mission
 from tandemlift.simulation.fly import fly, fly_many
 
 Mask = NDArray[np.bool_]

@@ -11,7 +11,7 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array, Progress
 from tandemlift.engines.registry import ENGINES, engine_named
 from tandemlift.flight.record import Flight
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly
 
 QUANTITIES = {"position": "m", "attitude": "rad", "joint_force": "N", "joint_torque": "N m", "push_estimate": "N"}

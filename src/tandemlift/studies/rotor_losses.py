@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.flight.record import Flight
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.studies.rows import Row, below
 from tandemlift.studies.scenarios import STEADY, TURBULENCE, Bench, Changes, mission, wind
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.flight.record import Flight
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.studies.rows import Row
 from tandemlift.studies.scenarios import Bench, Changes, mission
 

@@ -10,9 +10,9 @@ from collections.abc import Iterator, Sequence
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.phases import GUIDED, HOLD, PHASE_NAMES
-from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.live.wire.scene import SceneVehicle
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
 TARE_NOTICE = 1.0  # s, from the request until a tare begins: to prepare it, and to let go

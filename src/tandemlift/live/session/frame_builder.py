@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.common.types import Array
-from tandemlift.live.session.recorded_flight import FlightSetup
-from tandemlift.live.wire.frame_values import channel_columns, field_values
+from tandemlift.live.session.frame_values import channel_columns, field_values
+from tandemlift.live.session.scene_builder import scene_of
 from tandemlift.live.wire.frames import layout_for, pack_frames
-from tandemlift.live.wire.scene_builder import scene_of
-from tandemlift.missions import tables_of
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission, tables_of
+from tandemlift.simulation.recorded_flight import FlightSetup
 from tandemlift.vehicle import Vehicle
 
 

@@ -25,13 +25,13 @@ from tandemlift.live.session.interactive_mission import interactive_mission, wit
 from tandemlift.live.session.pacing import Pacer, RealTimeThread
 from tandemlift.live.session.parameter_control import ParameterControl
 from tandemlift.live.session.preparation import Preparation
-from tandemlift.live.session.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.live.session.saving import save_in_process
 from tandemlift.live.session.tunable_parameters import CHOICES, parameters_of
 from tandemlift.live.wire import page_messages as page
 from tandemlift.live.wire.scene import FlightScene, SceneSpring
 from tandemlift.live.wire.server_messages import Answer, DoneMessage, FlightStatus, SceneMessage
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
+from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
 
 log = logging.getLogger(__name__)
