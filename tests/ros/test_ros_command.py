@@ -65,7 +65,7 @@ def test_the_document_names_every_topic_request_and_parameter(trial):
         name = re.sub(r"joint_\d", "joint_N", topic.removeprefix("/tandemlift/"))
         assert f"`{topic}`" in text or f"`{name}`" in bags, topic
     assert all(service in text for service in trial.middleware.services)
-    trial.front._parameters.turn()
+    trial.front._parameters.exchange()
     for key in trial.middleware.kept:
         assert f"`{key}`" in text or f"`….{key.rpartition('.')[2]}`" in text, key
 

@@ -29,12 +29,12 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 START = SECOND  # ns, stamp of the flight's time 0
-CALLER, NAME = "/tandemlift", "flight"  # what a ROS 1 bag says published, and what a ROS 2 bag calls itself
+CALLER, NAME = "/tandemlift", "flight"  # the publisher in a ROS 1 bag, and the name of a ROS 2 bag
 Items = Iterable[tuple[int, Any]]  # times [ns] and messages
 
 
 class TopicStream(NamedTuple):
-    """A topic, its type as ROS 1 calls it, and its messages by time; who listens late gets the last if `latched`."""
+    """A topic, its type as ROS 1 calls it, and its messages by time; late subscribers get the last if `latched`."""
 
     topic: str
     kind: str
@@ -128,7 +128,7 @@ def write_mcap(flight: Flight, path: Path) -> None:
 
 
 def _qos(latched: bool) -> list[Any]:
-    """What a ROS 2 player offers: reliable, and of a latched topic the last message to who comes late."""
+    """What a ROS 2 player offers: reliable; late subscribers get the last message of a latched topic."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
     durability = QosDurability.TRANSIENT_LOCAL if latched else QosDurability.VOLATILE

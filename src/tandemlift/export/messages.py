@@ -1,6 +1,6 @@
 """Messages of standard types from the numbers of a topic, for ROS 1 and for ROS 2 alike.
 
-Quaternions come as w, x, y, z. Covariances are zero: not told. An `Imu` has no orientation (its covariance says −1).
+Quaternions come as w, x, y, z. Covariances are zero: unknown. An `Imu` has no orientation (its covariance says −1).
 """
 
 from __future__ import annotations
@@ -63,12 +63,12 @@ def modern(name: str) -> str:
 def _odometry(types: MessageTypes, topic: About) -> Maker:
     Odometry, Pose, Twist = types[ODOMETRY], types["geometry_msgs/Pose"], types["geometry_msgs/Twist"]
     Placed, Moving = types["geometry_msgs/PoseWithCovariance"], types["geometry_msgs/TwistWithCovariance"]
-    header, untold = types.headers(topic.frame), types.numbers([0.0] * 36)
+    header, unknown_covariance = types.headers(topic.frame), types.numbers([0.0] * 36)
 
     def make(stamp: int, v: Sequence[float]) -> Any:
         pose = Pose(types.Point(*v[:3]), types.quaternion(v[3:7]))
         twist = Twist(types.Vector(*v[7:10]), types.Vector(*v[10:]))
-        return Odometry(header(stamp), BASE, Placed(pose, untold), Moving(twist, untold))
+        return Odometry(header(stamp), BASE, Placed(pose, unknown_covariance), Moving(twist, unknown_covariance))
 
     return make
 

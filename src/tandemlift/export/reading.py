@@ -53,7 +53,7 @@ def read_bag(path: str | os.PathLike[str]) -> Flight:
         raise InputError(f"{path}: cannot be read as a bag ({error})") from error
     if not said[BASE]:
         there = ", ".join(sorted(t for t in said if said[t])) or "none"
-        raise InputError(f"{path}: has no {BASE}, by which samples are told; it has {there}")
+        raise InputError(f"{path}: has no {BASE}, whose messages are the samples; it has {there}")
     return _flight(path, said)
 
 
@@ -74,7 +74,7 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
 def _mission(path: Path, said: Stamped) -> dict[str, Any]:
     """The mission as it was in the end, by the names that its keys have now."""
     if not said:
-        raise InputError(f"{path}: has no {MISSION}, which tells what was flown")
+        raise InputError(f"{path}: has no {MISSION}, the mission that was flown")
     try:
         tables, notices = renamed_tables(tomllib.loads(said[max(said)].data))
     except ValueError as error:

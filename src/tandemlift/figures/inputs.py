@@ -1,7 +1,7 @@
 """The commanded inputs: thrust U1 [N] and the moments U2, U3, U4 [N m] about the body axes.
 
-A disturbed start can ask for more than the rest of the flight by orders of magnitude. Where it does, a column of its
-own shows the start in full, and the column of the whole flight is scaled to what follows.
+A disturbed start can need inputs larger than those of the rest of the flight by orders of magnitude. Then a column of
+its own shows the start in full, and the column of the whole flight is scaled to the time after it.
 """
 # paper: fig7
 

@@ -1,6 +1,6 @@
-"""What is around the vehicle, in world axes: the air's velocity and force, the force of floor and walls, the height.
+"""Wind and contact, in world axes: velocity and force of the air, force of floor and walls, height above the floor.
 
-Grey where floor or walls touch the vehicle. The height is the lowest sole's over the floor.
+Grey while floor or walls touch the vehicle. The height is that of the lowest foot above the floor.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ VECTORS = (  # channel, label, least span of the axis
     ("contact_force", "contact force (N)", 1.0),
 )
 LEAST_HEIGHT = 0.02  # m
-HEIGHT = "height over floor (m)"
+HEIGHT = "height above floor (m)"
 
 
 def _vector(ax: Any, flight: Flight, name: str, least: float) -> None:
@@ -66,7 +66,7 @@ def _legend(figure: Figure, touching: bool) -> None:
 
 @journal
 def draw(flight: Flight) -> Figure:
-    """Draw, of what there is, wind [m/s], its force [N], the contact force [N, world axes] and the height [m]."""
+    """Draw wind [m/s], its force [N], contact force [N, world axes] and height [m], as far as the flight has them."""
     panels: list[tuple[str, Callable[[Any], None]]] = [
         (label, lambda ax, name=name, least=least: _vector(ax, flight, name, least))  # type: ignore[misc]
         for name, label, least in VECTORS

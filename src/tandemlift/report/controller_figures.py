@@ -1,4 +1,4 @@
-"""Several controllers on one mission: errors of position over time on shared axes, and what the rotors give.
+"""Several controllers on one mission: position errors over time on shared axes, and rotor thrusts.
 
 A disturbed start, or a controller that diverges, would hide the rest: the time before the first push has a column of
 its own, and axes are scaled to flights that did not diverge. Panels in which nothing moves are left out.

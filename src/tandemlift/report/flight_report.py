@@ -152,7 +152,7 @@ def _pngs(flight: Flight, figures: Any) -> dict[str, Path]:
 def _engine(flight: Flight) -> str:
     """Which engine the body lived in, of flights that say so."""
     name = flight.version.get("engine")
-    return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine not told"
+    return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine unknown"
 
 
 def table_of(head: str, rows: Iterable[str], look: str) -> str:

@@ -18,7 +18,7 @@ from tandemlift.live.session.tunable_parameters import parameters_of
 from tandemlift.live.wire.page_messages import SetMessage
 from tandemlift.missions import Mission
 from tandemlift.missions.values import shown
-from tandemlift.ros.diagnostics import Tell
+from tandemlift.ros.diagnostics import Notify
 from tandemlift.ros.middleware import Middleware
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
@@ -32,14 +32,14 @@ class Parameters:
     Args:
         session: whose settings they are.
         middleware: where they are kept.
-        tell: told of what is refused.
+        notify: called with what is refused.
     """
 
-    def __init__(self, session: Session, middleware: Middleware, tell: Tell) -> None:
-        self._session, self._middleware, self._tell = session, middleware, tell
+    def __init__(self, session: Session, middleware: Middleware, notify: Notify) -> None:
+        self._session, self._middleware, self._notify = session, middleware, notify
         self._first = session.flight.now
 
-    def turn(self) -> bool:
+    def exchange(self) -> bool:
         """Heed what has been set since the last time; keep what is so now; whether anything has changed."""
         wishes, before = self._middleware.parameters(), self._session.flight.now
         for key in sorted(wishes, key=lambda key: (key in LAST, key)):
@@ -63,7 +63,7 @@ class Parameters:
                 key, value = DAMPING, damping_of(self._session.flight.now, value)
             self._session.apply(_message(key, value))
         except InputError as error:
-            self._tell(f"parameter refused: {error}")
+            self._notify(f"parameter refused: {error}")
 
 
 def _message(key: str, value: Any) -> SetMessage:
