@@ -40,7 +40,7 @@ class Parameters:
         self._first = session.flight.now
 
     def exchange(self) -> bool:
-        """Heed what has been set since the last time; keep what is so now; whether anything has changed."""
+        """Apply what has been set since the last time, and set all to the present values; whether anything changed."""
         wishes, before = self._middleware.parameters(), self._session.flight.now
         for key in sorted(wishes, key=lambda key: (key in LAST, key)):
             self._set(key, wishes[key])
@@ -67,7 +67,7 @@ class Parameters:
 
 
 def _message(key: str, value: Any) -> SetMessage:
-    """What is said to a session to set a key.
+    """The message to a session that sets a key.
 
     Raises:
         InputError: the value is of no kind that a setting has.
