@@ -1,5 +1,6 @@
 import json
 import os
+import re
 import sys
 import warnings
 from pathlib import Path
@@ -10,6 +11,7 @@ import tandemlift as tl
 from tandemlift.cli.main import cli, main
 from tandemlift.figures.registry import figures
 from tandemlift.missions import built_in, load_mission, to_toml
+from tandemlift.studies.validation import CHAPTERS
 
 METRICS = [
     "position_rmse_m",
@@ -77,6 +79,12 @@ def test_the_help_of_run_names_what_is_written_and_the_exit_codes(run):
     _, out, _ = run("run", "-h")
     for word in (*OURS, "Exit code", "2   bad input", "3   diverged", "--set mission.duration=30", "out/NAME"):
         assert word in out
+
+
+def test_the_help_of_validate_names_every_chapter(run):
+    _, out, _ = run("validate", "--help")
+    named = re.search(r"Run only this chapter: (.*?)\.", " ".join(out.split()))[1]
+    assert re.split(", | or ", named) == list(CHAPTERS)
 
 
 def test_without_a_verb_the_help_is_shown(run):

@@ -5,8 +5,8 @@ import threading
 
 import pytest
 
-from tandemlift.cli import notices
-from tandemlift.cli.notices import CompileNotices
+from tandemlift.cli import console
+from tandemlift.cli.console import CompileNotices
 from tandemlift.trace.compile_events import Compiled, compiling, watching
 
 LOOP = Compiled("flight loop", 0.5, is_made=True)
@@ -15,7 +15,7 @@ LOOP = Compiled("flight loop", 0.5, is_made=True)
 @pytest.fixture
 def clock(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("tandemlift.cli.notices.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("tandemlift.cli.console.time.perf_counter", lambda: now[0])
     return now
 
 
@@ -71,9 +71,9 @@ def test_what_could_not_be_compiled_is_not_said_to_be(clock, capsys):
 
 
 def test_what_takes_long_is_told_of_before_its_end(monkeypatch, capsys):
-    monkeypatch.setattr(notices, "PATIENCE", 0.0)
-    said, say = threading.Event(), notices._say
-    monkeypatch.setattr(notices, "_say", lambda line: (say(line), said.set()))
+    monkeypatch.setattr(console, "PATIENCE", 0.0)
+    said, say = threading.Event(), console._print_line
+    monkeypatch.setattr(console, "_print_line", lambda line: (say(line), said.set()))
     with watching(CompileNotices()):
         compiling(None)
         assert said.wait(30.0)

@@ -98,8 +98,8 @@ def test_a_flight_that_is_killed_takes_its_server_with_it():
 
 
 def test_a_server_without_the_plugin_is_told_of(monkeypatch):
-    plain = gazebo.world_of
+    plain = gazebo.world_from
     other = ("libtandemlift_", "libtandemlift_not_")
-    monkeypatch.setattr(gazebo, "world_of", lambda *given: plain(*given).replace(*other))
+    monkeypatch.setattr(gazebo, "world_from", lambda *given: plain(*given).replace(*other))
     with pytest.raises(tl.InputError, match=r"needs its plugin .* Failed to load plugin libtandemlift_not_gazebo\.so"):
         tl.fly(tl.load_mission("hover", {"mission.duration": 1.0}), engine="gazebo")

@@ -175,7 +175,7 @@ def test_a_pilot_of_ten_lines_flies_in_lock_step(over_ros, another, listen):
 def test_a_second_pilot_is_not_heard_until_it_says_that_it_leads(over_ros, another):
     sound, wire = fly(over_ros.wire(), 300), over_ros.wire()
     another(plain_pilot())
-    until(lambda: (wire.keep(), "/plain_pilot is not heard" in over_ros.server.said())[1])
+    until(lambda: (wire.keep_alive(), "/plain_pilot is not heard" in over_ros.server.last_output())[1])
     assert np.array_equal(fly(wire, 300), sound)
     over_ros.ros("rostopic", "pub", "-1", f"{ROOT}/lead", "std_msgs/Empty")
     with pytest.raises(ConnectionError, match="the session is over: another pilot leads"):
@@ -206,10 +206,10 @@ def test_a_message_that_is_not_sound_moves_nothing_and_says_why(over_ros, change
     said = rotors_of(wire, 1.0, wire._at)
     change(said)
     other.publish(said)
-    until(lambda: why in over_ros.server.said())
+    until(lambda: why in over_ros.server.last_output())
     other.unregister()
     wire.hello(over_ros.dt, [])
-    np.testing.assert_array_equal(wire.told.state, told[:13])
+    np.testing.assert_array_equal(wire.answer.state, told[:13])
 
 
 def test_a_push_by_topic_is_held_for_a_second_or_until_the_next(over_ros):

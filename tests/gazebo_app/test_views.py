@@ -15,7 +15,7 @@ from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.figures.drawing.style import save
 from tandemlift.figures.registry import save_figures
 from tandemlift.figures.views import draw
-from tandemlift.gazebo_app.camera_views import shots_of
+from tandemlift.gazebo_app.camera_views import views_from
 from tandemlift.missions import tables_of
 from tandemlift.models.cameras import FixedCamera, add_cameras
 from tandemlift.models.sdf import world
@@ -42,17 +42,17 @@ def flight():
 
 
 def test_views_are_of_standing_half_the_way_its_end_and_the_landed_vehicle(flight):
-    shots = shots_of(flight)
+    shots = views_from(flight)
     assert [s.title for s in shots] == ["standing", "on its way", "at the end of its way", "landed"]
     assert [s.time for s in shots] == pytest.approx([0.0, 15.0, FLIES, 38.99], abs=0.02)
-    assert np.array([s.eye.target for s in shots[1:]]) == pytest.approx(
+    assert np.array([s.camera.target for s in shots[1:]]) == pytest.approx(
         np.array([[10, 0, 1], [15, 5, 1], [15, 5, 0]]), abs=0.02
     )
-    assert len({s.eye.name for s in shots}) == 4
+    assert len({s.camera.name for s in shots}) == 4
 
 
 def test_cameras_stand_over_the_vehicle_and_look_along_the_way_or_back(flight):
-    start, way, end, landed = (s.eye for s in shots_of(flight))
+    start, way, end, landed = (s.camera for s in views_from(flight))
     for eye in (start, way, end, landed):
         assert eye.position[2] > eye.target[2] + 2.0  # m
         assert 5.0 < np.linalg.norm(eye.position - eye.target) < 12.0
@@ -65,9 +65,9 @@ def test_cameras_stand_over_the_vehicle_and_look_along_the_way_or_back(flight):
 def test_a_flight_that_stays_where_it_is_is_seen_too():
     time = np.arange(0.0, 4.0, 0.01)
     still = tl.Flight(time, {"position": np.zeros((len(time), 3))}, tables_of(tl.load_mission("hover")), {})
-    shots = shots_of(still)
+    shots = views_from(still)
     assert [shots[0].title, shots[-1].title] == ["at the start", "at the end"]
-    assert np.isfinite([s.eye.position for s in shots]).all()
+    assert np.isfinite([s.camera.position for s in shots]).all()
 
 
 def test_a_camera_of_a_world_looks_at_its_target():

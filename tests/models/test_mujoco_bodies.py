@@ -112,7 +112,7 @@ def excited(mission, vehicle, seconds):
         moved = advance(plant, state, Nothing(), Nothing(), rotors(*thrusts), Nothing(), hand, DT)
         body.advance(thrusts, CALM, NONE, NONE)
         state = moved.state
-        yield state, moved.felt, body
+        yield state, moved.readings, body
 
 
 @pytest.mark.parametrize("changes", [{}, DIFFERENT], ids=["as known", "as it really is"])
@@ -122,7 +122,7 @@ def test_an_excited_vehicle_moves_and_feels_as_in_the_compiled_engine(changes):
     mission, vehicle = mission_of(3, start | shoved | changes)
     apart, fastest = np.zeros(2), 0.0
     for state, felt, body in excited(mission, vehicle, 2.0):
-        np.testing.assert_allclose(body.felt, numbers(felt), atol=1e-9)
+        np.testing.assert_allclose(body.readings, numbers(felt), atol=1e-9)
         difference = np.abs(body.state - numbers(state))
         apart = np.maximum(apart, [difference[:3].max(), 2.0 * difference[6:10].max()])
         fastest = max(fastest, np.abs(body.state[10:]).max())
@@ -151,20 +151,20 @@ def test_loads_on_the_parts_and_a_push_act_as_their_resultant():
         angular = np.linalg.solve(vehicle.inertia, np.array(all_of_it.moment) + moment)
         force = R.T @ (np.array(all_of_it.force) + push) / vehicle.mass
         expected = force + np.cross(angular, -vehicle.center_of_mass)
-        np.testing.assert_allclose(body.felt[:3], expected, atol=1e-9)  # from rest: no centripetal part
+        np.testing.assert_allclose(body.readings[:3], expected, atol=1e-9)  # from rest: no centripetal part
 
 
 def test_what_the_joints_pass_on_accounts_for_the_payloads_motion():
     mission, vehicle = mission_of(3, {"initial.rates": [1.0, -2.0, 0.5], "vehicle.drag.force": 0.0})
     body, rng = MuJoCoBody(mission, vehicle), np.random.default_rng(7)
     body.advance(rng.uniform(0.0, 6.0, 12), np.r_[np.zeros(6), rng.standard_normal(18)], NONE, NONE)
-    force, torque = body.felt[3:21].reshape(2, 3, 3)
+    force, torque = body.readings[3:21].reshape(2, 3, 3)
     payload = vehicle.payload
-    np.testing.assert_allclose(force.sum(axis=1), payload.mass * body.felt[:3], atol=1e-12)  # Newton
+    np.testing.assert_allclose(force.sum(axis=1), payload.mass * body.readings[:3], atol=1e-12)  # Newton
     mission, vehicle = mission_of(3, {"vehicle.drag.moment": 0.0})
     body = MuJoCoBody(mission, vehicle)
     body.advance(rng.uniform(0.0, 6.0, 12), np.r_[np.zeros(6), rng.standard_normal(18)], NONE, NONE)
-    force, torque = body.felt[3:21].reshape(2, 3, 3)
+    force, torque = body.readings[3:21].reshape(2, 3, 3)
     arms = np.array([q.joint_position for q in vehicle.quadrotors]).T
     about_payload = (torque + np.cross(arms, force, axis=0)).sum(axis=1)
     angular = body.state[10:] / DT  # from rest, over a step
@@ -207,10 +207,10 @@ def test_a_vehicle_at_rest_sinks_by_its_weight_over_the_stiffness_of_its_feet():
     lowest = body.state[2] + vehicle.lever_arms[:, 2].min() - 0.18
     assert ground.height - lowest == pytest.approx(SINKAGE, abs=1e-9)
     assert np.abs(body.state[3:6]).max() < 1e-7  # m/s
-    np.testing.assert_allclose(body.felt[-3:], [0.0, 0.0, vehicle.weight], atol=1e-4)
-    np.testing.assert_allclose(body.felt[:3], [0.0, 0.0, GRAVITY], atol=1e-4)
+    np.testing.assert_allclose(body.readings[-3:], [0.0, 0.0, vehicle.weight], atol=1e-4)
+    np.testing.assert_allclose(body.readings[:3], [0.0, 0.0, GRAVITY], atol=1e-4)
     carried = vehicle.payload.mass * GRAVITY / 4.0  # the feet carry quadrotors directly, the joints only the payload
-    np.testing.assert_allclose(body.felt[11:15], carried, atol=1e-3)
+    np.testing.assert_allclose(body.readings[11:15], carried, atol=1e-3)
 
 
 def test_friction_holds_below_its_limit_and_yields_above_it():
@@ -269,8 +269,8 @@ def test_a_vehicle_pressed_against_a_wall_yields_by_the_force_over_the_stiffness
     contacts = body.data.contact
     assert len(contacts) == touching
     pressed = press.stiffness * sum(-contact.dist for contact in contacts)
-    assert pressed == pytest.approx(np.linalg.norm(body.felt[-3:]), rel=1e-3)
-    assert np.array(force) @ body.felt[-3:] < 0.0  # the wall pushes back
+    assert pressed == pytest.approx(np.linalg.norm(body.readings[-3:]), rel=1e-3)
+    assert np.array(force) @ body.readings[-3:] < 0.0  # the wall pushes back
 
 
 @pytest.mark.parametrize("command", [np.nan, np.inf, -1e12])
@@ -279,7 +279,7 @@ def test_a_command_that_is_none_ends_the_motion_without_a_word(command, tmp_path
     body = MuJoCoBody(*mission_of(2))
     body.advance(np.full(8, command), CALM, NONE, NONE)
     assert np.isnan(body.state).all()
-    assert np.isnan(body.felt).all()
+    assert np.isnan(body.readings).all()
     assert not list(tmp_path.iterdir())  # MuJoCo would write a log
     assert capfd.readouterr() == ("", "")
 
@@ -287,7 +287,9 @@ def test_a_command_that_is_none_ends_the_motion_without_a_word(command, tmp_path
 def test_felt_has_the_layout_of_the_law():
     mission, vehicle = mission_of(2)
     sets = Vec3(each(2)(0.0, 0.0), each(2)(0.0, 0.0), each(2)(0.0, 0.0))
-    assert MuJoCoBody(mission, vehicle).felt.size == numbers(PerfectReadings(vec3(NONE), sets, sets, vec3(NONE))).size
+    assert (
+        MuJoCoBody(mission, vehicle).readings.size == numbers(PerfectReadings(vec3(NONE), sets, sets, vec3(NONE))).size
+    )
 
 
 def test_without_mujoco_one_sentence_says_how_to_get_it(monkeypatch):

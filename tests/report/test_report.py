@@ -13,10 +13,10 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.cli.results import write_results
 from tandemlift.figures.registry import captions, figures_of, save_figures
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.missions import tables_of
+from tandemlift.report.flight_files import write_flight_files
 from tandemlift.report.flight_report import number, split_unit, write_report
 
 HOSTILE = "<script>alert('x')</script>\"&<img src=http://evil.example/x.png>"
@@ -183,7 +183,7 @@ def test_a_run_removes_the_figures_that_its_flight_does_not_have(paper, tmp_path
     for name in ("push.png", "rotors.pdf", "mine.png"):
         (tmp_path / "figures").mkdir(exist_ok=True)
         (tmp_path / "figures" / name).write_text("old")
-    write_results(paper, tmp_path, figures=False)
+    write_flight_files(paper, tmp_path, figures=False)
     assert [path.name for path in (tmp_path / "figures").iterdir()] == ["mine.png"]
 
 

@@ -126,7 +126,7 @@ def test_a_controller_that_diverges_is_a_row_that_says_when_and_why(run, tmp_pat
     [
         (("hovr",), ["unknown mission 'hovr'", "Did you mean 'hover'?"]),
         (("hover", "--controllers", "pdi"), ["unknown controller 'pdi'", "Did you mean 'pid'?"]),
-        (("hover", "--controllers", " , "), ["--controllers: must be names with commas"]),
+        (("hover", "--controllers", " , "), ["--controllers: must be a comma-separated list of names"]),
         (("hover", "--controllers", "absent.py"), ["absent.py does not exist"]),
         (("hover", "--engine", "compild"), ["unknown engine 'compild'"]),
         (("hover", "--set", "mission.step=0.5"), ["mission.step = 0.5"]),

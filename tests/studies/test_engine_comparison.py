@@ -93,8 +93,8 @@ def test_a_mission_is_flown_in_each_engine_and_the_page_and_numbers_say_so(run, 
     [
         (["--engines", "compiled,mujco"], ["unknown engine 'mujco'", "'mujoco'"]),
         (["--engines", "mujoco"], ["must be two or more"]),
-        (["--engines", ","], ["--engines: must be names with commas between them"]),
-        (["--engines", "compiled,mujoco", "--controllers", "pid"], ["give one of them"]),
+        (["--engines", ","], ["--engines: must be a comma-separated list of names"]),
+        (["--engines", "compiled,mujoco", "--controllers", "pid"], ["give only one of them"]),
     ],
     ids=["an unknown one", "one alone", "none", "controllers too"],
 )

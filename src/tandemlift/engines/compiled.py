@@ -37,10 +37,10 @@ from tandemlift.vehicle import Vehicle
 
 
 class BodyStep(NamedTuple):
-    """What a step of the body comes to: the state after it, what was felt at its start, the feet's grip after it."""
+    """Result of a step of the body: the state after it, the readings at its start, the feet's grip after it."""
 
     state: State
-    felt: PerfectReadings
+    readings: PerfectReadings
     grip: Any
 
 
@@ -55,16 +55,16 @@ def surrounded_motion(b: BodySurroundings, s: State, u: Any, push: Any) -> State
 
 @law
 def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any) -> PerfectReadings:
-    """What is felt in state `s`, whose motion is `k1`, under thrusts [N] and the air's loads on the parts."""
+    """Perfect readings in state `s`, whose motion is `k1`, under thrusts [N] and loads of the air on the parts."""
     frame, q = b.plant.frame, s.attitude
     floor, walls = floor_loads(b.plant.floor, b, s), wall_loads(b.plant.walls, b, s)
-    felt = under(
+    readings = under(
         quadrotor_loads(air), frame, q, perfect_readings(frame, s, Acceleration(k1.velocity, k1.rates), thrusts)
     )
-    felt = under(quadrotor_loads(floor), frame, q, felt)
-    felt = under(quadrotor_loads(walls), frame, q, felt)
+    readings = under(quadrotor_loads(floor), frame, q, readings)
+    readings = under(quadrotor_loads(walls), frame, q, readings)
     return with_contact_force(
-        load_about_center(walls, frame, q), with_contact_force(load_about_center(floor, frame, q), felt)
+        load_about_center(walls, frame, q), with_contact_force(load_about_center(floor, frame, q), readings)
     )
 
 
@@ -94,7 +94,7 @@ def advance(
 def readings_at_rest(
     plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, hand: PushSamples
 ) -> PerfectReadings:
-    """What is felt in still air in state `s` under rotor thrusts [N]."""
+    """Perfect readings in still air in state `s` under rotor thrusts [N]."""
     b, air = BodySurroundings(plant, Nothing(), grip, near), Nothing()
     return readings_in(b, s, motion(b, s, wrench(plant.effect, thrusts), hand.start), air, thrusts)
 

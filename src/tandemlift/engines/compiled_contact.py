@@ -30,7 +30,7 @@ NO_LOAD = PartLoad(ZERO, ZERO)
 
 
 class CompiledPlant(NamedTuple):
-    """The body as it really is: what rotor thrusts do to it, how it moves, its parts, the floor and the walls."""
+    """The true body: effect of the rotor thrusts, mass and inertia, parts, floor and walls."""
 
     effect: Mixer
     body: RigidBody
@@ -40,7 +40,7 @@ class CompiledPlant(NamedTuple):
 
 
 class BodySurroundings(NamedTuple):
-    """The body during a step: its state at the start, the air's loads, the feet's grip, the nearest walls."""
+    """What is held during a step: the plant, loads of the air, the feet's grip, the nearest walls."""
 
     plant: CompiledPlant
     air: Any
@@ -49,23 +49,23 @@ class BodySurroundings(NamedTuple):
 
 
 class DistantFloor(NamedTuple):
-    """A floor out of reach for some steps: the same numbers, and no force."""
+    """A floor out of reach for some steps: the same numbers, without force."""
 
     floor: Floor
 
 
 class DistantWalls(NamedTuple):
-    """Walls out of reach for a step: the same numbers, and no force."""
+    """Walls out of reach for a step: the same numbers, without force."""
 
     walls: Walls
 
 
 class ZeroLoad(NamedTuple):
-    """The load of what is out of reach: zero, and added like any other, so that no bit of a flight depends on it."""
+    """The load of what is out of reach: zero, added like any other, so that the flight is the same to the last bit."""
 
 
 def without_contact(plant: CompiledPlant) -> CompiledPlant:
-    """The same body where nothing can touch floor or walls."""
+    """The same body, with floor and walls out of reach."""
     floor, walls = plant.floor, plant.walls
     return plant._replace(
         floor=floor if isinstance(floor, Nothing) else DistantFloor(floor),
@@ -125,7 +125,7 @@ def _of_no_contact(load: ZeroLoad, frame: PartsLayout, attitude: Any) -> PartLoa
 
 @choice(absent="rate")
 def with_load(load: Any, body: RigidBody, rate: State) -> Any:
-    """The motion under a further load about the centre of mass."""
+    """The motion with a further load about the centre of mass."""
 
 
 @with_load.register(PartLoad)
@@ -155,20 +155,25 @@ def _of_zero(loads: ZeroLoad) -> ZeroLoad:
 
 
 @under.register(ZeroLoad)
-def _unloaded(load: ZeroLoad, frame: PartsLayout, attitude: Any, felt: PerfectReadings) -> PerfectReadings:
+def _unloaded(load: ZeroLoad, frame: PartsLayout, attitude: Any, readings: PerfectReadings) -> PerfectReadings:
     return PerfectReadings(
-        felt.specific_force, plus_zero(felt.joint_force), plus_zero(felt.joint_torque), felt.contact_force
+        readings.specific_force,
+        plus_zero(readings.joint_force),
+        plus_zero(readings.joint_torque),
+        readings.contact_force,
     )
 
 
-@choice(absent="felt")
-def with_contact_force(load: Any, felt: PerfectReadings) -> Any:
-    """`felt`, with the force of a contact about the centre of mass."""
+@choice(absent="readings")
+def with_contact_force(load: Any, readings: PerfectReadings) -> Any:
+    """`readings`, with the force of a contact about the centre of mass."""
 
 
 @with_contact_force.register(PartLoad)
-def _with_contact(load: PartLoad, felt: PerfectReadings) -> PerfectReadings:
-    return PerfectReadings(felt.specific_force, felt.joint_force, felt.joint_torque, felt.contact_force + load.force)
+def _with_contact(load: PartLoad, readings: PerfectReadings) -> PerfectReadings:
+    return PerfectReadings(
+        readings.specific_force, readings.joint_force, readings.joint_torque, readings.contact_force + load.force
+    )
 
 
 @choice(absent="grip")

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
@@ -53,6 +53,14 @@ def figures_of(flight: Flight) -> dict[str, FlightFigure]:
     return {name: figure for name, figure in figures().items() if figure.IN_FLIGHTS(flight)}
 
 
+def save_figure(figure: Any, path: Path) -> Path:
+    """Write one figure as PNG or PDF, by the ending of the path; its folder is made if it does not exist."""
+    from tandemlift.figures.drawing.style import save
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return save(figure, path)
+
+
 def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progress | None = None) -> list[Path]:
     """Draw every figure that a flight has and write it as NAME.png and NAME.pdf; a file appears whole or not at all.
 
@@ -64,14 +72,12 @@ def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progr
     Returns:
         The files written, in the order of `figures`, PNG before PDF.
     """
-    from tandemlift.figures.drawing.style import save
-
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     written, drawn = [], figures_of(flight)
     for done, (name, figure) in enumerate(drawn.items(), 1):
         page = figure.draw(flight)
-        written += [save(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
+        written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
         if progress:
             progress(done, len(drawn))
     return written

@@ -196,8 +196,8 @@ def _contact(floor: Any, readings: PerfectReadings) -> ContactChannels:
 @law
 def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
     """The channels of a step, at its start."""
-    state, felt, read = flying.moving.state, moved.felt, thought.decision
-    guidance, command = read.guidance, read.command
+    state, readings, decision = flying.moving.state, moved.readings, thought.decision
+    guidance, command = decision.guidance, decision.command
     target = guidance.reference.trajectory
     return Sample(
         position=state.position,
@@ -218,14 +218,14 @@ def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSam
         thrust=command.wrench.thrust,
         moment=command.wrench.moment,
         rotor_thrusts=acting.thrusts,
-        joint_force=felt.joint_force,
-        joint_torque=felt.joint_torque,
-        actuators=actuator_channels(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
+        joint_force=readings.joint_force,
+        joint_torque=readings.joint_torque,
+        actuators=actuator_channels(flying.rotors, flying.plant.effect, command.wrench, decision.thrusts),
         wind=wind_channels(acting.weather.loads, acting.weather.velocity),
-        contact=contact_channels(flying.plant.floor, felt),
+        contact=contact_channels(flying.plant.floor, readings),
         measured=measured_channels(flying.moving.readings),
         estimated=estimated_channels(thought.known),
-        disturbance=disturbance_channels(flying.pilot.observer, read.unknown),
+        disturbance=disturbance_channels(flying.pilot.observer, decision.unknown),
         guidance=guidance.shown,
         detection=detection_channels(flying.pilot.detection, thought.memory.detection),
     )

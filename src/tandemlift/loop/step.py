@@ -162,7 +162,9 @@ def finish_sample(
 ) -> Any:
     """What a step comes to once the body has moved: (Moving after it, the Sample at its start)."""
     before, believed = flying.moving, thought.believed
-    readings, sensing = measure(flying.sensors, before.sensing, before.state, moved.felt, believed, given.noise.sensors)
+    readings, sensing = measure(
+        flying.sensors, before.sensing, before.state, moved.readings, believed, given.noise.sensors
+    )
     sample = log_sample(flying, thought, acting, moved, given.hand)
     tally = count(before.tally, errors_of(flying, thought, sample))
     lost = maximum(before.lost, is_unsound(moved.state))

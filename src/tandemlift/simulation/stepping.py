@@ -160,7 +160,7 @@ class Stepper:
     def _advance(self, body: EngineBody) -> None:
         body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
         self.v[:STATE] = body.state
-        self.v[STATE : STATE + body.felt.size] = body.felt
+        self.v[STATE : STATE + body.readings.size] = body.readings
 
     def rest(self) -> None:
         """Take no step for now; to be called ten times a second, or more often, by who lets a flight wait."""
