@@ -148,7 +148,7 @@ NUMBERS: dict[str, Numbers] = {
 }
 
 
-def maker_of(types: MessageTypes, topic: About) -> Maker:
+def message_maker(types: MessageTypes, topic: About) -> Maker:
     """What makes the messages of a topic."""
     return MAKERS[topic.kind](types, topic)
 
@@ -178,7 +178,7 @@ class Transforms:
         )
 
 
-def diagnostics_of(types: MessageTypes) -> Callable[[int, str], Any]:
+def event_maker(types: MessageTypes) -> Callable[[int, str], Any]:
     """What makes a message of `/diagnostics` from an event: its time [ns] and what happened."""
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header = types.headers("")
@@ -190,7 +190,7 @@ def diagnostics_of(types: MessageTypes) -> Callable[[int, str], Any]:
     return make
 
 
-def status_of(types: MessageTypes) -> Callable[[int, bool, str, Mapping[str, str]], Any]:
+def status_maker(types: MessageTypes) -> Callable[[int, bool, str, Mapping[str, str]], Any]:
     """What makes one from how a flight goes: time [ns], whether it is well, a summary, and more by name."""
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header, Value = types.headers(""), types["diagnostic_msgs/KeyValue"]

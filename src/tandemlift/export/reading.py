@@ -21,7 +21,7 @@ from tandemlift.export.bags import rosbags
 from tandemlift.export.frames import eulers
 from tandemlift.export.messages import NUMBERS, SECOND
 from tandemlift.export.recipes import MeasuredPose, Recipe
-from tandemlift.export.topics import ALWAYS, JOINTS, PILOT, ROOT, SOMETIMES, all_recipes, topics_of
+from tandemlift.export.topics import ALWAYS, JOINTS, PILOT, ROOT, SOMETIMES, all_recipes, topics_from
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.old_names import renamed_channel, renamed_tables, renamed_topic, warn_of_old_names
 from tandemlift.flight.record import LATE, Flight
@@ -67,7 +67,7 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
     if missing:
         raise InputError(f"{path}: lacks the topics of {', '.join(missing)}, which every flight has")
     flight = Flight(time, {name: channels[name] for name in CHANNELS if name in channels}, mission, {})
-    topics_of(flight, vehicle)  # complains of what is not whole
+    topics_from(flight, vehicle)  # complains of what is not whole
     return Flight(time, flight.channels, mission, _metrics(flight, _events(said[EVENTS], int(stamps[0]))))
 
 

@@ -17,7 +17,7 @@ from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.panels import fit, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
-from tandemlift.figures.drawing.vehicle import payload_mass_of
+from tandemlift.figures.drawing.vehicle import true_payload_mass
 from tandemlift.flight.record import Flight
 from tandemlift.settings.pilot import EstimatorTable
 from tandemlift.vehicle import Vehicle
@@ -96,7 +96,7 @@ def _place(ax: Any, flight: Flight) -> None:
 
 
 def _mass(ax: Any, flight: Flight) -> None:
-    true, estimate = payload_mass_of(flight), flight["payload_mass_estimate"]
+    true, estimate = true_payload_mass(flight), flight["payload_mass_estimate"]
     ax.axhline(true, zorder=1, **TRUE)
     line(ax, flight.time, estimate, zorder=4, **ESTIMATE)
     fit(ax, estimate, np.array([true]), least=LEAST_MASS)

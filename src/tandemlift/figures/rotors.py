@@ -41,7 +41,7 @@ LIMIT: dict[str, Any] = {"color": BLACK, "lw": 0.7, "ls": (0, (5, 3))}
 FAILED: dict[str, Any] = {"color": VERMILLION, "lw": 1.0}
 
 
-def fault_of(flight: Flight, quadrotor: int, rotor: int) -> dict[str, Any] | None:
+def rotor_fault(flight: Flight, quadrotor: int, rotor: int) -> dict[str, Any] | None:
     """The fault of a rotor (both counted from 1) if it comes within the time flown: the last one that is given."""
     faults = [f for f in flight.mission.get("faults", []) if (f["quadrotor"], f["rotor"]) == (quadrotor, rotor)]
     return faults[-1] if faults and len(flight.time) and faults[-1]["time"] <= flight.time[-1] else None
@@ -102,7 +102,7 @@ def draw(flight: Flight) -> Figure:
     figure, rows = fleet_figure(len(quadrotors), AROUND)
     height = (figure.get_figheight() - AROUND) / rows
     grid = figure.add_gridspec(rows + 1, 4, height_ratios=[*[height] * rows, FRACTION])
-    faults = {name: fault_of(flight, *name) for name in product(range(1, rows + 1), range(1, 5))}
+    faults = {name: rotor_fault(flight, *name) for name in product(range(1, rows + 1), range(1, 5))}
     for column, ((row, rotor), fault) in enumerate(faults.items()):
         ax = figure.add_subplot(grid[row - 1, rotor - 1])
         _panel(ax, flight, column, quadrotors[row - 1].max_thrust, fault)

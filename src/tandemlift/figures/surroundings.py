@@ -17,7 +17,7 @@ from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.ground import clearance, floor_height
 from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLACK, BLUE, COMPONENTS, GREY, PAGE, PALE, journal
-from tandemlift.figures.drawing.vehicle import weight_of
+from tandemlift.figures.drawing.vehicle import true_weight
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption(
@@ -45,7 +45,7 @@ def _vector(ax: Any, flight: Flight, name: str, least: float) -> None:
     fit(ax, flight[name], least=least)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
     if name == "contact_force":
-        ax.axhline(weight_of(flight), color=BLACK, lw=0.7, ls=(0, (5, 3)), zorder=2)
+        ax.axhline(true_weight(flight), color=BLACK, lw=0.7, ls=(0, (5, 3)), zorder=2)
 
 
 def _height(ax: Any, flight: Flight, floor: float) -> None:

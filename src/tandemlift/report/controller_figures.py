@@ -174,7 +174,7 @@ def draw_thrusts(flights: Mapping[str, Flight]) -> Figure:
     return figure
 
 
-def figures_of(flights: Mapping[str, Flight]) -> dict[str, Figure]:
+def drawn_figures(flights: Mapping[str, Flight]) -> dict[str, Figure]:
     """The figures of a comparison by name; without the errors where none reaches 1 µm."""
     drawn = {"thrusts": draw_thrusts(flights)}
     if any(any(moving_axes(flights.values(), part)) for part in parts_of(flights.values())):

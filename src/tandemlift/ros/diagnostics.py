@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from tandemlift.export.messages import MessageTypes, diagnostics_of, status_of
+from tandemlift.export.messages import MessageTypes, event_maker, status_maker
 from tandemlift.flight.record import Flight
 from tandemlift.ros.middleware import TopicPublisher
 from tandemlift.simulation.results import describe_event
@@ -28,7 +28,7 @@ class FlightDiagnostics:
     """
 
     def __init__(self, channel: TopicPublisher, types: MessageTypes) -> None:
-        self._channel, self._event, self._status = channel, diagnostics_of(types), status_of(types)
+        self._channel, self._event, self._status = channel, event_maker(types), status_maker(types)
         self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
         self._said: dict[str, float] = {}
         self._now = (-1, 0, 0)  # phase, alarm, failed check

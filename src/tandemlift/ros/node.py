@@ -16,7 +16,7 @@ from tandemlift.ros.middleware import Middleware
 from tandemlift.ros.parameters import Parameters
 from tandemlift.ros.pushes import Pushes
 from tandemlift.ros.requests import REQUESTS, RequestServices
-from tandemlift.ros.sample_queue import Clock, SampleBatch, SampleQueue, as_flight, every_of
+from tandemlift.ros.sample_queue import Clock, SampleBatch, SampleQueue, as_flight, steps_between_samples
 from tandemlift.ros.topics import LatchedTopics, MarkerTopics, SampleTopics
 from tandemlift.vehicle import Vehicle
 
@@ -45,7 +45,7 @@ class FlightNode:
         vehicle = Vehicle.from_settings(self._flight.now.vehicle)
         self._tables = tables_of(self._flight.now)
         self._clock = Clock(session)
-        self._queue = SampleQueue(every_of(rate, self._flight.dt), lambda step: self._clock.stamp(step))
+        self._queue = SampleQueue(steps_between_samples(rate, self._flight.dt), lambda step: self._clock.stamp(step))
         self.diagnostics = FlightDiagnostics(middleware.advertise(TOPIC, KIND, depth=100), middleware.types)
         self._pushes = Pushes(session, self.diagnostics.add)
         self._parameters = Parameters(session, middleware, self.diagnostics.add)

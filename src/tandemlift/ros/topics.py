@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.export.frames import WORLD, fixed, quaternions
-from tandemlift.export.messages import Maker, MessageTypes, Transforms, maker_of
+from tandemlift.export.messages import Maker, MessageTypes, Transforms, message_maker
 from tandemlift.export.recipes import POSE, Recipe, Source, Topic
-from tandemlift.export.topics import ROOT, recipes_of
+from tandemlift.export.topics import ROOT, recipes_for
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.ros import scenery
@@ -46,8 +46,8 @@ class SampleTopics:
     def __init__(self, middleware: Middleware, flight: Flight, vehicle: Vehicle) -> None:
         types, self._vehicle = middleware.types, vehicle
         self._sent = [
-            SampleTopic(r, maker_of(types, r), middleware.advertise(r.name, r.kind))
-            for r in recipes_of(flight, vehicle)
+            SampleTopic(r, message_maker(types, r), middleware.advertise(r.name, r.kind))
+            for r in recipes_for(flight, vehicle)
         ]
         self._transform, self._tf = Transforms(types).moving, middleware.advertise(TF, TRANSFORMS, depth=100)
 
@@ -123,7 +123,7 @@ class PathTopic:
 
     def __init__(self, types: MessageTypes, channel: TopicPublisher) -> None:
         self._Path, self._header, self._channel = types[PATH], types.headers(WORLD), channel
-        self._make = maker_of(types, Topic("", POSE, WORLD, np.zeros((0, 7))))
+        self._make = message_maker(types, Topic("", POSE, WORLD, np.zeros((0, 7))))
         self._poses: deque[Any] = deque(maxlen=round(SHOWN / APART))
 
     def extend(self, stamp: int, pose: list[float]) -> None:
