@@ -27,11 +27,11 @@ from tandemlift.ros.sample_queue import Clock
     ("arguments", "words"),
     [
         (["papr"], "unknown mission 'papr'"),
-        (["zigzag", "iris"], "zigzag iris: one mission is flown at a time"),
+        (["zigzag", "iris"], "zigzag iris: give one mission only"),
         (["hover", "--rate", "0"], "--rate 0: must be from 0.1 to 1000 Hz"),
         (["hover", "--rate", "2000"], "--rate 2000: must be from 0.1 to 1000 Hz"),
         (["hover", "--engine", "compild"], "unknown engine 'compild'"),
-        (["hover", "--version", "2", "--rviz"], "--rviz: its file is for ROS 1"),
+        (["hover", "--version", "2", "--rviz"], "--rviz: needs ROS 1, not --version 2"),
         (["hover", "--set", "admittance.mass"], "must be KEY=VALUE"),
     ],
 )
