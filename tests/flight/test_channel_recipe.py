@@ -37,8 +37,6 @@ def test_a_channel_is_added_by_its_record_and_the_law_that_logs_it(tmp_path):
     package = EditedPackage(tmp_path)
     package.insert("flight/channels.py", 'Channel("N", "world", "force of the air on all parts together"),', RECORD)
     package.insert("loop/log_sample.py", "    wind_force: Vec3", FIELD)
-    package.insert(
-        "loop/log_sample.py", "wind_force=loads.payload.force + total_of_each(loads.quadrotors.force),", VALUE
-    )
+    package.insert("loop/log_sample.py", "wind_velocity=velocity,", VALUE)
     package.insert("loop/log_sample.py", "from tandemlift.algebra.ops import clip, greatest, minimum,", " sqrt,")
     assert package.run(PROGRAM) == "followed\n"

@@ -5,6 +5,7 @@ import pytest
 from repository import ROOT
 
 import tandemlift as tl
+from tandemlift.algebra.vector import Nothing
 from tandemlift.flight.channel_tables import with_tables
 from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
@@ -29,6 +30,7 @@ GROUPS = {
     "wind": WindChannels,
     "contact": ContactChannels,
     "measured": MeasuredChannels,
+    "additional": Nothing,
     "estimated": EstimatedChannels,
     "disturbance": DisturbanceChannels,
     "guidance": HandGuidanceChannels,

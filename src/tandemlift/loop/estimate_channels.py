@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Quat, Vec3
-from tandemlift.laws.sensors.readings import Readings
+from tandemlift.laws.sensors.readings import Readings, by_name
 from tandemlift.loop.perception import Estimates
 
 
@@ -21,6 +21,7 @@ class MeasuredChannels(NamedTuple):
     measured_specific_force: Vec3
     measured_joint_force: Vec3
     measured_joint_torque: Vec3
+    additional: Any
 
 
 class EstimatedChannels(NamedTuple):
@@ -39,14 +40,20 @@ class EstimatedChannels(NamedTuple):
     push_usable: Number
 
 
+def channels_of_additional(readings: Any) -> Any:
+    """The type of the channels of additional sensors: `measured_NAME` for each."""
+    return by_name(tuple(f"measured_{name}" for name in readings._fields))
+
+
 @choice(absent="readings")
 def measured_channels(readings: Any) -> Any:
     """The channels of readings."""
 
 
 @measured_channels.register(Readings)
-def _readings(readings: Readings) -> MeasuredChannels:
-    m, u = readings.motion, readings.unit
+def _readings(readings: Readings) -> Any:
+    m, u = readings.motion, readings.imu
+    more = [reading.value for reading in readings.additional]
     return MeasuredChannels(
         measured_position=m.position,
         measured_velocity=m.velocity,
@@ -55,6 +62,7 @@ def _readings(readings: Readings) -> MeasuredChannels:
         measured_specific_force=u.specific_force,
         measured_joint_force=u.joint_force,
         measured_joint_torque=u.joint_torque,
+        additional=channels_of_additional(readings.additional)(*more),
     )
 
 
@@ -64,7 +72,7 @@ def estimated_channels(known: Any) -> Any:
 
 
 @estimated_channels.register(Estimates)
-def _estimates(known: Estimates) -> EstimatedChannels:
+def _estimates(known: Estimates) -> Any:
     s, p = known.state, known.push
     return EstimatedChannels(
         estimated_position=s.position,
