@@ -111,7 +111,7 @@ def open_loop(engine: str, count: int) -> dict[str, float]:
         thrusts = thrusts_at(k * h, state)
         moved = unflat(stepped(np.array([[*flat(state), *thrusts]]))[0], like)
         body.advance(thrusts, NO_AIR, NO_PUSH, NO_PUSH)
-        state, felt = moved.state, np.abs(np.array(flat(moved.felt)) - body.felt)
+        state, felt = moved.state, np.abs(np.array(flat(moved.readings)) - body.readings)
         found = {name: felt[part].max() * looked_at(engine, k * h) for name, part in joints.items()}
         found["position"] = np.abs(np.array(state.position) - body.state[:3]).max()
         found["attitude"] = turned(np.array([state.attitude]), body.state[None, 6:10])[0]

@@ -34,6 +34,7 @@ from tandemlift.live.wire.server_messages import SERVER_MESSAGES, SHOWN_PARAMETE
 ROOT = Path(__file__).resolve().parent.parent
 TYPESCRIPT = ROOT / "web" / "src" / "wire" / "messages.generated.ts"
 DOCUMENT = ROOT / "docs" / "live.md"
+HUGE = 1e6  # a bound that only keeps numbers finite
 WORDS = {float: "number", int: "number", str: "string", bool: "boolean", type(None): "null"}
 HEAD = """\
 // Written by tools/wire_types.py from src/tandemlift/live/wire/: change it there.
@@ -192,7 +193,7 @@ def limits() -> str:
     """The bounds of numbers in messages of a page."""
     lines = []
     for name, kind in PAGE_MESSAGES.items():
-        bounded = [(entry.name, *entry.bounds) for entry in entries_of(kind) if entry.bounds]
+        bounded = [(e.name, *e.bounds) for e in entries_of(kind) if e.bounds and e.bounds[1] < HUGE]
         keys = ", ".join(f"{key}: {{ min: {low:g}, max: {high:g} }}" for key, low, high in bounded)
         lines += [f"  {name}: {{ {keys} }},"] if bounded else []
     return (
@@ -230,7 +231,7 @@ def rows(messages: dict[str, type]) -> list[tuple[str, ...]]:
 def key_of(entry: Entry) -> str:
     """A key in a table of messages: its name, and what it means or may be."""
     allowed = entry.type.replace('"', "`").replace(" | ", ", ") if '"' in entry.type else ""
-    within = "{:g} to {:g}".format(*entry.bounds) if entry.bounds else ""
+    within = "{:g} to {:g}".format(*entry.bounds) if entry.bounds and entry.bounds[1] < HUGE else ""
     note = "; ".join(part for part in (entry.meaning, allowed, within, "optional" if entry.optional else "") if part)
     return f"`{entry.name}`" + (f" ({note})" if note else "")
 
@@ -241,9 +242,8 @@ def keys(kind: type) -> list[tuple[str, ...]]:
     for entry in entries_of(kind):
         if entry.name != "type":
             part = next((p for p in parts_of(kind) if p.__name__ in re.findall(r"\w+", entry.type)), None)
-            inner = f"{summary(part)} `{'`, `'.join(e.name for e in entries_of(part))}`" if part else ""
-            text = ". ".join(one[:1].upper() + one[1:] for one in (entry.meaning, inner) if one)
-            found.append((f"`{entry.name}`", text))
+            inner = f"`{'`, `'.join(e.name for e in entries_of(part))}`" if part else ""
+            found.append((f"`{entry.name}`", ": ".join(one for one in (entry.meaning, inner) if one)))
     return found
 
 

@@ -7,9 +7,10 @@ turn about +z, 2 and 4 about −z. Thrust is along body z, so heights do not ent
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -78,6 +79,18 @@ class Vehicle:
     def from_settings(table: VehicleTable) -> Vehicle:
         """The vehicle that a mission describes; the same object for the same table, as many missions share one."""
         return Vehicle(table.payload, table.quadrotors, table.drag)
+
+    @classmethod
+    def from_mission(cls, mission: Mapping[str, Any]) -> Vehicle:
+        """The vehicle that the pilot of a mission knows, from the mission's nested tables, as a flight has them.
+
+        Raises:
+            InputError: the mission has none that can be read.
+        """
+        try:
+            return cls.from_settings(VehicleTable.model_validate(mission["vehicle"]))
+        except (KeyError, ValueError) as error:
+            raise InputError(f"the mission's vehicle cannot be read: {error}") from error
 
     @property
     def count(self) -> int:

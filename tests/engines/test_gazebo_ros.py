@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.engines.gazebo import world_of
+from tandemlift.engines.gazebo import world_from
 from tandemlift.engines.ros_master import RosMaster, joined
 from tandemlift.export.write import export
 from tandemlift.models.sdf import rotors_of
@@ -35,7 +35,7 @@ def test_a_root_without_ros_is_told_how_to_get_it(monkeypatch, tmp_path):
 
 
 def test_a_world_over_ros_says_its_rotors_to_the_last_bit(mission):
-    plugin = ElementTree.fromstring(world_of(mission, "ros", namespace="/here").encode()).find("world/model/plugin")
+    plugin = ElementTree.fromstring(world_from(mission, "ros", namespace="/here").encode()).find("world/model/plugin")
     assert plugin.get("filename") == "libtandemlift_gazebo_ros.so"
     told = {setting.tag: setting.text for setting in plugin}
     assert told | {"rotors": ""} == {

@@ -11,14 +11,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from patience import PATIENCE, ended, said
+from plugin_peer import BadNetwork, Plugin, RigidBody
 
 import tandemlift as tl
-from tandemlift.engines.gazebo import GazeboBody, start_state_of, world_of
+from tandemlift.engines.gazebo import GazeboBody, start_state_from, world_from
 from tandemlift.engines.gazebo_server import free_port
 from tandemlift.engines.gazebo_wire import Wire
 from tandemlift.models.sdf import rotors_of
-
-from .plugin import BadNetwork, Plugin, RigidBody
 
 DT = 1e-3
 MISSION = {
@@ -60,11 +59,11 @@ def wire_at():
     """A pilot's end to a port, which is hung up after the test."""
     wires = []
 
-    def dial(port, count=2, patience=PATIENCE):
+    def connect(port, count=2, patience=PATIENCE):
         wires.append(Wire(port, count, patience))
         return wires[-1]
 
-    yield dial
+    yield connect
     for wire in wires:
         wire.close()
 
@@ -73,12 +72,12 @@ def wire_at():
 def wire_to(wire_at):
     """A pilot's end to a plugin that it has greeted."""
 
-    def dial(plugin, patience=PATIENCE):
+    def connect(plugin, patience=PATIENCE):
         wire = wire_at(plugin.port, plugin.body.N, patience)
-        wire.hello(DT, rotors_of(plugin.body.vehicle), start_state_of(tl.load_mission("hover")))
+        wire.hello(DT, rotors_of(plugin.body.vehicle), start_state_from(tl.load_mission("hover")))
         return wire
 
-    return dial
+    return connect
 
 
 def fly_by(wire, steps):
@@ -119,7 +118,7 @@ def test_a_pilot_that_rests_says_so_and_moves_nothing(vehicle, wire_to):
         wire = wire_to(plugin)
         fly_by(wire, 3)
         for _ in range(20):
-            wire.keep()
+            wire.keep_alive()
         fly_by(wire, 1)
         assert plugin.taken == [1, 2, 3, 4]
         assert plugin.heard[-21:] == [3] * 21
@@ -246,6 +245,6 @@ def test_a_port_that_is_none_is_refused(mission, monkeypatch):
 
 
 def test_the_world_of_a_flight_waits_for_its_pilot_and_ends_with_it(mission):
-    plugin = ElementTree.fromstring(world_of(mission, 12345).encode()).find("world/model/plugin")
+    plugin = ElementTree.fromstring(world_from(mission, 12345).encode()).find("world/model/plugin")
     told = {setting.tag: setting.text for setting in plugin}
     assert told == {"port": "12345", "wait": "true", "patience": "0", "stay": "false"}

@@ -1,5 +1,6 @@
 """A Gazebo server whose pilots come and go."""
 
+import os
 import shlex
 import socket
 import time
@@ -9,11 +10,18 @@ import pytest
 from patience import PATIENCE, completed
 
 import tandemlift as tl
-from tandemlift.engines.gazebo import start_state_of, world_of
+from tandemlift.engines.gazebo import start_state_from, world_from
 from tandemlift.engines.gazebo_ros import RosWire
-from tandemlift.engines.gazebo_server import GazeboServer, command, exported, free_port, in_gazebo, root
+from tandemlift.engines.gazebo_server import (
+    GazeboServer,
+    export_lines,
+    free_port,
+    root,
+    shell_command,
+    with_gazebo_environment,
+)
 from tandemlift.engines.gazebo_wire import Wire
-from tandemlift.engines.ros_master import environment, node
+from tandemlift.engines.ros_master import node, ros_environment
 from tandemlift.models.sdf import rotors_of
 
 SILENT, SILENT_OVER_ROS = 1.5, 3.0  # s, after which a pilot is given up
@@ -30,10 +38,10 @@ class Gazebo:
         staying = {"wait": "false", "stay": "true", "patience": str(SILENT_OVER_ROS if over_ros else SILENT)}
         if over_ros:
             node()
-            self.server = GazeboServer(world_of(self.mission, "ros", **staying), environment())
+            self.server = GazeboServer(world_from(self.mission, "ros", **staying), ros_environment())
             self.call = lambda: RosWire(self.vehicle.count, PATIENCE, self.server.check)
         else:
-            self.server = GazeboServer(world_of(self.mission, self.port, **staying))
+            self.server = GazeboServer(world_from(self.mission, self.port, **staying))
             self.call = lambda: Wire(self.port, self.vehicle.count, PATIENCE, self.server.check)
         self.wires = []
 
@@ -41,19 +49,19 @@ class Gazebo:
         """A pilot's end that has said hello."""
         wire = self.call()
         self.wires.append(wire)
-        wire.hello(self.dt, rotors_of(self.vehicle), start_state_of(self.mission) if place else None, real_time)
+        wire.hello(self.dt, rotors_of(self.vehicle), start_state_from(self.mission) if place else None, real_time)
         wire.thrusts[:] = self.vehicle.weight / self.vehicle.rotor_count
         return wire
 
     def gz(self, *arguments):
         """Run Gazebo's own `gz`."""
-        script = in_gazebo(self.server.master, f"gz {shlex.join(arguments)}")
-        return completed(command(root(), script), capture_output=True, text=True, check=True).stdout
+        script = with_gazebo_environment(self.server.master, f"gz {shlex.join(arguments)}")
+        return completed(shell_command(root(), script), capture_output=True, text=True, check=True).stdout
 
     def ros(self, *arguments):
         """Run ROS's own tool that lies where Gazebo is, for some seconds at most; what it says."""
-        script = exported(environment()) + f"timeout -s INT 60 {shlex.join(arguments)}"
-        return completed(command(root(), script), capture_output=True, text=True, check=False).stdout
+        script = export_lines(ros_environment()) + f"timeout -s INT 60 {shlex.join(arguments)}"
+        return completed(shell_command(root(), script), capture_output=True, text=True, check=False).stdout
 
     def close(self):
         for wire in self.wires:
@@ -94,3 +102,20 @@ def over_ros():
     server = Gazebo(over_ros=True)
     yield server
     server.close()
+
+
+WINDY = {
+    "wind.model": "air",
+    "wind.velocity": [3.0, -2.0, 0.3],
+    "wind.turbulence": 1.0,
+    "disturbance.moment": [0.05, 0.02, 0.01],
+    "plant.mass_scale": 1.1,
+}
+
+
+def runs(server):
+    """Whether a process is a gzserver that has not ended."""
+    try:
+        return os.readlink(f"/proc/{server}/exe").rpartition("/")[2].startswith("gzserver")
+    except FileNotFoundError:
+        return False

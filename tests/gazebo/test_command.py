@@ -13,7 +13,7 @@ from patience import COMPILING, completed, ended, said, until
 from screen import Screen
 
 import tandemlift as tl
-from tandemlift.engines.gazebo_server import command, in_gazebo, root
+from tandemlift.engines.gazebo_server import root, shell_command, with_gazebo_environment
 
 pytestmark = pytest.mark.gazebo
 TANDEMLIFT = [sys.executable, "-m", "tandemlift", "gazebo"]
@@ -32,8 +32,8 @@ def begun(*arguments, folder, **environment):
 
 
 def gz(master, *arguments):
-    script = in_gazebo(master, f"timeout 60 gz {' '.join(arguments)}")
-    return completed(command(root(), script), capture_output=True, text=True, check=False).stdout
+    script = with_gazebo_environment(master, f"timeout 60 gz {' '.join(arguments)}")
+    return completed(shell_command(root(), script), capture_output=True, text=True, check=False).stdout
 
 
 def flown(master):

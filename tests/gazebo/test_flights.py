@@ -1,6 +1,5 @@
 """Whole flights in Gazebo beside the compiled engine: the same pilot, bodies that share no equation."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -12,16 +11,11 @@ from patience import ended, said, until
 import tandemlift as tl
 from tandemlift.engines import gazebo
 
+from .conftest import WINDY, runs
+
 pytestmark = pytest.mark.gazebo
 DT = 1e-3
 HALF_MINUTE = {"mission.duration": 30.0, "mission.log_interval": DT}
-WINDY = {
-    "wind.model": "air",
-    "wind.velocity": [3.0, -2.0, 0.3],
-    "wind.turbulence": 1.0,
-    "disturbance.moment": [0.05, 0.02, 0.01],
-    "plant.mass_scale": 1.1,
-}
 OFF_CENTRE = {"pushes": [{"force": [1.0, 0.5, 0.0], "time": 4.0, "sigma": 0.5, "point": [0.0, 0.8, 0.0]}]}
 
 
@@ -89,14 +83,6 @@ def test_a_flight_that_is_lost_is_told_of_as_in_the_compiled_engine():
     assert b.divergence.time == pytest.approx(a.divergence.time, abs=0.02)
 
 
-def runs(server):
-    """Whether a process is a gzserver that has not ended."""
-    try:
-        return os.readlink(f"/proc/{server}/exe").rpartition("/")[2].startswith("gzserver")
-    except FileNotFoundError:
-        return False
-
-
 def test_a_flight_that_is_killed_takes_its_server_with_it():
     code = (
         "import numpy as np, tandemlift as tl\nfrom tandemlift.engines.gazebo import GazeboBody\n"
@@ -112,8 +98,8 @@ def test_a_flight_that_is_killed_takes_its_server_with_it():
 
 
 def test_a_server_without_the_plugin_is_told_of(monkeypatch):
-    plain = gazebo.world_of
+    plain = gazebo.world_from
     other = ("libtandemlift_", "libtandemlift_not_")
-    monkeypatch.setattr(gazebo, "world_of", lambda *given: plain(*given).replace(*other))
+    monkeypatch.setattr(gazebo, "world_from", lambda *given: plain(*given).replace(*other))
     with pytest.raises(tl.InputError, match=r"needs its plugin .* Failed to load plugin libtandemlift_not_gazebo\.so"):
         tl.fly(tl.load_mission("hover", {"mission.duration": 1.0}), engine="gazebo")

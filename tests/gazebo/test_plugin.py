@@ -53,9 +53,9 @@ def pushed(gazebo, wire, text, steps=600):
 def test_a_vehicle_whose_pilot_is_silent_is_held_for_a_moment_then_falls(gazebo):
     wire = gazebo.wire()
     fly(wire, 10, amplitude=0.0)
-    ended = wire.told.clock[0]
+    ended = wire.answer.clock[0]
     time.sleep(SILENT + 0.8)
-    told = gazebo.wire(place=False).told
+    told = gazebo.wire(place=False).answer
     falling = told.clock[0] - ended - HOLD
     assert falling > 0.1  # s
     assert told.state[5] == pytest.approx(-GRAVITY * falling, abs=2.5 * GRAVITY * gazebo.dt)  # rounded to steps
@@ -148,4 +148,4 @@ def test_a_push_by_topic_is_held_for_its_duration_at_its_point(gazebo):
 def test_a_push_that_cannot_be_read_is_refused_with_its_form(gazebo):
     wire = gazebo.wire()
     assert not pushed(gazebo, wire, "force 1 0", steps=200)[:, -6:].any()
-    assert "say: force FX FY FZ [point X Y Z] [duration S]" in gazebo.server.said()
+    assert "say: force FX FY FZ [point X Y Z] [duration S]" in gazebo.server.last_output()

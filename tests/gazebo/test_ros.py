@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from patience import ended, said, until
+from repository import ROOT as REPOSITORY
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Quat
@@ -24,7 +25,7 @@ from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from .conftest import SILENT_OVER_ROS, fly
 
 pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore")]  # rospy is of another age
-DOCS = Path(__file__).parents[2] / "docs/gazebo.md"
+DOCS = REPOSITORY / "docs/gazebo.md"
 FIND = "import sys, threading; sys.path += sys.argv[1:]; threading.Thread.isAlive = threading.Thread.is_alive\n"
 PILOT = """
 from tandemlift.engines.gazebo_ros import RosWire
@@ -174,7 +175,7 @@ def test_a_pilot_of_ten_lines_flies_in_lock_step(over_ros, another, listen):
 def test_a_second_pilot_is_not_heard_until_it_says_that_it_leads(over_ros, another):
     sound, wire = fly(over_ros.wire(), 300), over_ros.wire()
     another(plain_pilot())
-    until(lambda: (wire.keep(), "/plain_pilot is not heard" in over_ros.server.said())[1])
+    until(lambda: (wire.keep_alive(), "/plain_pilot is not heard" in over_ros.server.last_output())[1])
     assert np.array_equal(fly(wire, 300), sound)
     over_ros.ros("rostopic", "pub", "-1", f"{ROOT}/lead", "std_msgs/Empty")
     with pytest.raises(ConnectionError, match="the session is over: another pilot leads"):
@@ -205,10 +206,10 @@ def test_a_message_that_is_not_sound_moves_nothing_and_says_why(over_ros, change
     said = rotors_of(wire, 1.0, wire._at)
     change(said)
     other.publish(said)
-    until(lambda: why in over_ros.server.said())
+    until(lambda: why in over_ros.server.last_output())
     other.unregister()
     wire.hello(over_ros.dt, [])
-    np.testing.assert_array_equal(wire.told.state, told[:13])
+    np.testing.assert_array_equal(wire.answer.state, told[:13])
 
 
 def test_a_push_by_topic_is_held_for_a_second_or_until_the_next(over_ros):

@@ -13,8 +13,7 @@ import tandemlift as tl
 from tandemlift.engines.gazebo_ros import over_ros
 from tandemlift.engines.gazebo_server import root
 
-from .conftest import SILENT_OVER_ROS, Gazebo, rest_and_fly
-from .test_flights import WINDY, runs
+from .conftest import SILENT_OVER_ROS, WINDY, Gazebo, rest_and_fly, runs
 
 pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore")]  # rospy is of another age
 

@@ -8,7 +8,7 @@ import pytest
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.engines.gazebo_server import command, in_gazebo, root
+from tandemlift.engines.gazebo_server import root, shell_command, with_gazebo_environment
 from tandemlift.export.write import export
 
 pytestmark = pytest.mark.gazebo
@@ -24,8 +24,8 @@ def folder():
 
 
 def check(seen):
-    script = in_gazebo("http://127.0.0.1:1", f"gz sdf -k {seen} 2>&1")
-    return completed(command(root(), script), capture_output=True, text=True, check=False).stdout
+    script = with_gazebo_environment("http://127.0.0.1:1", f"gz sdf -k {seen} 2>&1")
+    return completed(shell_command(root(), script), capture_output=True, text=True, check=False).stdout
 
 
 @pytest.mark.parametrize("name", ["paper", "four", "heavy-payload", "zigzag"])

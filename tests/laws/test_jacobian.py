@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from law_values import flat, rebuilt
 
 import tandemlift as tl
 from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.loop.step import step_flight
 from tandemlift.simulation.assemble import assemble
-
-from .helpers import flat, rebuilt
 
 SETTINGS: dict[str, tuple[str, dict[str, Any]]] = {
     "paper": ("paper", {}),

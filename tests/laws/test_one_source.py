@@ -7,14 +7,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from law_values import flat, rebuilt
+from machine_code import answers
 
 import tandemlift as tl
 from tandemlift.loop.step import FlightModel, StepInputs, step_flight
 from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import leaves
-
-from .helpers import flat, rebuilt
-from .machine_code import answers
 
 IDEAL: dict[str, dict[str, Any]] = {
     "tanh, hard gate, zero derivatives, exact rates, exact tilt, cubic, diagonal inertia, central pushes": {},

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from law_values import flat, rebuilt, record
+from machine_code import answers
 
 from tandemlift.algebra.ops import power
 from tandemlift.algebra.vector import (
@@ -32,9 +34,6 @@ from tandemlift.laws.mechanics.push import PointPush
 from tandemlift.laws.mechanics.rectangle import Wall
 from tandemlift.laws.rotors import allocation, dynamics, thrust_limits
 from tandemlift.laws.signals import low_pass, trajectories
-
-from .helpers import flat, rebuilt, record
-from .machine_code import answers
 
 V = Vec3(0.0, 0.0, 0.0)
 M = Mat3(V, V, V)

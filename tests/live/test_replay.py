@@ -26,8 +26,8 @@ from tandemlift.live import page_files as pages
 from tandemlift.live.page_files import page_files
 from tandemlift.live.replay import replay_files, replay_html, scene_and_frames
 from tandemlift.live.server import PageServer
+from tandemlift.live.session.scene_builder import scene_of
 from tandemlift.live.wire.frames import layout_for, read_frames
-from tandemlift.live.wire.scene_builder import alarm_names, scene_of
 
 
 @pytest.fixture(scope="module")
@@ -128,7 +128,7 @@ def test_what_a_pilot_by_hand_shows_is_shown(flight):
     more = {
         "phase": np.full(n, 3.0),
         "alarm": np.full(n, 41.0),
-        "push_heard": np.full((n, 3), 0.5),
+        "push_filtered": np.full((n, 3), 0.5),
         "disturbance_force": np.full((n, 3), 0.25),
         "wind_velocity": np.full((n, 3), 2.0),
     }
@@ -203,11 +203,6 @@ def test_every_kind_of_mission_has_a_scene(name):
     scene = scene_of(tl.load_mission(name), "compiled")
     json.dumps(scene, allow_nan=False)
     assert scene["fields"] == list(layout_for(4 * len(scene["vehicle"]["quadrotors"])))
-
-
-def test_an_alarm_is_named_at_its_number():
-    names = alarm_names()
-    assert (names[0], names[10], names[41], names[190]) == ("", "unit stale", "gyroscope frozen", "rotor lost")
 
 
 # Pages

@@ -10,7 +10,7 @@ import pytest
 import tomli_w
 from hypothesis import given
 from hypothesis import strategies as st
-from schema import EVERYTHING, SCHEMA
+from mission_schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
 from tandemlift.cli.run import parse_setting

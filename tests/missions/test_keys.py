@@ -9,7 +9,8 @@ from typing import Literal, get_args, get_origin
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from schema import EVERYTHING, SCHEMA
+from mission_schema import EVERYTHING, SCHEMA
+from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.cli.main import cli
@@ -23,7 +24,6 @@ from tandemlift.missions.surroundings_checks import standing_of
 from tandemlift.missions.values import value_at
 from tandemlift.settings import Mission
 
-ROOT = Path(__file__).parents[2]
 LEVEL = {"initial.euler": 0.0, "ground.model": "floor"}
 KEYS = [key for s in sections() if is_of_the_package(s.controller) for key in s.keys]
 TEMPLATE = template_text()

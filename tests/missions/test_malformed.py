@@ -5,8 +5,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 import tomli_w
 from malformed import CASES, QUADROTOR
+from mission_schema import EVERYTHING
 from patience import completed
-from schema import EVERYTHING
 
 import tandemlift as tl
 from tandemlift.missions import built_in, load_mission, tables_of

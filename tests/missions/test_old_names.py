@@ -3,21 +3,20 @@
 import sys
 import tomllib
 import warnings
-from pathlib import Path
 
 import pytest
 import tomli_w
 from click.testing import CliRunner
+from mission_schema import SCHEMA
 from patience import completed
-from schema import SCHEMA
+from repository import SUPPORT
 
 import tandemlift as tl
 from tandemlift.cli.main import cli
 from tandemlift.flight.old_names import KEYS, VALUES, renamed_key, renamed_tables
 from tandemlift.missions import built_in, load_mission, tables_of
 
-HERE = Path(__file__).parent
-OF_E5ECFDC = HERE / "names_of_e5ecfdc.toml"
+OF_E5ECFDC = SUPPORT / "names_of_e5ecfdc.toml"
 TANDEMLIFT = (sys.executable, "-m", "tandemlift")
 PROMISED = """
 mission.name mission.duration mission.step mission.log_interval mission.seed

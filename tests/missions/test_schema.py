@@ -7,8 +7,8 @@ import tomllib
 import pytest
 from click.testing import CliRunner
 from jsonschema import Draft7Validator
+from mission_schema import EVERYTHING, SCHEMA
 from pydantic import ValidationError
-from schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
 from tandemlift.cli.main import cli

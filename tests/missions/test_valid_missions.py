@@ -6,8 +6,8 @@ import warnings
 import numpy as np
 import pytest
 import tomli_w
+from mission_schema import EVERYTHING, SCHEMA
 from patience import completed
-from schema import EVERYTHING, SCHEMA
 
 import tandemlift as tl
 from tandemlift.missions import DATA, built_in, format_toml, load_mission, merge, tables_of, to_toml

@@ -12,7 +12,8 @@ from xmlrpc.client import ServerProxy
 import numpy as np
 import pytest
 from patience import completed, ended
-from processes import node, started
+from repository import SUPPORT
+from ros_processes import node, started
 
 import tandemlift as tl
 from tandemlift.cli.main import main
@@ -20,7 +21,6 @@ from tandemlift.export.reading import read_bag
 from tandemlift.flight.record import Flight
 
 pytestmark = pytest.mark.ros
-HERE = Path(__file__).parent
 
 
 def free_port():
@@ -65,11 +65,11 @@ def tried(surroundings, program):
     flying = node(log, "--save", str(saved), environment=environment)
     try:
         recorder = started(program("rosbag"), "record", "-a", "-O", str(bag), log=folder / "bag.log", env=environment)
-        told = output(*python, str(HERE / "ros1_client.py"))
+        told = output(*python, str(SUPPORT / "ros1_client.py"))
         ended(recorder)
     finally:
         assert ended(flying) == 0, log.read_text("utf-8")
-    lines = map(json.loads, output(*python, str(HERE.parent / "messages_as_numbers.py"), str(bag)).splitlines())
+    lines = map(json.loads, output(*python, str(SUPPORT / "messages_as_numbers.py"), str(bag)).splitlines())
     odometry = [leaves for topic, _, _, leaves in lines if topic == "/tandemlift/odometry"]
     info = output(program("rosbag"), "info", "-y", str(bag))
     with ServerProxy(environment["ROS_MASTER_URI"]) as master:

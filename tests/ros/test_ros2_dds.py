@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from exported import flight_of
 from patience import completed, ended
-from processes import node
+from repository import SUPPORT
+from ros_processes import node
 from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
 
@@ -16,11 +17,11 @@ from tandemlift.flight.record import Flight
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed")
 
-from tandemlift.export.frames import vehicle_of
 from tandemlift.export.messages import MessageTypes, maker_of, modern
 from tandemlift.export.topics import topics_of
 from tandemlift.ros.dds_types import DdsTypes
 from tandemlift.ros.ros2 import _domain, _value
+from tandemlift.vehicle import Vehicle
 
 pytestmark = pytest.mark.ros
 COUNT = 300
@@ -77,7 +78,7 @@ def test_what_is_on_the_wire_is_what_another_reader_of_cdr_reads(types, kind):
 def test_every_topic_of_a_flight_can_be_put_on_the_wire(types):
     flight, store = flight_of("iris"), get_typestore(Stores.ROS2_HUMBLE)
     bag = MessageTypes(lambda name: store.types[modern(name)], numbered=False, numbers=np.array)
-    for topic in topics_of(flight, vehicle_of(flight)):
+    for topic in topics_of(flight, Vehicle.from_mission(flight.mission)):
         row = topic.rows[7].tolist()
         message, other = (maker_of(one, topic)(5, row) for one in (types, bag))
         wire = message.serialize(use_version_2=False)
@@ -116,7 +117,7 @@ then request lift then request dance then set admittance.mass 4 then request lan
 @pytest.fixture(scope="module")
 def peer(tmp_path_factory, program):
     """The program of a Fast DDS user."""
-    made, source = tmp_path_factory.mktemp("peer") / "peer", Path(__file__).parent / "dds_peer.cpp"
+    made, source = tmp_path_factory.mktemp("peer") / "peer", SUPPORT / "dds_peer.cpp"
     compiler = program("g++")
     if not Path("/usr/include/fastdds").is_dir():
         pytest.skip("libfastrtps-dev and libfastcdr-dev are not installed")

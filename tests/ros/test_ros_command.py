@@ -13,13 +13,14 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from patience import completed
+from repository import ROOT
 
 from tandemlift.cli.main import cli, main
 from tandemlift.common.errors import InputError
 from tandemlift.live.session.pacing import MOST_BEHIND
-from tandemlift.ros.clock import Clock
 from tandemlift.ros.dds_types import PACKAGES
-from tandemlift.ros.package import folder
+from tandemlift.ros.ros1 import folder
+from tandemlift.ros.sample_queue import Clock
 
 
 @pytest.mark.parametrize(
@@ -58,8 +59,8 @@ def test_rviz_shows_topics_that_there_are(trial):
 
 
 def test_the_document_names_every_topic_request_and_parameter(trial):
-    text = (Path(__file__).parents[2] / "docs" / "ros.md").read_text("utf-8")
-    bags = (Path(__file__).parents[2] / "docs" / "export.md").read_text("utf-8")
+    text = (ROOT / "docs" / "ros.md").read_text("utf-8")
+    bags = (ROOT / "docs" / "export.md").read_text("utf-8")
     for topic in trial.middleware.kinds:
         name = re.sub(r"joint_\d", "joint_N", topic.removeprefix("/tandemlift/"))
         assert f"`{topic}`" in text or f"`{name}`" in bags, topic
@@ -75,7 +76,7 @@ def test_the_document_names_every_topic_request_and_parameter(trial):
 def python(code, path, *folders):
     """What a Python prints that looks for rospy in these folders."""
     code = f"import tandemlift.engines.rospy as noetic\nnoetic.FOLDERS = {tuple(map(str, folders))}\n{code}"
-    source = str(Path(__file__).parents[2] / "src")
+    source = str(ROOT / "src")
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([source, *map(str, path)])}
     return completed([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
 
@@ -202,7 +203,7 @@ def test_a_ros_1_that_does_not_run_is_told_with_the_other_if_nobody_asked_for_it
 
 
 def test_the_extra_installs_what_ros_2_needs():
-    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text("utf-8"))["project"]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     extra = [re.match(r"[\w-]+", requirement)[0] for requirement in project["optional-dependencies"]["ros2"]]
     assert sorted(extra) == sorted(PACKAGES)
 

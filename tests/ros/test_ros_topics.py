@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.export import topics
 from tandemlift.export.frames import fixed
-from tandemlift.live.wire.scene_builder import scene_of
+from tandemlift.live.session.scene_builder import scene_of
 from tandemlift.missions import load_mission
 from tandemlift.ros.scenery import still
 from tandemlift.vehicle import Vehicle

@@ -6,7 +6,7 @@ import socket
 import numpy as np
 import pytest
 from patience import ended, until
-from processes import node, started
+from ros_processes import node, started
 from screen import Screen
 
 pytestmark = pytest.mark.ros

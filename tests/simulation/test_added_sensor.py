@@ -15,7 +15,7 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.vector import Nothing, Vec3
 from tandemlift.common.errors import InputError
 from tandemlift.common.sensors import DEVICES, SENSORS, additional, sensors_on
-from tandemlift.flight.record import CHANNELS
+from tandemlift.flight.channels import CHANNELS
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
 from tandemlift.laws.sensors.health import PerSensor

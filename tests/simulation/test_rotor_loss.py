@@ -24,8 +24,8 @@ def test_it_is_named_rightly_and_once_within_100_ms(flown):
     m = flight.metrics()
     assert m["rotors_taken_for_lost"] == 1.0
     assert 0.0 < m["rotor_loss_found_after_s"] < 0.1
-    assert set(flight["rotor_lost"]) == {0.0, float(number)}
-    named = flight.time[np.argmax(flight["rotor_lost"] > 0.0)]
+    assert set(flight["failed_rotor"]) == {0.0, float(number)}
+    named = flight.time[np.argmax(flight["failed_rotor"] > 0.0)]
     assert named == pytest.approx(TIME + m["rotor_loss_found_after_s"], abs=0.003)
 
 

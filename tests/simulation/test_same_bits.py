@@ -6,6 +6,7 @@ lane. Two lanes are thrown over, one after the other, and the rest fly on.
 
 import numpy as np
 import pytest
+from flights import LOST, different, lanes
 
 import tandemlift as tl
 from tandemlift.kernels import LANES
@@ -14,41 +15,6 @@ from tandemlift.simulation.fly import _jobs
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import flight_of
 from tandemlift.simulation.stepping import fly_stepwise
-
-LOST = {5: 60.0, 7: -90.0}  # lanes, and what throws them over [N m]
-IDEAL = 1000.0  # times as much is needed, where thrusts have no limit
-
-
-def lanes(name, **changes):
-    """Eight variations on a mission: short, in the air early, each with its own troubles."""
-    mission = tl.load_mission(name)
-    short = {"mission.duration": 2.5, "mission.log_interval": 0.005, "phases.lift_start": 0.1}
-    made = []
-    for i in range(LANES):
-        own = {**short, **changes, "mission.seed": i, "plant.mass_scale": 1.0 + 0.01 * i}
-        if mission.ground.model != "floor":
-            own["initial.position"] = [0.05 * i, -0.3, 0.01 * i]
-        if mission.person.model == "none":
-            own["pushes"] = [{"force": [1.0 + 0.2 * j, 0.0, 0.5], "time": 0.5 + j, "sigma": 0.2} for j in range(i % 4)]
-        if mission.actuators.model == "rotors":
-            own["faults"] = [{"quadrotor": 1, "rotor": i % 4 + 1, "time": 0.4 + 0.25 * i if i != 1 else 50.0}]
-        if i in LOST:
-            size = LOST[i] * (1.0 if mission.actuators.model == "rotors" else IDEAL)
-            own["disturbance.moment"] = [size, 0.0, 0.0]
-        made.append(tl.load_mission(name, own))
-    return made
-
-
-def different(a, b):
-    """In what two flights differ, apart from the time they took."""
-    metrics = [{k: v for k, v in f.metrics().items() if k != "wall_s"} for f in (a, b)]
-    found = [key for key in metrics[0].keys() | metrics[1].keys() if metrics[0].get(key) != metrics[1].get(key)]
-    found += [n for n in sorted({*a, *b}) if n not in a or n not in b or a[n].tobytes() != b[n].tobytes()]
-    return (
-        found
-        + ["divergence"] * (str(a.divergence) != str(b.divergence))
-        + ["time"] * (not np.array_equal(a.time, b.time))
-    )
 
 
 def step_by_step(mission):

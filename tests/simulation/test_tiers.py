@@ -4,8 +4,8 @@ import threading
 
 import numpy as np
 import pytest
+from flights import different, lanes
 from patience import COMPILING
-from test_same_bits import different, lanes
 
 import tandemlift as tl
 from tandemlift.kernels import LANES, FlightMemory

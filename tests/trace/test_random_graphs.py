@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import ctypes
-import math
 import operator
 import random
-import struct
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
-from exact import EXACT
+from exact_functions import EXACT
+from odd_numbers import any_number, bits
 
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import each
@@ -51,7 +50,6 @@ NUMBERS = {"+": 2, "-": 2, "*": 2, "/": 2, "fma": 3, "sqrt": 1, "floor": 1, "abs
 CHOICES = {"minimum": 2, "maximum": 2}
 COMPARED = ["<", "<=", ">", ">=", "==", "!="]
 TRUTHS = {"&": 2, "|": 2, "^": 2, "~": 1}
-ODD = [0.0, -0.0, 1.0, -1.0, 0.5, math.inf, -math.inf, math.nan, 5e-324, -2.2250738585072014e-308, 1.797e308]
 
 
 class Program:
@@ -150,20 +148,6 @@ def symbol(graph: Graph) -> Callable[[Any], Symbol]:
     return lambda x: (
         x if isinstance(x, Symbol) else Symbol(graph, graph.constant(x), "b" if isinstance(x, bool) else "f")
     )
-
-
-def any_number(chance: random.Random) -> float:
-    kind = chance.random()
-    if kind < 0.1:
-        return chance.choice(ODD)
-    if kind < 0.2:
-        return struct.unpack("<d", chance.randbytes(8))[0]
-    return chance.choice([-1.0, 1.0]) * chance.uniform(1.0, 2.0) * 2.0 ** chance.choice([-40, -2, -1, 0, 0, 1, 2, 30])
-
-
-def bits(values: np.ndarray) -> np.ndarray:
-    """Numbers as integers; all that are none alike."""
-    return np.where(np.isnan(values), np.nan, values).view(np.int64)
 
 
 @pytest.mark.parametrize("seed", range(30))

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from patience import completed
+from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.algebra.law import LAWS, law
@@ -15,7 +16,7 @@ from tandemlift.controllers import CONTROLLERS, load_controller
 from tandemlift.trace import TraceError, graph
 from tandemlift.trace.functions import compiled, written
 
-GUIDE = (Path(__file__).parents[2] / "docs" / "controllers.md").read_text("utf-8")
+GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
 LAW, _ = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
 HERE = "    attitude = euler_from_quaternion(state.attitude)\n"
 LINE = LAW[: LAW.index(HERE)].count("\n") + 1

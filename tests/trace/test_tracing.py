@@ -7,12 +7,12 @@ import random
 
 import numpy as np
 import pytest
-from exact import once, rounded
+from exact_functions import once, rounded
 from hypothesis import given
 from hypothesis import strategies as st
-from test_random_graphs import any_number, bits
+from odd_numbers import any_number, bits
 
-from tandemlift.algebra.law import Elementwise, choice, elementwise, law
+from tandemlift.algebra.law import Elementwise, Nothing, choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, minimum, where
 from tandemlift.algebra.vector import Vec3, dot
 from tandemlift.trace import Graph, Symbol, elementary, symbols, traced
@@ -205,6 +205,53 @@ def test_elementwise_laws_and_choices_are_fused_as_well():
     assert graph.ops[traced(squared)(x).node] == "fma"
     assert [graph.ops[s.node] for s in traced(squared)(Vec3(x, y, x))] == ["fma"] * 3
     assert graph.ops[traced(chosen)(2.0, x).node] == "fma"
+
+
+@choice(absent=("memory", 2.0, "x"))
+def remembered(gains, memory, x):
+    """(The new memory, a gain, what is seen of x)."""
+
+
+@remembered.register(Vec3)
+def _remembered(gains, memory, x):
+    return memory + dot(gains, gains), gains.x, x * gains.y
+
+
+@choice(absent="x")
+def passed(gains, x):
+    """What is left of x."""
+
+
+def test_a_choice_says_what_stands_for_an_absent_part():
+    assert remembered(Nothing(), 3.0, 5.0) == (3.0, 2.0, 5.0)
+    assert remembered(Vec3(1.0, 2.0, 0.0), 3.0, 5.0) == (8.0, 1.0, 10.0)
+    held = object()
+    assert passed(Nothing(), held) is held
+
+
+def test_an_absent_part_leaves_nothing_in_the_graph():
+    graph = Graph()
+    memory, x = graph.input("x", 0), graph.input("x", 1)
+    before = len(graph.ops)
+    answer = traced(remembered)(Nothing(), memory, x)
+    assert answer[0] is memory
+    assert answer[1] == 2.0
+    assert answer[2] is x
+    assert traced(passed)(Nothing(), x) is x
+    assert len(graph.ops) == before
+
+
+def test_a_choice_that_says_nothing_of_absence_refuses_it():
+    with pytest.raises(TypeError, match=r"chosen\(\) has no law for Nothing; it knows float"):
+        chosen(Nothing(), 1.0)
+
+
+def test_a_choice_can_only_return_arguments_that_it_has():
+    with pytest.raises(TypeError, match=r"blurred\(\) has no argument 'y'; it has gains, x"):
+
+        @choice(absent=(0.0, "y"))
+        def blurred(gains, x):
+            """Of no arguments y."""
 
 
 @given(ANY, ANY, ANY)

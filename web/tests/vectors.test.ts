@@ -1,7 +1,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { depthAfterWheel, levelDirections, nearestToRay, meetLevelPlane, meetPlane, type Ray, toWorld, toBody } from "../src/math/vectors.ts";
+import {
+  depthAfterWheel,
+  levelDirections,
+  meetLevelPlane,
+  meetPlane,
+  nearestToRay,
+  type Ray,
+  toBody,
+  toWorld,
+} from "../src/math/vectors.ts";
 import type { Quaternion, Vector } from "../src/wire/messages.generated.ts";
 
 const near = (a: Vector, b: Vector): boolean => a.every((value, i) => Math.abs(value - b[i]) < 1e-9);

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar, overload
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -53,6 +53,27 @@ def elementwise(scalar: Callable[..., Any]) -> Elementwise:
     return Elementwise(law(scalar))
 
 
+class Nothing(NamedTuple):
+    """Stands where a part or its memory is absent; it holds no numbers and costs nothing."""
+
+
+def _without(signature: Callable[..., Any], absent: Any) -> Callable[..., Any]:
+    """The law of a choice for `Nothing`, from what `choice` is told of it."""
+    code = signature.__code__
+    names = code.co_varnames[: code.co_argcount]
+    parts = absent if type(absent) is tuple else (absent,)
+    for part in parts:
+        if isinstance(part, str) and part not in names:
+            raise TypeError(f"{signature.__name__}() has no argument {part!r}; it has {', '.join(names)}")
+    places = [names.index(part) if isinstance(part, str) else None for part in parts]
+
+    def without(*args: Any) -> Any:
+        values = [part if place is None else args[place] for part, place in zip(parts, places, strict=True)]
+        return tuple(values) if type(absent) is tuple else values[0]
+
+    return without
+
+
 class Choice:
     """A law picked by the type of its first argument: `functools.singledispatch` that is also traced.
 
@@ -90,6 +111,35 @@ class Choice:
         return keep
 
 
-def choice(signature: Callable[..., Any]) -> Choice:
-    """Mark an empty function as the common signature of laws that are picked by type."""
-    return Choice(signature)
+REQUIRED = object()
+
+
+@overload
+def choice(signature: Callable[..., Any]) -> Choice: ...
+
+
+@overload
+def choice(*, absent: Any) -> Callable[[Callable[..., Any]], Choice]: ...
+
+
+def choice(signature: Callable[..., Any] | None = None, *, absent: Any = REQUIRED) -> Any:
+    """Mark an empty function as the common signature of laws that are picked by type.
+
+    Args:
+        signature: the function: its arguments, and what the laws return.
+        absent: what is returned where the first argument is `Nothing`: the name of an argument, a value, or a tuple of
+            names and values. Without it, `Nothing` is refused unless a law is registered for it.
+
+    Raises:
+        TypeError: `absent` names an argument that the function does not have.
+    """
+    if signature is None:
+        return functools.partial(_choice, absent=absent)
+    return _choice(signature, absent)
+
+
+def _choice(signature: Callable[..., Any], absent: Any) -> Choice:
+    made = Choice(signature)
+    if absent is not REQUIRED:
+        made.register(Nothing)(_without(signature, absent))
+    return made

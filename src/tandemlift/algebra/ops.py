@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.types import Number
 
 _NAMES = {  # ours: (NumPy and jax.numpy, CasADi)
     "sqrt": ("sqrt", "sqrt"),
@@ -83,96 +84,96 @@ PRIMITIVES = (_sqrt, _sin, _cos, _atan2, _tanh, _exp, _log, _absolute, _minimum,
 
 
 @elementwise
-def sqrt(x):
+def sqrt(x: Number) -> Number:
     """√x; NaN below 0."""
     return _sqrt(x)
 
 
 @elementwise
-def sin(x):
+def sin(x: Number) -> Number:
     """sin x, x in rad (compiled: |x| < 1e5)."""
     return _sin(x)
 
 
 @elementwise
-def cos(x):
+def cos(x: Number) -> Number:
     """cos x, x in rad (compiled: |x| < 1e5)."""
     return _cos(x)
 
 
 @elementwise
-def atan2(y, x):
+def atan2(y: Number, x: Number) -> Number:
     """The angle of the point (x, y) in [−π, π]; odd in y (compiled: −0 is taken as 0)."""
     return _atan2(y, x)
 
 
 @elementwise
-def atan_ratio(n, d):
+def atan_ratio(n: Number, d: Number) -> Number:
     """atan(n/d) in [−π/2, π/2], without the division: ±π/2 at d = 0."""
     return _atan2(where(d < 0.0, -n, n), absolute(d))
 
 
 @elementwise
-def tanh(x):
+def tanh(x: Number) -> Number:
     """tanh x."""
     return _tanh(x)
 
 
 @elementwise
-def exp(x):
+def exp(x: Number) -> Number:
     """eˣ, with x held below 709 (compiled: and above −708)."""
     return _exp(x)
 
 
 @elementwise
-def log(x):
+def log(x: Number) -> Number:
     """Natural logarithm of x > 0 (compiled: of normal numbers)."""
     return _log(x)
 
 
 @elementwise
-def absolute(x):
+def absolute(x: Number) -> Number:
     """|x|."""
     return _absolute(x)
 
 
 @elementwise
-def minimum(a, b):
+def minimum(a: Number, b: Number) -> Number:
     """The smaller of a and b."""
     return _minimum(a, b)
 
 
 @elementwise
-def maximum(a, b):
+def maximum(a: Number, b: Number) -> Number:
     """The larger of a and b."""
     return _maximum(a, b)
 
 
 @law
-def least(values):
+def least(values: Any) -> Number:
     """The smallest of the values of a set."""
     return functools.reduce(minimum, values)
 
 
 @law
-def greatest(values):
+def greatest(values: Any) -> Number:
     """The largest of the values of a set."""
     return functools.reduce(maximum, values)
 
 
 @elementwise
-def where(condition, a, b):
+def where(condition: Number, a: Number, b: Number) -> Number:
     """a where the condition holds, else b. Both are evaluated."""
     return _where(condition, a, b)
 
 
 @elementwise
-def clip(x, low, high):
+def clip(x: Number, low: Number, high: Number) -> Number:
     """x held within [low, high]."""
     return _minimum(_maximum(x, low), high)
 
 
 @elementwise
-def power(x, p):
+def power(x: Number, p: Number) -> Number:
     """xᵖ for x ≥ 0, p ≥ 0, with 0⁰ = 1 (0ᵖ is 1e-300ᵖ; compiled, at least 3e-308)."""
     return _exp(p * _log(_maximum(x, 1e-300)))

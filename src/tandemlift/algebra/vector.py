@@ -11,6 +11,7 @@ import operator
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
+from tandemlift.algebra.law import Nothing as Nothing
 from tandemlift.algebra.law import law
 
 C = TypeVar("C", bound=type)
@@ -160,10 +161,6 @@ class Mat3(NamedTuple):
 
 
 ZERO = Vec3(0.0, 0.0, 0.0)
-
-
-class Nothing(NamedTuple):
-    """Stands where a part or its memory is absent; it holds no numbers and costs nothing."""
 
 
 def layout(value: Any) -> Any:

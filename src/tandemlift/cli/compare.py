@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.notices import compile_notices
-from tandemlift.cli.results import bar, results_in
-from tandemlift.cli.run import DIVERGED, chosen_controller, echo, load, parse_setting
+from tandemlift.cli.console import compile_notices, echo, progress_bar
+from tandemlift.cli.results import results_folder
+from tandemlift.cli.run import DIVERGED, chosen_controller, engine_option, load, parse_setting, set_option
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
 
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
     from tandemlift.studies.controller_comparison import Entrant, Entry, ScoredPart
 
 FILES = ("compare.html", "compare.json")
-OF_ENGINES = ("engines.html", "engines.json")
+ENGINE_FILES = ("engines.html", "engines.json")
 
 
 @click.command()
 @click.argument("mission")
-@click.option("--controllers", metavar="A,B,…", help="Names, or your .py files.  [default: all that are registered]")
-@click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
-@click.option("--engines", metavar="A,B,…", help="Instead of controllers: the same flight in several engines.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of the mission, as in run.")
+@click.option("--controllers", metavar="A,B,…", help="Controllers: names, or your .py files.  [default: all]")
+@engine_option
+@click.option("--engines", metavar="A,B,…", help="Compare engines instead: fly the mission once in each.")
+@set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
 def compare(
     mission: str,
@@ -42,8 +42,8 @@ def compare(
 ) -> None:
     """Fly MISSION with several controllers, or in several engines, print a table and write a page.
 
-    Every controller flies with its own defaults, and the mission's own with the mission's settings. A change of a
-    `controller` key by --set is for the mission's own controller alone.
+    The mission's own controller flies with the mission's settings, every other one with its defaults. Keys of
+    `controller` given by --set apply to the mission's own controller only.
 
     \b
     Examples:
@@ -53,21 +53,21 @@ def compare(
       tandemlift compare zigzag --engines compiled,mujoco,gazebo
 
     \b
-    Written to the folder, replacing only files of these names:
-      compare.html   table, errors and thrusts on one page, needs no network
-      compare.json   the same in numbers, with all metrics and settings, SI units
-      engines.html   of engines: the flights over each other, and how far they are from the first
-      engines.json   the same in numbers, SI units
+    Files in the results folder (other files there are left alone):
+      compare.html   table, errors and thrusts on one page that needs no network
+      compare.json   the same as numbers in SI units, with all metrics and settings
+      engines.html   with --engines: the flights, and their differences from the first
+      engines.json   with --engines: the same as numbers in SI units
 
     \b
     Exit code:
-      0   flown
+      0   all flights were flown
       2   bad input: one message, nothing is written
-      3   a flight diverged: its row says when and why, everything is written
+      3   a flight diverged: its row says when and why; everything is written
     """
     if engines is not None:
         if controllers is not None:
-            raise InputError("--engines, --controllers: give one of them")
+            raise InputError("--engines, --controllers: give only one of them")
         _compare_engines(mission, _names("--engines", engines, "compiled,mujoco"), settings, out)
         return
     from tandemlift.engines.registry import engine_named
@@ -77,7 +77,7 @@ def compare(
     changes = dict(map(parse_setting, settings))
     entered = entrants(mission, changes, _chosen(controllers))
     name = next(e.mission.mission.name for e in entered if e.mission)
-    with results_in(out, Path("out") / name, FILES) as folder:
+    with results_folder(out, Path("out") / name, FILES) as folder:
         entries = _fly(entered, engine)
         _print_tables(name, entries)
         _write(entries, folder, name, engine)
@@ -90,10 +90,10 @@ def compare(
 
 
 def _chosen(given: str | None) -> list[Controller] | None:
-    """The controllers of a list with commas, each once; None for all.
+    """The controllers of a comma-separated list, without repetition; None for all.
 
     Raises:
-        InputError: the list is empty, or one of them is not known.
+        InputError: the list is empty, or a controller is unknown.
     """
     if given is None:
         return None
@@ -101,14 +101,14 @@ def _chosen(given: str | None) -> list[Controller] | None:
 
 
 def _names(option: str, given: str, example: str) -> list[str]:
-    """The names of a list with commas, each once.
+    """The names of a comma-separated list, without repetition.
 
     Raises:
         InputError: the list is empty.
     """
     names = list(dict.fromkeys(part.strip() for part in given.split(",") if part.strip()))
     if not names:
-        raise InputError(f"{option}: must be names with commas between them, such as {example}")
+        raise InputError(f"{option}: must be a comma-separated list of names, such as {example}")
     return names
 
 
@@ -116,12 +116,12 @@ def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
     from tandemlift.studies.controller_comparison import compare
 
     count = sum(e.mission is not None for e in entered)
-    with compile_notices.together(), bar("Flying", count, shown=sys.stderr.isatty()) as progress:
+    with compile_notices.together(), progress_bar("Flying", count, shown=sys.stderr.isatty()) as progress:
         return compare(entered, engine, progress)
 
 
-HEADS = ("RMSE x", "y", "z (mm)", "most (mm)", "effort (N m)")
-OF_A_FLIGHT = ("saturated (%)", "ns/step")
+HEADS = ("RMSE x", "y", "z (mm)", "max (mm)", "effort (N m)")
+FLIGHT_HEADS = ("saturated (%)", "ns/step")
 
 
 def _printed(value: float | None, scale: float, digits: int) -> str:
@@ -138,7 +138,7 @@ def _scores(flight: Flight, part: ScoredPart) -> list[str]:
 
 
 def _run(flight: Flight) -> list[str]:
-    """The cells of `OF_A_FLIGHT`."""
+    """The cells of `FLIGHT_HEADS`."""
     from tandemlift.studies.controller_comparison import run_of
 
     found = run_of(flight)
@@ -146,7 +146,7 @@ def _run(flight: Flight) -> list[str]:
 
 
 def _print_rows(heads: Sequence[str], rows: Sequence[tuple[str, list[str], str]]) -> None:
-    """Print a table: rows of a name, its cells, and what is to be said under them."""
+    """Print a table whose rows are a name, cells, and a note for the line below (or an empty one)."""
     width = max(len(name) for name, _, _ in rows) + 2
     echo("  " + " " * width + "  ".join(head.rjust(max(9, len(head))) for head in heads))
     for name, cells, note in rows:
@@ -157,7 +157,7 @@ def _print_rows(heads: Sequence[str], rows: Sequence[tuple[str, list[str], str]]
 
 
 def _print_tables(name: str, entries: Sequence[Entry]) -> None:
-    """Print a table for each part of the mission; in the first also how each flight ended, or why there was none."""
+    """Print a table for each part of the mission; the first also says which flights diverged or were refused."""
     from tandemlift.studies.controller_comparison import moving_axes, parts_of
 
     flights = {e.name: e.flight for e in entries if e.flight}
@@ -170,7 +170,7 @@ def _print_tables(name: str, entries: Sequence[Entry]) -> None:
         else:
             rows.append((entry.name, [], f"not flown: {entry.refusal}"))
     echo(f"{name}: position errors {counts.words}")
-    _print_rows((*HEADS, *OF_A_FLIGHT), rows)
+    _print_rows((*HEADS, *FLIGHT_HEADS), rows)
     for part in others:
         if any(moving_axes(flights.values(), part)):
             echo(f"{name}: position errors {part.words}")
@@ -194,13 +194,13 @@ def _write_json(found: Any, path: Path) -> None:
 
 
 def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], out: str | None) -> None:
-    """Fly a mission in several engines, print how far they are apart, and write the page."""
+    """Fly a mission in several engines, print their differences and write the page."""
     from tandemlift.report.engine_comparison import write_engines
     from tandemlift.studies.engine_comparison import fly_in, summary_of
 
     loaded = load(mission, settings)
-    with results_in(out, Path("out") / loaded.mission.name, OF_ENGINES) as folder:
-        with compile_notices.together(), bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
+    with results_folder(out, Path("out") / loaded.mission.name, ENGINE_FILES) as folder:
+        with compile_notices.together(), progress_bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
             flights = fly_in(loaded, names, progress)
         found = summary_of(flights)
         _print_differences(loaded.mission.name, found)
@@ -214,7 +214,7 @@ def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], 
 
 
 def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:
-    """Print a row for each engine: how far it is from the first at most, and how fast it was."""
+    """Print a row for each engine: the largest differences from the first engine, and the speed."""
     from tandemlift.studies.engine_comparison import QUANTITIES
 
     shown = [q for q in QUANTITIES if q in found[0]["apart"]]

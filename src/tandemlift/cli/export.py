@@ -1,4 +1,4 @@
-"""`tandemlift export`: a saved flight as a ROS bag or a table, a mission as a model of other simulators."""
+"""`tandemlift export`: a saved flight as a ROS bag or a table, a mission as a model for other simulators."""
 
 from __future__ import annotations
 
@@ -7,29 +7,34 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.console import echo
 from tandemlift.cli.results import flight_file
-from tandemlift.cli.run import echo, parse_setting
+from tandemlift.cli.run import load, set_option
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 
 @click.command()
 @click.argument("flight_or_mission")
 @click.option("--out", metavar="FILE", required=True, help="FILE.mcap, FILE.bag, FILE.csv, FILE.sdf or FILE.xml.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of a mission.")
-@click.option("--plugin", metavar="PORT|ros", help="Of FILE.sdf: with the plugin that pilots fly it through.")
+@set_option
+@click.option(
+    "--plugin",
+    metavar="PORT|ros",
+    help="For FILE.sdf: connect a pilot by a plugin.",
+)
 def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: str | None) -> None:
-    """Write a flight or a mission for other tools; the ending of FILE tells what.
+    """Write a flight or a mission for other tools; the ending of FILE selects the format.
 
     \b
-    Of a flight:             .mcap  ROS 2 bag     .bag  ROS 1 bag     .csv  table
-    Of a flight or mission:  .sdf   Gazebo world  .xml  MuJoCo model
+    A flight:               .mcap  ROS 2 bag     .bag  ROS 1 bag     .csv  table
+    A flight or a mission:  .sdf   Gazebo world  .xml  MuJoCo model
 
-    FLIGHT_OR_MISSION is a saved flight (flight.npz, or the folder that it is in), or a mission. Bags need the package
-    rosbags (pip install 'tandemlift[export]'), MuJoCo models the package mujoco. What is in the files: docs/export.md.
+    FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder) or a mission. Bags need the package rosbags
+    (pip install 'tandemlift[export]'), MuJoCo models the package mujoco. docs/export.md describes the files.
 
     \b
     Examples:
@@ -44,12 +49,10 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
     model = exporting.is_model(path)
     _, saved = flight_file(flight_or_mission)
     if settings and (saved or not model):
-        raise InputError("--set is for a mission that is written to FILE.sdf or FILE.xml; a flight is what it is")
+        raise InputError("--set changes a mission that is written to FILE.sdf or FILE.xml; a flight stays as it was")
     if not saved and not model:
-        raise InputError(
-            f"{flight_or_mission} is no saved flight: give flight.npz, or the folder that a run wrote it to"
-        )
-    what = _flight(saved) if saved else _mission(flight_or_mission, settings)
+        raise InputError(f"{flight_or_mission} is no saved flight: give flight.npz or the folder of a run")
+    what = _flight(saved) if saved else load(flight_or_mission, settings)
     exporting.export(what, path, plugin=int(plugin) if plugin and plugin.isdecimal() else plugin)
     size = path.stat().st_size
     echo(f"{_name(what)}: {path} ({f'{size / 1e3:.0f} kB' if model else f'{size / 1e6:.1f} MB'})")
@@ -59,12 +62,6 @@ def _flight(saved: Path) -> Flight:
     from tandemlift.flight.record import Flight
 
     return Flight.load(saved)
-
-
-def _mission(given: str, settings: tuple[str, ...]) -> Mission:
-    from tandemlift.missions import load_mission
-
-    return load_mission(given, dict(map(parse_setting, settings)))
 
 
 def _name(what: Flight | Mission) -> str:

@@ -1,4 +1,4 @@
-"""`tandemlift gazebo`: a mission in Gazebo, with its window and its cameras."""
+"""`tandemlift gazebo`: fly a mission in Gazebo, with its window and its cameras."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.console import echo, progress_bar
 from tandemlift.cli.live import DEFAULT
-from tandemlift.cli.results import bar, keep_recording, results_in, write_results
-from tandemlift.cli.run import DIVERGED, echo, load, say_report, summarise
+from tandemlift.cli.results import copy_recording, results_folder, write_flight
+from tandemlift.cli.run import DIVERGED, load, print_report_path, print_summary, set_option
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
@@ -22,18 +23,20 @@ if TYPE_CHECKING:
 
     from tandemlift.flight.record import Flight
     from tandemlift.gazebo_app.flying import GazeboSession, Photo
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 
 @click.command()
 @click.argument("mission", default=DEFAULT)
-@click.option("--by-hand", is_flag=True, help="Leave its pushes and its person out: you push, on Gazebo's topic.")
-@click.option("--fast", is_flag=True, help="As fast as it can, not in real time.")
-@click.option("--no-window", is_flag=True, help="Without Gazebo's window; there is none without a display either.")
-@click.option("--pictures", is_flag=True, help="Four views by Gazebo's own cameras, as in the paper's Figure 9.")
+@click.option("--by-hand", is_flag=True, help="Leave out the mission's pushes and person: you push, by a Gazebo topic.")
+@click.option("--fast", is_flag=True, help="Fly as fast as possible instead of in real time.")
+@click.option("--no-window", is_flag=True, help="Do not open Gazebo's window. Without a display, no window opens.")
+@click.option(
+    "--pictures", is_flag=True, help="Take four photographs with Gazebo's cameras, as in the paper's Figure 9."
+)
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/gazebo/NAME]")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of the mission, as in run.")
-@click.option("--no-figures", is_flag=True, help="Leave the figures out.")
+@set_option
+@click.option("--no-figures", is_flag=True, help="Draw no figures.")
 def gazebo(
     mission: str,
     by_hand: bool,
@@ -44,12 +47,12 @@ def gazebo(
     settings: tuple[str, ...],
     no_figures: bool,
 ) -> None:
-    """Fly MISSION in Gazebo 11: server, window, world and pilot at once.
+    """Fly MISSION in Gazebo 11: start the server, the window, the world and the pilot.
 
-    MISSION is the name of a built-in mission (see `tandemlift missions`) or the path of a .toml file; zigzag, the
-    paper's corridor, if none is given. Gazebo must be installed, or be in a root that tools/gazebo-root made, which
-    TANDEMLIFT_GAZEBO_ROOT names. How to push is printed. Written is the same as by `tandemlift run`; a flight by hand
-    ends by Ctrl-C, and is written too.
+    MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
+    paper's corridor. Gazebo must be installed on this system, or in a root made by tools/gazebo-root whose path is in
+    TANDEMLIFT_GAZEBO_ROOT. The command prints how to push, and writes the same files as `tandemlift run`. Ctrl-C ends
+    a flight with --by-hand, which is written as well.
 
     \b
     Examples:
@@ -59,27 +62,29 @@ def gazebo(
 
     \b
     Exit code:
-      0   flown
+      0   the flight was flown
       2   bad input: one message, nothing is written
-      3   diverged: the flight until then is written
+      3   diverged: what was flown until then is written
     """
     if by_hand and (fast or pictures):
         raise InputError(
-            f"--by-hand: is in real time and has no pictures; leave {'--fast' if fast else '--pictures'} out"
+            f"--by-hand flies in real time and takes no pictures: leave out {'--fast' if fast else '--pictures'}"
         )
     from tandemlift.engines.gazebo_server import root
 
     loaded = load(mission, settings)
-    root()  # complains if there is no Gazebo, before anything is compiled
-    with results_in(out, Path("out/gazebo") / loaded.mission.name) as folder:
+    root()  # raises if there is no Gazebo, before anything is compiled
+    with results_folder(out, Path("out/gazebo") / loaded.mission.name) as folder:
         began = time.perf_counter()
         window = not no_window and _has_display()
-        flight, views = _by_hand(loaded, window) if by_hand else _as_it_is(loaded, window, not fast, pictures)
-        summarise(flight)
+        flight, photographs = (
+            _fly_by_hand(loaded, window) if by_hand else _fly_to_end(loaded, window, not fast, pictures)
+        )
+        print_summary(flight)
         if not by_hand:
-            keep_recording(loaded, folder)
-        write_results(flight, folder, figures=not no_figures, views=views)
-        say_report(folder, time.perf_counter() - began)
+            copy_recording(loaded, folder)
+        write_flight(flight, folder, figures=not no_figures, photographs=photographs)
+        print_report_path(folder, time.perf_counter() - began)
     if flight.divergence:
         click.echo(f"{flight.name}: {flight.divergence}", err=True)
         sys.exit(DIVERGED)
@@ -93,44 +98,44 @@ def _has_display() -> bool:
     return has_display()
 
 
-def _as_it_is(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Figure | None]:
-    """Fly a mission to its end; the flight, and its pictures if they are wanted."""
-    from tandemlift.gazebo_app.camera_views import shots_of
-    from tandemlift.gazebo_app.flying import opened
+def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Figure | None]:
+    """Fly a mission to its end; the flight, and its photographs if requested."""
+    from tandemlift.gazebo_app.camera_views import views_from
+    from tandemlift.gazebo_app.flying import running_gazebo
     from tandemlift.simulation.fly import fly
 
-    shots, step = shots_of(fly(mission)) if pictures else [], mission.mission.step
-    with opened(mission, shots, window=window, real_time=real_time) as gazebo:
-        _tell_how_to_push(mission, gazebo)
-        with bar("Flying", mission.mission.steps) as progress:
+    views, step = views_from(fly(mission)) if pictures else [], mission.mission.step
+    with running_gazebo(mission, views, window=window, real_time=real_time) as gazebo:
+        _print_how_to_push(mission, gazebo)
+        with progress_bar("Flying", mission.mission.steps) as progress:
 
-            def look(done: int, total: int) -> None:
-                gazebo.look(done * step)
+            def take_photographs(done: int, total: int) -> None:
+                gazebo.take_due_photographs(done * step)
                 if progress:
                     progress(done, total)
 
-            flight = fly(mission, "gazebo", progress=look)
-        return flight, _views(gazebo.photos) if pictures else None
+            flight = fly(mission, "gazebo", progress=take_photographs)
+        return flight, _photographs(gazebo.photos) if pictures else None
 
 
-def _views(photos: Sequence[Photo]) -> Figure | None:
-    from tandemlift.gazebo_app.photographs import draw_views
+def _photographs(photos: Sequence[Photo]) -> Figure | None:
+    from tandemlift.figures.views import draw
 
     if not photos:
         return None
-    return draw_views([(f"{p.shot.title}, {p.shot.time:.0f} s", p.jpeg) for p in photos])
+    return draw([(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in photos])
 
 
-def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
-    """Fly a mission that nobody but Gazebo's topic pushes, until Ctrl-C."""
-    from tandemlift.gazebo_app.flying import opened
+def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
+    """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
+    from tandemlift.gazebo_app.flying import running_gazebo
     from tandemlift.live.session.interactive_mission import interactive_mission
-    from tandemlift.live.session.recorded_flight import RecordedFlight
+    from tandemlift.simulation.recorded_flight import RecordedFlight
 
     mission = interactive_mission(mission)
-    with opened(mission, window=window, real_time=True) as gazebo, _until_stopped() as stopped:
+    with running_gazebo(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:
         recorded = RecordedFlight(mission, "gazebo")
-        _tell_how_to_push(mission, gazebo)
+        _print_how_to_push(mission, gazebo)
         echo("  Ctrl-C ends it")
         while not (stopped() or recorded.over):
             recorded.advance()
@@ -138,21 +143,21 @@ def _by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
 
 
 @contextmanager
-def _until_stopped() -> Iterator[Callable[[], bool]]:
-    """Whether Ctrl-C, or a word to end, has come; neither breaks off a step."""
-    came: list[int] = []
-    before = {s: signal.signal(s, lambda number, _: came.append(number)) for s in (signal.SIGINT, signal.SIGTERM)}
+def _stop_signals() -> Iterator[Callable[[], bool]]:
+    """A function that tells whether SIGINT or SIGTERM has arrived; neither interrupts a step."""
+    received: list[int] = []
+    before = {s: signal.signal(s, lambda number, _: received.append(number)) for s in (signal.SIGINT, signal.SIGTERM)}
     try:
-        yield lambda: bool(came)
+        yield lambda: bool(received)
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
-def _tell_how_to_push(mission: Mission, gazebo: GazeboSession) -> None:
-    from tandemlift.engines.gazebo_server import by_yourself
+def _print_how_to_push(mission: Mission, gazebo: GazeboSession) -> None:
+    from tandemlift.engines.gazebo_server import shell_command_for_user
 
     push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
-    echo(f"{mission.mission.name}, in Gazebo; to push it, in another terminal:")
-    echo(f"  {by_yourself(gazebo.master, push)}")
+    echo(f"{mission.mission.name} flies in Gazebo. To push it, run in another terminal:")
+    echo(f"  {shell_command_for_user(gazebo.master, push)}")
     sys.stdout.flush()

@@ -1,41 +1,55 @@
-"""`tandemlift live`: push a flight by hand in a page of the browser."""
+"""`tandemlift live`: push a flight by hand in a page of the browser; and the serving of pages, also for `replay`."""
 
 from __future__ import annotations
 
+import asyncio
+import importlib.util
+import os
+import sys
+import threading
+import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.interrupts import leave
-from tandemlift.cli.run import load
-from tandemlift.cli.serving import HOST, PORT, needs_live, serve_here
+from tandemlift.cli.console import echo, exit_now
+from tandemlift.cli.run import engine_option, load, set_option
+from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
+    from tandemlift.live.server import PageServer
     from tandemlift.live.session.session import Session
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
+HOST, PORT = "127.0.0.1", 8710
 DEFAULT, OUT = "zigzag", Path("out/live")
+port_option = click.option(
+    "--port", type=int, default=PORT, show_default=True, help="TCP port of the page; 0 for any free one."
+)
 
 
 @click.command()
 @click.argument("mission", default=DEFAULT)
-@click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
-@click.option("--port", type=int, default=PORT, show_default=True, help="Of this machine; 0 for any that is free.")
+@engine_option
+@port_option
 @click.option(
-    "--host", default=HOST, show_default=True, help="To bind to; beyond this machine the address has a token."
+    "--host",
+    default=HOST,
+    show_default=True,
+    help="Address to listen on. If other machines can reach it, the page's address carries a token.",
 )
-@click.option("--out", metavar="DIR", default=str(OUT), show_default=True, help="Where the page saves what was flown.")
-@click.option("--no-browser", is_flag=True, help="Print the address only.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of the mission, as in run.")
+@click.option("--out", metavar="DIR", default=str(OUT), show_default=True, help="Folder for flights saved in the page.")
+@click.option("--no-browser", is_flag=True, help="Only print the address.")
+@set_option
 def live(
     mission: str, engine: str, port: int, host: str, out: str, no_browser: bool, settings: tuple[str, ...]
 ) -> None:
     """Fly MISSION in real time, and push it by hand in a page of the browser.
 
-    MISSION is the name of a built-in mission (see `tandemlift missions`) or the path of a .toml file; zigzag, the
-    paper's corridor, if none is given. Its pushes and its person are left out: yours are the only hands. Nothing leaves
-    this machine, unless --host says so. Ctrl-C ends it.
+    MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
+    paper's corridor. The mission's own pushes and person are left out: only you push. The page is served on this
+    machine only, unless --host says otherwise. Ctrl-C ends the flight.
 
     \b
     Examples:
@@ -50,18 +64,52 @@ def live(
     """
     from tandemlift.engines.registry import engine_named
 
-    needs_live()
+    check_live_installed()
     engine_named(engine)
     session = session_of(load(mission, settings), engine, Path(out))
     from tandemlift.live.page_files import page_files
     from tandemlift.live.server import PageServer
 
-    serve_here(PageServer(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
-    leave(0)  # it may still be compiling
+    serve_until_interrupt(PageServer(page_files(), session, host, port), f"{mission}, live", browser=not no_browser)
+    exit_now(0)  # a thread may still be compiling
 
 
 def session_of(mission: Mission, engine: str, out: Path = OUT) -> Session:
-    """A flight in real time, checked; nothing is compiled yet."""
+    """A checked flight in real time; nothing is compiled yet."""
     from tandemlift.live.session.session import Session
 
     return Session(mission, engine, out)
+
+
+def check_live_installed() -> None:
+    """Check that the packages of the extra `live` are installed.
+
+    Raises:
+        InputError: websockets is not installed.
+    """
+    if importlib.util.find_spec("websockets") is None:
+        raise InputError("the live page needs websockets: pip install 'tandemlift[live]'")
+
+
+def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> None:
+    """Serve a page until Ctrl-C; print `what` it shows and its address, and open it in a browser if asked to."""
+    from tandemlift.live.server import serve_until_stopped
+
+    def opened(address: str) -> None:
+        echo(f"{what}: {address}")
+        echo("  Ctrl-C ends it")
+        sys.stdout.flush()
+        if "token=" in address:
+            click.echo("warning: any machine that can reach this one and knows this address can push", err=True)
+        if browser and _has_display():
+            threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+    try:
+        asyncio.run(serve_until_stopped(server, opened))
+    except KeyboardInterrupt:
+        echo("stopped")
+
+
+def _has_display() -> bool:
+    """Whether a graphical browser can open; a text browser would take over the terminal."""
+    return sys.platform in ("win32", "darwin") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))

@@ -1,4 +1,4 @@
-"""The command line: `tandemlift run MISSION` and what there is to choose from."""
+"""The command line: its verbs, and its exit codes on errors."""
 
 from __future__ import annotations
 
@@ -10,20 +10,17 @@ from typing import Any
 
 import click
 
-from tandemlift import __version__
 from tandemlift.cli.compare import compare
-from tandemlift.cli.explain import explain
+from tandemlift.cli.console import compile_notices, echo, exit_now, handle_interrupts
 from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
-from tandemlift.cli.interrupts import handle_interrupts, leave
+from tandemlift.cli.keys import explain, schema, template
 from tandemlift.cli.live import live
-from tandemlift.cli.notices import compile_notices
 from tandemlift.cli.render import render
 from tandemlift.cli.replay import replay
 from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
-from tandemlift.cli.run import echo, run
-from tandemlift.cli.schema import schema
+from tandemlift.cli.run import run
 from tandemlift.cli.validate import validate
 from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.trace.compile_events import watching
@@ -33,14 +30,14 @@ INTERRUPTED = 130  # as shells report it
 
 
 class Commands(click.Group):
-    """A group that lists its verbs in the order of a newcomer's needs, and suggests the nearest one."""
+    """A group that lists its verbs in the order in which they were added, and suggests the nearest one."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The verbs as they were added."""
         return list(self.commands)
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
-        """As click does, with what there is for a misspelt verb."""
+        """As click does; a misspelt verb is answered with the list of verbs and the nearest one."""
         verb = args[0] if args else ""
         if verb and not verb.startswith("-") and self.get_command(ctx, verb) is None:
             verbs = self.list_commands(ctx)
@@ -49,17 +46,17 @@ class Commands(click.Group):
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(__version__, prog_name="tandemlift")
+@click.version_option(package_name="tandemlift", prog_name="tandemlift")
 def cli() -> None:
-    """Carry a load with quadrotors that a person steers by pushing it.
+    """Simulate quadrotors that carry a load together, steered by a person who pushes it.
 
     \b
-    Start with:     tandemlift run paper
-    Change it:      tandemlift run paper --set controller.switching=saturation
-    Your mission:   tandemlift template > mine.toml
-                    tandemlift run mine.toml
-    What a key is:  tandemlift explain admittance.damping
-    Your law:       tandemlift run mine.toml --controller my_pd.py
+    Fly a mission:    tandemlift run paper
+    Change a key:     tandemlift run paper --set controller.switching=saturation
+    Your mission:     tandemlift template > mine.toml
+                      tandemlift run mine.toml
+    Explain a key:    tandemlift explain admittance.damping
+    Your controller:  tandemlift run mine.toml --controller my_pd.py
     """
 
 
@@ -89,19 +86,7 @@ def missions() -> None:
     _print_table(built_in())
 
 
-@cli.command()
-def template() -> None:
-    """Print a commented mission file with every key, its unit and its meaning.
-
-    \b
-    tandemlift template > mine.toml
-    tandemlift run mine.toml
-    """
-    from tandemlift.missions.reference.template import template_text
-
-    echo(template_text(), nl=False)
-
-
+cli.add_command(template)
 cli.add_command(explain)
 cli.add_command(schema)
 
@@ -147,7 +132,7 @@ def main() -> None:
         sys.exit(error.exit_code)
     except (click.Abort, KeyboardInterrupt):
         click.echo("stopped; nothing more is written", err=True)
-        leave(INTERRUPTED)
+        exit_now(INTERRUPTED)
     except InputError as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(BAD_INPUT)

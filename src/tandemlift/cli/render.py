@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.results import bar, flight_file
-from tandemlift.cli.run import echo, parse_setting
+from tandemlift.cli.console import echo, progress_bar
+from tandemlift.cli.results import flight_file
+from tandemlift.cli.run import engine_option, load, set_option
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
@@ -18,21 +19,25 @@ if TYPE_CHECKING:
     from tandemlift.rendering import Shot
 
 CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres"
-OF_PICTURE, OF_ANIMATION = ("--time",), ("--from", "--to", "--fps", "--speed")
+PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "--speed")
 
 
 @click.command()
 @click.argument("flight_or_mission")
 @click.option("--out", metavar="FILE", help="FILE.png or FILE.gif.  [default: picture.png beside the flight]")
-@click.option("--time", type=float, help="Of a picture [s].  [default: when the push is strongest]")
-@click.option("--from", "start", type=float, help="Start of an animation [s].")
-@click.option("--to", "end", type=float, help="End of an animation [s].")
-@click.option("--fps", type=float, help="Pictures a second of an animation, 1 to 50.  [default: 20]")
-@click.option("--speed", type=float, help="Of an animation.  [default: to last 20 s at most]")
-@click.option("--size", metavar="WxH", help="Pixels.  [default: 1280x720 for a picture, 640x360 for an animation]")
-@click.option("--camera", default="follow", show_default=True, metavar="VIEW", help=f"One of {CAMERAS}.")
-@click.option("--engine", default="compiled", show_default=True, help="Of a mission that is flown for this.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of such a mission.")
+@click.option("--time", type=float, help="Time of the picture [s].  [default: when the push is strongest]")
+@click.option("--from", "start", type=float, help="Start of the animation [s].")
+@click.option("--to", "end", type=float, help="End of the animation [s].")
+@click.option("--fps", type=float, help="Frames per second of the animation, 1 to 50.  [default: 20]")
+@click.option(
+    "--speed",
+    type=float,
+    help="Playback speed.  [default: 1, or faster so that it lasts 20 s]",
+)
+@click.option("--size", metavar="WxH", help="Size in pixels.  [default: 1280x720, an animation 640x360]")
+@click.option("--camera", default="follow", show_default=True, metavar="VIEW", help=f"Camera: {CAMERAS}.")
+@engine_option
+@set_option
 def render(
     flight_or_mission: str,
     out: str | None,
@@ -48,7 +53,8 @@ def render(
 ) -> None:
     """Draw a flight: a picture (PNG) or an animation (GIF).
 
-    FLIGHT_OR_MISSION is a saved flight (flight.npz, or the folder that it is in), of any engine, or a mission to fly.
+    FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder), or a mission, which is flown first. --engine and
+    --set are for a mission only.
 
     \b
     Examples:
@@ -70,15 +76,15 @@ def render(
 
 
 def _check_options(path: Path, given: list[str]) -> None:
-    """Refuse what does not go with the kind of file.
+    """Refuse options that do not fit the kind of file.
 
     Raises:
-        InputError: an option has no meaning for it, or the file is of no known kind.
+        InputError: an option does not fit the kind of file, or the kind is unknown.
     """
     kind = path.suffix.lower()
     if kind not in (".png", ".gif"):
-        raise InputError(f"--out {path}: a picture's name ends in .png, an animation's in .gif")
-    wrong = [name for name in given if name in (OF_ANIMATION if kind == ".png" else OF_PICTURE)]
+        raise InputError(f"--out {path}: the name must end in .png (picture) or .gif (animation)")
+    wrong = [name for name in given if name in (ANIMATION_OPTIONS if kind == ".png" else PICTURE_OPTIONS)]
     if wrong:
         other = "an animation, --out FILE.gif" if kind == ".png" else "a picture, --out FILE.png"
         raise InputError(f"{', '.join(wrong)} {'are' if len(wrong) > 1 else 'is'} for {other}")
@@ -102,12 +108,11 @@ def _load(path: Path) -> Flight:
 
 def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
     from tandemlift.engines.registry import engine_named
-    from tandemlift.missions import load_mission
     from tandemlift.simulation.fly import fly
 
     engine_named(engine)
-    loaded = load_mission(mission, dict(map(parse_setting, settings)))
-    with bar("Flying", loaded.mission.steps, shown=sys.stderr.isatty()) as progress:
+    loaded = load(mission, settings)
+    with progress_bar("Flying", loaded.mission.steps, shown=sys.stderr.isatty()) as progress:
         return fly(loaded, engine, progress=progress)
 
 
@@ -118,6 +123,6 @@ def _draw(flight: Flight, path: Path, shot: Shot) -> None:
         rendering.render(flight, path, shot)
     else:
         count = len(rendering.Animation(flight, shot))
-        with bar("Drawing", count, shown=sys.stderr.isatty()) as progress:
+        with progress_bar("Drawing", count, shown=sys.stderr.isatty()) as progress:
             rendering.render(flight, path, shot, progress)
     echo(f"{flight.name}: {path}")

@@ -1,4 +1,4 @@
-"""`tandemlift report`: the figures and the page of a flight that was flown before, also of a bag."""
+"""`tandemlift report`: figures and report of a saved flight or of a bag."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.results import flight_file, results_in, write_results
-from tandemlift.cli.run import echo
+from tandemlift.cli.console import echo
+from tandemlift.cli.results import flight_file, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
@@ -19,13 +19,17 @@ BAGS = (".bag", ".mcap")
 
 @click.command()
 @click.argument("flight")
-@click.option("--out", metavar="DIR", help="Folder for the results.  [default: where the flight is, of a bag out/STEM]")
-@click.option("--no-figures", is_flag=True, help="Leave the figures out.")
+@click.option(
+    "--out",
+    metavar="DIR",
+    help="Folder for the results.  [default: that of the flight; of a bag out/NAME]",
+)
+@click.option("--no-figures", is_flag=True, help="Draw no figures.")
 def report(flight: str, out: str | None, no_figures: bool) -> None:
-    """Draw the figures and write the report of a flight that was flown before.
+    """Draw the figures and write the report of a saved flight or of a bag.
 
-    FLIGHT is flight.npz or its folder; or a bag of our topics (docs/export.md): of ROS 1 (.bag), or of ROS 2 (.mcap, or
-    its folder), one that was exported, or one that `rosbag record` or `ros2 bag record` wrote while it was flown.
+    FLIGHT is flight.npz or its folder, or a bag of ROS 1 (.bag) or ROS 2 (.mcap, or its folder) with the topics of
+    docs/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`.
 
     \b
     Examples:
@@ -33,26 +37,26 @@ def report(flight: str, out: str | None, no_figures: bool) -> None:
       tandemlift report out/zigzag --out out/again
 
     \b
-    Written to the folder, replacing only files of these names: mission.toml, flight.npz, metrics.json, figures/,
-    report.html, as by `tandemlift run`. The metrics of a bag are formed from its samples.
+    Files in the results folder: those of `tandemlift run`. Other files there are left alone. The metrics of a bag are
+    computed from its samples.
 
     \b
     Exit code:
-      0   written
+      0   the report was written
       2   bad input: one message, nothing is written
     """
     loaded, default = _load(flight)
-    with results_in(out, default) as folder:
+    with results_folder(out, default) as folder:
         echo(repr(loaded).strip("<>"))
-        write_results(loaded, folder, figures=not no_figures)
+        write_flight(loaded, folder, figures=not no_figures)
         echo(f"  report: {folder / 'report.html'}")
 
 
 def _load(given: str) -> tuple[Flight, Path]:
-    """The flight, and the folder in which its report belongs.
+    """Load the flight; the flight, and the default folder of its report.
 
     Raises:
-        InputError: there is none.
+        InputError: there is no such flight.
     """
     from tandemlift.export.reading import read_bag
     from tandemlift.flight.record import Flight

@@ -1,4 +1,4 @@
-"""`tandemlift ros`: a flight in real time that speaks ROS."""
+"""`tandemlift ros`: a flight in real time as a ROS node."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.console import echo
 from tandemlift.cli.live import DEFAULT, session_of
-from tandemlift.cli.run import DIVERGED, echo, load
+from tandemlift.cli.run import DIVERGED, engine_option, load, set_option
 from tandemlift.common.errors import InputError
 from tandemlift.ros.sample_queue import every_of
 
@@ -24,13 +25,15 @@ BAD_ENDS = ("lost", "failed")
 
 @click.command()
 @click.argument("words", nargs=-1, metavar="[MISSION] [NAME:=VALUE]...")
-@click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
-@click.option("--version", type=click.Choice(["1", "2"]), help="Of ROS.  [default: 1 if there is rospy, else 2]")
-@click.option("--rate", type=float, default=100.0, show_default=True, help="Of samples [Hz].")
-@click.option("--save", metavar="DIR", help="Where to save the flight at its end; it flies again from there.")
-@click.option("--rviz", is_flag=True, help="Start ROS 1's RViz beside it, which shows everything.")
-@click.option("--folder", is_flag=True, help="Print the folder of the launch file and of RViz's file, and fly nothing.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Change one key of the mission, as in run.")
+@engine_option
+@click.option(
+    "--version", type=click.Choice(["1", "2"]), help="ROS version.  [default: 1 if rospy is installed, else 2]"
+)
+@click.option("--rate", type=float, default=100.0, show_default=True, help="Rate at which samples are published [Hz].")
+@click.option("--save", metavar="DIR", help="Save the flight in this folder at its end; `run` can fly it again.")
+@click.option("--rviz", is_flag=True, help="Also start RViz (ROS 1), which shows the vehicle and its surroundings.")
+@click.option("--folder", is_flag=True, help="Only print the folder of the launch file and of the RViz configuration.")
+@set_option
 def ros(
     words: tuple[str, ...],
     engine: str,
@@ -41,12 +44,12 @@ def ros(
     folder: bool,
     settings: tuple[str, ...],
 ) -> None:
-    """Fly MISSION in real time as a node of ROS, and let it be pushed by messages.
+    """Fly MISSION in real time as a ROS node that messages push.
 
-    MISSION is the name of a built-in mission (see `tandemlift missions`) or the path of a .toml file; zigzag if none is
-    given. Its pushes and its person are left out: who publishes on /tandemlift/push pushes. ROS 1 needs rospy and a
-    running roscore; ROS 2 needs no installed ROS, but pip install 'tandemlift[ros2]'. Without --version it is the one
-    that is installed. Topics, services and parameters: docs/ros.md. Ctrl-C ends it.
+    MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
+    paper's corridor. The mission's own pushes and person are left out: messages on /tandemlift/push push the vehicle.
+    ROS 1 needs rospy and a running roscore. ROS 2 needs no installed ROS, only pip install 'tandemlift[ros2]'.
+    docs/ros.md describes topics, services and parameters. Ctrl-C ends the flight.
 
     \b
     Examples:
@@ -57,20 +60,20 @@ def ros(
 
     \b
     Exit code:
-      0   ended by Ctrl-C, by ROS, or an hour of flight
+      0   ended by Ctrl-C, by ROS, or after an hour of flight
       2   bad input: one message, nothing is flown
-      3   the vehicle was lost
+      3   the vehicle was lost, or the flight failed
     """
     from tandemlift.engines.registry import engine_named
-    from tandemlift.ros.package import folder as package
+    from tandemlift.ros.ros1 import folder as package
     from tandemlift.ros.selection import middleware_of, version_for
 
     if folder:
         echo(str(package()))
         return
     if rviz and version == "2":
-        raise InputError("--rviz: its file is for ROS 1")
-    mission, arguments = _words(words)
+        raise InputError("--rviz: needs ROS 1, not --version 2")
+    mission, arguments = _split_arguments(words)
     engine_named(engine)
     loaded = load(mission, settings)
     every_of(rate, loaded.mission.step)
@@ -89,23 +92,23 @@ def ros(
         sys.exit(DIVERGED)
 
 
-def _words(words: tuple[str, ...]) -> tuple[str, list[str]]:
-    """The mission, and ROS's own arguments."""
+def _split_arguments(words: tuple[str, ...]) -> tuple[str, list[str]]:
+    """The mission, and the arguments for ROS itself."""
     arguments = [word for word in words if ":=" in word]
     missions = [word for word in words if ":=" not in word] or [DEFAULT]
     if len(missions) > 1:
-        raise InputError(f"{' '.join(missions)}: one mission is flown at a time")
+        raise InputError(f"{' '.join(missions)}: give one mission only")
     return missions[0], arguments
 
 
 def _fly(session: Session, middleware: Middleware, rate: float, what: str, *, rviz: bool) -> str:
-    """Fly until it ends; the phase that it ends in."""
+    """Fly until the flight ends; its last phase."""
     from tandemlift.ros.node import FlightNode
-    from tandemlift.ros.package import start_rviz
+    from tandemlift.ros.ros1 import start_rviz
 
     beside = start_rviz() if rviz else None
     front = FlightNode(session, middleware, rate)
-    for number in (signal.SIGINT, signal.SIGTERM):  # from roslaunch too, which may have had them ignored
+    for number in (signal.SIGINT, signal.SIGTERM):  # roslaunch may have set them to be ignored
         signal.signal(number, signal.default_int_handler)
     try:
         front.start()
@@ -125,7 +128,7 @@ def _save(session: Session, save: str | None) -> None:
     from tandemlift.common.errors import FlightWarning
 
     if save:
-        with warnings.catch_warnings():  # of what may go badly with rotors that may fail
+        with warnings.catch_warnings():  # the mission was checked when it was loaded
             warnings.simplefilter("ignore", FlightWarning)
             session.flight.snapshot().save(Path(save))
         echo(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")

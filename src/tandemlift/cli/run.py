@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import sys
 import time
@@ -12,33 +11,48 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.results import bar, keep_recording, results_in, write_results
+from tandemlift.cli.console import echo, progress_bar
+from tandemlift.cli.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
     from tandemlift.flight.record import Flight
-    from tandemlift.settings import Mission
+    from tandemlift.missions import Mission
 
 DIVERGED = 3
-WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set takes without quotes
+WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
+
+
+engine_option = click.option(
+    "--engine",
+    default="compiled",
+    show_default=True,
+    help="Engine that simulates the vehicle; see `tandemlift engines`.",
+)
+set_option = click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
+)
 
 
 @click.command()
 @click.argument("mission")
 @click.option(
-    "--engine", help="Where the body lives; see `tandemlift engines`.  [default: a recording's own, else compiled]"
+    "--engine",
+    help="Engine that simulates the vehicle; see `tandemlift engines`.  [default: that of the recording, or compiled]",
 )
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
+@set_option
 @click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="KEY=VALUE",
-    help="Change one key of the mission: a dotted key, and a TOML value or a word. May be given many times.",
+    "--controller",
+    metavar="NAME|FILE",
+    help="Controller to fly: a registered one, or your own .py file.",
 )
-@click.option("--controller", metavar="NAME|FILE", help="Fly this controller: a registered one, or your .py file.")
-@click.option("--no-figures", is_flag=True, help="Leave the figures out.")
+@click.option("--no-figures", is_flag=True, help="Draw no figures.")
 def run(
     mission: str,
     engine: str | None,
@@ -49,7 +63,7 @@ def run(
 ) -> None:
     """Fly MISSION, print a summary and write the results.
 
-    MISSION is the name of a built-in mission (see `tandemlift missions`) or the path of a .toml file.
+    MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file.
 
     \b
     Examples:
@@ -59,19 +73,19 @@ def run(
       tandemlift run hover --controller my_pd.py --set controller.stiffness=4
 
     \b
-    Written to the folder, replacing only files of these names:
-      mission.toml   the mission with every key resolved; it flies again
-      flight.npz     all channels, readable with NumPy or tl.Flight.load
-      metrics.json   the metrics, SI units, formed from every step
+    Files in the results folder (other files there are left alone):
+      mission.toml   the mission with every key; `tandemlift run` flies it again
+      flight.npz     all channels; read it with tl.Flight.load or NumPy
+      metrics.json   the metrics in SI units, computed from every step
       figures/       reference, path, tracking, inputs, interaction, joints; and push, disturbance, rotors,
-                     surroundings, corridor where the mission has such parts (PNG, PDF)
-      report.html    everything on one page, needs no network
+                     surroundings, corridor where the mission has such parts (PNG and PDF)
+      report.html    all of it on one page that needs no network
 
     \b
     Exit code:
-      0   flown
+      0   the flight was flown
       2   bad input: one message, nothing is written
-      3   diverged: the flight until then is written
+      3   diverged: what was flown until then is written
     """
     from tandemlift.engines.registry import engine_named
 
@@ -80,22 +94,22 @@ def run(
         engine_named(engine)
     chosen = None if controller is None else chosen_controller(controller)
     loaded = load(mission, settings, chosen)
-    with results_in(out, Path("out") / loaded.mission.name) as folder:
+    with results_folder(out, Path("out") / loaded.mission.name) as folder:
         flight = _fly(loaded, engine, chosen)
-        summarise(flight)
-        keep_recording(loaded, folder)
-        write_results(flight, folder, figures=not no_figures)
-        say_report(folder, time.perf_counter() - began)
+        print_summary(flight)
+        copy_recording(loaded, folder)
+        write_flight(flight, folder, figures=not no_figures)
+        print_report_path(folder, time.perf_counter() - began)
     if flight.divergence:
         click.echo(f"{flight.name}: {flight.divergence}", err=True)
         sys.exit(DIVERGED)
 
 
 def chosen_controller(given: str) -> Controller:
-    """The registered controller of a name, or the one of a Python file.
+    """A registered controller by name, or the controller of a Python file.
 
     Raises:
-        InputError: there is none, or the file has none.
+        InputError: there is no such controller, or the file defines none.
     """
     from tandemlift.controllers import controller, load_controller
 
@@ -103,10 +117,10 @@ def chosen_controller(given: str) -> Controller:
 
 
 def load(mission: str, settings: tuple[str, ...], controller: Controller | None = None) -> Mission:
-    """The mission of a name or path, with the changes of `--set`.
+    """Load a mission by name or path, with the changes of `--set`.
 
     Raises:
-        InputError: there is none, or it is not sound.
+        InputError: there is no such mission, or it is not valid.
     """
     from tandemlift.missions import load_mission
 
@@ -117,7 +131,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
     """The dotted key and the value of KEY=VALUE; VALUE is a TOML literal, or an unquoted word for a string.
 
     Raises:
-        InputError: the text has no such form.
+        InputError: the text has another form.
     """
     key, equals, literal = (part.strip() for part in text.partition("="))
     if not equals or not re.fullmatch(r"[A-Za-z0-9_]+(\.[A-Za-z0-9_]+)*", key):
@@ -141,7 +155,7 @@ def _fly(mission: Mission, engine: str | None, controller: Controller | None) ->
     from tandemlift.simulation.plan import takes_long
 
     try:
-        with bar("Flying", mission.mission.steps, shown=takes_long(mission)) as progress:
+        with progress_bar("Flying", mission.mission.steps, shown=takes_long(mission)) as progress:
             return fly(mission, engine, progress=progress)
     except InputError:
         raise
@@ -151,13 +165,13 @@ def _fly(mission: Mission, engine: str | None, controller: Controller | None) ->
         raise InputError(f"controller {controller.name!r} fails: {error_text(error, file_of(controller))}") from error
 
 
-def say_report(folder: Path, seconds: float) -> None:
-    """Print where the report is, and how long [s] all of it took: compiling, flying and writing."""
+def print_report_path(folder: Path, seconds: float) -> None:
+    """Print the path of the report and the time [s] spent in all: compiling, flying and writing."""
     echo(f"  report: {folder / 'report.html'} ({seconds:.2f} s in all)")
 
 
-def summarise(flight: Flight) -> None:
-    """Print what came of a flight."""
+def print_summary(flight: Flight) -> None:
+    """Print the main metrics and the events of a flight."""
     m = flight.metrics()
     late = "_after_10s" if m["position_rmse_after_10s_m"] else ""
     when = "after 10 s" if late else "whole flight"
@@ -165,9 +179,9 @@ def summarise(flight: Flight) -> None:
         ("final position", _list(m["final_position_m"], 3), "m"),
         ("final reference", _list(m["final_reference_m"], 3), "m"),
         (f"position RMSE, {when}", _list(m[f"position_rmse{late}_m"], 2, 1e3), "mm"),
-        (f"position error at most, {when}", _list(m[f"position_max_error{late}_m"], 2, 1e3), "mm"),
+        (f"largest position error, {when}", _list(m[f"position_max_error{late}_m"], 2, 1e3), "mm"),
         ("attitude RMSE", _list(m["attitude_rmse_rad"], 2, 57.29577951308232), "deg"),
-        ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (least, most)"),
+        ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (min, max)"),
         ("human work", _list([m["human_work_j"]], 2), "J"),
     ]
     echo(f"{flight.name}: {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms")
@@ -183,11 +197,3 @@ def _list(values: list[float | None] | None, digits: int, scale: float = 1.0) ->
     if not values or any(v is None for v in values):
         return ""
     return "  ".join(f"{round(v * scale, digits) + 0.0:8.{digits}f}" for v in values if v is not None)
-
-
-def echo(text: str, *, nl: bool = True) -> None:
-    """Print to standard output, and go on without one if it is closed (`| head`)."""
-    try:
-        click.echo(text, nl=nl)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

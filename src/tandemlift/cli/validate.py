@@ -1,4 +1,4 @@
-"""`tandemlift validate`: measure what the pilot is held to."""
+"""`tandemlift validate`: measure the performance of the pilot against its targets."""
 
 from __future__ import annotations
 
@@ -7,28 +7,40 @@ from pathlib import Path
 
 import click
 
+from tandemlift.cli.console import compile_notices, echo
+from tandemlift.cli.run import engine_option
+
 MISSED = 1
+NAMES = "tracking, observers, draws, losses, triggers, persons or yaw"
 
 
 @click.command()
-@click.option("--engine", default="compiled", show_default=True, help="Where the body lives; see `tandemlift engines`.")
-@click.option("--draws", type=click.IntRange(1, 100_000), help="Of all that is drawn.  [default: 200; 10 elsewhere]")
+@engine_option
 @click.option(
-    "--chapter", "chapters", multiple=True, metavar="NAME", help="Only this chapter. May be given many times."
+    "--draws",
+    type=click.IntRange(1, 100_000),
+    help="Random draws per experiment.  [default: 200; 10 in other engines]",
 )
-@click.option("--out", metavar="FILE", help="Write the table there too.")
+@click.option(
+    "--chapter", "chapters", multiple=True, metavar="NAME", help=f"Run only this chapter: {NAMES}. Can be repeated."
+)
+@click.option("--out", metavar="FILE", help="Also write the table to this file.")
 def validate(engine: str, draws: int | None, chapters: tuple[str, ...], out: str | None) -> None:
-    """Fly what the pilot is held to, and put what is measured beside its targets.
+    """Measure the performance of the pilot, and print it beside its targets.
 
-    Ends with status 1 if a target is missed.
+    The measurements fly thousands of missions, in chapters; all of them take minutes.
 
     \b
     Examples:
       tandemlift validate
       tandemlift validate --chapter tracking --engine mujoco
+
+    \b
+    Exit code:
+      0   all targets are met
+      1   a target is missed
+      2   bad input: one message, nothing is flown
     """
-    from tandemlift.cli.notices import compile_notices
-    from tandemlift.cli.run import echo
     from tandemlift.engines.registry import engine_named
     from tandemlift.studies.validation import Bench, chosen, rows_of, table
 

@@ -11,7 +11,9 @@ import math
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.laws.signals.trajectories import Reference
 
 
 class Unfiltered(NamedTuple):
@@ -24,11 +26,11 @@ class CommandFilter(NamedTuple):
     `bandwidth` ω_f [rad/s]; the rest is the transition of (x − Θ_d, ẋ) over one step.
     """
 
-    bandwidth: Any
-    position_from_position: Any
-    position_from_velocity: Any
-    velocity_from_position: Any
-    velocity_from_velocity: Any
+    bandwidth: Number
+    position_from_position: Number
+    position_from_velocity: Number
+    velocity_from_position: Number
+    velocity_from_velocity: Number
 
 
 class CommandFilterState(NamedTuple):
@@ -47,17 +49,19 @@ class AttitudeReference(NamedTuple):
 
 
 @choice
-def shape(kind: Any, memory: Any, desired: Any) -> Any:
+def shape(kind: Unfiltered | CommandFilter, memory: Any, desired: Vec3) -> Any:
     """(what the attitude law tracks, the new memory), from the desired orientation [rad]."""
 
 
 @shape.register(Unfiltered)
-def _unfiltered(kind, memory, desired):
+def _unfiltered(kind: Unfiltered, memory: Any, desired: Vec3) -> tuple[AttitudeReference, Any]:
     return AttitudeReference(desired, ZERO, ZERO), memory
 
 
 @shape.register(CommandFilter)
-def _filtered(kind, memory, desired):
+def _filtered(
+    kind: CommandFilter, memory: CommandFilterState, desired: Vec3
+) -> tuple[AttitudeReference, CommandFilterState]:
     x = memory.angles - desired
     acceleration = -(x * (kind.bandwidth * kind.bandwidth) + memory.rates * (2.0 * kind.bandwidth))
     after = CommandFilterState(
@@ -68,7 +72,7 @@ def _filtered(kind, memory, desired):
 
 
 @law
-def with_heading(tracked: AttitudeReference, reference: Any) -> AttitudeReference:
+def with_heading(tracked: AttitudeReference, reference: Reference) -> AttitudeReference:
     """What the attitude law tracks, with the yaw and its derivatives as the reference has them."""
     a, r, c = tracked.angles, tracked.rates, tracked.accelerations
     return AttitudeReference(

@@ -7,19 +7,28 @@ reference's acceleration is led, yaw rate and yaw acceleration are fed forward. 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
-from tandemlift.algebra.vector import ZERO, Vec3, vec3
-from tandemlift.controllers.attitude_reference import CommandFilterState, command_filter, shape, with_heading
-from tandemlift.controllers.interface import Command
+from tandemlift.algebra.types import Number
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
+from tandemlift.controllers.attitude_reference import (
+    AttitudeReference,
+    CommandFilter,
+    CommandFilterState,
+    command_filter,
+    shape,
+    with_heading,
+)
+from tandemlift.controllers.interface import Command, Measured
 from tandemlift.laws.mechanics.body import UP, Wrench
-from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
+from tandemlift.laws.mechanics.inertia import Inertia, gyroscopic, inertia_value, turn_by
 from tandemlift.laws.mechanics.rotation import Euler
-from tandemlift.laws.mechanics.tilt import TiltZXY, desired_orientation, tilt_limit, total_thrust
+from tandemlift.laws.mechanics.tilt import TiltLimit, TiltZXY, desired_orientation, tilt_limit, total_thrust
+from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import ControllerTable, Tilt, key
 from tandemlift.vehicle import Vehicle
 
@@ -44,17 +53,17 @@ class ControllerModel(NamedTuple):
     `feedforward` is 1 to counter the measured push, else 0.
     """
 
-    mass: Any
-    inertia: Any
+    mass: Number
+    inertia: Inertia
     drag_force: Vec3
     drag_moment: Vec3
-    tilt: Any
-    shaping: Any
-    feedforward: Any
+    tilt: TiltLimit | Nothing
+    shaping: CommandFilter
+    feedforward: Number
 
 
 @law
-def wanted_force(b: ControllerModel, acceleration: Vec3, measured: Any, reference: Any) -> Vec3:
+def wanted_force(b: ControllerModel, acceleration: Vec3, measured: Measured, reference: Reference) -> Vec3:
     """The force (u_x, u_y, u_z) [N, world axes] for an acceleration [m/s²] beyond the reference's; no limit yet."""
     ahead = reference.trajectory.acceleration + reference.lead
     force = (ahead + acceleration + UP * GRAVITY) * b.mass + b.drag_force * measured.state.velocity
@@ -62,14 +71,16 @@ def wanted_force(b: ControllerModel, acceleration: Vec3, measured: Any, referenc
 
 
 @law
-def tracked_attitude(b: ControllerModel, memory: CommandFilterState, e: Euler, u: Vec3, reference: Any) -> Any:
+def tracked_attitude(
+    b: ControllerModel, memory: CommandFilterState, e: Euler, u: Vec3, reference: Reference
+) -> tuple[AttitudeReference, CommandFilterState]:
     """(what the attitude law tracks, the new memory) for a force u [N, world axes] at the actual attitude e."""
     desired, memory = shape(b.shaping, memory, desired_orientation(TiltZXY(), u, e, reference.yaw))
     return with_heading(desired, reference), memory
 
 
 @law
-def wanted_moment(b: ControllerModel, turn: Vec3, measured: Any) -> Vec3:
+def wanted_moment(b: ControllerModel, turn: Vec3, measured: Measured) -> Vec3:
     """The moments (U₂, U₃, U₄) [N·m, body axes] that turn the vehicle by an angular acceleration [rad/s²]."""
     rates = measured.state.rates
     moment = turn_by(b.inertia, turn) - gyroscopic(b.inertia, rates) + b.drag_moment * rates
@@ -77,7 +88,7 @@ def wanted_moment(b: ControllerModel, turn: Vec3, measured: Any) -> Vec3:
 
 
 @law
-def commanded(b: ControllerModel, e: Euler, u: Vec3, turn: Vec3, angles: Vec3, measured: Any) -> Command:
+def commanded(b: ControllerModel, e: Euler, u: Vec3, turn: Vec3, angles: Vec3, measured: Measured) -> Command:
     """The command for a force [N, world axes], an angular acceleration [rad/s²], and the angles [rad] tracked."""
     return Command(Wrench(total_thrust(e, u), wanted_moment(b, turn, measured)), angles)
 

@@ -18,11 +18,12 @@ Tune first: k_R and k_Ω against the rotors' lag, then k_x and k_v.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import atan2, atan_ratio, cos, maximum, sin, sqrt
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Mat3, Vec3, apply_transposed, cross, dot, vec3
 from tandemlift.controllers.cascade import (
     TUNED,
@@ -33,12 +34,13 @@ from tandemlift.controllers.cascade import (
     wanted_force,
     wanted_moment,
 )
-from tandemlift.controllers.interface import Command, control
+from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.tilt import within_tilt
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
+from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import Positive3, key
 from tandemlift.vehicle import Vehicle
 
@@ -66,8 +68,8 @@ class Geometric(NamedTuple):
     attitude_stiffness: Vec3
     attitude_damping: Vec3
     filter: LowPass
-    bandwidth: Any
-    least: Any
+    bandwidth: Number
+    least: Number
 
 
 class Derivatives(NamedTuple):
@@ -108,7 +110,7 @@ def product(a: Derivatives, b: Derivatives) -> Derivatives:
 
 
 @law
-def heading(yaw: Any, rate: Any, acceleration: Any) -> Derivatives:
+def heading(yaw: Number, rate: Number, acceleration: Number) -> Derivatives:
     """b₁d = (cos ψ, sin ψ, 0), with its derivatives."""
     c, s = cos(yaw), sin(yaw)
     ahead, aside = Vec3(c, s, 0.0), Vec3(-s, c, 0.0)
@@ -156,7 +158,7 @@ def wanted_turn(k: Geometric, R: Mat3, rates: Vec3, desired: AttitudeTrajectory)
 
 
 @law
-def filtered_force(k: Geometric, memory: LowPassState, u: Vec3) -> Any:
+def filtered_force(k: Geometric, memory: LowPassState, u: Vec3) -> tuple[Derivatives, LowPassState]:
     """(the force [N] behind the command filter with its derivatives, the new memory)."""
     w, up = k.bandwidth, Vec3(u.x, u.y, maximum(u.z, k.least))
     acceleration = (up - memory.value) * (w * w) - memory.rate * (2.0 * w)
@@ -164,7 +166,9 @@ def filtered_force(k: Geometric, memory: LowPassState, u: Vec3) -> Any:
 
 
 @control.register(Geometric)
-def geometric(k, memory, measured, reference):
+def geometric(
+    k: Geometric, memory: LowPassState, measured: Measured, reference: Reference
+) -> tuple[Command, LowPassState]:
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     off, off_rate = target.position - state.position, target.velocity - state.velocity

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.laws.mechanics.body import State, Wrench
+from tandemlift.laws.signals.trajectories import Reference
 
 
 class Disturbance(NamedTuple):
@@ -43,5 +44,5 @@ class NoMemory(NamedTuple):
 
 
 @choice
-def control(gains: Any, memory: Any, measured: Any, reference: Any) -> Any:
+def control(gains: Any, memory: Any, measured: Measured, reference: Reference) -> Any:
     """One sample of the controller with this type of gains: (Command, the new memory)."""

@@ -21,14 +21,16 @@ Tune first: the ratio of position to moment weights; then the rates' for damping
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.common.types import Array
 from tandemlift.controllers.attitude_reference import CommandFilterState
 from tandemlift.controllers.cascade import (
     LEVEL,
@@ -40,11 +42,12 @@ from tandemlift.controllers.cascade import (
     tracked_attitude,
     wanted_force,
 )
-from tandemlift.controllers.interface import control
+from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.body import UP
 from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.mechanics.tilt import within_tilt
+from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import NonNegative3, Positive, Positive3, key
 from tandemlift.vehicle import Vehicle
 
@@ -86,14 +89,14 @@ class LQR(NamedTuple):
     vehicle: ControllerModel
     lean_position: Vec3
     lean_velocity: Vec3
-    most_lean: Any
-    height_position: Any
-    height_velocity: Any
-    height_acceleration: Any
+    most_lean: Number
+    height_position: Number
+    height_velocity: Number
+    height_acceleration: Number
     angles: Vec3
     rates: Vec3
     accelerations: Vec3
-    share: Any
+    share: Number
 
 
 class LQRState(NamedTuple):
@@ -101,7 +104,7 @@ class LQRState(NamedTuple):
 
     shaped: CommandFilterState
     turn: Vec3
-    climb: Any
+    climb: Number
 
 
 @law
@@ -118,7 +121,7 @@ def lean(k: LQR, e: Euler, off: Vec3, off_rate: Vec3) -> Vec3:
 
 
 @control.register(LQR)
-def lqr(k, memory, measured, reference):
+def lqr(k: LQR, memory: LQRState, measured: Measured, reference: Reference) -> tuple[Command, LQRState]:
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     e = euler_from_quaternion(state.attitude)
@@ -135,7 +138,7 @@ def lqr(k, memory, measured, reference):
     return commanded(k.vehicle, e, u, tracked.accelerations + turn, angles, measured), after
 
 
-def chain(length: int, lag: float, *, gravity: bool) -> tuple[np.ndarray, np.ndarray]:
+def chain(length: int, lag: float, *, gravity: bool) -> tuple[Array, Array]:
     """A and B of a chain of `length` integrators behind a lag [s]; with `gravity`, the second is of g times a tilt."""
     A = np.diag(np.ones(length), 1)
     if gravity:
@@ -146,7 +149,7 @@ def chain(length: int, lag: float, *, gravity: bool) -> tuple[np.ndarray, np.nda
     return A, B
 
 
-def regulator(A: np.ndarray, B: np.ndarray, Q: np.ndarray, R: float) -> np.ndarray:
+def regulator(A: Array, B: Array, Q: Array, R: float) -> Array:
     """K (n,) = R⁻¹BᵀX of a single input, with X the stabilising solution of AᵀX + XA − XBR⁻¹BᵀX + Q = 0."""
     n = len(A)
     values, vectors = np.linalg.eig(np.block([[A, -B @ B.T / R], [-Q, -A.T]]))
@@ -155,7 +158,7 @@ def regulator(A: np.ndarray, B: np.ndarray, Q: np.ndarray, R: float) -> np.ndarr
     return np.asarray((B.T @ X / R)[0])
 
 
-def _sideways(s: LQRSettings, place: int, turned: int) -> np.ndarray:
+def _sideways(s: LQRSettings, place: int, turned: int) -> Array:
     """K of position, velocity, tilt, rate and angular acceleration: axis `place` of position, `turned` of attitude."""
     Q = np.diag(
         [s.position_weight[place], s.velocity_weight[place], s.attitude_weight[turned], s.rates_weight[turned], 0.0]

@@ -17,23 +17,26 @@ from pydantic import Field
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.algebra.types import Number
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.common.errors import FlightWarning
 from tandemlift.controllers.attitude_reference import (
     AttitudeReference,
+    CommandFilter,
     CommandFilterState,
     Unfiltered,
     command_filter,
     shape,
     with_heading,
 )
-from tandemlift.controllers.interface import Command, NoMemory, control
+from tandemlift.controllers.interface import Command, Measured, NoMemory, control
 from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration
-from tandemlift.laws.mechanics.body import UP, Wrench
-from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
+from tandemlift.laws.mechanics.body import UP, State, Wrench
+from tandemlift.laws.mechanics.inertia import Inertia, gyroscopic, inertia_value, turn_by
 from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.mechanics.tilt import (
+    TiltLimit,
     TiltPrinted,
     TiltZXY,
     desired_orientation,
@@ -41,6 +44,7 @@ from tandemlift.laws.mechanics.tilt import (
     total_thrust,
     within_tilt,
 )
+from tandemlift.laws.signals.trajectories import Reference, Trajectory
 from tandemlift.settings import AtLeastOne6, ControllerTable, NonNegative6, Positive6, Table, Tilt, key
 from tandemlift.vehicle import Vehicle
 
@@ -118,36 +122,36 @@ class NFTSMC(NamedTuple):
     `feedforward` is 1 to feed the measured push forward as δ̂ in the position law, else 0.
     """
 
-    mass: Any
-    inertia: Any
+    mass: Number
+    inertia: Inertia
     drag_force: Vec3
     drag_moment: Vec3
     position: Surface
     attitude: Surface
-    derivatives: Any
-    rates: Any
-    inverse: Any
-    tilt: Any
-    feedforward: Any
+    derivatives: Unfiltered | CommandFilter
+    rates: ExactRates | BodyRates
+    inverse: TiltZXY | TiltPrinted
+    tilt: TiltLimit | Nothing
+    feedforward: Number
 
 
 @choice
-def euler_rates(kind: Any, e: Any, rates: Any) -> Any:
+def euler_rates(kind: ExactRates | BodyRates, e: Euler, rates: Vec3) -> Any:
     """(φ̇, θ̇, ψ̇) as the attitude law takes them, from body rates [rad/s]."""
 
 
 @euler_rates.register(ExactRates)
-def _exact(kind, e, rates):
+def _exact(kind: ExactRates, e: Euler, rates: Vec3) -> Vec3:
     return euler_rates_from_rates(e, rates)
 
 
 @euler_rates.register(BodyRates)
-def _body(kind, e, rates):
+def _body(kind: BodyRates, e: Euler, rates: Vec3) -> Vec3:
     return rates
 
 
 @law
-def position_law(k: NFTSMC, state: Any, desired: Any, push: Vec3) -> Vec3:
+def position_law(k: NFTSMC, state: State, desired: Trajectory, push: Vec3) -> Vec3:
     """The force (u_x, u_y, u_z) [N, world axes] that the position surface wants.
 
     Erratum: the paper leaves m_t out on ÿ_d and on the last line of u_z; it multiplies both.
@@ -171,7 +175,7 @@ def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -
 
 
 @control.register(NFTSMC)
-def nftsmc(k, memory, measured, reference):
+def nftsmc(k: NFTSMC, memory: Any, measured: Measured, reference: Reference) -> tuple[Command, Any]:
     """The whole controller at one sample."""
     e = euler_from_quaternion(measured.state.attitude)
     wished = position_law(k, measured.state, reference.trajectory, measured.push)
@@ -191,9 +195,10 @@ def _surface(s: NFTSMCSettings, first: int) -> Surface:
 
     g, widths = s.gains, pick(s.boundary_layer)
     per_width = Vec3(1.0 / widths.x, 1.0 / widths.y, 1.0 / widths.z)
-    kind = {"sign": Sign(), "saturation": Saturation(per_width), "tanh": Tanh(per_width)}[s.switching]
+    kinds: dict[str, Sign | Saturation | Tanh]
+    kinds = {"sign": Sign(), "saturation": Saturation(per_width), "tanh": Tanh(per_width)}
     exponent = Cubic() if set(pick(g.a)) == {3.0} else Power(pick(g.a))
-    return Surface(pick(g.xi), pick(g.eta), exponent, pick(g.lambda_1), pick(g.lambda_2), kind)
+    return Surface(pick(g.xi), pick(g.eta), exponent, pick(g.lambda_1), pick(g.lambda_2), kinds[s.switching])
 
 
 def _warn_of_chatter(s: NFTSMCSettings, step: float) -> None:
@@ -212,7 +217,7 @@ def _warn_of_chatter(s: NFTSMCSettings, step: float) -> None:
 
 
 @register("nftsmc", NFTSMCSettings)
-def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, Any]:
+def start(s: NFTSMCSettings, vehicle: Vehicle, step: float) -> tuple[NFTSMC, CommandFilterState | NoMemory]:
     """Nonsingular fast terminal sliding mode control of position and attitude (the paper's)."""
     _warn_of_chatter(s, step)
     filtered = s.attitude_reference_derivatives == "filtered"

@@ -13,10 +13,11 @@ Tune from the inside: rates, attitude, velocity, position; integrals last.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
 from tandemlift.controllers.attitude_reference import CommandFilterState
 from tandemlift.controllers.cascade import (
@@ -31,12 +32,13 @@ from tandemlift.controllers.cascade import (
     tracked_attitude,
     wanted_force,
 )
-from tandemlift.controllers.interface import control
+from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rates_from_euler_rates, turned_least
 from tandemlift.laws.mechanics.tilt import within_tilt
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
-from tandemlift.settings import NonNegative3, Positive3, key
+from tandemlift.laws.signals.trajectories import Reference
+from tandemlift.settings import Axes3, NonNegative3, Positive3, key
 from tandemlift.vehicle import Vehicle
 
 
@@ -96,7 +98,7 @@ class PID(NamedTuple):
     velocity: PIDGains
     attitude: Vec3
     rates: PIDGains
-    tracking: Any
+    tracking: Number
 
 
 class PIDState(NamedTuple):
@@ -108,7 +110,7 @@ class PIDState(NamedTuple):
 
 
 @law
-def pid_of(k: PIDGains, memory: PIDStageState, error: Vec3) -> Any:
+def pid_of(k: PIDGains, memory: PIDStageState, error: Vec3) -> tuple[Vec3, PIDStageState]:
     """(P + I + D of an error, the new memory)."""
     integral = clip(memory.integral + error * k.integral, -k.limit, k.limit)
     smoothed = smooth(k.smoothing, memory.error, error)
@@ -122,7 +124,7 @@ def drawn_back(memory: PIDStageState, excess: Vec3) -> PIDStageState:
 
 
 @control.register(PID)
-def pid(k, memory, measured, reference):
+def pid(k: PID, memory: PIDState, measured: Measured, reference: Reference) -> tuple[Command, PIDState]:
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     e = euler_from_quaternion(state.attitude)
@@ -143,7 +145,7 @@ def start(s: PIDSettings, vehicle: Vehicle, step: float) -> tuple[PID, PIDState]
     """Cascaded PID: position P, velocity PID, attitude P, rate PID, with anti-windup."""
     smoothing = low_pass(s.derivative_bandwidth, step)
 
-    def stage(p: Any, i: Any, d: Any, limit: Any) -> PIDGains:
+    def stage(p: Axes3, i: Axes3, d: Axes3, limit: Axes3) -> PIDGains:
         return PIDGains(vec3(p), vec3(i) * step, vec3(d), vec3(limit), smoothing)
 
     rest = PIDStageState(ZERO, LowPassState(ZERO, ZERO))

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, maximum
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Vec3, vec3
 from tandemlift.controllers.attitude_reference import CommandFilterState
 from tandemlift.controllers.cascade import (
@@ -29,11 +30,12 @@ from tandemlift.controllers.cascade import (
     tracked_attitude,
     wanted_force,
 )
-from tandemlift.controllers.interface import control
+from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import saturate
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.mechanics.tilt import within_tilt
+from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import Positive6, key
 from tandemlift.vehicle import Vehicle
 
@@ -72,13 +74,15 @@ def switched_acceleration(k: LinearSurface, e: Vec3, de: Vec3) -> Vec3:
 
 
 @elementwise
-def layer_reaching_time(gain, width, S0, disturbance):
+def layer_reaching_time(gain: Number, width: Number, S0: Number, disturbance: Number) -> Number:
     """The time [s] by which |S| ≤ Φ from S₀ when |δ| < K: (|S₀| − Φ)/(K − |δ|), exact for a δ that opposes."""
     return maximum(absolute(S0) - width, 0.0) / (gain - absolute(disturbance))
 
 
 @control.register(SMC)
-def smc(k, memory, measured, reference):
+def smc(
+    k: SMC, memory: CommandFilterState, measured: Measured, reference: Reference
+) -> tuple[Command, CommandFilterState]:
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     e = euler_from_quaternion(state.attitude)

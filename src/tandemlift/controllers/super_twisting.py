@@ -14,10 +14,11 @@ Tune first: λ, then √(L/Φ) against the rotors' lag, then L against what chan
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, maximum, sqrt
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
 from tandemlift.controllers.attitude_reference import CommandFilterState
 from tandemlift.controllers.cascade import (
@@ -33,11 +34,12 @@ from tandemlift.controllers.cascade import (
     tracked_attitude,
     wanted_force,
 )
-from tandemlift.controllers.interface import control
+from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import saturate
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, turned_least
 from tandemlift.laws.mechanics.tilt import within_tilt
+from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import Positive6, key
 from tandemlift.vehicle import Vehicle
 
@@ -91,13 +93,13 @@ class SuperTwistingState(NamedTuple):
 
 
 @elementwise
-def signed_root(S, width):
+def signed_root(S: Number, width: Number) -> Number:
     """|S|^½ sgn S, made linear within |S| ≤ Φ."""
     return S / sqrt(maximum(absolute(S), width))
 
 
 @law
-def twist(k: TwistingGains, v: Vec3, e: Vec3, de: Vec3) -> Any:
+def twist(k: TwistingGains, v: Vec3, e: Vec3, de: Vec3) -> tuple[Vec3, Vec3]:
     """(λė + v + 1.5 √L |S|^½ sgn S, the new v) with S = ė + λe: to be added to the reference acceleration."""
     S = de + k.slope * e
     wished = k.slope * de + v + k.root * signed_root(S, k.width)
@@ -105,7 +107,9 @@ def twist(k: TwistingGains, v: Vec3, e: Vec3, de: Vec3) -> Any:
 
 
 @control.register(SuperTwisting)
-def super_twisting(k, memory, measured, reference):
+def super_twisting(
+    k: SuperTwisting, memory: SuperTwistingState, measured: Measured, reference: Reference
+) -> tuple[Command, SuperTwistingState]:
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     e = euler_from_quaternion(state.attitude)

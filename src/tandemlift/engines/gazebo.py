@@ -1,10 +1,11 @@
-"""The body in Gazebo 11: the model that `tandemlift export` writes, moved by ODE, a step for each of ours.
+"""The body in Gazebo 11: the model that `tandemlift export` writes, moved by ODE, one step of Gazebo for each of ours.
 
-The plugin in the model (`gazebo/`) is led over UDP (`gazebo_wire`). Gazebo's step is semi-implicit Euler. Thrusts turn
-with the quadrotors from step to step, pushes and loads are held in world axes, drag is that of the step's start.
+The pilot drives the plugin in the model (`gazebo/`) over UDP (`gazebo_wire`). Gazebo's step is
+semi-implicit Euler. Thrusts turn with the quadrotors from step to step. Pushes and loads are held in world axes, and
+drag at its value at the start of the step.
 
 Environment: `TANDEMLIFT_GAZEBO_PORT` joins a Gazebo that runs already, at this port of its plugin, instead of starting
-one; `TANDEMLIFT_GAZEBO_REAL_TIME=1` keeps the world to real time, to watch and to push; see also `gazebo_server`.
+one; `TANDEMLIFT_GAZEBO_REAL_TIME=1` keeps the world in real time, for watching and pushing; see also `gazebo_server`.
 """
 
 from __future__ import annotations
@@ -31,22 +32,22 @@ from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
 NONE = Nothing()
-UNSOUND = 1e8  # N: a command beyond it is none
-RESTING = 0.1  # s, between words of a pilot that rests
+UNSOUND = 1e8  # N, beyond which the flight has diverged
+RESTING = 0.1  # s, between messages that keep the session alive while no step is taken
 STARTING, STEPPING = 60.0, 10.0  # s, after which a server that does not answer is given up
-CLOSE = 1e-9  # relative, of the world's step and mass
+CLOSE = 1e-9  # relative tolerance of the world's step and mass
 
 PORT, REAL_TIME = "TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_REAL_TIME"
 
 
 class PluginLink(Protocol):
-    """A pilot's end of the way to the plugin; see `gazebo_wire.Wire`."""
+    """The pilot's end of the connection to the plugin; see `gazebo_wire.Wire`."""
 
     patience: float
     thrusts: Array
     wrench: Array
     loads: Array
-    told: PluginAnswer
+    answer: PluginAnswer
 
     def hello(self, dt: float, rotors: Array, state: Array | None, real_time: bool) -> PluginAnswer:
         """Begin a session."""
@@ -54,28 +55,28 @@ class PluginLink(Protocol):
     def advance(self) -> PluginAnswer:
         """Send the step, and wait until the world has taken it."""
 
-    def keep(self) -> None:
-        """Say that the pilot lives, without a step."""
+    def keep_alive(self) -> None:
+        """Tell the plugin that the pilot is alive, without a step."""
 
     def close(self) -> None:
-        """Say goodbye, and hang up."""
+        """End the session and close the connection."""
 
 
-def _dial(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, PluginLink]:
-    """The plugin over UDP: of a server that is started, unless a port is named."""
-    server, port = _find(mission)
+def _connect(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, PluginLink]:
+    """Connect to the plugin over UDP, of a server started for the flight unless a port is named."""
+    server, port = _find_server(mission)
     return server, Wire(port, vehicle.count, STEPPING, server.check if server else None)
 
 
 class GazeboBody:
-    """A mission's vehicle in Gazebo; see `engines.Body`.
+    """A mission's vehicle in Gazebo; see `registry.EngineBody`.
 
     Args:
         mission: its step, `initial`, `plant`, `disturbance`, `ground` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
         floor: a `laws.mechanics.contact.Floor` to stand on, or `Nothing`.
         walls: a `laws.mechanics.walls.Walls` that says how the mission's walls press, or `Nothing`.
-        dial: finds or starts a server, and calls its plugin.
+        connect: finds or starts a server, and connects to its plugin.
 
     Attributes:
         pushed: (6,) force [N, world axes] and moment about the centre of mass [N·m, body axes] of pushes by Gazebo's
@@ -93,54 +94,54 @@ class GazeboBody:
         vehicle: Vehicle,
         floor: Any = NONE,
         walls: Any = NONE,
-        dial: Callable[[Mission, Vehicle], tuple[GazeboServer | None, PluginLink]] = _dial,
+        connect: Callable[[Mission, Vehicle], tuple[GazeboServer | None, PluginLink]] = _connect,
     ) -> None:
-        self.server, self._wire = dial(mission, vehicle)
+        self.server, self._wire = connect(mission, vehicle)
         wire = self._wire
         self._closing = weakref.finalize(self, _close, wire, self.server)
         real_time = os.environ.get(REAL_TIME, "0") not in ("", "0")
         self._hello = partial(
-            wire.hello, mission.mission.step, sdf.rotors_of(vehicle), start_state_of(mission), real_time
+            wire.hello, mission.mission.step, sdf.rotors_of(vehicle), start_state_from(mission), real_time
         )
         self._begun, self._rested = False, 0.0
-        self._meet(mission, vehicle)
-        told = wire.told
-        self.state, self.felt, self.pushed = told.state, told.felt, told.pushed
-        self.felt.fill(0.0)
-        self._velocity, self._rates, self._contact = told.state[3:6], told.state[10:], told.felt[-3:]
+        self._handshake(mission, vehicle)
+        answer = wire.answer
+        self.state, self.readings, self.pushed = answer.state, answer.readings, answer.pushed
+        self.readings.fill(0.0)
+        self._velocity, self._rates, self._contact = answer.state[3:6], answer.state[10:], answer.readings[-3:]
         self._touching = not (isinstance(floor, Nothing) and isinstance(walls, Nothing))
         self._force, self._moment = wire.wrench[:3], wire.wrench[3:]
         self._disturbing_force = np.array(mission.disturbance.force)
         self._disturbing_moment = np.array(mission.disturbance.moment)
         self._drag_force, self._drag_moment = np.array(vehicle.drag.force), np.array(vehicle.drag.moment)
 
-    def _meet(self, mission: Mission, vehicle: Vehicle) -> None:
-        """Wait for the plugin, and see that its world fits."""
+    def _handshake(self, mission: Mission, vehicle: Vehicle) -> None:
+        """Wait for the plugin, and check that its world fits the mission."""
         try:
             if self.server:
                 self._wire.patience = STARTING
-            _check(self._hello(), mission, vehicle)
+            _check_world(self._hello(), mission, vehicle)
             self._wire.patience = STEPPING
         except TimeoutError as error:
-            said = self.server.said() if self.server else ""
+            output = self.server.last_output() if self.server else ""
             self.close()
-            raise TimeoutError(f"{error}{said}") from None
+            raise TimeoutError(f"{error}{output}") from None
         except BaseException:
             self.close()
             raise
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
-        """Move by one step; see `engines.Body`.
+        """Advance by one step; see `registry.EngineBody`.
 
         Raises:
             OSError: the session is over, the server has ended, or does not answer.
         """
         if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:
             self.state.fill(np.nan)
-            self.felt.fill(np.nan)
+            self.readings.fill(np.nan)
             return
         wire = self._wire
-        if not self._begun:  # again: while the loop compiled, a server that was joined may have given us up
+        if not self._begun:  # once more: the server may have ended the session while the loop was compiled
             self._hello()
             self._begun = True
         wire.thrusts[:] = thrusts
@@ -153,14 +154,14 @@ class GazeboBody:
             self._contact.fill(0.0)
 
     def rest(self) -> None:
-        """Take no step for now, and stay the pilot; see `engines.Waiting`."""
+        """Keep the session alive without a step; see `registry.WaitingBody`."""
         now = time.monotonic()
         if self._begun and now - self._rested > RESTING:
-            self._wire.keep()
+            self._wire.keep_alive()
             self._rested = now
 
     def close(self) -> None:
-        """End the session, and the server if it was started for it; also done when the body is no longer used."""
+        """End the session, and the server if it was started for it; garbage collection does this too."""
         self._closing()
 
 
@@ -170,19 +171,19 @@ def _close(wire: PluginLink, server: GazeboServer | None) -> None:
     wire.close()
 
 
-def _find(mission: Mission) -> tuple[GazeboServer | None, int]:
-    """The server and the port of its plugin: started, unless one that runs is named."""
+def _find_server(mission: Mission) -> tuple[GazeboServer | None, int]:
+    """The server and the port of its plugin: a new server, unless a running one is named."""
     given = os.environ.get(PORT)
     if not given:
         port = free_port(socket.SOCK_DGRAM)
-        return GazeboServer(world_of(mission, port)), port
+        return GazeboServer(world_from(mission, port)), port
     if not given.isdecimal() or not 0 < int(given) < 65536:
         raise InputError(f"{PORT} = {given}: must be a UDP port, 1 to 65535")
     return None, int(given)
 
 
-def world_of(mission: Mission, plugin: int | str, **more: str) -> str:
-    """The world of a mission for a flight of its own: it waits for its pilot, as long as it takes, and ends with it."""
+def world_from(mission: Mission, plugin: int | str, **more: str) -> str:
+    """The world for one flight of a mission: it waits for its pilot without limit, and ends with it."""
     top = ElementTree.fromstring(sdf.world(mission, plugin).encode())
     settings = top.find(".//plugin[@name='tandemlift']")
     assert settings is not None
@@ -191,7 +192,7 @@ def world_of(mission: Mission, plugin: int | str, **more: str) -> str:
     return ElementTree.tostring(top, "unicode")
 
 
-def start_state_of(mission: Mission) -> Array:
+def start_state_from(mission: Mission) -> Array:
     """The state (13,) that a mission starts in."""
     initial = mission.initial
     attitude = quaternion_from_euler(vec3(initial.euler))
@@ -200,9 +201,9 @@ def start_state_of(mission: Mission) -> Array:
     return state
 
 
-def _check(told: PluginAnswer, mission: Mission, vehicle: Vehicle) -> None:
-    """Refuse a world that is not the mission's."""
-    _, step, mass = told.clock
+def _check_world(answer: PluginAnswer, mission: Mission, vehicle: Vehicle) -> None:
+    """Refuse a world whose step or mass differs from the mission's."""
+    _, step, mass = answer.clock
     true_mass = vehicle.mass * mission.plant.mass_scale
     for what, given, wanted, unit in (("step", step, mission.mission.step, "s"), ("mass", mass, true_mass, "kg")):
         if abs(given - wanted) > CLOSE * wanted:

@@ -1,4 +1,4 @@
-"""The body in Gazebo 11 as in `gazebo`, led over ROS 1 (`gazebo/tandemlift_gazebo_ros.cc`), by rospy.
+"""The body in Gazebo 11 as in `gazebo`, driven over ROS 1 (`gazebo/tandemlift_gazebo_ros.cc`) by rospy.
 
 Environment: `TANDEMLIFT_GAZEBO_ROS`, set to `master`, joins the ROS master at `ROS_MASTER_URI`; set to `world`, also
 the Gazebo that runs there; not set, both are started for the flight. `TANDEMLIFT_GAZEBO_REAL_TIME` as in `gazebo`.
@@ -18,47 +18,47 @@ from numpy.typing import ArrayLike
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
-from tandemlift.engines.gazebo import NONE, STEPPING, GazeboBody, world_of
+from tandemlift.engines.gazebo import NONE, STEPPING, GazeboBody, world_from
 from tandemlift.engines.gazebo_server import GazeboServer
 from tandemlift.engines.gazebo_wire import PluginAnswer
-from tandemlift.engines.ros_master import environment, joined, node
+from tandemlift.engines.ros_master import joined, node, ros_environment
 from tandemlift.engines.rospy import message_type
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
 Stamp = tuple[int, int]  # s, ns
 ROOT = "/tandemlift/gazebo"
-PLACES = (ROOT, *(f"{ROOT}_{k}" for k in range(2, 100)))  # of servers of this process, one beside the other
+PLACES = (ROOT, *(f"{ROOT}_{k}" for k in range(2, 100)))  # of several servers of this process
 MOVED = "sensor_msgs/MultiDOFJointState"
-ENDING = 5.0  # s, in which a server ends by itself
-SILENCE = 0.05  # s, after which a command is said again; a world that waits tells its state every 0.1 s
-WAITING = 0.02  # s, between words of who wants to be the pilot
+ENDING = 5.0  # s, in which a server may end by itself
+SILENCE = 0.05  # s, after which a command is repeated; a waiting world publishes its state every 0.1 s
+WAITING = 0.02  # s, between requests to become the pilot
 
 _taken: set[str] = set()
 
 
 def over_ros(mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> GazeboBody:
     """A mission's vehicle in Gazebo; see `gazebo.GazeboBody`."""
-    return GazeboBody(mission, vehicle, floor, walls, _dial)
+    return GazeboBody(mission, vehicle, floor, walls, _connect)
 
 
-def _dial(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, RosWire]:
+def _connect(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, RosWire]:
     node()
     if joined() == "world":
         return None, RosWire(vehicle.count, STEPPING)
     place = next(place for place in PLACES if place not in _taken)
     _taken.add(place)
-    server = GazeboServer(world_of(mission, "ros", namespace=place), environment(), ENDING)
+    server = GazeboServer(world_from(mission, "ros", namespace=place), ros_environment(), ENDING)
     return server, RosWire(vehicle.count, STEPPING, server.check, place)
 
 
 class RosWire:
-    """A pilot's end; as `gazebo_wire.Wire`.
+    """The pilot's end of the connection; as `gazebo_wire.Wire`.
 
     Args:
         count: N, the number of quadrotors.
-        patience: seconds after which a silent plugin is given up.
-        alive: called while nothing is heard; raises if the server has ended.
+        patience: time without an answer after which the session fails [s].
+        alive: called while no answer arrives; raises if the server has ended.
         place: namespace of the plugin's topics.
     """
 
@@ -66,20 +66,20 @@ class RosWire:
         self, count: int, patience: float = 5.0, alive: Callable[[], None] | None = None, place: str = ROOT
     ) -> None:
         self._rospy, self._alive, self._place = node(), alive or (lambda: None), place
-        self.count, self.patience, self.told = count, patience, PluginAnswer(count)
+        self.count, self.patience, self.answer = count, patience, PluginAnswer(count)
         self.thrusts, self.wrench, self.loads = np.zeros(4 * count), np.zeros(6), np.zeros(6 + 6 * count)
         self._name, self._over = self._rospy.get_name(), False
-        self._found: Stamp | None = None  # the state in which this pilot began
+        self._found: Stamp | None = None  # stamp of the state in which this pilot began
         self._at: Stamp = (0, 0)  # of the last state
         self._states: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._step, self._values = self._wrenches()
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # that it is sent at once, and not by another thread
+            warnings.simplefilter("ignore")  # rospy warns that messages are sent at once, not by a thread
             self._commands = self._rospy.Publisher(f"{place}/command", message_type(MOVED), tcp_nodelay=True)
             self._calls = self._rospy.Publisher(f"{place}/lead", message_type("std_msgs/Empty"), tcp_nodelay=True)
         self._listening = [
             self._rospy.Subscriber(f"{place}/state", message_type(MOVED), self._states.put, tcp_nodelay=True),
-            self._rospy.Subscriber(f"{place}/pilot", message_type("std_msgs/Header"), self._hear_of_pilot),
+            self._rospy.Subscriber(f"{place}/pilot", message_type("std_msgs/Header"), self._on_pilot),
         ]
 
     def _wrenches(self) -> tuple[Any, Array]:
@@ -110,9 +110,9 @@ class RosWire:
         if state is None:
             self._await(standing)
         else:
-            self._ask(self._placement(np.asarray(state)), standing)
-        self.told.clock[1:] = step, mass
-        return self.told
+            self._request(self._placement(np.asarray(state)), standing)
+        self.answer.clock[1:] = step, mass
+        return self.answer
 
     def advance(self) -> PluginAnswer:
         """Send the step, and wait until the world has taken it.
@@ -128,17 +128,17 @@ class RosWire:
         for wrench, row in zip(self._step.wrench, values.tolist(), strict=True):
             force, torque = wrench.force, wrench.torque
             force.x, force.y, force.z, torque.x, torque.y, torque.z = row
-        self._ask(self._step, self._at)
-        return self.told
+        self._request(self._step, self._at)
+        return self.answer
 
-    def keep(self) -> None:
-        """Say that the pilot lives, without a step: the last one again, which comes too late to move anything."""
+    def keep_alive(self) -> None:
+        """Tell the plugin that the pilot is alive: repeat the last step, which is too late to move anything."""
         if not self._over:
             self._commands.publish(self._step)
 
     def close(self) -> None:
-        """Say goodbye, and hang up."""
-        with contextlib.suppress(Exception):  # it is gone already
+        """End the session and close the topics."""
+        with contextlib.suppress(Exception):  # the server has ended already
             self._commands.publish(message_type(MOVED)())
         for topic in (self._commands, self._calls, *self._listening):
             topic.unregister()
@@ -152,14 +152,14 @@ class RosWire:
         twist = message_type("geometry_msgs/Twist")(vector(*state[3:6]), vector(*state[10:]))
         return message_type(MOVED)(joint_names=["base_link"], transforms=[to], twist=[twist])
 
-    def _ask(self, message: Any, at: Stamp) -> None:
-        """Send a message that answers the state of that stamp, again and again, until a later one is in `told`."""
+    def _request(self, message: Any, at: Stamp) -> None:
+        """Send a message that answers the state of that stamp, again and again, until a later one is in `answer`."""
         message.header.stamp.secs, message.header.stamp.nsecs = at
         self._commands.publish(message)
         self._await((at[0], at[1] + 1), lambda: self._commands.publish(message))
 
     def _await(self, least: Stamp, again: Callable[[], None] = lambda: None) -> None:
-        """Wait until a state of that stamp or a later one is in `told`, doing something whenever it is silent."""
+        """Wait until a state of that stamp or a later one is in `answer`, calling `again` whenever it is silent."""
         deadline = time.monotonic() + self.patience
         while not self._over:
             try:
@@ -176,15 +176,15 @@ class RosWire:
         raise ConnectionError("engine 'gazebo-ros': the session is over: another pilot leads, or this one was given up")
 
     def _take(self, state: Any) -> None:
-        """Bring `told` to a state."""
-        told, N = self.told, self.count
+        """Write a state message into `answer`."""
+        answer, N = self.answer, self.count
         p, q = state.transforms[0].translation, state.transforms[0].rotation
         v, w = state.twist[0].linear, state.twist[0].angular
-        told.clock[0] = self._at[0] + 1e-9 * self._at[1]
-        told.state[:] = p.x, p.y, p.z, v.x, v.y, v.z, q.w, q.x, q.y, q.z, w.x, w.y, w.z
-        felt = np.array([[f.x, f.y, f.z, m.x, m.y, m.z] for f, m in ((w.force, w.torque) for w in state.wrench[1:])])
-        told.felt[:3], told.felt[-3:], told.pushed[:] = felt[0, :3], felt[N + 1, :3], felt[N + 2]
-        told.felt[3:-3] = felt[1 : N + 1].T.ravel()
+        answer.clock[0] = self._at[0] + 1e-9 * self._at[1]
+        answer.state[:] = p.x, p.y, p.z, v.x, v.y, v.z, q.w, q.x, q.y, q.z, w.x, w.y, w.z
+        rows = np.array([[f.x, f.y, f.z, m.x, m.y, m.z] for f, m in ((w.force, w.torque) for w in state.wrench[1:])])
+        answer.readings[:3], answer.readings[-3:], answer.pushed[:] = rows[0, :3], rows[N + 1, :3], rows[N + 2]
+        answer.readings[3:-3] = rows[1 : N + 1].T.ravel()
 
     def _lead(self) -> Stamp:
         """Become the pilot; the stamp of the state in which the world waits from then on."""
@@ -198,8 +198,8 @@ class RosWire:
                 raise TimeoutError(self._no_answer())
         return self._found
 
-    def _hear_of_pilot(self, message: Any) -> None:
-        """Note that this pilot leads, or no longer."""
+    def _on_pilot(self, message: Any) -> None:
+        """Record whether this pilot leads."""
         if message.frame_id == self._name:
             self._found = message.stamp.secs, message.stamp.nsecs
         elif self._found is not None:

@@ -1,7 +1,7 @@
-"""A Gazebo 11 server of our own: started for a flight, and ended with it.
+"""A Gazebo 11 server that is started for a flight and ends with it.
 
-It runs where Gazebo is installed, or in the Debian 11 root that `tools/gazebo-root` makes. If the pilot dies without a
-word, the plugin ends the server.
+It runs on this system or in the Debian 11 root that `tools/gazebo-root` makes. If the pilot's process dies, the plugin
+ends the server.
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ ROOT = "TANDEMLIFT_GAZEBO_ROOT"
 MASTER = "GAZEBO_MASTER_URI"
 SETUP = "/usr/share/gazebo/setup.sh"
 NOTHING_MORE: Mapping[str, str] = MappingProxyType({})
-SHOWN = 12  # last lines of what the server said
+SHOWN = 12  # last lines of the server's output that are shown
 COLORS = re.compile("\x1b\\[[0-9;]*m")
 FAILING = ("Failed to load plugin libtandemlift", "the plugin rests")
-SOUND = ("ALSA lib", "AL lib")  # about loudspeakers that there are none
+SOUND = ("ALSA lib", "AL lib")  # complaints about missing loudspeakers
 
 ENTER = """
 mount --rbind /dev "$1/dev" && mount -t proc proc "$1/proc" && exec chroot "$1" /usr/bin/env -i \
 PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 HOME=/tmp sh -c "$2"
-"""  # in a mount namespace of its own, so that no mount is left behind
+"""  # in its own mount namespace, so that no mount is left behind
 
-UNSEEN = """\
+VIRTUAL_DISPLAY = """\
 Xvfb -displayfd 1 -terminate -nolisten tcp > display 2> /dev/null &
 while kill -0 $! && ! [ -s display ]; do sleep 0.05; done
 DISPLAY=:$(cat display); export DISPLAY
-"""  # a display of its own, which ends with its only client
+"""  # a display that ends with its only client
 
 
 def root() -> Path | None:
-    """The root that Gazebo is installed in, None for this system's.
+    """The root folder in which Gazebo is installed; None for this system.
 
     Raises:
         InputError: there is no Gazebo.
@@ -63,7 +63,7 @@ def root() -> Path | None:
 
 
 def free_port(kind: socket.SocketKind) -> int:
-    """A port of this machine that nobody has."""
+    """A free port of this machine."""
     with socket.socket(socket.AF_INET, kind) as s:
         s.bind(("127.0.0.1", 0))
         return int(s.getsockname()[1])
@@ -74,13 +74,13 @@ class GazeboServer:
 
     Args:
         world: the text of its world.
-        environment: variables that it has beside Gazebo's own.
-        grace: seconds in which it may end by itself when it is closed.
-        draws: whether there are cameras in it: it then draws, on a display that nobody sees (Xvfb), and its cameras
-            keep step with the world.
+        environment: variables beside Gazebo's own.
+        grace: time in which it may end by itself when it is closed [s].
+        draws: whether the world has cameras: the server then draws on a virtual display (Xvfb), in step with the
+            world.
 
     Attributes:
-        folder: its own, in which it runs.
+        folder: the working folder of the server.
         master: address of Gazebo's own transport, for `gz` and `gzclient`; `GAZEBO_MASTER_URI` if that is set.
 
     Raises:
@@ -97,7 +97,7 @@ class GazeboServer:
         (self.folder / "vehicle.world").write_text(world, "utf-8")
         with (self.folder / "log").open("wb") as log:
             self._process = subprocess.Popen(
-                command(inside, exported(environment) + self._script(seen, draws)),
+                shell_command(inside, export_lines(environment) + self._script(seen, draws)),
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
@@ -105,19 +105,21 @@ class GazeboServer:
             )
 
     def _script(self, folder: Path, draws: bool) -> str:
-        server = f"{UNSEEN}exec gzserver --lockstep" if draws else "exec gzserver"
-        return in_gazebo(self.master, f"cd {shlex.quote(str(folder))}\n{server} --verbose vehicle.world", folder)
+        server = f"{VIRTUAL_DISPLAY}exec gzserver --lockstep" if draws else "exec gzserver"
+        return with_gazebo_environment(
+            self.master, f"cd {shlex.quote(str(folder))}\n{server} --verbose vehicle.world", folder
+        )
 
     def check(self) -> None:
-        """See that it still runs, and has the plugin.
+        """Check that the server still runs and has loaded the plugin.
 
         Raises:
-            InputError: the plugin is not built, or cannot begin.
+            InputError: the plugin is not built, or cannot start.
             ConnectionError: the server has ended.
         """
         if self._process.poll() is not None:
             code = self._process.returncode
-            raise ConnectionError(f"engine 'gazebo': gzserver has ended (exit code {code}){self.said()}")
+            raise ConnectionError(f"engine 'gazebo': gzserver has ended (exit code {code}){self.last_output()}")
         for line in self._lines():
             if any(failing in line for failing in FAILING):
                 raise InputError(f"engine 'gazebo' needs its plugin (docs/gazebo.md), and gzserver says: {line}")
@@ -126,13 +128,13 @@ class GazeboServer:
         text = COLORS.sub("", (self.folder / "log").read_text("utf-8", "replace"))
         return [line for line in text.strip().splitlines() if line and not line.startswith(SOUND)]
 
-    def said(self) -> str:
-        """The last lines that the server said, with a word before; empty if there are none."""
+    def last_output(self) -> str:
+        """The last lines of the server's output, ready to be appended to a message; empty without output."""
         lines = self._lines()[-SHOWN:]
-        return "; it said:\n  " + "\n  ".join(lines) if lines else ""
+        return "; its last output:\n  " + "\n  ".join(lines) if lines else ""
 
     def close(self) -> None:
-        """End it, at once without a grace: there is nothing that it would have to save."""
+        """End the server, at once if it has no grace."""
         if self._grace > 0.0 and self._process.poll() is None:
             self._process.send_signal(signal.SIGINT)
             with contextlib.suppress(subprocess.TimeoutExpired):
@@ -143,9 +145,9 @@ class GazeboServer:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
-def in_gazebo(master: str, script: str, logs: Path = Path("/tmp")) -> str:
-    """A shell script run with Gazebo's environment, on loopback alone, and with no model database to look for."""
-    # the setup first: it sets a database and a master of its own
+def with_gazebo_environment(master: str, script: str, logs: Path = Path("/tmp")) -> str:
+    """A shell script with Gazebo's environment, on loopback only and without a model database."""
+    # the setup comes first: it sets a database and a master itself
     folder = shlex.quote(str(logs))
     return (
         f"[ ! -e {SETUP} ] || . {SETUP}; export {MASTER}={shlex.quote(master)} GAZEBO_MODEL_DATABASE_URI= "
@@ -153,20 +155,20 @@ def in_gazebo(master: str, script: str, logs: Path = Path("/tmp")) -> str:
     )
 
 
-def exported(environment: Mapping[str, str]) -> str:
-    """The beginning of a shell script that has these variables."""
+def export_lines(environment: Mapping[str, str]) -> str:
+    """The first lines of a shell script: they set these variables."""
     return "".join(f"export {name}={shlex.quote(value)}; " for name, value in environment.items())
 
 
-def command(inside: Path | None, script: str) -> list[str]:
-    """The command that runs a shell script where Gazebo is."""
+def shell_command(inside: Path | None, script: str) -> list[str]:
+    """The command that runs a shell script on the system, or in the root, that has Gazebo."""
     if inside is None:
         return ["sh", "-c", script]
     own = [] if os.geteuid() == 0 else ["--map-root-user"]
     return ["unshare", *own, "--mount", "sh", "-c", ENTER, "sh", str(inside), script]
 
 
-def by_yourself(master: str, what: str) -> str:
-    """The command by which a person runs one of Gazebo's own where Gazebo is."""
+def shell_command_for_user(master: str, what: str) -> str:
+    """The command line by which a user runs one of Gazebo's tools on this server."""
     inside = root()
     return f"{f'sudo chroot {inside} ' if inside else ''}env {MASTER}={master} GAZEBO_IP=127.0.0.1 {what}"

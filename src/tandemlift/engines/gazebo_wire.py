@@ -1,9 +1,9 @@
 """The messages between a pilot and the plugin in Gazebo (`gazebo/tandemlift_gazebo.cc`), over UDP on loopback.
 
 A message is a header (magic, version, kind, session, number of quadrotors, sequence number) and a fixed number of
-doubles, little-endian. The pilot asks and the plugin answers: HELLO by WELCOME, STEP k by STATE k. What is not answered
-is sent again; the plugin answers a STEP that it has taken already by the same STATE, and takes no other than the next.
-So a packet that is lost, doubled or late moves nothing, or once.
+doubles, little-endian. The pilot sends and the plugin answers: HELLO by WELCOME, STEP k by STATE k. The pilot repeats a
+message that is not answered. The plugin answers a repeated STEP by the same STATE, and accepts no other STEP than the
+next. So a packet that is lost, doubled or late never moves the world twice.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ AT_SEQUENCE, AT_KIND = 16, 6  # bytes
 DOUBLE = 8  # bytes
 STATE = 13  # numbers of a state
 LARGEST = 65536  # bytes
-FIRST_RESEND, SLOWEST_RESEND = 0.02, 0.5  # s
+FIRST_RESEND, SLOWEST_RESEND = 0.02, 0.5  # s, shortest and longest wait before a message is repeated
 
 
 class MessageKind(IntEnum):
-    """What a message is."""
+    """Kinds of messages."""
 
     HELLO = 1
     WELCOME = 2
@@ -43,7 +43,7 @@ class MessageKind(IntEnum):
 
 
 class HelloRequest(IntFlag):
-    """What a hello asks for: to place the vehicle at a state, to go on in real time."""
+    """Requests of a HELLO: place the vehicle at a state; run in real time."""
 
     NOTHING = 0
     PLACE = 1
@@ -60,18 +60,18 @@ REFUSALS = {
 
 
 class PluginAnswer:
-    """What the plugin tells, as views of one array that the next answer overwrites.
+    """An answer of the plugin, as views of one array that the next answer overwrites.
 
     Attributes:
         clock: (3,) time [s] and step [s] of the world, mass of its vehicle [kg].
-        state: (13,) as `engines.Body.state`.
-        felt: (6 + 6N,) as `engines.Body.felt`.
+        state: (13,) as `registry.EngineBody.state`.
+        readings: (6 + 6N,) as `registry.EngineBody.readings`.
         pushed: (6,) force [N, world axes] and moment about the centre of mass [N·m, body axes] of pushes by topic.
     """
 
     def __init__(self, count: int) -> None:
         self.numbers = np.zeros(answer_size(count))
-        self.clock, self.state, self.felt, self.pushed = np.split(self.numbers, [3, 3 + STATE, -6])
+        self.clock, self.state, self.readings, self.pushed = np.split(self.numbers, [3, 3 + STATE, -6])
 
 
 def hello_size(count: int) -> int:
@@ -90,30 +90,30 @@ def answer_size(count: int) -> int:
 
 
 class Wire:
-    """A pilot's end.
+    """The pilot's end of the connection.
 
     Args:
         port: UDP port of the plugin on this machine.
         count: N, the number of quadrotors.
-        patience: seconds after which a silent plugin is given up.
-        alive: called while nothing is heard; raises if the server has ended.
+        patience: time without an answer after which the session fails [s].
+        alive: called while no answer arrives; raises if the server has ended.
 
     Attributes:
-        thrusts, wrench, loads: parts of the next STEP, to be filled in: thrusts (4N,) [N]; force [N, world axes] and
-            moment [N·m, body axes] at the vehicle's centre of mass (6,); the numbers of a `Loads` (6 + 6N,).
-        told: the last answer.
+        thrusts, wrench, loads: parts of the next STEP, set by the caller: thrusts (4N,) [N]; force [N, world axes] and
+            moment [N·m, body axes] at the vehicle's centre of mass (6,); the numbers of a `PartLoads` (6 + 6N,).
+        answer: the last answer.
     """
 
     def __init__(self, port: int, count: int, patience: float = 5.0, alive: Callable[[], None] | None = None) -> None:
-        self.port, self.count, self.patience, self.told = port, count, patience, PluginAnswer(count)
+        self.port, self.count, self.patience, self.answer = port, count, patience, PluginAnswer(count)
         self._alive = alive or (lambda: None)
         self._session, self._sequence = 0, 0
         self._step = bytearray(HEADER.size + DOUBLE * step_size(count))
         step = np.frombuffer(self._step, dtype=np.float64, offset=HEADER.size)
         self.thrusts, self.wrench, self.loads = np.split(step, [4 * count, 4 * count + 6])
-        self._heard = bytearray(LARGEST)
-        self._answer = HEADER.size + DOUBLE * answer_size(count)
-        self._numbers = np.frombuffer(self._heard, dtype=np.float64, offset=HEADER.size, count=answer_size(count))
+        self._received = bytearray(LARGEST)
+        self._answer_size = HEADER.size + DOUBLE * answer_size(count)
+        self._numbers = np.frombuffer(self._received, dtype=np.float64, offset=HEADER.size, count=answer_size(count))
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.connect(("127.0.0.1", port))
 
@@ -125,8 +125,8 @@ class Wire:
         Args:
             dt: the mission's step [s].
             rotors: (3, 4N) x [m], y [m] from each quadrotor's centre of mass, signed torque over thrust [m].
-            state: (13,) to place the vehicle in; where it is, if not given.
-            real_time: whether the world goes on in real time; else as fast as it can.
+            state: (13,) to place the vehicle in; if None, the vehicle stays where it is.
+            real_time: whether the world runs in real time; otherwise as fast as possible.
 
         Raises:
             InputError: the plugin refuses.
@@ -136,12 +136,12 @@ class Wire:
             HelloRequest.REAL_TIME if real_time else HelloRequest.NOTHING
         )
         place = np.array([0.0] * 6 + [1.0] + [0.0] * 6) if state is None else state
-        said = np.concatenate([[float(asked), dt], np.ravel(place), np.ravel(rotors)])
-        assert said.size == hello_size(self.count)
+        content = np.concatenate([[float(asked), dt], np.ravel(place), np.ravel(rotors)])
+        assert content.size == hello_size(self.count)
         self._session, self._sequence = secrets.randbits(32), 0
-        self._ask(self._head(MessageKind.HELLO) + said.tobytes(), MessageKind.WELCOME)
+        self._request(self._head(MessageKind.HELLO) + content.tobytes(), MessageKind.WELCOME)
         self._step[: HEADER.size] = self._head(MessageKind.STEP)
-        return self.told
+        return self.answer
 
     def advance(self) -> PluginAnswer:
         """Send the step, and wait until the world has taken it.
@@ -152,40 +152,40 @@ class Wire:
         """
         self._sequence += 1
         SEQUENCE.pack_into(self._step, AT_SEQUENCE, self._sequence)
-        self._ask(self._step, MessageKind.STATE)
-        return self.told
+        self._request(self._step, MessageKind.STATE)
+        return self.answer
 
-    def keep(self) -> None:
-        """Say that the pilot lives, without a step: the last one again, whose answer is not waited for."""
+    def keep_alive(self) -> None:
+        """Tell the plugin that the pilot is alive: repeat the last message without waiting for the answer."""
         with contextlib.suppress(OSError):
             self._socket.send(self._step)
-            while self._socket.recv_into(self._heard, 0, socket.MSG_DONTWAIT):
+            while self._socket.recv_into(self._received, 0, socket.MSG_DONTWAIT):
                 pass
 
     def close(self) -> None:
-        """Say goodbye, and hang up."""
-        with contextlib.suppress(OSError):  # it is gone already
+        """End the session and close the socket."""
+        with contextlib.suppress(OSError):  # the server has ended already
             self._socket.send(self._head(MessageKind.BYE))
         self._socket.close()
 
     def _head(self, kind: MessageKind) -> bytes:
         return HEADER.pack(MAGIC, VERSION, kind, self._session, self.count, self._sequence)
 
-    def _ask(self, message: bytes | bytearray, answer: MessageKind) -> None:
-        """Send a message, again and again, until its answer is in `told`."""
+    def _request(self, message: bytes | bytearray, answer: MessageKind) -> None:
+        """Send a message, again and again, until its answer is in `answer`."""
         wait, deadline = FIRST_RESEND, time.monotonic() + self.patience
         while time.monotonic() < deadline:
             try:
                 self._socket.send(message)
                 self._socket.settimeout(wait)
-                while not self._hears(answer):
+                while not self._receive(answer):
                     if time.monotonic() > deadline:
                         raise TimeoutError
-                self.told.numbers[:] = self._numbers
+                self.answer.numbers[:] = self._numbers
                 return
             except TimeoutError:
                 wait = min(2.0 * wait, SLOWEST_RESEND)
-            except ConnectionRefusedError:  # nobody has the port, or not yet
+            except ConnectionRefusedError:  # nothing listens at the port yet
                 time.sleep(wait)
             self._alive()
         raise TimeoutError(
@@ -193,20 +193,20 @@ class Wire:
             f"({MessageKind(message[AT_KIND]).name} {self._sequence}); is the world paused, or Gazebo gone?"
         )
 
-    def _hears(self, answer: MessageKind) -> bool:
-        """Take one message off the wire; whether it is the answer."""
-        size = self._socket.recv_into(self._heard)
+    def _receive(self, answer: MessageKind) -> bool:
+        """Receive one message; whether it is the expected answer."""
+        size = self._socket.recv_into(self._received)
         if size < HEADER.size:
             return False
-        magic, version, kind, session, count, sequence = HEADER.unpack_from(self._heard)
+        magic, version, kind, session, count, sequence = HEADER.unpack_from(self._received)
         if magic != MAGIC or session != self._session:
             return False
         if kind == MessageKind.REFUSE:
-            self._refused(version, count, sequence)
-        return bool(version == VERSION and kind == answer and sequence == self._sequence and size == self._answer)
+            self._raise_refusal(version, count, sequence)
+        return bool(version == VERSION and kind == answer and sequence == self._sequence and size == self._answer_size)
 
-    def _refused(self, version: int, count: int, sequence: int) -> None:
-        """Raise what a refusal says, unless it answers another message."""
+    def _raise_refusal(self, version: int, count: int, sequence: int) -> None:
+        """Raise the error that a refusal states, unless it answers another message."""
         if sequence != self._sequence:
             return
         if version != VERSION:

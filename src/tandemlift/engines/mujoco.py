@@ -1,4 +1,4 @@
-"""The body in MuJoCo: multibody dynamics that share no equation with ours, so their agreement means something.
+"""The body in MuJoCo: multibody dynamics that share no equation with the compiled engine, an independent check.
 
 The Runge-Kutta step of order four is MuJoCo's. Over a step the rotors' thrusts turn with the body; pushes and the loads
 on the parts are held: forces in world axes, moments in body axes (the quadrotors' in world axes).
@@ -18,11 +18,11 @@ from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
 NONE = Nothing()
-UNSOUND = 1e8  # N: a command beyond it is none, and MuJoCo would take one beyond 1e10 for zero
+UNSOUND = 1e8  # N, beyond which the flight has diverged; MuJoCo takes a command beyond 1e10 for zero
 
 
 class MuJoCoBody:
-    """A mission's vehicle in MuJoCo; see `engines.Body`.
+    """A mission's vehicle in MuJoCo; see `registry.EngineBody`.
 
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
@@ -35,31 +35,34 @@ class MuJoCoBody:
         self.model = model_of(mission, vehicle, floor, walls)
         self.data = mujoco.MjData(self.model)
         N = vehicle.count
-        self.state, self.felt = np.zeros(13), np.zeros(6 * N + 6)
+        self.state, self.readings = np.zeros(13), np.zeros(6 * N + 6)
         self._disturbing_force = np.array(mission.disturbance.force)
         self._disturbing_moment = np.array(mission.disturbance.moment)
         self._payload, self._R = skew(-vehicle.center_of_mass), np.empty((3, 3))
         self._turned = np.empty((3, N))
-        self._made, self._of_rotors = made_at_joints(vehicle), np.empty(6 * N)
+        self._made, self._of_rotors = rotor_loads_at_joints(vehicle), np.empty(6 * N)
         self._view_memory(N, touching=self.model.npair > 0)
-        self._place(mission)
+        self._set_start(mission)
 
     def _view_memory(self, N: int, *, touching: bool) -> None:
-        """Views of MuJoCo's memory and of ours, part by part, so that a step only copies."""
-        d, state, felt, joints = self.data, self.state, self.felt, slice(3, 6 * N + 3)
+        """Make views of MuJoCo's memory and of ours, part by part, so that a step only copies."""
+        d, state, readings, joints = self.data, self.state, self.readings, slice(3, 6 * N + 3)
         self._position, self._velocity, self._attitude, self._rates = np.split(state, [3, 6, 10])
         self._true_position, self._true_attitude = d.qpos[:3], d.qpos[3:]
         self._true_velocity, self._true_rates = d.qvel[:3], d.qvel[3:]
         self._thrusts, self._force, self._moment = d.ctrl, d.qfrc_applied[:3], d.qfrc_applied[3:]
         on_quadrotors = d.xfrc_applied[2 : N + 2].T
         self._force_on_quadrotors, self._moment_on_quadrotors = on_quadrotors[:3], on_quadrotors[3:]
-        self._specific_force, self._accelerometer = felt[:3], d.sensordata[:3]
-        self._at_joints, self._made_at_joints = felt[joints].reshape(2, 3, N), self._of_rotors.reshape(2, 3, N)
+        self._specific_force, self._accelerometer = readings[:3], d.sensordata[:3]
+        self._at_joints, self._rotor_loads_at_joints = (
+            readings[joints].reshape(2, 3, N),
+            self._of_rotors.reshape(2, 3, N),
+        )
         self._joint_sensors = d.sensordata[joints].reshape(2, N, 3).transpose(0, 2, 1)
-        self._contact_force, self._contact_sensor = felt[6 * N + 3 :], d.sensordata[6 * N + 3 :]
+        self._contact_force, self._contact_sensor = readings[6 * N + 3 :], d.sensordata[6 * N + 3 :]
         self._touching = touching
 
-    def _place(self, mission: Mission) -> None:
+    def _set_start(self, mission: Mission) -> None:
         """Put the body where the mission starts."""
         initial = mission.initial
         self._true_position[:], self._true_velocity[:] = initial.position, initial.velocity
@@ -72,10 +75,10 @@ class MuJoCoBody:
         self._attitude[:] = self._true_attitude
         self._rates[:] = self._true_rates
 
-    def _read_felt(self) -> None:
-        # a joint's sensor reads what the payload puts on the quadrotor, and knows nothing of the rotors
+    def _read_sensors(self) -> None:
+        # a joint's sensor reads the load of the payload on the quadrotor, without that of the rotors
         self._specific_force[:] = self._accelerometer
-        np.subtract(self._made_at_joints, self._joint_sensors, out=self._at_joints)
+        np.subtract(self._rotor_loads_at_joints, self._joint_sensors, out=self._at_joints)
         if self._touching:
             self._contact_force[:] = self._contact_sensor
 
@@ -93,10 +96,10 @@ class MuJoCoBody:
         self._moment_on_quadrotors[:] = self._turned
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
-        """Move by one step; see `engines.Body`."""
+        """Advance by one step; see `registry.EngineBody`."""
         if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:
             self.state.fill(np.nan)
-            self.felt.fill(np.nan)
+            self.readings.fill(np.nan)
             return
         self._thrusts[:] = thrusts
         np.add(force, self._disturbing_force, out=self._force)
@@ -106,7 +109,7 @@ class MuJoCoBody:
         self._made.dot(thrusts, out=self._of_rotors)
         mujoco.mj_step(self.model, self.data)
         self._read_state()
-        self._read_felt()
+        self._read_sensors()
 
 
 def skew(a: Array) -> Array:
@@ -114,8 +117,8 @@ def skew(a: Array) -> Array:
     return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
 
 
-def made_at_joints(vehicle: Vehicle) -> Array:
-    """(6 N × 4 N): what rotor thrusts put on the joints, x, y and z of force [N] and of torque [N·m] as sets of N."""
+def rotor_loads_at_joints(vehicle: Vehicle) -> Array:
+    """Matrix (6 N × 4 N) from rotor thrusts [N] to joint loads: force x, y, z [N], torque x, y, z [N·m], each of N."""
     N = vehicle.count
     made = np.zeros((2, 3, N, N, 4))
     for i, q in enumerate(vehicle.quadrotors):

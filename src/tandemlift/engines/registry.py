@@ -1,8 +1,8 @@
-"""Engines: where the body lives. Each is one file and one entry here.
+"""Engines simulate the body of the vehicle. Each engine is one file and one entry here.
 
-An engine is given rotor thrusts, loads of the air and the person's push, moves its body by a step, and tells the state
-after it and what sensors felt at its start. It knows no pilot, no sensors' errors and no mission but for its vehicle,
-its start and its ground.
+The inputs of an engine are rotor thrusts, loads of the air and the person's push. It advances its body by a step, and
+returns the state after it and perfect sensor readings at its start. It knows neither the pilot nor sensor errors; it
+reads vehicle, initial state, ground and walls of the mission.
 """
 
 from __future__ import annotations
@@ -17,25 +17,25 @@ from tandemlift.vehicle import Vehicle
 
 
 class EngineBody(Protocol):
-    """A body in an engine of its own.
+    """A body that is simulated by an engine other than the compiled one.
 
     Attributes:
         state: (13,) position [m] and velocity [m/s] of the vehicle's centre of mass in world axes, attitude quaternion
             w, x, y, z (body to world), rates [rad/s] in body axes.
-        felt: (6 + 6N,) the numbers of a `Felt`: specific force at the payload's centre of mass [m/s²], what
-            the quadrotors put on the payload at their joints (x, y, z of all forces [N], then of all torques [N m]),
-            body axes; the force of floor and walls on the vehicle [N, world axes].
+        readings: (6 + 6N,) the numbers of a `PerfectReadings`: specific force at the payload's centre of mass
+            [m/s²], loads of the quadrotors on the payload at the joints (x, y, z of all forces [N], then of all torques
+            [N m]), body axes; the force of floor and walls on the vehicle [N, world axes].
     """
 
     state: Array
-    felt: Array
+    readings: Array
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
-        """Move by one step of the mission, and bring `state` to its end and `felt` to its start.
+        """Advance by one step: set `state` to its end, and `readings` to what sensors measured at its start.
 
         Args:
             thrusts: of every rotor [N] (4N,).
-            loads: (6 + 6N,) the numbers of a `laws.mechanics.loads.Loads`, held in world axes; empty without wind.
+            loads: (6 + 6N,) the numbers of a `laws.mechanics.loads.PartLoads`, held in world axes; empty without wind.
             force: of the person [N, world axes] (3,), the mean over the step.
             moment: of the person about the centre of mass [N m, body axes] (3,), at the start of the step.
         """
@@ -43,10 +43,10 @@ class EngineBody(Protocol):
 
 @runtime_checkable
 class WaitingBody(Protocol):
-    """A body that waits for its pilot, and gives it up when it is silent."""
+    """A body in another process, which ends the session if it hears nothing for some time."""
 
     def rest(self) -> None:
-        """Take no step for now, and stay the pilot; to be called ten times a second."""
+        """Keep the session alive without a step; to be called ten times a second."""
 
 
 Make = Callable[[Mission, Vehicle, Any, Any], EngineBody]
@@ -71,7 +71,7 @@ def _gazebo_over_ros() -> Make:
 
 
 class Engine(NamedTuple):
-    """An entry of the registry; `load` gives what makes a flight's body, None for the compiled loop's own."""
+    """An entry of the registry; `load` imports the class of the body; None for the compiled engine."""
 
     name: str
     summary: str
@@ -98,10 +98,10 @@ ENGINES = {
         ),
         Engine(
             "gazebo",
-            "Separate bodies on fixed joints in Gazebo 11 (ODE), led over UDP (docs/gazebo.md).",
+            "Separate bodies on fixed joints in Gazebo 11 (ODE), driven over UDP (docs/gazebo.md).",
             _gazebo,
         ),
-        Engine("gazebo-ros", "The same, led over topics of ROS 1 (docs/gazebo.md#over-ros).", _gazebo_over_ros),
+        Engine("gazebo-ros", "The same, driven over topics of ROS 1 (docs/gazebo.md#over-ros).", _gazebo_over_ros),
     ]
 }
 
@@ -110,7 +110,7 @@ def engine_named(name: str) -> Engine:
     """The engine of that name.
 
     Raises:
-        InputError: there is none.
+        InputError: there is no such engine.
     """
     if name not in ENGINES:
         raise unknown("engine", name, ENGINES)

@@ -1,6 +1,6 @@
-"""This process as a node of ROS 1, and the ROS master that it has: one of its own, where Gazebo is, or one that runs.
+"""This process as a ROS 1 node, and its ROS master: one started for it, or one that runs already.
 
-A process is one node and has one master, for as long as it lives. If it dies without a word, its own master ends too.
+A process is one node with one master for its whole life. If it dies, the master that it started ends too.
 
 Environment: `TANDEMLIFT_GAZEBO_ROS=master` joins the master at `ROS_MASTER_URI`; see also `gazebo_ros`.
 """
@@ -22,7 +22,7 @@ from pathlib import Path
 from types import ModuleType
 
 from tandemlift.common.errors import InputError
-from tandemlift.engines.gazebo_server import command, exported, free_port, root
+from tandemlift.engines.gazebo_server import export_lines, free_port, root, shell_command
 from tandemlift.engines.rospy import import_rospy
 
 JOIN = "TANDEMLIFT_GAZEBO_ROS"
@@ -30,14 +30,14 @@ URI, IP, HOST = "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME"
 LOGS, LOGGING = "ROS_LOG_DIR", "ROS_PYTHON_LOG_CONFIG_FILE"
 NODE = "tandemlift_pilot"
 STARTING = 30.0  # s, after which a master that does not answer is given up
-SCRIPT = "rosmaster --core -p {port} & read -r end; kill $!; wait"  # ends with the pipe that it reads
+SCRIPT = "rosmaster --core -p {port} & read -r end; kill $!; wait"  # ends when its pipe is closed
 
 
 def joined() -> str:
-    """What is to be joined: nothing (empty), the `master` that runs, or the `world` in Gazebo at that master.
+    """What the environment asks to join: nothing (''), a running `master`, or also the `world` in Gazebo there.
 
     Raises:
-        InputError: it is something else.
+        InputError: the variable has another value.
     """
     given = os.environ.get(JOIN, "")
     if given not in ("", "master", "world"):
@@ -47,13 +47,13 @@ def joined() -> str:
 
 @functools.cache
 def node() -> ModuleType:
-    """The package rospy, with this process a node.
+    """The package rospy, after this process has become a node.
 
     Raises:
         InputError: there is no rospy, or no master.
     """
     rospy = import_rospy()
-    if rospy.core.is_initialized():  # whoever uses tandemlift has made it one
+    if rospy.core.is_initialized():  # the caller of tandemlift has done so
         return rospy
     if joined():
         _check_master()
@@ -68,7 +68,7 @@ def node() -> ModuleType:
 
 @contextlib.contextmanager
 def _quiet() -> Iterator[None]:
-    """Let a node begin without a log of its own, for which it would set the logging of the whole process."""
+    """Keep a new node from configuring the logging of the whole process."""
     with tempfile.TemporaryDirectory() as folder:
         config = Path(folder, "as_it_is.yaml")
         config.write_text("version: 1\nincremental: true\n", "utf-8")
@@ -83,8 +83,8 @@ def _quiet() -> Iterator[None]:
                     os.environ[name] = value
 
 
-def environment() -> dict[str, str]:
-    """The variables by which another process finds the master of this node."""
+def ros_environment() -> dict[str, str]:
+    """The environment variables with which another process finds the master of this node."""
     import rosgraph
 
     return {URI: rosgraph.get_master_uri()} | {name: os.environ[name] for name in (IP, HOST) if name in os.environ}
@@ -99,13 +99,13 @@ def _check_master() -> None:
 
 
 class RosMaster:
-    """A ROS master of our own, on a free port.
+    """A ROS master started for this process, on a free port.
 
     Attributes:
         uri: its address.
 
     Raises:
-        InputError: there is none to start.
+        InputError: ROS 1 is not installed.
     """
 
     def __init__(self) -> None:
@@ -118,9 +118,9 @@ class RosMaster:
             )
         self._folder = tempfile.mkdtemp(prefix="tandemlift-", dir=inside / "tmp" if inside else None)
         logs = f"/tmp/{Path(self._folder).name}" if inside else self._folder
-        script = exported({IP: "127.0.0.1", URI: self.uri, LOGS: logs}) + SCRIPT.format(port=port)
+        script = export_lines({IP: "127.0.0.1", URI: self.uri, LOGS: logs}) + SCRIPT.format(port=port)
         self._process = subprocess.Popen(
-            command(inside, script),
+            shell_command(inside, script),
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -130,7 +130,7 @@ class RosMaster:
         self._wait(port)
 
     def _wait(self, port: int) -> None:
-        """Until somebody answers at the port."""
+        """Wait until the master answers at the port."""
         deadline = time.monotonic() + STARTING
         while time.monotonic() < deadline and self._process.poll() is None:
             with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port)):
@@ -140,7 +140,7 @@ class RosMaster:
         raise InputError("engine 'gazebo-ros': the ROS master did not start (rosmaster --core)")
 
     def close(self) -> None:
-        """End it."""
+        """End the master."""
         if self._process.stdin:
             self._process.stdin.close()
         self._process.wait()

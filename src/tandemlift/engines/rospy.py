@@ -1,7 +1,7 @@
-"""ROS 1's own Python client, rospy, wherever this machine has it.
+"""Import of rospy, the Python client of ROS 1, wherever this machine has it.
 
-Debian installs it for its own interpreter, beside whose packages a virtual environment does not look. It is plain
-Python: so its folder is put at the end of the path, where it hides nothing.
+Debian installs it for its own interpreter, whose packages a virtual environment does not see. rospy is plain Python, so
+its folder is appended to the path, where it hides nothing.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ FOLDERS = ("/usr/lib/python3/dist-packages", "/opt/ros/noetic/lib/python3/dist-p
 
 
 def has_rospy() -> bool:
-    """Whether this machine has rospy, of whichever version; nothing is imported."""
+    """Whether this machine has rospy, of any version; nothing is imported."""
     return importlib.util.find_spec("rospy") is not None or bool(_system_folders())
 
 
@@ -30,14 +30,14 @@ def _system_folders() -> list[str]:
 
 
 def import_rospy() -> ModuleType:
-    """The package rospy, of whichever version; its messages can be imported from then on.
+    """The package rospy, of any version; its messages can be imported from then on.
 
     Raises:
-        InputError: there is none; the text says what to install.
+        InputError: rospy is not installed; the text says what to install.
     """
     _mend_threads()
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of ROS's own age
+        warnings.simplefilter("ignore")  # of deprecated features in ROS itself
         rospy = _import("rospy", _system_folders())
         _mend_logging()
     return rospy
@@ -75,13 +75,13 @@ def _import(name: str, more: list[str]) -> ModuleType:
 
 
 def _mend_logging() -> None:
-    """Let loggers look for who called them as Python does: the way of rospy 1.15.9 never ends in Python 3.11."""
+    """Replace the caller look-up of rospy's loggers by Python's: that of 1.15.9 never returns in Python 3.11."""
     loggers = getattr(_import("rosgraph.roslogging", []), "RospyLogger", None)
     if loggers is not None:
         loggers.findCaller = logging.Logger.findCaller
 
 
 def _mend_threads() -> None:
-    """Give threads back a name that rospy 1.15.9 calls, and that Python has dropped in 3.9."""
+    """Restore `Thread.isAlive`, which rospy 1.15.9 calls and Python 3.9 has removed."""
     if not hasattr(threading.Thread, "isAlive"):
         threading.Thread.isAlive = threading.Thread.is_alive  # type: ignore[attr-defined]

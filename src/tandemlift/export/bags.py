@@ -17,12 +17,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.errors import InputError
-from tandemlift.export.frames import fixed, vehicle_of
+from tandemlift.common.phases import PHASE_NAMES
+from tandemlift.export.frames import fixed
 from tandemlift.export.messages import SECOND, MessageTypes, Transforms, diagnostics_of, maker_of, modern
 from tandemlift.export.topics import ROOT, topics_of
 from tandemlift.flight.record import Flight
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.missions import format_toml
+from tandemlift.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -52,7 +53,7 @@ def streams_of(flight: Flight, types: MessageTypes) -> list[TopicStream]:
     Raises:
         InputError: the flight lacks what a bag needs.
     """
-    vehicle = vehicle_of(flight)
+    vehicle = Vehicle.from_mission(flight.mission)
     topics, stamps = topics_of(flight, vehicle), [stamp(t) for t in flight.time.tolist()]
     transforms, diagnose = Transforms(types), diagnostics_of(types)
     Text = types["std_msgs/String"]
@@ -81,7 +82,7 @@ def events_of(flight: Flight) -> list[tuple[float, str]]:
     if not events and "phase" in flight:
         phase = flight["phase"].astype(int)
         entered = [0, *(1 + np.flatnonzero(np.diff(phase))).tolist()]
-        events = [(float(flight.time[k]), NAMES[phase[k]]) for k in entered]
+        events = [(float(flight.time[k]), PHASE_NAMES[phase[k]]) for k in entered]
     if flight.divergence:
         events.append((flight.divergence.time, str(flight.divergence)))
     return sorted(events)

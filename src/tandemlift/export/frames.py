@@ -16,26 +16,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.algebra.vector import Mat3, Quat, Vec3, apply, apply_transposed
-from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
-from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, quaternion_from_euler, rotation_from_quaternion
-from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle
 
 WORLD, BASE, ALIGNED, PAYLOAD = "world", "base_link", "base_world", "payload"
-
-
-def vehicle_of(flight: Flight) -> Vehicle:
-    """The vehicle of a flight's mission.
-
-    Raises:
-        InputError: the mission has none that can be read.
-    """
-    try:
-        return Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
-    except (KeyError, ValueError) as error:
-        raise InputError(f"flight {flight.name!r}: its mission's vehicle cannot be read: {error}") from error
 
 
 def fixed(vehicle: Vehicle) -> Iterator[tuple[str, Array]]:

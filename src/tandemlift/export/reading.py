@@ -18,15 +18,17 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.export.bags import rosbags
-from tandemlift.export.frames import eulers, vehicle_of
+from tandemlift.export.frames import eulers
 from tandemlift.export.messages import NUMBERS, SECOND
 from tandemlift.export.recipes import MeasuredPose, Recipe
-from tandemlift.export.topics import ALWAYS, PILOT, ROOT, SOMETIMES, all_recipes, topics_of
-from tandemlift.flight.record import CHANNELS, Flight
-from tandemlift.loop.running_metrics import LATE
+from tandemlift.export.topics import ALWAYS, JOINTS, PILOT, ROOT, SOMETIMES, all_recipes, topics_of
+from tandemlift.flight.channels import CHANNELS
+from tandemlift.flight.old_names import renamed_channel, renamed_tables, renamed_topic, warn_of_old_names
+from tandemlift.flight.record import LATE, Flight
 from tandemlift.vehicle import Vehicle
 
 BASE, MISSION, EVENTS = f"{ROOT}/odometry", f"{ROOT}/mission", "/diagnostics"
+VALUES = f"{ROOT}/pilot"
 PILOT_SAYS = "tandemlift: pilot"  # the name in diagnostics of what happens
 Stamped = dict[int, Any]  # messages by their stamps [ns]
 
@@ -59,8 +61,7 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
     stamps = np.array(sorted(said[BASE]))
     mission = _mission(path, said[MISSION])
     time = (stamps - stamps[0]) / SECOND
-    bare = Flight(time, {}, mission, {})
-    vehicle = vehicle_of(bare)
+    vehicle = Vehicle.from_mission(mission)
     channels = _channels(said, stamps, vehicle)
     missing = [name for recipe in ALWAYS for name in recipe.needs if name not in channels]
     if missing:
@@ -71,19 +72,22 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
 
 
 def _mission(path: Path, said: Stamped) -> dict[str, Any]:
-    """The mission as it was in the end."""
+    """The mission as it was in the end, by the names that its keys have now."""
     if not said:
         raise InputError(f"{path}: has no {MISSION}, which tells what was flown")
     try:
-        return tomllib.loads(said[max(said)].data)
+        tables, notices = renamed_tables(tomllib.loads(said[max(said)].data))
     except ValueError as error:
         raise InputError(f"{path}: {MISSION} is no mission: {error}") from error
+    warn_of_old_names(str(path), notices)
+    return tables
 
 
 def _messages(path: Path) -> dict[str, Stamped]:
     """The messages of all topics that are read, by topic; of those without a stamp, by when they came."""
     found: dict[str, Stamped] = defaultdict(dict)
     for topic, at, message in _opened(path):
+        topic = renamed_topic(topic)
         header = getattr(message, "header", None)
         stamp = header.stamp.sec * SECOND + header.stamp.nanosec if header else at
         if topic == EVENTS:
@@ -120,8 +124,8 @@ def _opened(path: Path) -> Iterator[tuple[str, int, Any]]:
 def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict[str, Array]:
     """The channels of all topics that there are."""
     there = {name for r in (*ALWAYS, *SOMETIMES) if said[f"{ROOT}/{r.name}"] for name in r.needs}
-    there |= {"measured_joint_force", "measured_joint_torque"} if said[f"{ROOT}/joint_1/measured"] else set()
-    there |= {name.partition(".")[0] for m in list(said[f"{ROOT}/pilot"].values())[:1] for name in m.name} & {*PILOT}
+    there |= set(JOINTS[1][1:]) if said[f"{ROOT}/joint_1/measured"] else set()
+    there |= {name.partition(".")[0] for m in list(said[VALUES].values())[:1] for name in _names(m)} & {*PILOT}
     parts: dict[str, list[Array]] = defaultdict(list)
     seen = MeasuredPose(np.zeros((0, 4)), vehicle)
     for recipe in all_recipes(there, vehicle):
@@ -139,11 +143,26 @@ def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict
 def _rows(recipe: Recipe, said: Stamped, stamps: Array) -> Array:
     """The numbers of a topic at some stamps; NaN before its first message."""
     own = np.array(sorted(said))
-    numbers = np.array([NUMBERS[recipe.kind](said[stamp]) for stamp in own.tolist()], dtype=np.float64)
+    numbers = np.array([_numbers(recipe, said[stamp]) for stamp in own.tolist()], dtype=np.float64)
     last = np.searchsorted(own, stamps, side="right") - 1
     rows = numbers[np.maximum(last, 0)]
     rows[last < 0] = np.nan
     return rows
+
+
+def _numbers(recipe: Recipe, message: Any) -> list[float]:
+    """The numbers of a message as its recipe takes them: those that have names by their names."""
+    numbers = NUMBERS[recipe.kind](message)
+    if not recipe.labels:
+        return numbers
+    named = dict(zip(_names(message), numbers, strict=True))
+    return [named.get(label, np.nan) for label in recipe.labels]
+
+
+def _names(message: Any) -> list[str]:
+    """The names in a message of numbers by name: channels by the names that they have now, and components."""
+    parts = (name.partition(".") for name in message.name)
+    return ["".join((renamed_channel(channel), *component)) for channel, *component in parts]
 
 
 def _events(said: Stamped, first: int) -> list[list[Any]]:

@@ -10,17 +10,14 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.export.frames import ALIGNED, BASE, PAYLOAD, WORLD, eulers, joint, quaternions, to_body, to_world
+from tandemlift.export.table import components
+from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle
 
 ODOMETRY, POSE, IMU = "nav_msgs/Odometry", "geometry_msgs/PoseStamped", "sensor_msgs/Imu"
 VECTOR, POINT = "geometry_msgs/Vector3Stamped", "geometry_msgs/PointStamped"
 WRENCH, ROTORS = "geometry_msgs/WrenchStamped", "sensor_msgs/JointState"
-ONE = (  # channels of one number
-    *("thrust", "allocated_thrust", "push_point_estimate", "phase", "alarm", "refused", "rotor_lost", "added_damping"),
-    *("reference_yaw_rate", "allocation_share", "push_usable", "payload_mass_estimate", "sensor_disagreement"),
-)
-WIDTHS = dict.fromkeys(ONE, 1) | dict.fromkeys(("attitude", "measured_attitude", "estimated_attitude"), 4)
 
 
 class Topic(NamedTuple):
@@ -68,9 +65,7 @@ class Source:
 
     def width(self, name: str) -> int:
         """How many columns a channel must have."""
-        if name in ("rotor_thrusts", "rotor_commands"):
-            return self.vehicle.rotor_count
-        return 3 * self.vehicle.count if "joint_" in name else WIDTHS.get(name, 3)
+        return CHANNELS[name].columns(self.vehicle.count, self.vehicle.rotor_count)
 
 
 class MeasuredPose(NamedTuple):
@@ -207,13 +202,17 @@ def point_on_beam(name: str, channel: str) -> Recipe:
     return Recipe(name, POINT, PAYLOAD, (channel,), rows, lambda rows, _: {channel: rows[:, 1]})
 
 
-def values(name: str, channels: tuple[str, ...]) -> Recipe:
-    """Numbers by name, those of a vector with its axis, without a frame."""
-    widths = [WIDTHS.get(c, 3) for c in channels]
-    labels = tuple(f"{c}.{axis}" if w > 1 else c for c, w in zip(channels, widths, strict=True) for axis in "xyz"[:w])
+def values(name: str, channels: tuple[str, ...], vehicle: Vehicle) -> Recipe:
+    """Numbers by name, those of a channel with several of them with its component, without a frame."""
+    widths = [CHANNELS[c].columns(vehicle.count, vehicle.rotor_count) for c in channels]
+    labels = tuple(label for c, width in zip(channels, widths, strict=True) for label in _labels(c, width))
 
     def back(rows: Array, _: MeasuredPose) -> dict[str, Array]:
         parts = np.split(rows, np.cumsum(widths)[:-1], axis=1)
         return {c: part[:, 0] if w == 1 else part for c, part, w in zip(channels, parts, widths, strict=True)}
 
     return Recipe(name, ROTORS, "", channels, lambda take: np.hstack([take(c) for c in channels]), back, labels)
+
+
+def _labels(name: str, width: int) -> list[str]:
+    return [name] if width == 1 else [f"{name}.{part}" for part in components(CHANNELS[name], width)]

@@ -12,21 +12,21 @@ from pathlib import Path
 
 import numpy as np
 
+from tandemlift.flight.channels import Channel
 from tandemlift.flight.record import Flight
-from tandemlift.flight.tables import ROTORS, dimensions
+from tandemlift.flight.tables import dimensions
 
 
-def components(name: str, frame: str, count: int) -> Sequence[str]:
+def components(channel: Channel, count: int) -> Sequence[str]:
     """What a channel's columns are called: axes, angles, a quaternion's w, x, y, z; quadrotor and rotor, or axis.
 
     Args:
-        name: of the channel.
-        frame: in which it is.
+        channel: what it holds.
         count: how many columns it has.
     """
-    if name in ROTORS:
+    if channel.per == "rotor" and channel.width == 1:
         return [f"{1 + i // 4}.{1 + i % 4}" for i in range(count)]
-    labels = [d.labels for d in dimensions(name, frame, count)]
+    labels = [d.labels for d in dimensions(channel, count)]
     return [".".join(map(str, parts)) for parts in itertools.product(*labels)]
 
 
@@ -39,7 +39,7 @@ def headings(flight: Flight) -> Iterator[str]:
         if values.ndim == 1:
             yield label
         else:
-            yield from (f"{label}.{part}" for part in components(name, info.frame, values.shape[1]))
+            yield from (f"{label}.{part}" for part in components(info, values.shape[1]))
 
 
 def write_csv(flight: Flight, path: Path) -> None:

@@ -27,6 +27,7 @@ from tandemlift.export.recipes import (
     values,
     wrench,
 )
+from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle
 
@@ -49,7 +50,7 @@ SOMETIMES = (
     command("command/allocated", "allocated_thrust", "allocated_moment"),
     force("push/measured", "push_measured"),
     wrench("push/estimated", "push_estimate", "push_moment_estimate", lambda v: -v.center_of_mass),
-    force("push/heard", "push_heard"),
+    force("push/filtered", "push_filtered"),
     point_on_beam("push/point", "push_point_estimate"),
     wrench("disturbance", "disturbance_force", "disturbance_moment"),
     odometry("measured/odometry", "measured_"),
@@ -59,22 +60,23 @@ SOMETIMES = (
     force("wind/force", "wind_force"),
     force("contact/force", "contact_force"),
 )
-PILOT = (  # what the pilot knows besides, by name
-    *("phase", "alarm", "refused", "push_on", "push_usable", "sensor_disagreement", "payload_mass_estimate"),
-    *("added_damping", "reference_yaw_rate", "allocation_share", "disturbance_residual"),
-    *("disturbance_turning_residual", "rotor_lost"),
+JOINTS = (
+    ("wrench", "joint_force", "joint_torque"),
+    ("measured", "measured_joint_force", "measured_joint_torque"),
 )
+ELSEWHERE = {"euler"}.union(*(recipe.needs for recipe in (*ALWAYS, *SOMETIMES)), *(names for _, *names in JOINTS))
+PILOT = tuple(name for name in CHANNELS if name not in ELSEWHERE)
+"""Channels without a topic of their own, which topic `pilot` has by their names; `euler` is what `attitude` is."""
 
 
 def all_recipes(has: Container[str], vehicle: Vehicle) -> Iterator[Recipe]:
     """How all topics of a flight of these channels are made: what every flight has, and what else it has."""
     yield from ALWAYS
-    joints = range(1, vehicle.count + 1)
-    yield from (joint_wrench(i, "wrench", "joint_force", "joint_torque") for i in joints)
-    measured = [joint_wrench(i, "measured", "measured_joint_force", "measured_joint_torque") for i in joints]
+    true, measured = ([joint_wrench(i, *names) for i in range(1, vehicle.count + 1)] for names in JOINTS)
+    yield from true
     yield from (r for r in (*SOMETIMES, *measured) if all(name in has for name in r.needs))
     if known := tuple(name for name in PILOT if name in has):
-        yield values("pilot", known)
+        yield values("pilot", known, vehicle)
 
 
 def recipes_of(flight: Flight, vehicle: Vehicle) -> list[Recipe]:

@@ -16,8 +16,7 @@ from tandemlift.common.files import atomic_write
 from tandemlift.export.bags import write_bag, write_mcap
 from tandemlift.export.table import write_csv
 from tandemlift.flight.record import Flight
-from tandemlift.missions import check
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission, check
 
 FORMATS: dict[str, Callable[[Flight, Path], None]] = {".mcap": write_mcap, ".bag": write_bag, ".csv": write_csv}
 WORLD, MODEL = ".sdf", ".xml"

@@ -1,1 +1,1 @@
-"""The figures of a flight: `registry` lists them, each other file draws one."""
+"""The figures of a flight: each file says what its figure shows and draws it; `registry` lists them."""

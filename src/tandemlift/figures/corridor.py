@@ -17,14 +17,26 @@ from matplotlib.patches import FancyArrowPatch
 
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.clearances import clearances, grips
+from tandemlift.figures.drawing.figure import Caption, with_walls
 from tandemlift.figures.drawing.panels import extent, line, value_ticks
 from tandemlift.figures.drawing.series import decimate, drawable
 from tandemlift.figures.drawing.skeleton import skeleton
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, VERMILLION, journal
-from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.figures.path import pushes
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
+from tandemlift.vehicle import Vehicle
+
+CAPTION = Caption(
+    "Walls and clearance",
+    "Top: view from above of the walls, the path of the centre of mass and the path that the person was to follow, "
+    "with the vehicle to scale at equal distances, black at the start and at the end: its beam, and the guards around "
+    "its quadrotors. Arrows show the horizontal push of the person at these instants. Bottom: distance of guards and "
+    "beam from the nearest wall, over the distance flown, and its minimum; they touch a wall below zero.",
+    "Two panels: view from above of walls, path, vehicle and pushes; clearance of guards and beam over the distance "
+    "flown.",
+)
+IN_FLIGHTS = with_walls
 
 ROUND = 1.2  # m, shown around the way and the vehicle
 SPACING = 1.1  # vehicle spans of way from one vehicle drawn to the next
@@ -40,15 +52,15 @@ def instants(flight: Flight) -> list[int]:
     """Samples at which the vehicle is drawn: the first, the last, and some at even steps of the way."""
     path = flight["position"][:, :2]
     way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
-    span = float(np.ptp(skeleton(flight.mission["vehicle"]).points, axis=0).max())
+    span = float(np.ptp(skeleton(Vehicle.from_mission(flight.mission)).points, axis=0).max())
     count = min(MOST, 2 + int(way[-1] / (SPACING * span)))
     return sorted({0, *map(int, np.searchsorted(way, np.linspace(0.0, way[-1], count)[1:-1])), len(path) - 1})
 
 
 def _vehicle(ax: Any, flight: Flight, k: int, color: str) -> None:
     """Draw the vehicle of sample k from above: its beam and the guards about its quadrotors."""
-    body = skeleton(flight.mission["vehicle"]).placed(flight["position"][k], flight["attitude"][k])
-    centers, vehicle = body.struts[:, 1, :2], vehicle_of(flight)
+    body = skeleton(Vehicle.from_mission(flight.mission)).placed(flight["position"][k], flight["attitude"][k])
+    centers, vehicle = body.struts[:, 1, :2], Vehicle.from_mission(flight.mission)
     ax.add_collection(LineCollection([*body.arms[:, :, :2]], colors=color, lw=0.4, zorder=4))
     if len(body.beam) == 2:
         ax.plot(*body.beam[:, :2].T, color=color, lw=1.6, solid_capstyle="round", zorder=4)
@@ -93,7 +105,7 @@ def _wanted(flight: Flight) -> Array:
 
 def _bounds(flight: Flight, shown: list[int]) -> Array:
     """Lowest and highest x and y (2, 2) [m] of the view."""
-    body = skeleton(flight.mission["vehicle"])
+    body = skeleton(Vehicle.from_mission(flight.mission))
     seen = [body.placed(flight["position"][k], flight["attitude"][k]).points[:, :2] for k in shown]
     points = np.concatenate([*seen, flight["position"][:, :2]])
     return np.array([points.min(axis=0) - ROUND, points.max(axis=0) + ROUND])

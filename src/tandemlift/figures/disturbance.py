@@ -11,9 +11,20 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tandemlift.common.types import Array
+from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLACK, COLUMN, COMPONENTS, GREY, journal
 from tandemlift.flight.record import Flight
+
+CAPTION = Caption(
+    "Disturbance",
+    "The disturbance observer’s estimate of what acts on the vehicle besides rotors, weight and person: force in "
+    "world axes, moment in body axes. Bottom, with a sliding-mode controller: the estimation error divided by λ₂, the "
+    "largest of the three axes of position and of attitude; the control law’s guarantee requires it to be below 1. "
+    "Grey: a person guides the vehicle.",
+    "Panels over time: disturbing force and moment, components x, y and z; the estimation error divided by λ₂.",
+)
+IN_FLIGHTS = with_any_of("disturbance_force")
 
 GUIDED = 2.0  # the phase in which a person steers
 
@@ -23,7 +34,7 @@ def share_of_lambda(flight: Flight) -> Array | None:
     gains = flight.mission["controller"].get("gains")
     if not isinstance(gains, dict) or "lambda_2" not in gains:
         return None
-    left = np.hstack([flight["disturbance_residual"], flight["disturbance_turning_residual"]])
+    left = np.hstack([flight["disturbance_residual"], flight["disturbance_angular_residual"]])
     return np.abs(left) / np.maximum(np.array(gains["lambda_2"]), 1e-12)
 
 

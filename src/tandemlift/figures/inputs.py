@@ -13,11 +13,20 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import fit, line, time_axis
 from tandemlift.figures.drawing.start import START, is_disturbed
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, journal
 from tandemlift.figures.drawing.vehicle import weight_of
 from tandemlift.flight.record import Flight
+
+CAPTION = Caption(
+    "Inputs",
+    "Commanded thrust U₁ and moments U₂, U₃, U₄ about the body axes. If the start of the flight needs far larger "
+    "inputs than the rest, the first second has a column of its own.",
+    "Panels over time of the commanded thrust and of the three commanded moments.",
+)
+IN_FLIGHTS = all_flights
 
 LEAST = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
 LABELS = ("$U_1$ (N)", "$U_2$ (N m)", "$U_3$ (N m)", "$U_4$ (N m)")

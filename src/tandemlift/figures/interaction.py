@@ -12,9 +12,20 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import extent, line, shade, time_axis, value_ticks
 from tandemlift.figures.drawing.style import BLACK, BLUE, COLUMN, PALE, VERMILLION, journal
 from tandemlift.flight.record import Flight
+
+CAPTION = Caption(
+    "Interaction",
+    "The person’s push and the thresholds of the admittance (left axis), and the resulting reference (right axis), "
+    "along each world axis. Grey: the push is beyond the threshold and moves the reference. White: the position is "
+    "held.",
+    "Three panels over time, for x, y and z: push, thresholds and reference position, shaded where the admittance is "
+    "active.",
+)
+IN_FLIGHTS = all_flights
 
 LEAST_PUSH = 0.1  # N, half the least span of the axis
 LEAST_REFERENCE = 0.01  # m

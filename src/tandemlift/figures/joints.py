@@ -11,11 +11,21 @@ from typing import Any
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.fleet import fleet_figure
 from tandemlift.figures.drawing.panels import components, fit, line, time_axis
 from tandemlift.figures.drawing.start import START, is_disturbed
 from tandemlift.figures.drawing.style import COMPONENTS, GREY, journal
 from tandemlift.flight.record import Flight
+
+CAPTION = Caption(
+    "Joints",
+    "Force and torque of each quadrotor on the payload at its joint, in body axes. If sensors are simulated, their "
+    "readings are drawn behind. If the start of the flight needs far larger forces than the rest, the scale is that "
+    "of the time after the first second.",
+    "A row of two panels over time for each quadrotor: force and torque on the payload, components x, y and z.",
+)
+IN_FLIGHTS = with_any_of("joint_force")
 
 AROUND = 0.9  # in, above and below the rows
 COLUMNS = (("joint_force", "f", "N", 0.2), ("joint_torque", "t", "N m", 0.05))  # channel, symbol, unit, least span

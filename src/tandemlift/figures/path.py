@@ -16,8 +16,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch
 
-from tandemlift.algebra.vector import Quat
 from tandemlift.common.types import Array
+from tandemlift.figures.drawing.attitude import body_to_world
+from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.ground import floor_height
 from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.figures.drawing.series import decimate, drawable
@@ -25,8 +26,19 @@ from tandemlift.figures.drawing.skeleton import Skeleton, skeleton
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, VERMILLION, journal
 from tandemlift.figures.drawing.walls import EDGE, GLASS, WallOutline, draw_walls, walls_near
 from tandemlift.flight.record import Flight
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings import wall_tables
+from tandemlift.vehicle import Vehicle
+
+CAPTION = Caption(
+    "Path",
+    "The path of the centre of mass, with an arrow for each push of the person: it starts where the push acts at its "
+    "peak, and its length is proportional to the force. The vehicle is drawn to scale at a few instants, black at the "
+    "start and at the end. Dotted lines lead from the pushes straight down to the floor, which is filled if the "
+    "vehicle can stand on it. Walls are transparent.",
+    "Three-dimensional view of the flown path with an arrow for each push, the vehicle at a few instants, and the "
+    "floor and walls if there are any.",
+)
+IN_FLIGHTS = all_flights
 
 MOST = 6  # vehicles drawn
 SPACING = 1.2  # vehicle spans of path from one vehicle drawn to the next, at least
@@ -50,8 +62,8 @@ def pushes(flight: Flight) -> list[PushArrow]:
         if not len(flight.time) or not flight.time[0] <= push["time"] <= flight.time[-1]:
             continue
         k = int(np.argmin(np.abs(flight.time - push["time"])))
-        R = np.array(rotation_from_quaternion(Quat(*map(float, flight["attitude"][k]))))
-        found.append(PushArrow(flight["position"][k] + R @ push["point"], np.array(push["force"])))
+        point = flight["position"][k] + body_to_world(flight["attitude"][k]) @ push["point"]
+        found.append(PushArrow(point, np.array(push["force"])))
     return [p for p in found if np.isfinite(p.point).all() and p.force.any()]
 
 
@@ -126,7 +138,7 @@ def draw(flight: Flight) -> Figure:
     rotations = np.abs(np.linalg.norm(flight["attitude"], axis=1) - 1.0) < 0.01  # false for NaN
     sound = np.isfinite(drawable(flight["position"])).all(axis=1) & rotations
     path, attitudes = flight["position"][sound], flight["attitude"][sound]
-    body = skeleton(flight.mission["vehicle"])
+    body = skeleton(Vehicle.from_mission(flight.mission))
     span = float(np.ptp(body.points, axis=0).max())
     visible = len(path) and span > VISIBLE * np.ptp(path, axis=0).max()
     shown = instants(path, span) if visible else []

@@ -12,14 +12,27 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from tandemlift.algebra.vector import Quat, Vec3, apply_transposed
 from tandemlift.common.types import Array
+from tandemlift.figures.drawing.attitude import body_to_world
+from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.panels import fit, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
-from tandemlift.figures.drawing.vehicle import payload_mass_of, vehicle_of
+from tandemlift.figures.drawing.vehicle import payload_mass_of
 from tandemlift.flight.record import Flight
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings.pilot import EstimatorTable
+from tandemlift.vehicle import Vehicle
+
+CAPTION = Caption(
+    "Push estimate",
+    "The person’s push, its value from the latest joint readings, and its estimate, along each world axis, with the "
+    "thresholds of the admittance. Below: where on the beam it acts, along body y from the payload’s centre, while "
+    "the push is large enough to tell (the axis is as wide as the beam); the payload’s mass; and the disagreement of "
+    "the joint sensors, with the limit beyond which they are not trusted. Grey: the estimate must not be used. Blue: "
+    "the tare, which finds the sensors’ bias.",
+    "Six panels over time: true, measured and estimated push along x, y and z with thresholds; place along the beam; "
+    "mass of the payload; disagreement of the sensors. Shaded where the estimate must not be used.",
+)
+IN_FLIGHTS = with_any_of("push_estimate")
 
 TRUE: dict[str, Any] = {"color": BLUE, "lw": 1.2}
 ESTIMATE: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (4, 1.6))}
@@ -33,13 +46,13 @@ BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to ea
 def places(flight: Flight) -> list[Array]:
     """Where on body y each push acts (T) [m from the payload's centre of mass], NaN while it is too small to tell."""
     least = EstimatorTable.model_validate(flight.mission.get("estimator", {})).min_force
-    R = rotation_from_quaternion(Quat(*flight["attitude"].T))
-    center = vehicle_of(flight).center_of_mass[1]
+    R = body_to_world(flight["attitude"])
+    center = Vehicle.from_mission(flight.mission).center_of_mass[1]
     found = []
     for push in flight.mission.get("pushes", []):
         size = np.exp(-0.5 * ((flight.time - push["time"]) / push["sigma"]) ** 2)
-        force = apply_transposed(R, Vec3(*(size * axis for axis in push["force"])))
-        across = np.hypot(force.x, force.z)
+        x, _, z = size * (np.array(push["force"]) @ R).T  # body axes
+        across = np.hypot(x, z)
         found.append(np.where(across >= least, push["point"][1] + center, np.nan))
     return found
 
@@ -74,7 +87,7 @@ def _place(ax: Any, flight: Flight) -> None:
     for place in true:
         line(ax, flight.time, place, zorder=3, **TRUE)
     line(ax, flight.time, told, zorder=4, **ESTIMATE)
-    length = vehicle_of(flight).payload.length
+    length = Vehicle.from_mission(flight.mission).payload.length
     fit(ax, told, *true, least=LEAST_PLACE)
     if length:
         ax.set_ylim(-BEYOND * length / 2.0, BEYOND * length / 2.0)

@@ -9,10 +9,19 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
+from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import fit, line, time_axis
 from tandemlift.figures.drawing.series import drawable, normalised
 from tandemlift.figures.drawing.style import ACTUAL, GREY, PAGE, VERMILLION, journal
 from tandemlift.flight.record import Flight
+
+CAPTION = Caption(
+    "Reference trajectories",
+    "The admittance’s response to the person’s push, along each world axis: the push, divided by its largest absolute "
+    "value on that axis, and the reference position and velocity.",
+    "Nine panels over time, three columns for x, y and z: normalised push, reference position, reference velocity.",
+)
+IN_FLIGHTS = all_flights
 
 ROWS = (
     ("admittance_position", "$T_r$ (m)", 0.02),

@@ -1,24 +1,28 @@
-"""The figures of a flight, by name: each is one file with one function `draw(flight)`.
+"""The figures of a flight, in their order. Each is a file with a caption, the flights that have it, and `draw(flight)`.
 
-The drawing library is loaded when the first figure is drawn, not when this package is imported.
+The drawing library is loaded when the figures are asked for, not when this file is imported.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from functools import cache
 from pathlib import Path
-from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
 
-Draw = Callable[[Flight], Any]
+if TYPE_CHECKING:
+    from tandemlift.figures.drawing.figure import Caption, FlightFigure
+
+VIEWS = "views"
+"""Photographs of a flight from Gazebo, `views.draw`: they are not drawn from a flight, so `figures` lacks them."""
 
 
-def _files() -> dict[str, ModuleType]:
-    """The file of each figure; with them the drawing library is imported."""
+@cache
+def figures() -> dict[str, FlightFigure]:
+    """All figures of flights by name: those of the paper in its order, then the others."""
     from tandemlift.figures import (
         corridor,
         disturbance,
@@ -34,53 +38,27 @@ def _files() -> dict[str, ModuleType]:
     )
 
     files = (reference, path, tracking, inputs, interaction, push, disturbance, joints, rotors, surroundings, corridor)
-    return dict(zip(NAMES, files, strict=True))
+    return {file.__name__.rpartition(".")[2]: file for file in files}
 
 
-def _drawing(name: str) -> Draw:
-    """The `draw` of a figure's file, which is imported at the first call."""
+def captions() -> dict[str, Caption]:
+    """The captions of the photographs and of all figures by name, in the order in which a report shows them."""
+    from tandemlift.figures import views
 
-    def draw(flight: Flight) -> Any:
-        return _files()[name].draw(flight)
-
-    draw.__name__ = draw.__qualname__ = f"draw_{name}"
-    return draw
+    return {VIEWS: views.CAPTION} | {name: figure.CAPTION for name, figure in figures().items()}
 
 
-NAMES = (
-    *("reference", "path", "tracking", "inputs", "interaction"),  # in the order of the paper
-    *("push", "disturbance", "joints", "rotors", "surroundings", "corridor"),
-)
-FIGURES: dict[str, Draw] = {name: _drawing(name) for name in NAMES}
-"""All figures that there are; a flight has those of `figures_of`."""
-
-VIEWS = "views"
-"""Photographs of a flight, by `views.draw_views`: no flight can be drawn that way, so they are not among these."""
-
-SHOWS: dict[str, tuple[str, ...]] = {
-    "push": ("push_estimate",),
-    "disturbance": ("disturbance_force",),
-    "joints": ("joint_force",),
-    "rotors": ("rotor_commands",),
-    "surroundings": ("wind_velocity", "contact_force"),
-}
-"""Channels that a figure is about: a flight has it if it has one of them. A figure without is every flight's."""
+def figures_of(flight: Flight) -> dict[str, FlightFigure]:
+    """The figures that a flight has, in the order of `figures`."""
+    return {name: figure for name, figure in figures().items() if figure.IN_FLIGHTS(flight)}
 
 
-def among_walls(flight: Flight) -> bool:
-    """Whether there were walls around a flight."""
-    mission = flight.mission
-    return bool(mission.get("walls") or mission.get("corridor", {}).get("centreline"))
+def save_figure(figure: Any, path: Path) -> Path:
+    """Write one figure as PNG or PDF, by the ending of the path; its folder is made if it does not exist."""
+    from tandemlift.figures.drawing.style import save
 
-
-def figures_of(flight: Flight) -> dict[str, Draw]:
-    """The figures that a flight has, in the order of `FIGURES`."""
-    return {
-        name: draw
-        for name, draw in FIGURES.items()
-        if name not in SHOWS or any(channel in flight.channels for channel in SHOWS[name])
-        if name != "corridor" or among_walls(flight)
-    }
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return save(figure, path)
 
 
 def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progress | None = None) -> list[Path]:
@@ -92,16 +70,14 @@ def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progr
         progress: called after each figure with (figures written, figures in all).
 
     Returns:
-        The files written, in the order of `FIGURES`, PNG before PDF.
+        The files written, in the order of `figures`, PNG before PDF.
     """
-    from tandemlift.figures.drawing.style import save
-
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    written, figures = [], figures_of(flight)
-    for done, (name, draw) in enumerate(figures.items(), 1):
-        figure = draw(flight)
-        written += [save(figure, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
+    written, drawn = [], figures_of(flight)
+    for done, (name, figure) in enumerate(drawn.items(), 1):
+        page = figure.draw(flight)
+        written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
         if progress:
-            progress(done, len(figures))
+            progress(done, len(drawn))
     return written

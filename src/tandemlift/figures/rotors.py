@@ -14,11 +14,23 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
+from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.fleet import fleet_figure
 from tandemlift.figures.drawing.panels import extent, line, time_axis, value_ticks
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, TAN, VERMILLION, journal
 from tandemlift.flight.record import Flight
-from tandemlift.settings import VehicleTable
+from tandemlift.vehicle import Vehicle
+
+CAPTION = Caption(
+    "Rotors",
+    "Thrust and command of each rotor, and its limits; commands far beyond the limits are cut off. A rotor failure is "
+    "marked, and lowers the upper limit to the thrust that is left. Near the floor a rotor can give more than its "
+    "limit. Bottom: the fraction of the commanded wrench that the commands give within the limits; it is 0 while the "
+    "rotors are stopped.",
+    "A row of four panels over time for each quadrotor: thrust, command and limits of each rotor. Below, the fraction "
+    "of the commanded thrust and moments that they give.",
+)
+IN_FLIGHTS = with_any_of("rotor_commands")
 
 AROUND, SHARE = 2.0, 0.85  # in: above and below the rows of rotors, and of that, the panel of the share
 MARGIN = 0.12  # of the largest thrust, beyond the limits
@@ -67,7 +79,7 @@ def _panel(ax: Any, flight: Flight, column: int, most: float, fault: dict[str, A
 
 
 def _share(ax: Any, flight: Flight) -> None:
-    line(ax, flight.time, flight["allocation_share"], color=BLUE, lw=1.0)
+    line(ax, flight.time, flight["allocation_fraction"], color=BLUE, lw=1.0)
     ax.axhline(1.0, color=GREY, lw=0.4, zorder=0)
     ax.set_ylim(-0.05, 1.08)
     ax.set_yticks([0.0, 0.5, 1.0])
@@ -86,7 +98,7 @@ def _legend(figure: Figure, failing: bool) -> None:
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw thrust, command and limits [N] of each rotor, a row a quadrotor, of the first eight; below, the share."""
-    quadrotors = VehicleTable.model_validate(flight.mission["vehicle"]).quadrotors
+    quadrotors = Vehicle.from_mission(flight.mission).quadrotors
     figure, rows = fleet_figure(len(quadrotors), AROUND)
     height = (figure.get_figheight() - AROUND) / rows
     grid = figure.add_gridspec(rows + 1, 4, height_ratios=[*[height] * rows, SHARE])

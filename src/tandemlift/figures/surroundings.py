@@ -13,11 +13,22 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.ground import clearance, floor_height
 from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLACK, BLUE, COMPONENTS, GREY, PAGE, PALE, journal
 from tandemlift.figures.drawing.vehicle import weight_of
 from tandemlift.flight.record import Flight
+
+CAPTION = Caption(
+    "Surroundings",
+    "With wind: velocity of the air and its force on all parts together. With a floor: force of floor and walls on "
+    "the vehicle, with its weight, and height of the lowest foot above the floor. World axes. Grey: floor or walls "
+    "touch the vehicle.",
+    "Panels over time of the wind’s velocity and force, the contact force and the height above the floor, as far as "
+    "there are wind and floor; shaded in contact.",
+)
+IN_FLIGHTS = with_any_of("wind_velocity", "contact_force")
 
 ROW, AROUND = 1.35, 0.85  # in: height of a panel, and above and below them all
 VECTORS = (  # channel, label, least span of the axis

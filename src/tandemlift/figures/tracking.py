@@ -13,10 +13,20 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter
 
+from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import fit, line, time_axis
 from tandemlift.figures.drawing.series import drawable, normalised
 from tandemlift.figures.drawing.style import ACTUAL, COMPONENTS, DESIRED, GREY, PAGE, journal
 from tandemlift.flight.record import Flight
+
+CAPTION = Caption(
+    "Tracking",
+    "Desired and actual orientation, position and velocity. Bottom row: the errors, desired minus actual, each "
+    "divided by its largest absolute value, which the legend gives.",
+    "Twelve panels over time, three columns for orientation, position and velocity: desired and actual value of each "
+    "component, and their normalised errors.",
+)
+IN_FLIGHTS = all_flights
 
 
 class FigureColumn(NamedTuple):

@@ -1,5 +1,6 @@
 """The record of a flight: its channels, its file, the record as a table, and the old names of renamed things."""
 
-from tandemlift.flight.record import CHANNELS, DERIVED, Channel, Divergence, Flight
+from tandemlift.flight.channels import CHANNELS, DERIVED, Channel
+from tandemlift.flight.record import Divergence, Flight
 
 __all__ = ["CHANNELS", "DERIVED", "Channel", "Divergence", "Flight"]

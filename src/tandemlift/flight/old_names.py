@@ -83,10 +83,23 @@ KEYS: dict[str, str] = {
 VALUES: dict[str, dict[str, str]] = {"sensor_faults.sensor": {"unit": "imu"}}
 """By a mission key's new dotted name: choices that it had under another name."""
 
-CHANNELS: dict[str, str] = {}
+CHANNELS: dict[str, str] = {
+    "allocation_share": "allocation_fraction",
+    "disturbance_turning_residual": "disturbance_angular_residual",
+    "push_heard": "push_filtered",
+    "push_on": "push_active",
+    "refused": "failed_check",
+    "rotor_lost": "failed_rotor",
+}
 """A channel's old name and its new one."""
 
+TOPICS: dict[str, str] = {"/tandemlift/push/heard": "/tandemlift/push/filtered"}
+"""An old name of a topic in a bag and its new one."""
+
 _IN_TABLE = {(new.rpartition(".")[0], old.rpartition(".")[2]): new.rpartition(".")[2] for old, new in KEYS.items()}
+_PLACES = {  # of all that was renamed, and of the tables around it, by their new names
+    ".".join(parts[:depth]) for parts in (name.split(".") for name in (*KEYS.values(), *VALUES)) for depth in range(9)
+}
 
 
 class _At(NamedTuple):
@@ -137,6 +150,30 @@ def renamed_setting(key: str, value: Any) -> tuple[str, Any, list[str]]:
     return new, _renamed(value, _at(key), notices), notices
 
 
+def renamed_channels(channels: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """Channels by their new names, in the same order, and a sentence for each old name.
+
+    Raises:
+        InputError: there is a channel by its old and its new name at once.
+    """
+    old = [name for name in channels if name in CHANNELS]
+    for name in old:
+        if CHANNELS[name] in channels:
+            raise _both(name, CHANNELS[name])
+    notices = [f"channel {_notice(name, CHANNELS[name])}" for name in old]
+    return {CHANNELS.get(name, name): values for name, values in channels.items()}, notices
+
+
+def renamed_channel(name: str) -> str:
+    """A channel by its new name."""
+    return CHANNELS.get(name, name)
+
+
+def renamed_topic(name: str) -> str:
+    """A topic of a bag by its new name."""
+    return TOPICS.get(name, name)
+
+
 def check_said_once(changes: Iterable[str]) -> None:
     """Refuse dotted keys that are given by their old and their new name at once.
 
@@ -166,6 +203,8 @@ def _both(old: str, new: str) -> InputError:
 
 def _renamed(value: Any, at: _At, notices: list[str]) -> Any:
     """What stands at a place, by its new names."""
+    if ".".join(at.now) not in _PLACES:
+        return value
     if isinstance(value, Mapping):
         return dict(_items(value, at, notices))
     if isinstance(value, list):

@@ -1,7 +1,4 @@
-"""The record of a flight: named channels with unit and frame, the resolved mission, and the metrics.
-
-Frames: `world` is inertial with z up; `body` is fixed to the vehicle; `zxy` are Euler angles roll, pitch, yaw.
-"""
+"""The record of a flight: named channels (`flight.channels`), the resolved mission, and the metrics."""
 
 from __future__ import annotations
 
@@ -17,9 +14,9 @@ import numpy as np
 
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.files import atomic_write
-from tandemlift.common.sensors import ADDITIONAL
 from tandemlift.common.types import Array
-from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
+from tandemlift.flight.channels import DERIVED, Channel, channel_of
+from tandemlift.flight.old_names import renamed_channels, renamed_tables, warn_of_old_names
 from tandemlift.flight.tables import to_pandas, to_xarray
 
 if TYPE_CHECKING:
@@ -27,93 +24,8 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT = 1
-
-
-class Channel(NamedTuple):
-    """What a channel holds: its unit, its frame, and a sentence."""
-
-    unit: str
-    frame: str
-    meaning: str
-
-
-CHANNELS: dict[str, Channel] = {
-    "position": Channel("m", "world", "centre of mass of the vehicle"),
-    "velocity": Channel("m/s", "world", "of the centre of mass"),
-    "attitude": Channel("1", "body to world", "unit quaternion w, x, y, z"),
-    "euler": Channel("rad", "zxy", "roll, pitch, yaw"),
-    "rates": Channel("rad/s", "body", "angular velocity p, q, r"),
-    "reference_position": Channel("m", "world", "what the position law tracks"),
-    "reference_velocity": Channel("m/s", "world", "its rate"),
-    "reference_acceleration": Channel("m/s^2", "world", "the rate of that"),
-    "reference_euler": Channel("rad", "zxy", "what the attitude law tracks (filtered, if filtered)"),
-    "admittance_position": Channel("m", "world", "T_r, the answer of the admittance to the push"),
-    "admittance_velocity": Channel("m/s", "world", "its rate"),
-    "admittance_acceleration": Channel("m/s^2", "world", "the rate of that, held over a step"),
-    "admittance_force": Channel("N", "world", "the push behind the gate, 0 where the gate is closed"),
-    "push_force": Channel("N", "world", "force of the person on the vehicle"),
-    "push_moment": Channel("N m", "body", "moment of the person about the centre of mass"),
-    "thrust": Channel("N", "body z", "commanded total thrust U1"),
-    "moment": Channel("N m", "body", "commanded moments U2, U3, U4"),
-    "rotor_thrusts": Channel("N", "body z", "of each rotor, quadrotor by quadrotor"),
-    "joint_force": Channel("N", "body", "of each quadrotor on the payload, at its joint: x, y, z, one after another"),
-    "joint_torque": Channel("N m", "body", "of each quadrotor on the payload, at its joint, likewise"),
-    "rotor_commands": Channel("N", "body z", "thrust commanded of each rotor, where actuators are rotors"),
-    "allocated_thrust": Channel("N", "body z", "what these commands, held within limits, give of U1"),
-    "allocated_moment": Channel("N m", "body", "what they give of U2, U3, U4"),
-    "allocation_share": Channel("1", "", "share of the wanted wrench that they give, 0 to 1"),
-    "wind_velocity": Channel("m/s", "world", "of the air, where there is wind"),
-    "wind_force": Channel("N", "world", "of the air on all parts together"),
-    "contact_force": Channel("N", "world", "of floor and walls on the vehicle, where there is a floor"),
-    "measured_position": Channel("m", "world", "reading of the motion measurement, where sensors are simulated"),
-    "measured_velocity": Channel("m/s", "world", "reading of the motion measurement"),
-    "measured_attitude": Channel("1", "body to world", "reading of the motion measurement, quaternion w, x, y, z"),
-    "measured_rates": Channel("rad/s", "body", "reading of the gyroscope"),
-    "measured_specific_force": Channel("m/s^2", "body", "reading of the accelerometer at the payload's centre of mass"),
-    "measured_joint_force": Channel("N", "body", "reading of the sensor at each joint, as joint_force"),
-    "measured_joint_torque": Channel("N m", "body", "reading of the sensor at each joint, as joint_torque"),
-    "estimated_position": Channel("m", "world", "of the centre of mass, from inertial and motion sensors"),
-    "estimated_velocity": Channel("m/s", "world", "likewise"),
-    "estimated_attitude": Channel("1", "body to world", "likewise, quaternion w, x, y, z"),
-    "estimated_rates": Channel("rad/s", "body", "the gyroscope's less its estimated bias"),
-    "push_measured": Channel("N", "world", "push from the last readings of the joints, before the low-pass"),
-    "push_estimate": Channel("N", "world", "the push behind the low-pass, zero until the tare is over"),
-    "push_moment_estimate": Channel("N m", "body", "its moment about the payload's centre of mass"),
-    "push_point_estimate": Channel("m", "body y", "where on the beam it acts, 0 if it is too small to tell"),
-    "payload_mass_estimate": Channel("kg", "", "of the payload, identified during the tare if so asked"),
-    "sensor_disagreement": Channel("N", "body", "by which one joint sensor alone would have to be wrong"),
-    "push_usable": Channel("1", "", "1 while the push is estimated and the joint sensors agree, else 0"),
-    "disturbance_force": Channel("N", "world", "what the observer finds besides rotors, weight and person"),
-    "disturbance_moment": Channel("N m", "body", "likewise, about the centre of mass"),
-    "disturbance_residual": Channel("m/s^2", "world", "by which it is behind: δ − δ̂ of the condition on λ₂"),
-    "disturbance_turning_residual": Channel("rad/s^2", "body", "likewise, of turning"),
-    "phase": Channel("1", "", "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped"),
-    "push_heard": Channel("N", "world", "the push as the pilot hears it: low-passed, less its bias"),
-    "push_on": Channel("1", "world", "1 while a push is heard along an axis, else 0"),
-    "added_damping": Channel("N s/m", "", "that keeps the compliance passive"),
-    "reference_yaw_rate": Channel("rad/s", "world", "of the heading that is tracked"),
-    "alarm": Channel("1", "", "of the fault that is reacted to, as in docs/safety.md; 0 for none"),
-    "refused": Channel("1", "", "number of the check that refuses to lift or to listen; 0 for none"),
-    "rotor_lost": Channel("1", "", "number of the rotor that is taken for lost, 0 for none"),
-}
-
-
-def channel_of(name: str) -> Channel:
-    """What a channel of that name holds; of an additional sensor, as that was registered."""
-    sensor = ADDITIONAL.get(name.removeprefix("measured_"))
-    if name in CHANNELS or sensor is None:
-        return CHANNELS.get(name, TIME if name == "time" else OTHER)
-    return Channel(sensor.unit, sensor.frame, f"reading of the sensor {sensor.name!r}: {sensor.meaning}")
-
-
-TIME = Channel("s", "", "time")
-OTHER = Channel("", "", "not one of tandemlift's own")
-
-DERIVED: dict[str, tuple[str, str, Channel]] = {
-    "position_error": ("reference_position", "position", Channel("m", "world", "desired minus actual")),
-    "velocity_error": ("reference_velocity", "velocity", Channel("m/s", "world", "desired minus actual")),
-    "attitude_error": ("reference_euler", "euler", Channel("rad", "zxy", "desired minus actual")),
-}
+LATE = 10.0
+"""Time [s] from which metrics with `after_10s` in their names are formed: the disturbed start is left out."""
 
 
 class Divergence(NamedTuple):
@@ -226,7 +138,7 @@ class Flight(Mapping[str, Array]):
             "metrics": self.results,
             "divergence": _written(self.divergence),
             "version": self.version,
-            "channels": {name: self.info(name)._asdict() for name in self.channels},
+            "channels": {name: _described(self.info(name)) for name in self.channels},
         }
         text = np.array(json.dumps(header, allow_nan=False))
         with atomic_write(path) as partial, partial.open("wb") as file:
@@ -254,6 +166,11 @@ class Flight(Mapping[str, Array]):
         return _by_new_names(flight, str(path))
 
 
+def _described(channel: Channel) -> dict[str, str]:
+    """What the header of a file says of a channel, for those who read it without tandemlift."""
+    return {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
+
+
 def _written(divergence: Divergence | None) -> list[Any] | None:
     """A divergence for a strict JSON text: its value, which may be nan, as text."""
     return divergence and [divergence.quantity, divergence.time, repr(divergence.value), divergence.limit]
@@ -275,13 +192,14 @@ def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:
 
 
 def _by_new_names(flight: Flight, source: str) -> Flight:
-    """A flight that may have been saved before mission keys were renamed."""
+    """A flight that may have been saved before mission keys and channels were renamed."""
     try:
         mission, notices = renamed_tables(flight.mission)
+        channels, more = renamed_channels(flight.channels)
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
-    warn_of_old_names(source, notices)
-    return replace(flight, mission=mission)
+    warn_of_old_names(source, [*notices, *more])
+    return replace(flight, mission=mission, channels=channels)
 
 
 def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:

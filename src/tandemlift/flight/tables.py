@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
-    from tandemlift.flight.record import Channel, Flight
+    from tandemlift.flight.channels import Channel
+    from tandemlift.flight.record import Flight
 
-ROTORS = ("rotor_thrusts", "rotor_commands")
-JOINTS = ("joint_force", "joint_torque", "measured_joint_force", "measured_joint_torque")
 NUMBERED = ("rotor", "quadrotor")  # dimensions whose labels are numbers that say nothing alone
 
 
@@ -31,23 +30,28 @@ ANGLES = Dimension("angle", ("roll", "pitch", "yaw"))
 QUATERNION = Dimension("quaternion", ("w", "x", "y", "z"))
 
 
-def dimensions(name: str, frame: str, count: int) -> tuple[Dimension, ...]:
+def dimensions(channel: Channel, count: int) -> tuple[Dimension, ...]:
     """What a channel's columns run over, the last dimension the fastest.
 
     Args:
-        name: of the channel.
-        frame: in which it is.
+        channel: what it holds.
         count: how many columns it has.
     """
-    if name in ROTORS:
-        return (Dimension("rotor", tuple(range(1, count + 1))),)
-    if name in JOINTS:
-        return Dimension("quadrotor", tuple(range(1, count // 3 + 1))), AXES
-    if frame == "body to world" and count == 4:
+    if not channel.per:
+        return _components(channel.frame, count)
+    if channel.width == 1:
+        return (Dimension(channel.per, tuple(range(1, count + 1))),)
+    each = Dimension(channel.per, tuple(range(1, count // channel.width + 1)))
+    return each, *_components(channel.frame, channel.width)
+
+
+def _components(frame: str, width: int) -> tuple[Dimension, ...]:
+    """What the numbers of a vector, of angles or of a quaternion run over, or plain numbers from 1."""
+    if frame == "body to world" and width == 4:
         return (QUATERNION,)
-    if count == 3 and frame:
+    if width == 3 and frame:
         return (ANGLES if frame == "zxy" else AXES,)
-    return (Dimension("component", tuple(range(1, count + 1))),)
+    return (Dimension("component", tuple(range(1, width + 1))),)
 
 
 def columns(flight: Flight) -> Iterator[tuple[str, Channel, Any]]:
@@ -57,7 +61,7 @@ def columns(flight: Flight) -> Iterator[tuple[str, Channel, Any]]:
         if values.ndim == 1:
             yield name, info, values
             continue
-        dims = dimensions(name, info.frame, values.shape[1])
+        dims = dimensions(info, values.shape[1])
         parts = itertools.product(*[[_part(d.name, label) for label in d.labels] for d in dims])
         for part, column in zip(parts, values.T, strict=True):
             yield "_".join((name, *part)), info, column
@@ -90,7 +94,7 @@ def to_xarray(flight: Flight) -> Any:
     coordinates: dict[str, Any] = {"time": ("time", flight.time.copy(), _attributes(flight.info("time")))}
     for name, values in flight.channels.items():
         info = flight.info(name)
-        dims = dimensions(name, info.frame, values.shape[1]) if values.ndim > 1 else ()
+        dims = dimensions(info, values.shape[1]) if values.ndim > 1 else ()
         coordinates |= {d.name: (d.name, list(d.labels), {}) for d in dims}
         shape = [len(flight.time), *[len(d.labels) for d in dims]]
         variables[name] = ["time", *[d.name for d in dims]], values.reshape(shape).copy(), _attributes(info)

@@ -1,7 +1,7 @@
 """The four views of the paper's Figure 9: where cameras stand in Gazebo, and when their pictures are taken.
 
-The vehicle standing at the start, on its way, at the end of the way, and landed. Where it will be by then is known from
-the same mission flown in the compiled engine.
+They show the vehicle standing at the start, on its way, at the end of the way, and landed. A flight of the same mission
+in the compiled engine tells where it will be at these times.
 """
 
 from __future__ import annotations
@@ -10,31 +10,31 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
-from tandemlift.figures.drawing.vehicle import vehicle_of
 from tandemlift.flight.record import Flight
-from tandemlift.laws.guidance.phases import NAMES
 from tandemlift.models.cameras import FixedCamera
+from tandemlift.vehicle import Vehicle
 
-FAR = 5.0  # reaches of the vehicle, from it to a camera
-HEIGHT, ASIDE = np.radians([34.0, 24.0])  # rad, of a camera over the horizon and beside the way
-BEFORE = 1.0  # s, by which the last picture is taken before the end
-LEAST = 0.5  # m of way, for a direction to look along
+DISTANCE = 5.0  # from the vehicle to a camera, as a multiple of the vehicle's reach
+ELEVATION, OFFSET = np.radians([34.0, 24.0])  # rad, of a camera above the horizon and beside the way
+BEFORE = 1.0  # s, from the last picture to the end
+LEAST = 0.5  # m of way that define a direction
 
 
 class ViewRequest(NamedTuple):
-    """A picture to be taken: what it shows, at which time [s] of the flight, and the camera."""
+    """A photograph to be taken: its title, the time [s] of the flight, and the camera."""
 
     title: str
     time: float
-    eye: FixedCamera
+    camera: FixedCamera
 
 
-def shots_of(flight: Flight) -> list[ViewRequest]:
-    """The four pictures of a flight, in the order of time.
+def views_from(flight: Flight) -> list[ViewRequest]:
+    """The four views of a flight, in the order of time.
 
     Args:
-        flight: of the same mission, in any engine.
+        flight: a flight of the mission, in any engine.
     """
     stands = [bool("contact_force" in flight and flight["contact_force"][k, 2] > 0.0) for k in (0, -1)]
     titles = (
@@ -43,9 +43,9 @@ def shots_of(flight: Flight) -> list[ViewRequest]:
         "at the end of its way",
         "landed" if stands[1] else "at the end",
     )
-    reach = float(np.linalg.norm(vehicle_of(flight).lever_arms, axis=1).max()) + 0.5
+    reach = float(np.linalg.norm(Vehicle.from_mission(flight.mission).lever_arms, axis=1).max()) + 0.5
     return [
-        ViewRequest(title, float(flight.time[k]), _eye(f"view_{letter}", flight, k, FAR * reach))
+        ViewRequest(title, float(flight.time[k]), _camera(f"view_{letter}", flight, k, DISTANCE * reach))
         for letter, title, k in zip("abcd", titles, _moments(flight), strict=True)
     ]
 
@@ -60,24 +60,24 @@ def _moments(flight: Flight) -> tuple[int, int, int, int]:
     way = _way(flight)
     halfway, arrived = (int(np.searchsorted(way, share * way[-1])) for share in (0.5, 0.98))
     if "phase" in flight:
-        guided = np.flatnonzero(flight["phase"] == NAMES.index("guided"))
+        guided = np.flatnonzero(flight["phase"] == GUIDED)
         arrived = int(guided[-1]) if len(guided) else arrived
     return 0, halfway, max(arrived, halfway), int(np.searchsorted(flight.time, flight.time[-1] - BEFORE))
 
 
-def _eye(name: str, flight: Flight, k: int, distance: float) -> FixedCamera:
-    """A camera that looks at sample k, along the way that lies ahead, or back along the way that was flown."""
+def _camera(name: str, flight: Flight, k: int, distance: float) -> FixedCamera:
+    """A camera that looks at sample k, forward along the way to come, or backward along the way flown."""
     path, way = flight["position"], _way(flight)
     target = path[k]
     ahead = way[k] < 0.75 * way[-1]
     along = _along(flight, k, ahead)
-    heading = np.arctan2(along[1], along[0]) + ASIDE
-    back = np.array([-np.cos(HEIGHT) * np.cos(heading), -np.cos(HEIGHT) * np.sin(heading), np.sin(HEIGHT)])
+    heading = np.arctan2(along[1], along[0]) + OFFSET
+    back = np.array([-np.cos(ELEVATION) * np.cos(heading), -np.cos(ELEVATION) * np.sin(heading), np.sin(ELEVATION)])
     return FixedCamera(name, target + distance * back, target)
 
 
 def _along(flight: Flight, k: int, ahead: bool) -> Array:
-    """Horizontal direction (2,) from sample k to where it will be, or else to where it was; x if it stays there."""
+    """Horizontal direction (2,) from sample k to a later position, or from an earlier one; x if it does not move."""
     path = flight["position"][:, :2]
     part = np.arange(k, len(path)) if ahead else np.arange(k, -1, -1)
     apart = np.linalg.norm(path[part] - path[k], axis=1)

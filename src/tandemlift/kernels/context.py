@@ -1,4 +1,4 @@
-"""What a compiled loop is handed: one array of 64-bit words, addresses and numbers, and where each stands."""
+"""The context of a compiled loop: one array of 64-bit words, addresses and numbers, and the place of each."""
 
 from __future__ import annotations
 
@@ -13,25 +13,30 @@ WORDS = (
 )
 AT = {name: i for i, name in enumerate(WORDS)}
 POINTERS = WORDS[:11]
-MEMORY = "ptr noalias %c, ptr noalias %flying, ptr noalias %work"  # what inner functions are handed
+MEMORY = "ptr noalias %c, ptr noalias %flying, ptr noalias %work"  # arguments of the internal functions
 
 
 class ScratchLayout:
-    """Stretches of the scratch memory, in numbers of one flight: where each begins, its size, and the size of all."""
+    """Layout of the scratch memory, in numbers of one flight.
+
+    Attributes:
+        spans: first number and size of each span, by name.
+        size: of all spans together.
+    """
 
     def __init__(self) -> None:
-        self.at: dict[str, tuple[int, int]] = {}
+        self.spans: dict[str, tuple[int, int]] = {}
         self.size = 0
 
     def take(self, name: str, size: int) -> int:
-        """Where a new stretch of so many numbers begins."""
+        """Add a span of `size` numbers; its first number."""
         begin, self.size = self.size, self.size + size
-        self.at[name] = begin, size
+        self.spans[name] = begin, size
         return begin
 
 
 def aligned(size: int) -> NDArray[np.float64]:
     """Zeros that begin at a multiple of 64 bytes: a vector of eight never crosses a line of the processor's cache."""
-    room = np.zeros(size + 8)
-    first = -room.ctypes.data % 64 // room.itemsize
-    return room[first : first + size]
+    padded = np.zeros(size + 8)
+    first = -padded.ctypes.data % 64 // padded.itemsize
+    return padded[first : first + size]

@@ -1,8 +1,8 @@
-"""What a flight is given from outside at each step, formed ahead of it or beside it: pushes, gusts, chance, walls.
+"""The inputs of a flight from outside: pushes, gusts, random numbers, walls and the legs of a person's path.
 
 Pushes and gusts depend on time alone. The force of the person is evaluated SPAN steps ahead at every half step, so that
-a push that is over costs nothing and their number is data. Standard normals of a flight alone are formed for as many
-steps, several in a vector.
+a push that is over costs nothing and the number of pushes is data. For a flight alone, the standard normals of SPAN
+steps are drawn at once, several in a vector.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ GUST = Gust(ZERO, 0.0, 0.0, 0.0)
 
 
 class InputTables(NamedTuple):
-    """Data of any number: an array each of pushes, gusts, walls and legs of a person's path, a row each."""
+    """Arrays with a row for each push, gust, wall, and leg of a person's path."""
 
     pushes: Any
     gusts: Any
@@ -30,12 +30,12 @@ class InputTables(NamedTuple):
     legs: Any
 
 
-def draws(noise: Any) -> int:
-    """How many draws of four standard normals fill a value like `noise`."""
+def draw_count(noise: Any) -> int:
+    """Number of draws, of four standard normals each, that fill a value like `noise`."""
     return -(-leaves(noise) // 4)
 
 
-def active(p, opens, closes):
+def is_active(p: GaussianPush, opens: Any, closes: Any) -> Any:
     """Whether a push is other than zero somewhere between two times [s]."""
     around = SUPPORT / p.per_sigma
     return (p.time + around > opens) & (p.time - around < closes)

@@ -1,4 +1,4 @@
-"""Thrusts within limits in compiled flights: `laws.rotors.thrust_limits` for the lanes that need it."""
+"""The limit solver of `laws.rotors.thrust_limits` in compiled flights, run only for the lanes that need it."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from tandemlift.trace import Function, Module, Place
 
 
 def write_limits(f: Function, needs: LimitProblem, at: int) -> None:
-    """Leave thrusts within limits and the working set in scratch memory, from where the problem ends on.
+    """Write thrusts within limits and the working set to scratch memory, behind the problem.
 
     Args:
         f: the function that is written.
-        needs: what is solved for.
+        needs: the problem.
         at: where problem and search stand in scratch memory.
     """
     search = at + len(needs.problem)
@@ -24,7 +24,7 @@ def write_limits(f: Function, needs: LimitProblem, at: int) -> None:
 
 
 def write_solver(module: Module, solver: TracedSolver, lanes: int) -> None:
-    """`solve`: search until all lanes have ended; those that had at the beginning are left as they are."""
+    """The function `solve`: search until all lanes have ended; lanes that ended before stay as they are."""
     f = Function(module, solver.graph, lanes, "internal void @solve(ptr noalias %s) #1")
     search, n = solver.problem_size, solver.rotors
     f.read = {"problem": lambda i: Place("%s", i), "search": lambda i: Place("%s", search + i)}

@@ -1,7 +1,7 @@
 """The loop over the steps of a flight, written once: for one flight, for a block of them, and cut into parts.
 
-A step is cut where another has its say: a controller in Python, or a body in another engine. What a part leaves to the
-next waits in memory. What does not change within a flight is computed before its first step and waits there too.
+A step is cut where a controller in Python or a body in another engine takes part. Scratch memory carries values from
+one part to the next, and the values that are constant within a flight, which are computed before its first step.
 """
 
 from __future__ import annotations
@@ -12,35 +12,41 @@ from tandemlift.kernels.limit_solver import write_limits, write_solver
 from tandemlift.kernels.offsets import delayed_spans, leaf_offset
 from tandemlift.kernels.precompute import write_draw, write_gust, write_push, write_surroundings
 from tandemlift.kernels.scratch import ScratchValues, steady
+from tandemlift.kernels.step_output import write_next_state, write_sample
 from tandemlift.kernels.traced_step import Symbols, TracedStep
 from tandemlift.trace import Function, Module, Place, Symbol, double, leaves
 
-HANDED = "ptr %c, ptr %flying, ptr %work"
+ARGUMENTS = "ptr %c, ptr %flying, ptr %work"
 UNIFORM = ("t", "dt", "when", "opens", "closes", "number")
 
 
 class LoopWriter:
-    """The functions of a flight's loop, for so many lanes."""
+    """Writes the functions of a flight's loop as LLVM text.
+
+    Args:
+        traced: the graph of a step.
+        lanes: flights that one instruction serves: 1, or LANES for a block.
+    """
 
     def __init__(self, traced: TracedStep, lanes: int) -> None:
-        self.traced, self.likes, self.graph, self.lanes = traced, traced.likes, traced.graph, lanes
-        self.module, self.rooms = Module(), ScratchLayout()
-        self.width, self.draws = leaves(self.likes.given.hand.start), 0
-        self.moving = leaves(self.likes.flying.moving)
-        self.lines = delayed_spans(self.likes.flying)
-        g, roots = self.graph, [s.node for s in self.everything]
-        self.blows = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
-        self._take_rooms()
+        self.traced, self.templates, self.graph, self.lanes = traced, traced.templates, traced.graph, lanes
+        self.module, self.scratch = Module(), ScratchLayout()
+        self.width, self.draws = leaves(self.templates.given.hand.start), 0
+        self.moving = leaves(self.templates.flying.moving)
+        self.delayed = delayed_spans(self.templates.flying)
+        g, roots = self.graph, [s.node for s in self.all_roots]
+        self.has_gusts = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
+        self._lay_out_scratch()
 
     @property
-    def everything(self) -> Symbols:
-        """All that a step gives."""
+    def all_roots(self) -> Symbols:
+        """Every value that a step computes."""
         x = self.traced
-        return [*x.moving, *x.sample, *self._swings(), *self._limits(), *x.asked, *x.body.acting, *x.body.push]
+        return [*x.moving, *x.sample, *self._body_roots(), *self._limit_roots(), *x.asked, *x.body.acting, *x.body.push]
 
-    def _take_rooms(self) -> None:
-        x, take = self.likes, self.rooms.take
-        self.hands = take("hands", HALVES * self.width)
+    def _lay_out_scratch(self) -> None:
+        x, take = self.templates, self.scratch.take
+        self.pushes_at = take("hands", HALVES * self.width)
         self.draws = len(self.traced.normals)
         self.noise = take("noise", 4 * self.draws * (SPAN if self.lanes == 1 else 1))
         self.gust = take("gust", 3)
@@ -56,29 +62,29 @@ class LoopWriter:
     # the functions
 
     def function(self, name: str, more: str = "", result: str = "void") -> Function:
-        """An inner function: handed the context %c, the flight, the scratch memory, and more."""
+        """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""
         head = f"internal {result} @{name}({MEMORY}{more}) #1"
         f = Function(self.module, self.graph, self.lanes, head, UNIFORM)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
-        f.sets.room = self.room
+        f.sets.room = self.scratch_place
         f.read = {"fly": lambda i: Place("%flying", i), "dt": lambda i: "%dt"}
         return f
 
     def export(self, name: str) -> None:
-        """A function for Python, handed the context alone, that calls the inner one of that name."""
+        """A function for Python, with the context as its only argument, that calls the internal one of that name."""
         f = Function(self.module, self.graph, self.lanes, f"i64 @{name}(ptr %c) #0")
-        given = [f"ptr {self.word(f, word)}" for word in ("flying", "work")]
+        given = [f"ptr {self.context_word(f, word)}" for word in ("flying", "work")]
         f.end("i64 " + f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})"))
 
-    def room(self, count: int) -> Place:
-        """Scratch memory for a set of so many numbers."""
-        return Place("%work", self.rooms.take(f"room_{self.rooms.size}", count))
+    def scratch_place(self, count: int) -> Place:
+        """Scratch memory for a set of `count` numbers."""
+        return Place("%work", self.scratch.take(f"room_{self.scratch.size}", count))
 
     def call(self, f: Function, name: str, *more: str) -> None:
-        """Call another inner function."""
-        f.do(f"call void @{name}({', '.join([HANDED, *more])})")
+        """Call another internal function."""
+        f.do(f"call void @{name}({', '.join([ARGUMENTS, *more])})")
 
-    def word(self, f: Function, name: str) -> str:
+    def context_word(self, f: Function, name: str) -> str:
         """A word of the context."""
         return f.load("%c", AT[name], "ptr" if name in POINTERS else "i64")
 
@@ -89,27 +95,27 @@ class LoopWriter:
 
     # a step
 
-    def begin(self, f: Function, k: str) -> None:
-        """What a step is given from outside, and how its inputs are read from then on."""
-        x, lanes = self.likes, self.lanes
+    def begin_step(self, f: Function, k: str) -> None:
+        """Form the inputs of step k from outside, once in a span where possible, and bind them."""
+        x, lanes = self.templates, self.lanes
         in_span = f.whole("and", k, SPAN - 1)
         with f.when(f.op(f"icmp eq i64 {in_span}, 0")):
-            self.call(f, "feel", f"i64 {k}")
+            self.call(f, "sum_pushes", f"i64 {k}")
             if self.draws and lanes == 1:
-                self.call(f, "draw", f"i64 {k}")
-            if x.grounded or x.walled or x.accompanied:
-                self.call(f, "look")
-        self.reading(f, k)
+                self.call(f, "draw_noise", f"i64 {k}")
+            if x.has_floor or x.has_walls or x.has_person:
+                self.call(f, "find_surroundings")
+        self.bind_inputs(f, k)
         if self.draws and lanes > 1:
-            self.call(f, "draw", f"i64 {k}")
-        if self.blows:
-            self.call(f, "blow", f"double {f.read['t'](0)}")
+            self.call(f, "draw_noise", f"i64 {k}")
+        if self.has_gusts:
+            self.call(f, "sum_gusts", f"double {f.read['t'](0)}")
 
-    def reading(self, f: Function, k: str) -> None:
-        """How the inputs of step k are read."""
+    def bind_inputs(self, f: Function, k: str) -> None:
+        """Bind the inputs of step k to their places in memory."""
         in_span = f.whole("and", k, SPAN - 1)
         t = self.time(f, k)
-        hand = f.at("%work", f.whole("add", f.whole("mul", in_span, 2 * self.width), self.hands))
+        hand = f.at("%work", f.whole("add", f.whole("mul", in_span, 2 * self.width), self.pushes_at))
         noise = f.at("%work", f.whole("add", in_span, self.noise)) if self.lanes == 1 else f.at("%work", self.noise)
         pace = SPAN if self.lanes == 1 else 1
         f.read |= {
@@ -125,132 +131,77 @@ class LoopWriter:
 
     @property
     def solved(self) -> int:
-        """Where the answer of the solver of limits stands."""
+        """Offset of the limit solver's result in scratch memory."""
         needs = self.traced.limits
         return self.solving + (len(needs.problem) if needs else 0)
 
-    def limit(self, f: Function) -> None:
-        """Let the solver find thrusts within limits for the lanes that left theirs."""
+    def limit_thrusts(self, f: Function) -> None:
+        """Solve for thrusts within limits in the lanes whose thrusts exceed them."""
         needs = self.traced.limits
-        if needs is None:
-            return
-        write_limits(f, needs, self.solving)
+        if needs is not None:
+            write_limits(f, needs, self.solving)
 
-    def swing(self, f: Function) -> None:
+    def step_body(self, f: Function) -> None:
         """Move the body over the step."""
-        if not self.traced.apart:
+        if not self.traced.body_in_free_air:
             if self.graph.rolls_from:
-                self.keep(f, self.moved, self.traced.near)
+                self.store_values(f, self.moved, self.traced.body_in_contact)
             else:
-                f.read["moved"] = lambda i: f.value(self.traced.near[i])  # as far as it is asked for
+                f.read["moved"] = lambda i: f.value(self.traced.body_in_contact[i])  # computed where it is read
             return
         touches = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
-        for value in f.values(self.traced.pressing):
+        for value in f.values(self.traced.may_touch_walls):
             touches = f.op(f"or i1 {touches}, {f.any(value)}")
         near, apart, done = f.fresh("near"), f.fresh("apart"), f.fresh("done")
         f.do(f"br i1 {touches}, label %{near}, label %{apart}")
-        for name, values in ((near, self.traced.near), (apart, self.traced.apart)):
+        for name, values in ((near, self.traced.body_in_contact), (apart, self.traced.body_in_free_air)):
             f.lines.append(f"{name}:")
             with f.scope():
-                self.keep(f, self.moved, values)
+                self.store_values(f, self.moved, values)
             f.do(f"br label %{done}")
         f.lines.append(f"{done}:")
 
-    def keep(self, f: Function, at: int, values: Symbols) -> None:
+    def store_values(self, f: Function, at: int, values: Symbols) -> None:
         """Write values to scratch memory."""
         f.put("%work", at, values)
-
-    def show(self, f: Function, k: str) -> None:
-        """Write the step's sample where it is logged, and where the last one goes."""
-        every, steps = self.word(f, "every"), self.word(f, "steps")
-        past = f.whole("sub", k, self.word(f, "since"))
-        row = f.whole("sdiv", past, every)
-        logged = f.op(f"icmp eq i64 {f.whole('mul', row, every)}, {past}")
-        final = f.op(f"icmp eq i64 {k}, {steps}")
-        with f.when(f.op(f"or i1 {logged}, {final}")):
-            if self.lanes == 1:
-                self._show_one(f, row, logged, final)
-            else:
-                self._show_lanes(f, row, logged)
-
-    def _show_one(self, f: Function, row: str, logged: str, final: str) -> None:
-        f.values(self.traced.sample)
-        for condition, name, index in ((logged, "log", row), (final, "last", "0")):
-            with f.when(condition):
-                f.put(f.at(self.word(f, name), f.whole("mul", index, len(self.traced.sample))), 0, self.traced.sample)
-
-    def _show_lanes(self, f: Function, row: str, logged: str) -> None:
-        columns = len(self.traced.sample)
-        self.keep(f, self.sample, self.traced.sample)
-        with f.when(logged):
-            log, stride = self.word(f, "log"), self.word(f, "stride")
-            with f.repeat(self.lanes) as lane:
-                to = f.whole("add", f.whole("mul", lane, stride), f.whole("mul", row, columns))
-                with f.repeat(columns) as m:
-                    at = f.whole("add", f.whole("mul", f.whole("add", m, self.sample), self.lanes), lane)
-                    f.store(f.load("%work", at, "double"), log, f.whole("add", to, m), "double")
-
-    def go_on(self, f: Function, k: str) -> None:
-        """Let the flight be what it is after the step."""
-        f.put("%flying", 0, self.traced.moving, "fly")
-        if self.likes.late:
-            self._delay(f, k)
-
-    def _delay(self, f: Function, k: str) -> None:
-        """Put what is delayed into a row of the line, and what arrives for the next step in its place."""
-        ring, delays = self.word(f, "ring"), self.word(f, "delays")
-        mask = f.whole("sub", self.word(f, "rings"), 1)
-        into = f.at(ring, f.whole("mul", f.whole("and", k, mask), self.lines.size))
-        column = 0
-        for j, (at, size) in enumerate(self.lines):
-            if not size:
-                continue
-            arrives = f.whole("add", k, 1) if j == 2 else k  # a command without delay acts at once
-            out = f.whole("and", f.whole("sub", arrives, f.load(delays, j, "i64")), mask)
-            for m in range(size):
-                f.store(f.load("%flying", at + m), into, column + m)
-            since = f.at(ring, f.whole("mul", out, self.lines.size))
-            for m in range(size):
-                f.store(f.load(since, column + m), "%flying", at + m)
-            column += size
 
     # loops
 
     def write_outside(self) -> None:
-        """The functions of what a step is given from outside."""
+        """The functions that form a step's inputs from outside."""
         write_push(self)
         if self.draws:
             write_draw(self)
-        if self.blows:
+        if self.has_gusts:
             write_gust(self)
-        if self.likes.grounded or self.likes.walled or self.likes.accompanied:
+        if self.templates.has_floor or self.templates.has_walls or self.templates.has_person:
             write_surroundings(self)
         if self.traced.limits:
             write_solver(self.module, self.traced.limits.solver, self.lanes)
 
     def write_loop(self) -> str:
-        """`fly`: steps k to stop − 1, fewer where a flight alone is no longer sound; it gives the step reached."""
+        """`fly`: steps k to stop − 1, fewer if a flight alone diverges; it returns the step reached."""
         self.write_outside()
         f = self.function("fly_", result="i64")
-        begin, stop, steps = self.word(f, "k"), self.word(f, "stop"), self.word(f, "steps")
-        self.settle(f, begin, [*self.traced.moving, *self.traced.sample, *self._swings(), *self._limits()])
+        begin, stop, steps = self.context_word(f, "k"), self.context_word(f, "stop"), self.context_word(f, "steps")
+        self.prepare(f, begin, [*self.traced.moving, *self.traced.sample, *self._body_roots(), *self._limit_roots()])
         f.label("first")
         f.label("loop")
         f.lines.append(f"  %k = phi i64 [ {begin}, %first ], [ %next, %ahead ]")
         f.do(f"br i1 {f.op(f'icmp slt i64 %k, {stop}')}, label %sound, label %over")
         f.lines.append("sound:")
         if self.lanes == 1:
-            lost = f.load("%flying", leaf_offset(self.likes.flying, "moving", "lost").at)
+            lost = f.load("%flying", leaf_offset(self.templates.flying, "moving", "lost").at)
             f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
             f.lines.append("step:")
-        self.begin(f, "%k")
-        self.limit(f)
-        self.swing(f)
-        self.show(f, "%k")
+        self.begin_step(f, "%k")
+        self.limit_thrusts(f)
+        self.step_body(f)
+        write_sample(self, f, "%k")
         ends = "over" if self.lanes == 1 else "ahead"
         f.do(f"br i1 {f.op(f'icmp eq i64 %k, {steps}')}, label %{ends}, label %on")
         f.lines.append("on:")
-        self.go_on(f, "%k")
+        write_next_state(self, f, "%k")
         f.label("ahead")
         f.lines.append("  %next = add i64 %k, 1")
         f.do("br label %loop")
@@ -260,62 +211,62 @@ class LoopWriter:
         return self.module.text
 
     def write_parts(self, leaves_body: bool) -> str:
-        """Step k in parts: `ask` until a controller answers, `decide` until a body has moved, `complete` to its end."""
+        """Step k in parts: `ask` up to a controller in Python, `decide` up to another body, `complete` to its end."""
         self.write_outside()
         x = self.traced
-        parts = ["ask"] * x.asks + ["decide"] * leaves_body + ["complete"]
-        ends = [*x.moving, *x.sample, *([] if leaves_body else self._swings())]
-        acts = [*self._limits(), *([*x.body.acting, *x.body.push] if leaves_body else [])]
+        parts = ["ask"] * x.calls_python + ["decide"] * leaves_body + ["complete"]
+        ends = [*x.moving, *x.sample, *([] if leaves_body else self._body_roots())]
+        acts = [*self._limit_roots(), *([*x.body.acting, *x.body.push] if leaves_body else [])]
         if not leaves_body:
             ends, acts = [*ends, *acts], []
         later = {"ask": [*acts, *ends], "decide": ends, "complete": []}
         for part in parts:
             f = self.function(f"{part}_", result="i64")
-            k = self.word(f, "k")
+            k = self.context_word(f, "k")
             if part == parts[0]:
-                waiting = self.settle(f, k, [*x.asked, *acts, *ends])
-                self.begin(f, k)
+                kept = self.prepare(f, k, [*x.asked, *acts, *ends])
+                self.begin_step(f, k)
             else:
-                waiting.find(f)
-                self.reading(f, k)
+                kept.bind(f)
+                self.bind_inputs(f, k)
             if part == "ask":
-                self.keep(f, self.asked, x.asked)
+                self.store_values(f, self.asked, x.asked)
             elif part == "decide":
-                self.limit(f)
-                self.keep(f, self.acting, x.body.acting)
-                self.keep(f, self.push, x.body.push)
+                self.limit_thrusts(f)
+                self.store_values(f, self.acting, x.body.acting)
+                self.store_values(f, self.push, x.body.push)
             else:
                 self._complete(f, k, leaves_body)
-            waiting.hand_on(f, later[part])
+            kept.store_for_later(f, later[part])
             f.end("i64 0")
             self.export(part)
         return self.module.text
 
     def _complete(self, f: Function, k: str, leaves_body: bool) -> None:
         if not leaves_body:
-            self.limit(f)
-            self.swing(f)
-        self.show(f, k)
-        with f.when(f.op(f"icmp ne i64 {k}, {self.word(f, 'steps')}")):
-            self.go_on(f, k)
+            self.limit_thrusts(f)
+            self.step_body(f)
+        write_sample(self, f, k)
+        with f.when(f.op(f"icmp ne i64 {k}, {self.context_word(f, 'steps')}")):
+            write_next_state(self, f, k)
 
-    def _swings(self) -> Symbols:
-        return [*self.traced.near, *self.traced.apart, *self.traced.pressing]
+    def _body_roots(self) -> Symbols:
+        return [*self.traced.body_in_contact, *self.traced.body_in_free_air, *self.traced.may_touch_walls]
 
-    def _limits(self) -> Symbols:
+    def _limit_roots(self) -> Symbols:
         needs = self.traced.limits
         return [needs.beyond, *needs.problem, *needs.plain, *needs.search] if needs else []
 
-    def settle(self, f: Function, k: str, roots: Symbols) -> ScratchValues:
-        """Where a flight begins or has changed: the tables for step k, and what will not change, which waits."""
-        waiting = ScratchValues(self.graph, self.rooms)
+    def prepare(self, f: Function, k: str, roots: Symbols) -> ScratchValues:
+        """Where a flight begins or was changed: form the tables for step k and store the values that stay constant."""
+        kept = ScratchValues(self.graph, self.scratch)
         nodes = steady(self.graph, roots, self.moving)
         f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))
-        with f.when(f.op(f"icmp ne i64 {self.word(f, 'fresh')}, 0")):
-            self.call(f, "feel", f"i64 {k}")
+        with f.when(f.op(f"icmp ne i64 {self.context_word(f, 'fresh')}, 0")):
+            self.call(f, "sum_pushes", f"i64 {k}")
             if self.draws and self.lanes == 1:
-                self.call(f, "draw", f"i64 {k}")
-            f.store(double(float(self.likes.grounded)), "%work", self.low * self.lanes, "double")
-            waiting.leave(f, [n for n in nodes if not f.is_uniform(n)])
-        waiting.find(f)
-        return waiting
+                self.call(f, "draw_noise", f"i64 {k}")
+            f.store(double(float(self.templates.has_floor)), "%work", self.low * self.lanes, "double")
+            kept.store(f, [n for n in nodes if not f.is_uniform(n)])
+        kept.bind(f)
+        return kept

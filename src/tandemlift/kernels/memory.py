@@ -21,7 +21,7 @@ COUNTS = ("push_count", "gust_count", "wall_count", "leg_count")
 
 
 class FlightStart(NamedTuple):
-    """A flight at its first step: its numbers, tables, delay line (rows × numbers) and the key of chance."""
+    """A flight at its first step: numbers, tables, delay lines (rows × numbers), and the key of its random numbers."""
 
     numbers: Array
     tables: InputTables
@@ -40,12 +40,12 @@ class TimeGrid(NamedTuple):
 
 
 class FlightMemory:
-    """What a loop works on.
+    """The memory that a loop works on.
 
     Args:
         code: the loop.
-        starts: a flight for each of its lanes.
-        grid: of steps, the same for all.
+        starts: a flight for each lane.
+        grid: of time steps, the same for all lanes.
         columns: numbers of a sample.
 
     Attributes:
@@ -56,8 +56,11 @@ class FlightMemory:
 
     def __init__(self, code: Code, starts: Sequence[FlightStart], grid: TimeGrid, columns: int) -> None:
         self.code, self.grid, self.k, lanes = code, grid, 0, len(starts)
-        self.numbers, self.ring = _woven([s.numbers for s in starts]), _woven([s.ring.ravel() for s in starts])
-        self.keys = _woven([s.keys for s in starts])
+        self.numbers, self.ring = (
+            _interleaved([s.numbers for s in starts]),
+            _interleaved([s.ring.ravel() for s in starts]),
+        )
+        self.keys = _interleaved([s.keys for s in starts])
         tables = [_table([s.tables[i] for s in starts], IDLE[i]) for i in range(len(IDLE))]
         self.work = aligned(code.about["size"] * lanes)
         self.log, self.last = np.zeros((lanes, grid.rows, columns)), np.full(columns, np.nan)
@@ -81,21 +84,21 @@ class FlightMemory:
         self._context[AT[word]] = value
 
     def fly(self, stop: int) -> int:
-        """Fly on to step `stop`, or to where a flight alone is lost; the step reached."""
+        """Fly on to step `stop`; a flight alone stops where it diverges. The step reached."""
         self.put("k", self.k)
         self.put("stop", stop)
         self.k = self.code.free["fly"](self.address)
         self.put("fresh", 0)
         return self.k
 
-    def room(self, name: str) -> slice:
-        """Where a stretch of the scratch memory stands."""
+    def span(self, name: str) -> slice:
+        """The place of a span of the scratch memory."""
         at, size = self.code.about["rooms"][name]
         lanes = len(self.log)
         return slice(at * lanes, (at + size) * lanes)
 
 
-def _woven(rows: Sequence[Any]) -> Array:
+def _interleaved(rows: Sequence[Any]) -> Array:
     """The numbers of all lanes, interleaved."""
     woven = aligned(len(rows) * len(rows[0]))
     woven.reshape(-1, len(rows))[:] = np.stack(rows, axis=1)
@@ -103,7 +106,7 @@ def _woven(rows: Sequence[Any]) -> Array:
 
 
 def _table(tables: Sequence[Array], idle: Any) -> Array:
-    """A table of all lanes: row i holds row i of every lane's, an idle one where a lane has fewer."""
+    """A table of all lanes: row i holds row i of every lane's table, an idle row where a lane has fewer."""
     lanes, numbers = len(tables), flat(idle)
     woven = aligned(max(map(len, tables)) * len(numbers) * lanes)
     rows = woven.reshape(-1, len(numbers), lanes)

@@ -1,4 +1,4 @@
-"""Where the parts of a flight stand in its flat array, and the delay lines between them."""
+"""Offsets of a flight's parts in its flat array, and the parts that are delayed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tandemlift.trace import leaves
 
 
 class LeafSpan(NamedTuple):
-    """A stretch of leaves: where it begins, and how long it is."""
+    """A span of leaves: the first one, and how many."""
 
     at: int
     size: int
@@ -19,9 +19,9 @@ NONE = LeafSpan(0, 0)
 
 
 class DelayedSpans(tuple[LeafSpan, ...]):
-    """What is delayed in a flight, as spans in the order of `loop.delays.DelayLines`, additional sensors last.
+    """The delayed parts of a flight, in the order of `loop.delays.DelayLines`; additional sensors one by one.
 
-    A span is empty where there is no delay; in a row of the delay line they stand one after the other.
+    Each is a span of the flight's numbers, empty without delay. A row of the delay lines holds them one after another.
     """
 
     @property
@@ -31,7 +31,7 @@ class DelayedSpans(tuple[LeafSpan, ...]):
 
 
 def leaf_offset(value: Any, *path: str) -> LeafSpan:
-    """The stretch of leaves of a part of a nested value; an empty one where the path ends in `Nothing`."""
+    """The span of a part of a nested value; an empty one where the path ends in `Nothing`."""
     at = 0
     for name in path:
         if name not in value._fields:
@@ -43,18 +43,18 @@ def leaf_offset(value: Any, *path: str) -> LeafSpan:
 
 
 def delayed_spans(flying: Any) -> DelayedSpans:
-    """What is delayed in flights like this one."""
+    """The delayed parts of flights like this one."""
     late = flying.delays
     if isinstance(late, Nothing):
         return DelayedSpans()
-    ends: list[tuple[str, ...]] = [
+    paths: list[tuple[str, ...]] = [
         ("readings", "imu"),
         ("readings", "motion"),
         ("rotors", "arriving"),
         ("partner", "seen"),
     ]
-    ends += [("readings", "additional", name) for name in getattr(late.additional, "_fields", ())]
+    paths += [("readings", "additional", name) for name in late.additional._fields]
     return DelayedSpans(
-        NONE if isinstance(mark, Nothing) else leaf_offset(flying, "moving", *end)
-        for mark, end in zip((*late[:-1], *late.additional), ends, strict=True)
+        NONE if isinstance(delay, Nothing) else leaf_offset(flying, "moving", *path)
+        for delay, path in zip((*late[:-1], *late.additional), paths, strict=True)
     )

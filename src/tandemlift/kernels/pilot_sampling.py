@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.kernels.limit_solver import write_limits, write_solver
-from tandemlift.kernels.traced_step import check_layout, graph_for, limited
+from tandemlift.kernels.traced_step import check_layout, graph_for, limit_thrusts
 from tandemlift.laws.rotors.allocation import ConstrainedAllocation
 from tandemlift.pilot.pilot import PilotMemory, PilotParameters, decide
 from tandemlift.trace import Function, Module, Place, symbols, traced, written_out
@@ -15,7 +15,7 @@ POINTERS = ("numbers", "heard", "thrusts", "work")  # words of the context, and 
 
 
 class PilotData(NamedTuple):
-    """The pilot's numbers in one array: the samples taken so far, what it remembers, and its parameters."""
+    """The pilot's numbers in one array: the samples taken so far, its memory and its parameters."""
 
     samples: Any
     memory: PilotMemory
@@ -23,46 +23,46 @@ class PilotData(NamedTuple):
 
 
 class PilotDataState(NamedTuple):
-    """The part of an `PilotData` that changes."""
+    """The part of `PilotData` that changes."""
 
     samples: Any
     memory: PilotMemory
 
 
 class PilotSample(NamedTuple):
-    """A decision, and the memory after it."""
+    """A decision, and the pilot's memory after it."""
 
     decision: Any
     memory: PilotMemory
 
 
 class PilotSampler:
-    """A sample of a pilot of so many quadrotors, traced: inputs `pilot`, `heard`, `dt` and what is `solved` for."""
+    """A traced sample of a pilot; its inputs are `pilot`, `heard`, `dt`, and `solved`, the limit solver's result."""
 
     def __init__(self, onboard: PilotData, heard: Any, quadrotors: int) -> None:
         self.graph = graph_for(quadrotors)
-        pilot, dt = self.given_by("pilot", onboard), self.graph.input("dt")
+        pilot, dt = self.input_of("pilot", onboard), self.graph.input("dt")
         t = pilot.samples * dt
-        decided = PilotSample(*traced(decide)(pilot.parameters, pilot.memory, self.given_by("heard", heard), t, dt))
+        decided = PilotSample(*traced(decide)(pilot.parameters, pilot.memory, self.input_of("heard", heard), t, dt))
         self.limits = None
         if isinstance(onboard.parameters.allocation, ConstrainedAllocation):
-            self.limits, *within = limited(self, pilot.parameters, pilot.memory, decided, t)
+            self.limits, *within = limit_thrusts(self, pilot.parameters, pilot.memory, decided, t)
             decided = PilotSample(*within)
-        self.thrusts = self.all(decided.decision.thrusts)
+        self.thrusts = self.numbers(decided.decision.thrusts)
         after = PilotDataState(pilot.samples + 1.0, decided.memory)
         check_layout(pilot.parameters.controller, PilotDataState(onboard.samples, onboard.memory), written_out(after))
-        self.after = self.all(after)
+        self.after = self.numbers(after)
 
-    def given_by(self, kind: str, like: Any) -> Any:
+    def input_of(self, kind: str, like: Any) -> Any:
         """A nested value whose numbers are inputs of a kind."""
         return self.graph.inputs(kind, like)
 
-    def all(self, value: Any) -> Any:
+    def numbers(self, value: Any) -> Any:
         """The numbers of a nested value."""
         return symbols(self.graph, value)
 
     def written(self) -> Written:
-        """`sample`, handed a context of `POINTERS`."""
+        """The function `sample`, whose argument is a context of `POINTERS`."""
         module = Module()
         if self.limits:
             write_solver(module, self.limits.solver, 1)

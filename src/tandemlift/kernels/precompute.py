@@ -1,4 +1,4 @@
-"""What a step is given from outside, as functions that are called ahead of it: pushes, gusts, chance, surroundings."""
+"""Functions that form the inputs of steps ahead of them: pushes, gusts, random numbers, surroundings."""
 
 from __future__ import annotations
 
@@ -20,39 +20,39 @@ NORMAL_LANES = 8  # of the loop that draws normal numbers for a flight alone
 
 def write_push(step: LoopWriter) -> None:
     """The sum of all pushes at the half steps of the span that holds step k."""
-    f, width = step.function("feel", ", i64 %k"), step.width
+    f, width = step.function("sum_pushes", ", i64 %k"), step.width
     first = f.whole("and", "%k", -SPAN)
     with f.repeat(HALVES * width) as i:
-        f.store(f.zero, "%work", f.whole("add", i, step.hands))
+        f.store(f.zero, "%work", f.whole("add", i, step.pushes_at))
     opens, closes = step.time(f, first), step.time(f, f.whole("add", first, SPAN))
     half, twice = f.op(f"fmul double %dt, {double(0.5)}"), f.whole("mul", first, 2)
-    pushes, count = step.word(f, "pushes"), step.word(f, "push_count")
+    pushes, count = step.context_word(f, "pushes"), step.context_word(f, "push_count")
     with f.repeat(count) as i:
         row = f.at(pushes, f.whole("mul", i, leaves(GAUSSIAN)))
         f.read |= {"push": lambda m: Place(row, m), "opens": lambda m: opens, "closes": lambda m: closes}
-        with f.when(f.any(f.value(step.traced.pressed))), f.repeat(HALVES) as j:
+        with f.when(f.any(f.value(step.traced.push_is_active))), f.repeat(HALVES) as j:
             number = f.op(f"sitofp i64 {f.whole('add', twice, j)} to double")
             when = f.op(f"fmul double {number}, {half}")
             f.read["when"] = lambda m: when
-            add(f, f.whole("add", f.whole("mul", j, width), step.hands), step.traced.push)
+            _add_to(f, f.whole("add", f.whole("mul", j, width), step.pushes_at), step.traced.push)
     f.end()
 
 
 def write_gust(step: LoopWriter) -> None:
     """The velocity of all gusts at the time of a step."""
-    f = step.function("blow", ", double %t")
+    f = step.function("sum_gusts", ", double %t")
     f.read["t"] = lambda m: "%t"
     for m in range(3):
         f.store(f.zero, "%work", step.gust + m)
-    gusts, count = step.word(f, "gusts"), step.word(f, "gust_count")
+    gusts, count = step.context_word(f, "gusts"), step.context_word(f, "gust_count")
     with f.repeat(count) as i:
         row = f.at(gusts, f.whole("mul", i, leaves(GUST)))
         f.read["gusts"] = lambda m: Place(row, m)
-        add(f, step.gust, step.traced.gust)
+        _add_to(f, step.gust, step.traced.gust)
     f.end()
 
 
-def add(f: Function, at: str | int, more: Symbols) -> None:
+def _add_to(f: Function, at: str | int, more: Symbols) -> None:
     """Add values to those in scratch memory."""
     place = f.at("%work", at)
     for m, value in enumerate(f.values(more)):
@@ -60,11 +60,11 @@ def add(f: Function, at: str | int, more: Symbols) -> None:
 
 
 def write_draw(step: LoopWriter) -> None:
-    """Standard normals of a step of every lane; of a flight alone, of the span that holds step k."""
+    """Standard normals of one step in every lane; for a flight alone, of all steps of the span that holds step k."""
     lanes = step.lanes if step.lanes > 1 else NORMAL_LANES
     uniform = ("number",) if step.lanes > 1 else ("key",)
-    f = Function(step.module, step.graph, lanes, f"internal void @draw({MEMORY}, i64 %k) #1", uniform)
-    keys = step.word(f, "keys")
+    f = Function(step.module, step.graph, lanes, f"internal void @draw_noise({MEMORY}, i64 %k) #1", uniform)
+    keys = step.context_word(f, "keys")
     if step.lanes > 1:
         f.read = {"number": lambda m: "%k", "key": lambda m: f.load(keys, m)}
         for m, value in enumerate(v for four in step.traced.normals for v in f.values(four)):
@@ -85,33 +85,33 @@ def write_draw(step: LoopWriter) -> None:
 
 
 def write_surroundings(step: LoopWriter) -> None:
-    """What is looked at once in a span: the floor, the nearest walls, the leg that a person is on."""
-    x, f = step.likes, step.function("look")
-    if x.grounded:
-        low = f.any(f.value(step.traced.touch))
+    """What is found once in a span: whether the floor is near, the nearest walls, the leg of the person's path."""
+    x, f = step.templates, step.function("find_surroundings")
+    if x.has_floor:
+        low = f.any(f.value(step.traced.may_touch_floor))
         f.store(f.op(f"uitofp i1 {low} to double"), "%work", step.low * step.lanes, "double")
-    if x.walled:
+    if x.has_walls:
         at = leaf_offset(x.flying, "moving", "near").at
         for m, number in enumerate(flat(x.nowhere)):
             f.store(f.spread(double(number)), "%flying", at + m)
-        walls, count = step.word(f, "walls"), step.word(f, "wall_count")
+        walls, count = step.context_word(f, "walls"), step.context_word(f, "wall_count")
         with f.repeat(count) as i:
             row = f.at(walls, f.whole("mul", i, leaves(WALL)))
             f.read["wall"] = lambda m: Place(row, m)
             with f.afresh():
                 f.put("%flying", at, step.traced.nearest)
-    if x.accompanied:
+    if x.has_person:
         _find_legs(step, f)
     f.end()
 
 
 def _find_legs(step: LoopWriter, f: Function) -> None:
-    flying, lanes = step.likes.flying, step.lanes
+    flying, lanes = step.templates.flying, step.lanes
     index, leg = (
         leaf_offset(flying, "moving", "partner", "index").at,
         leaf_offset(flying, "moving", "partner", "leg").at,
     )
-    legs, last = step.word(f, "legs"), f.whole("sub", step.word(f, "leg_count"), 1)
+    legs, last = step.context_word(f, "legs"), f.whole("sub", step.context_word(f, "leg_count"), 1)
     for lane in range(lanes):
         number = f.load("%flying", index * lanes + lane, "double")
         i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])

@@ -1,4 +1,4 @@
-"""What was computed before waits in scratch memory: what does not change within a flight, and from part to part."""
+"""Values kept in scratch memory: those constant within a flight, and those that a later part of a step needs."""
 
 from __future__ import annotations
 
@@ -10,50 +10,50 @@ from tandemlift.trace import LEAVES, Function, Graph, Place, Symbol, symbols
 
 
 def steady(graph: Graph, roots: Symbols, moving: int) -> list[int]:
-    """The nodes that steps need and that depend on what does not change within a flight.
+    """The nodes that steps need and that are constant within a flight.
 
     Args:
         graph: of a step.
-        roots: all that a step gives.
-        moving: how many numbers of the flight change.
+        roots: every value that a step computes.
+        moving: how many of the flight's leading numbers change from step to step.
     """
-    found, wanted = [False] * len(graph.ops), set[int]()
+    constant, wanted = [False] * len(graph.ops), set[int]()
     for node in graph.needed([s.node for s in roots]):
         op, args = graph.ops[node], graph.args[node]
         if op == "in":
-            found[node] = args[0] == "dt" or (args[0] == "fly" and args[1] >= moving)
+            constant[node] = args[0] == "dt" or (args[0] == "fly" and args[1] >= moving)
         else:
-            found[node] = op == "const" or all(found[a] for a in args)
-        if not found[node] and op not in LEAVES:
+            constant[node] = op == "const" or all(constant[a] for a in args)
+        if not constant[node] and op not in LEAVES:
             wanted.update(args)
-    return sorted(n for n in wanted if found[n] and graph.ops[n] not in LEAVES and graph.types[n] == "f")
+    return sorted(n for n in wanted if constant[n] and graph.ops[n] not in LEAVES and graph.types[n] == "f")
 
 
 class ScratchValues:
-    """Nodes that wait in scratch memory, and where."""
+    """Nodes kept in scratch memory, with their offsets."""
 
-    def __init__(self, graph: Graph, rooms: ScratchLayout) -> None:
-        self.graph, self.rooms = graph, rooms
+    def __init__(self, graph: Graph, scratch: ScratchLayout) -> None:
+        self.graph, self.scratch = graph, scratch
         self.at: dict[int, int] = {}
 
-    def leave(self, f: Function, nodes: list[int]) -> None:
-        """Let nodes wait from here on."""
-        g, first = self.graph, self.rooms.size
+    def store(self, f: Function, nodes: list[int]) -> None:
+        """Write nodes to scratch memory."""
+        g, first = self.graph, self.scratch.size
         for node in nodes:
-            self.at[node] = self.rooms.take(f"node_{node}", g.counts[node] or 1)
+            self.at[node] = self.scratch.take(f"node_{node}", g.counts[node] or 1)
         f.put("%work", first, [s for n in nodes for s in symbols(g, Symbol(g, n, "f"))])
 
-    def find(self, f: Function) -> None:
-        """Let a function find what waits."""
+    def bind(self, f: Function) -> None:
+        """Make a function read the stored nodes instead of computing them."""
         for node, at in self.at.items():
             f.kept[node] = self._place(at)
 
     def _place(self, at: int) -> Callable[[], Place]:
         return lambda: Place("%work", at)
 
-    def hand_on(self, f: Function, later: Symbols) -> None:
-        """Let what later parts of a step need of what is known now wait for them."""
+    def store_for_later(self, f: Function, later: Symbols) -> None:
+        """Store the values known now that the later parts of the step need."""
         g, roots = self.graph, [s.node for s in later]
         known = {n for n in f.known() if g.types[n] == "f" and g.ops[n] not in LEAVES} | self.at.keys()
         wanted = {a for n in g.needed(roots, known) if g.ops[n] not in LEAVES for a in g.args[n]}
-        self.leave(f, sorted((wanted.union(roots) & known) - self.at.keys()))
+        self.store(f, sorted((wanted.union(roots) & known) - self.at.keys()))

@@ -18,7 +18,7 @@ LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 
 
 class ControllerInput(NamedTuple):
-    """What a controller is given at a sample."""
+    """The inputs of a controller at a sample."""
 
     measured: Measured
     reference: Reference
@@ -28,18 +28,25 @@ GIVEN = ControllerInput(Measured(State(ZERO, ZERO, LEVEL, ZERO), ZERO), Referenc
 
 
 class PythonController(NamedTuple):
-    """Stands where a controller is that Python calls, between the parts of a step; the loops ask it for nothing."""
+    """Stands in the loops for a controller in plain Python, which is called between the parts of a step."""
 
 
 @control.register(PythonController)
-def _layout_of_command(gains, memory, measured, reference):
+def _layout_of_command(gains: PythonController, memory: Any, measured: Measured, reference: Reference) -> Any:
     return Command(Wrench(0.0, ZERO), ZERO), memory
 
 
 class Templates(NamedTuple):
-    """Of a flight, of what a step is given, what the pilot thinks, what acts, how the body moves, what is shown.
+    """Layouts of the values that pass through a step.
 
-    `nowhere`, whose numbers count: the nearest walls before any was looked at.
+    Attributes:
+        flying: the flight, a `FlightModel`.
+        given: the `StepInputs`.
+        thought: the `PilotOutput`.
+        acting: the `Actuation`.
+        moved: the `BodyStep`.
+        sample: a row of the log.
+        nowhere: the nearest walls before any was looked at; its numbers are used, not only its layout.
     """
 
     flying: Any
@@ -51,27 +58,27 @@ class Templates(NamedTuple):
     nowhere: Any
 
     @property
-    def constrained(self) -> bool:
-        """Whether the allocation keeps to limits."""
+    def has_thrust_limits(self) -> bool:
+        """Whether the allocation keeps thrusts within limits."""
         return isinstance(self.flying.pilot.allocation, ConstrainedAllocation)
 
     @property
-    def walled(self) -> bool:
+    def has_walls(self) -> bool:
         """Whether there are walls."""
         return not isinstance(self.nowhere, Nothing)
 
     @property
-    def accompanied(self) -> bool:
+    def has_person(self) -> bool:
         """Whether a person leads the vehicle along a path."""
         return isinstance(self.flying.partner, Person)
 
     @property
-    def grounded(self) -> bool:
+    def has_floor(self) -> bool:
         """Whether there is a floor."""
         return not isinstance(self.flying.plant.floor, Nothing)
 
     @property
-    def late(self) -> bool:
+    def has_delays(self) -> bool:
         """Whether anything is delayed."""
         return not isinstance(self.flying.delays, Nothing)
 

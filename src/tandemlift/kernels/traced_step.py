@@ -1,8 +1,8 @@
-"""A step of a flight, traced: every number that it gives, as a symbol of what it is given.
+"""A traced step of a flight: each number that the step computes, as a symbol of the step's inputs.
 
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
-`solved` by the allocation within limits; `external`, what the caller of a step adds; `moved`, the body after the step.
-Of what is formed ahead: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
+`solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step.
+Inputs of what is formed ahead of the step: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, layout, total
 from tandemlift.controllers import control
-from tandemlift.engines.compiled import first_motion, untouched
-from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, SPAN, active, draws
+from tandemlift.engines.compiled import first_motion
+from tandemlift.engines.compiled_contact import without_contact
+from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, SPAN, draw_count, is_active
 from tandemlift.kernels.templates import COMMAND, Templates
 from tandemlift.laws.estimation.rotor_loss_detection import left_of, with_trials
 from tandemlift.laws.mechanics.clearance import clearance, may_press
@@ -41,16 +42,16 @@ from tandemlift.pilot.pilot import control_input, with_allocation, with_command,
 from tandemlift.trace import Graph, Symbol, TraceError, leaves, refused, symbols, traced, written_out
 
 Symbols = list[Symbol]
-MANY = 5  # quadrotors whose sets are arrays in memory, and served by loops
+MANY = 5  # quadrotors from which on sets are arrays in memory, and operations on them loops
 
 
 def graph_for(quadrotors: int) -> Graph:
-    """An empty graph for the laws of so many quadrotors."""
+    """An empty graph for the laws of a number of quadrotors."""
     return Graph(MANY if quadrotors >= MANY else 0)
 
 
 class TracedSolver:
-    """A step of the solver of limits, traced: inputs `problem`, and `search` as it goes on."""
+    """A traced step of the limit solver; its inputs are `problem` and the `search` so far."""
 
     def __init__(self, like: BoundedProblem, rolls_from: int = 0) -> None:
         self.graph, rotors = Graph(rolls_from), like.unlimited
@@ -68,7 +69,15 @@ class TracedSolver:
 
 
 class LimitProblem(NamedTuple):
-    """Thrusts within limits: whether thrusts leave them, what is solved for, the search without it and at its start."""
+    """The problem of thrusts within limits.
+
+    Attributes:
+        beyond: whether a thrust exceeds its limits.
+        problem: the numbers of the `BoundedProblem`.
+        plain: the result where no thrust exceeds its limits.
+        search: the search at its start.
+        solver: a traced step of the search.
+    """
 
     beyond: Symbol
     problem: Symbols
@@ -78,14 +87,14 @@ class LimitProblem(NamedTuple):
 
 
 class BodyInputs(NamedTuple):
-    """What another engine's body is given: thrusts and the air's loads stand among the values of `acting`."""
+    """Inputs of a body in another engine: `acting` (with thrusts and loads of the air), and the mean `push`."""
 
     acting: Symbols
     push: Symbols
 
 
 def changed_layout(before: Any, after: Any, path: str = "") -> str:
-    """Which part of a flight is laid out otherwise after a step than before it."""
+    """The first part of a flight whose layout differs after a step, in words."""
     if type(before) is type(after) and hasattr(before, "_fields"):
         for name, a, b in zip(before._fields, before, after, strict=True):
             if layout(a) != layout(b):
@@ -95,7 +104,7 @@ def changed_layout(before: Any, after: Any, path: str = "") -> str:
 
 
 def check_layout(gains: Any, before: Any, after: Any) -> None:
-    """Refuse laws that lay out a flight otherwise after a step than before it; `gains`: of the controller.
+    """Refuse laws that change the layout of a flight; `gains`: of the controller.
 
     Raises:
         TraceError: with the law, if it is the controller's.
@@ -109,72 +118,81 @@ def check_layout(gains: Any, before: Any, after: Any) -> None:
 
 
 class TracedStep:
-    """The graph of a step of flights like `likes`.
+    """The graph of a step of flights like `templates`.
 
     Args:
-        likes: the layouts of what passes through a step.
-        asks: whether a controller in Python is asked in the middle of the step.
+        templates: the layouts of what passes through a step.
+        calls_python: whether a controller in Python is called in the middle of the step.
     """
 
-    def __init__(self, likes: Templates, asks: bool = False) -> None:
-        self.likes, self.asks = likes, asks
-        self.graph = graph_for(len(likes.flying.plant.frame.mass))
-        self.flying = self.given_by("fly", likes.flying)
+    def __init__(self, templates: Templates, calls_python: bool = False) -> None:
+        self.templates, self.calls_python = templates, calls_python
+        self.graph = graph_for(len(templates.flying.plant.frame.mass))
+        self.flying = self.input_of("fly", templates.flying)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
         outer = StepInputs(
-            self.given_by("hand", likes.given.hand),
-            self.given_by("gust", ZERO),
-            self.given_by("noise", likes.given.noise),
+            self.input_of("hand", templates.given.hand),
+            self.input_of("gust", ZERO),
+            self.input_of("noise", templates.given.noise),
             self.flying.moving.partner,
-            self.given_by("external", likes.given.external),
+            self.input_of("external", templates.given.external),
         )
         self.given = traced(with_person)(self.flying, outer, self.t, self.dt)
         self.asked: Symbols = []
-        thought = self._asking() if asks else traced(run_pilot)(self.flying, self.given.hand.start, self.t, self.dt)
+        thought = (
+            self._ask_python()
+            if calls_python
+            else traced(run_pilot)(self.flying, self.given.hand.start, self.t, self.dt)
+        )
         self.limits: LimitProblem | None = None
-        if likes.constrained:
-            thought = self._limited(thought)
+        if templates.has_thrust_limits:
+            thought = self._limit_thrusts(thought)
         thought = traced(with_caller_thrusts)(thought, self.given.external)
         acting = traced(actuate)(self.flying, thought.decision.thrusts, self.given, self.t)
-        self.body = BodyInputs(self.all(acting), self._mean_push())
-        self.near, self.apart = self.all(self._swung(self.flying.plant, acting)), list[Symbol]()
-        if likes.grounded or likes.walled:
-            self.apart = self.all(self._swung(untouched(self.flying.plant), acting))
-        self.pressing = [self._pressing(acting)] if likes.walled else []
-        moved = self.given_by("moved", likes.moved)
+        self.body = BodyInputs(self.numbers(acting), self._mean_push())
+        self.body_in_contact, self.body_in_free_air = (
+            self.numbers(self._stepped_body(self.flying.plant, acting)),
+            list[Symbol](),
+        )
+        if templates.has_floor or templates.has_walls:
+            self.body_in_free_air = self.numbers(self._stepped_body(without_contact(self.flying.plant), acting))
+        self.may_touch_walls = [self._may_touch_walls(acting)] if templates.has_walls else []
+        moved = self.input_of("moved", templates.moved)
         moving, sample = traced(finish_sample)(self.flying, thought, acting, moved, self.given)
-        check_layout(self.flying.pilot.controller, likes.flying.moving, written_out(moving))
-        self.moving, self.sample = self.all(moving), self.all(sample)
+        check_layout(self.flying.pilot.controller, templates.flying.moving, written_out(moving))
+        self.moving, self.sample = self.numbers(moving), self.numbers(sample)
 
-    def given_by(self, kind: str, like: Any) -> Any:
+    def input_of(self, kind: str, like: Any) -> Any:
         """A nested value whose numbers are inputs of a kind."""
         return self.graph.inputs(kind, like)
 
-    def all(self, value: Any) -> Symbols:
+    def numbers(self, value: Any) -> Symbols:
         """The numbers of a nested value."""
         return symbols(self.graph, value)
 
-    def _asking(self) -> PilotOutput:
+    def _ask_python(self) -> PilotOutput:
         f, push, t, dt = self.flying, self.given.hand.start, self.t, self.dt
         known, heard, estimator = traced(perceive)(f, push, t, dt)
         memory = f.moving.memory
         briefed = traced(control_input)(f.pilot, memory, heard, t, dt)
-        self.asked = [*self.all(briefed.measured), *self.all(briefed.guidance.reference)]
-        command = self.given_by("answer", COMMAND)
+        self.asked = [*self.numbers(briefed.measured), *self.numbers(briefed.guidance.reference)]
+        command = self.input_of("answer", COMMAND)
         decision, memory = traced(with_command)(f.pilot, memory, briefed, command, memory.controller)
         return PilotOutput(known, heard.state.attitude, decision, memory, estimator)
 
-    def _limited(self, thought: PilotOutput) -> PilotOutput:
-        self.limits, decision, memory = limited(self, self.flying.pilot, self.flying.moving.memory, thought, self.t)
+    def _limit_thrusts(self, thought: PilotOutput) -> PilotOutput:
+        self.limits, decision, memory = limit_thrusts(
+            self, self.flying.pilot, self.flying.moving.memory, thought, self.t
+        )
         return PilotOutput(thought.known, thought.believed, decision, memory, thought.estimator)
 
-    def _swung(self, plant: Any, acting: Any) -> Any:
+    def _stepped_body(self, plant: Any, acting: Any) -> Any:
         return traced(step_body)(plant, self.flying.moving, acting, self.given.hand, self.dt)
 
-    def _pressing(self, acting: Any) -> Symbol:
+    def _may_touch_walls(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""
         before, plant, dt = self.flying.moving, self.flying.plant, self.dt
-        free, air = untouched(plant), acting.weather.loads
+        free, air = without_contact(plant), acting.weather.loads
         args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
         rate = traced(first_motion)(free, *args)
         room = traced(clearance)(plant.walls, before.near, plant.frame, before.state)
@@ -183,7 +201,7 @@ class TracedStep:
     def _mean_push(self) -> Symbols:
         hand, attitude = self.given.hand, self.flying.moving.state.attitude
         mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
-        return [*self.all(mean.force), *self.all(traced(moment_of)(mean, attitude))]
+        return [*self.numbers(mean.force), *self.numbers(traced(moment_of)(mean, attitude))]
 
     # what is formed ahead of the step, or beside it
 
@@ -195,41 +213,43 @@ class TracedStep:
     @cached_property
     def push(self) -> Symbols:
         """A row of the table of pushes at the time `when`."""
-        return self.all(traced(push_of)(self.likes.given.hand.start, self.given_by("push", GAUSSIAN), self.when))
+        return self.numbers(
+            traced(push_of)(self.templates.given.hand.start, self.input_of("push", GAUSSIAN), self.when)
+        )
 
     @cached_property
-    def pressed(self) -> Symbol:
+    def push_is_active(self) -> Symbol:
         """Whether that push is other than zero between the times `opens` and `closes`."""
-        return active(self.given_by("push", GAUSSIAN), self.graph.input("opens"), self.graph.input("closes"))
+        return is_active(self.input_of("push", GAUSSIAN), self.graph.input("opens"), self.graph.input("closes"))
 
     @cached_property
     def gust(self) -> Symbols:
         """The velocity of a row of the table of gusts."""
-        return self.all(traced(gust_velocity)(self.given_by("gusts", GUST), self.t))
+        return self.numbers(traced(gust_velocity)(self.input_of("gusts", GUST), self.t))
 
     @cached_property
     def normals(self) -> list[Symbols]:
         """The standard normals of step `number`, four for each draw."""
         number, keys = self.graph.input("number", type="i"), [self.graph.input("key", i) for i in (0, 1)]
-        return [self.all(traced(normals)(number, i, *keys)) for i in range(draws(self.likes.given.noise))]
+        return [self.numbers(traced(normals)(number, i, *keys)) for i in range(draw_count(self.templates.given.noise))]
 
     @cached_property
     def nearest(self) -> Symbols:
         """The nearest walls once a row of the table of walls was looked at."""
-        f, wall = self.flying, self.given_by("wall", WALL)
-        return self.all(traced(consider)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))
+        f, wall = self.flying, self.input_of("wall", WALL)
+        return self.numbers(traced(consider)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))
 
     @cached_property
-    def touch(self) -> Symbol:
+    def may_touch_floor(self) -> Symbol:
         """Whether a foot may touch the floor within the steps of a span."""
         return traced(may_touch)(self.flying.plant.floor, self.flying.moving.state, self.dt * float(SPAN))
 
 
-def limited(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
+def limit_thrusts(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
     """(`LimitProblem`, a decision within them, the memory after it); `held`: the pilot's memory before.
 
     Args:
-        owner: of the graph; gives symbols of a kind by `given_by`, and those of a value by `all`.
+        owner: of the graph; it gives the symbols of an input by `input_of`, and those of a value by `numbers`.
         pilot: its parameters.
         held: its memory before.
         thought: with its decision and its memory after it, without limits.
@@ -247,7 +267,7 @@ def limited(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
     start = AllocationState(where(outside, before.active, plain.active), where(outside, before.thrusts, plain.thrusts))
     search = Search(start, 1.0, 0.0, where(outside, 0.0, 1.0))
     solver = TracedSolver(written_out(problem), owner.graph.rolls_from)
-    needs = LimitProblem(outside, owner.all(problem), owner.all(plain), owner.all(search), solver)
-    solved = owner.given_by("solved", written_out(plain))
+    needs = LimitProblem(outside, owner.numbers(problem), owner.numbers(plain), owner.numbers(search), solver)
+    solved = owner.input_of("solved", written_out(plain))
     commands = traced(with_trials)(pilot.detection, held.detection, traced(commanded)(how, solved.thrusts, t), t)
     return needs, traced(with_thrusts)(decision, commands), traced(with_allocation)(thought.memory, solved)

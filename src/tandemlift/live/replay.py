@@ -18,12 +18,11 @@ from numpy.typing import NDArray
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.live.wire.frame_values import field_values
+from tandemlift.live.session.frame_values import field_values
+from tandemlift.live.session.scene_builder import scene_of_tables
 from tandemlift.live.wire.frames import RATE, layout_for, pack_frames
 from tandemlift.live.wire.scene import FlightScene, SceneReplay
-from tandemlift.live.wire.scene_builder import scene_of_tables
 from tandemlift.rendering.stage import FlightStage
-from tandemlift.settings import VehicleTable
 from tandemlift.vehicle import Vehicle
 
 MAX_FRAMES = 36_000  # ten minutes at the full rate; a longer flight has fewer frames a second
@@ -42,7 +41,7 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
         InputError: nothing of the flight can be shown.
     """
     stage = FlightStage(flight)
-    vehicle = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
+    vehicle = Vehicle.from_mission(flight.mission)
     shown = np.flatnonzero(np.isin(flight.time, stage.time))
     shown = shown[:: _stride(flight.time[shown])]
     channels = {name: flight[name][shown] for name in flight.channels}

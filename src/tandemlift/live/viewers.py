@@ -34,15 +34,15 @@ class Viewer:
 
     Attributes:
         dropped: frames that it was too slow for.
-        heard: when its last message came, by the monotonic clock [s].
-        echoed: when its last echo was sent, likewise.
+        last_message: when its last message came, by the monotonic clock [s].
+        last_echo: when its last echo was sent, likewise.
     """
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection = connection
-        self.dropped, self.heard = 0, time.monotonic()
+        self.dropped, self.last_message = 0, time.monotonic()
         self._second, self._messages, self._refusals = 0, 0, 0
-        self._echoing, self.echoed = False, 0.0
+        self._echoing, self.last_echo = False, 0.0
 
     @property
     def behind(self) -> bool:
@@ -63,7 +63,7 @@ class Viewer:
             asyncio.get_running_loop().call_later(ECHO, self._send_echo, frame)
 
     def _send_echo(self, frame: Callable[[], bytes]) -> None:
-        self._echoing, self.echoed = False, time.monotonic()
+        self._echoing, self.last_echo = False, time.monotonic()
         self.send_frame(frame())
 
     def send(self, what: Mapping[str, Any] | str) -> None:
@@ -83,7 +83,7 @@ class Viewer:
     def is_flooding(self) -> bool:
         """Count a message; whether there are too many in this second."""
         self._begin_second()
-        self.heard = time.monotonic()
+        self.last_message = time.monotonic()
         self._messages += 1
         return self._messages > MAX_MESSAGES
 
@@ -129,13 +129,13 @@ class Viewers:
 
     def is_hung(self) -> bool:
         """Whether the holder has been silent for too long; the page pings while it holds the beam."""
-        return self.holder is not None and time.monotonic() - self.holder.heard > SILENT
+        return self.holder is not None and time.monotonic() - self.holder.last_message > SILENT
 
     def send_frame(self, frame: bytes) -> None:
         """Send a frame to all who can take it."""
         now = time.monotonic()
         for viewer in self:
-            if now - viewer.echoed > FRESH:
+            if now - viewer.last_echo > FRESH:
                 viewer.send_frame(frame)
 
     def send(self, what: Mapping[str, Any]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
-from tandemlift.algebra.vector import Nothing, Quat, Vec3
+from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.laws.sensors.readings import Readings, by_name
 from tandemlift.loop.perception import Estimates
 
@@ -44,14 +44,9 @@ def channels_of_additional(readings: Any) -> Any:
     return by_name(tuple(f"measured_{name}" for name in readings._fields))
 
 
-@choice
+@choice(absent="readings")
 def shown_readings(readings: Any) -> Any:
     """The channels of readings."""
-
-
-@shown_readings.register(Nothing)
-def _no_readings(readings):
-    return readings
 
 
 @shown_readings.register(Readings)
@@ -59,40 +54,35 @@ def _readings(readings: Readings) -> Any:
     m, u = readings.motion, readings.imu
     more = [reading.value for reading in readings.additional]
     return MeasuredChannels(
-        m.position,
-        m.velocity,
-        m.attitude,
-        u.rates,
-        u.specific_force,
-        u.joint_force,
-        u.joint_torque,
-        channels_of_additional(readings.additional)(*more),
+        measured_position=m.position,
+        measured_velocity=m.velocity,
+        measured_attitude=m.attitude,
+        measured_rates=u.rates,
+        measured_specific_force=u.specific_force,
+        measured_joint_force=u.joint_force,
+        measured_joint_torque=u.joint_torque,
+        additional=channels_of_additional(readings.additional)(*more),
     )
 
 
-@choice
+@choice(absent="known")
 def shown_estimate(known: Any) -> Any:
     """The channels of what is estimated."""
-
-
-@shown_estimate.register(Nothing)
-def _no_estimate(known):
-    return known
 
 
 @shown_estimate.register(Estimates)
 def _estimate(known: Estimates) -> Any:
     s, p = known.state, known.push
     return EstimatedChannels(
-        s.position,
-        s.velocity,
-        s.attitude,
-        s.rates,
-        p.measured,
-        p.force,
-        p.moment,
-        p.point,
-        p.payload_mass,
-        p.disagreement,
-        p.trusted * p.armed,
+        estimated_position=s.position,
+        estimated_velocity=s.velocity,
+        estimated_attitude=s.attitude,
+        estimated_rates=s.rates,
+        push_measured=p.measured,
+        push_estimate=p.force,
+        push_moment_estimate=p.moment,
+        push_point_estimate=p.point,
+        payload_mass_estimate=p.payload_mass,
+        sensor_disagreement=p.disagreement,
+        push_usable=p.trusted * p.armed,
     )

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, greatest, minimum, where
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
-from tandemlift.engines.compiled import DistantFloor
+from tandemlift.engines.compiled_contact import DistantFloor
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
 from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
 from tandemlift.laws.guidance.guidance import HandGuidanceChannels, thrust_fraction
@@ -68,7 +68,7 @@ class ActuatorChannels(NamedTuple):
     rotor_commands: Any
     allocated_thrust: Any
     allocated_moment: Vec3
-    allocation_share: Any
+    allocation_fraction: Any
 
 
 class WindChannels(NamedTuple):
@@ -87,7 +87,7 @@ class ContactChannels(NamedTuple):
 class DetectionChannels(NamedTuple):
     """Of the detection of lost rotors: the number of the rotor that is taken for lost, 0 for none."""
 
-    rotor_lost: Any
+    failed_rotor: Any
 
 
 class DisturbanceChannels(NamedTuple):
@@ -96,32 +96,27 @@ class DisturbanceChannels(NamedTuple):
     disturbance_force: Vec3
     disturbance_moment: Vec3
     disturbance_residual: Vec3
-    disturbance_turning_residual: Vec3
+    disturbance_angular_residual: Vec3
 
 
-@choice
+@choice(absent="observer")
 def disturbed(observer: Any, unknown: DisturbanceEstimate) -> Any:
     """What an observer shows."""
 
 
-@disturbed.register(Nothing)
-def _no_observer(observer, unknown):
-    return observer
-
-
 @disturbed.register(DisturbanceObserver)
 def _an_observer(observer, unknown):
-    return DisturbanceChannels(unknown.force, unknown.moment, unknown.residual, unknown.turning_residual)
+    return DisturbanceChannels(
+        disturbance_force=unknown.force,
+        disturbance_moment=unknown.moment,
+        disturbance_residual=unknown.residual,
+        disturbance_angular_residual=unknown.turning_residual,
+    )
 
 
-@choice
+@choice(absent="detection")
 def watched(detection: Any, memory: Any) -> Any:
     """What the detection of lost rotors shows."""
-
-
-@watched.register(Nothing)
-def _not_watched(detection, memory):
-    return detection
 
 
 @watched.register(RotorLossDetection)
@@ -169,14 +164,9 @@ def _any(rotors, commands):
     return minimum(total(at_limit(commands, rotors.max_thrust)), 1.0)
 
 
-@choice
+@choice(absent="loads")
 def air_of(loads: Any, velocity: Any) -> Any:
     """What moving air shows."""
-
-
-@air_of.register(Nothing)
-def _no_air(loads, velocity):
-    return loads
 
 
 @air_of.register(PartLoads)
@@ -184,14 +174,9 @@ def _some_air(loads, velocity):
     return WindChannels(velocity, loads.payload.force + total_of_each(loads.quadrotors.force))
 
 
-@choice
+@choice(absent="floor")
 def contact_of(floor: Any, felt: PerfectReadings) -> Any:
     """What contact shows."""
-
-
-@contact_of.register(Nothing)
-def _no_contact(floor, felt):
-    return floor
 
 
 @contact_of.register(DistantFloor)
@@ -203,49 +188,44 @@ def _some_contact(floor, felt):
 @law
 def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
     """The sample of a step, at its start."""
-    state, felt, read = flying.moving.state, moved.felt, thought.decision
+    state, felt, read = flying.moving.state, moved.readings, thought.decision
     guidance, command = read.guidance, read.command
     target = guidance.reference.trajectory
     return Sample(
-        state.position,
-        state.velocity,
-        state.attitude,
-        euler_from_quaternion(state.attitude).angles,
-        state.rates,
-        target.position,
-        target.velocity,
-        target.acceleration,
-        command.euler,
-        guidance.admittance.position,
-        guidance.admittance.velocity,
-        guidance.admittance.acceleration,
-        guidance.force,
-        hand.start.force,
-        moment_of(hand.start, state.attitude),
-        command.wrench.thrust,
-        command.wrench.moment,
-        acting.thrusts,
-        felt.joint_force,
-        felt.joint_torque,
-        actuated(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
-        air_of(acting.weather.loads, acting.weather.velocity),
-        contact_of(flying.plant.floor, felt),
-        shown_readings(flying.moving.readings),
-        shown_estimate(thought.known),
-        disturbed(flying.pilot.observer, read.unknown),
-        guidance.shown,
-        watched(flying.pilot.detection, thought.memory.detection),
+        position=state.position,
+        velocity=state.velocity,
+        attitude=state.attitude,
+        euler=euler_from_quaternion(state.attitude).angles,
+        rates=state.rates,
+        reference_position=target.position,
+        reference_velocity=target.velocity,
+        reference_acceleration=target.acceleration,
+        reference_euler=command.euler,
+        admittance_position=guidance.admittance.position,
+        admittance_velocity=guidance.admittance.velocity,
+        admittance_acceleration=guidance.admittance.acceleration,
+        admittance_force=guidance.force,
+        push_force=hand.start.force,
+        push_moment=moment_of(hand.start, state.attitude),
+        thrust=command.wrench.thrust,
+        moment=command.wrench.moment,
+        rotor_thrusts=acting.thrusts,
+        joint_force=felt.joint_force,
+        joint_torque=felt.joint_torque,
+        actuated=actuated(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
+        air=air_of(acting.weather.loads, acting.weather.velocity),
+        contact=contact_of(flying.plant.floor, felt),
+        measured=shown_readings(flying.moving.readings),
+        estimated=shown_estimate(thought.known),
+        disturbed=disturbed(flying.pilot.observer, read.unknown),
+        guided=guidance.shown,
+        watched=watched(flying.pilot.detection, thought.memory.detection),
     )
 
 
-@choice
+@choice(absent="partner")
 def effort(partner: Any, x: Sample) -> Any:
     """What a step costs the person who guides the vehicle."""
-
-
-@effort.register(Nothing)
-def _nobody(partner, x):
-    return partner
 
 
 @effort.register(PersonState)
@@ -258,35 +238,31 @@ def _a_hand(partner, x):
     return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
-@choice
+@choice(absent=0.0)
 def hearing(shown: Any) -> Any:
     """1 while a push is heard along any axis, else 0; from what guidance shows."""
 
 
-@hearing.register(Nothing)
-def _not_asked(shown):
-    return 0.0
-
-
 @hearing.register(HandGuidanceChannels)
 def _heard(shown):
-    return greatest(shown.push_on)
+    return greatest(shown.push_active)
 
 
 @law
 def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
     """What a sample adds to the tally."""
     return StepErrors(
-        x.reference_position - x.position,
-        x.reference_velocity - x.velocity,
-        turned_least(x.reference_euler - x.euler),
-        x.euler,
-        x.thrust,
-        x.moment,
-        x.push_force,
-        dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
-        saturated(flying.rotors, thought.decision.thrusts) * thrust_fraction(thought.decision.guidance.running),
-        clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
-        effort(flying.moving.partner, x),
-        hearing(thought.decision.guidance.shown),
+        position=x.reference_position - x.position,
+        velocity=x.reference_velocity - x.velocity,
+        attitude=turned_least(x.reference_euler - x.euler),
+        tilt=x.euler,
+        thrust=x.thrust,
+        moment=x.moment,
+        push=x.push_force,
+        power=dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
+        saturated=saturated(flying.rotors, thought.decision.thrusts)
+        * thrust_fraction(thought.decision.guidance.running),
+        clearance=clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
+        effort=effort(flying.moving.partner, x),
+        hearing=hearing(thought.decision.guidance.shown),
     )

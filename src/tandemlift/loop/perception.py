@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.vector import Nothing, Quat, Vec3, apply_transposed, cross
+from tandemlift.algebra.vector import Quat, Vec3, apply_transposed, cross
 from tandemlift.laws.estimation.navigation import Navigator, navigate
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
 from tandemlift.laws.mechanics.body import State
@@ -91,14 +91,9 @@ class Estimates(NamedTuple):
     vehicle: NominalVehicle
 
 
-@choice
+@choice(absent=("sensors", "memory"))
 def measure(sensors: Any, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
     """(Readings of a step, the sensors' memory)."""
-
-
-@measure.register(Nothing)
-def _blind(sensors, memory, state, felt, believed, noise):
-    return sensors, memory
 
 
 @measure.register(Sensors)
@@ -121,14 +116,9 @@ def _in_hover(tare: TareInHover, guidance: Any, t: Any) -> Any:
     return guidance.phase.hovered
 
 
-@choice
+@choice(absent="t")
 def tare_time(estimators: Any, guidance: Any, t: Any) -> Any:
     """The time [s] by which the estimators tare."""
-
-
-@tare_time.register(Nothing)
-def _no_tare(estimators, guidance, t):
-    return t
 
 
 @tare_time.register(Estimators)
@@ -136,14 +126,9 @@ def _tare(estimators: Estimators, guidance: Any, t: Any) -> Any:
     return tare_begun(estimators.tare, guidance, t)
 
 
-@choice
+@choice(absent=("estimators", "memory"))
 def estimate_all(estimators: Any, memory: Any, readings: Any, t: Any, dt: Any) -> Any:
     """(what is known from readings, the estimators' memory) at time t [s]."""
-
-
-@estimate_all.register(Nothing)
-def _unknowing(estimators, memory, readings, t, dt):
-    return estimators, memory
 
 
 @estimate_all.register(Estimators)
@@ -153,14 +138,9 @@ def _estimated(estimators: Estimators, memory: Any, readings: Any, t: Any, dt: A
     return Estimates(push, state, estimators.vehicle), EstimatorState(push_memory, state_memory)
 
 
-@choice
+@choice(absent="readings")
 def usable(known: Any, readings: Any) -> Any:
     """The readings that may be used."""
-
-
-@usable.register(Nothing)
-def _as_unknown(known, readings):
-    return readings
 
 
 @usable.register(Estimates)
@@ -222,14 +202,9 @@ def true_push(vehicle: NominalVehicle, state: State, force: Vec3, moment: Vec3, 
     return PushWrench(push * heard, (moment + vehicle.drag_moment * state.rates + arm) * heard)
 
 
-@choice
+@choice(absent="readings")
 def all_sensed(readings: Any, known: Any) -> Any:
     """What is sensed, or `Nothing`."""
-
-
-@all_sensed.register(Nothing)
-def _nothing_sensed(readings, known):
-    return readings
 
 
 @all_sensed.register(Readings)

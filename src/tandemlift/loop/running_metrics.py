@@ -10,8 +10,6 @@ from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
 from tandemlift.laws.mechanics.clearance import nearer_of
 
-LATE = 10.0  # s: "after 10 s" leaves the disturbed start out
-
 
 class StepErrors(NamedTuple):
     """What a step adds to the tally: errors are desired minus actual, world axes or Euler angles; SI units."""
@@ -65,14 +63,9 @@ EMPTY = RunningMetrics(
 NO_EFFORT = PersonEffort(0.0, 0.0, 0.0)
 
 
-@choice
+@choice(absent="effort")
 def added(effort: Any, more: Any) -> Any:
     """A person's effort with that of one more step."""
-
-
-@added.register(Nothing)
-def _nobody(effort, more):
-    return effort
 
 
 @added.register(PersonEffort)
@@ -115,7 +108,7 @@ def _root_mean(squares: Any, steps: float) -> list[float] | None:
 
 
 def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
-    """The metrics from the tallies before and after `LATE`, with steps of `step` [s]; None where there is none."""
+    """The metrics from the sums before and after 10 s, with steps of `step` [s]; None where there is none."""
     steps = early.steps + late.steps
     return {
         "position_rmse_m": _root_mean(early.position_squares + late.position_squares, steps),

@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import absolute, maximum, where
 from tandemlift.algebra.vector import Nothing, Quat, dot
-from tandemlift.engines.compiled import BodyStep, CompiledPlant, advance
+from tandemlift.engines.compiled import BodyStep, advance
+from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.laws.guidance.requests import UNAWARE, operator_of
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import Push, PushSamples
@@ -161,7 +162,9 @@ def finish_sample(
 ) -> Any:
     """What a step comes to once the body has moved: (Moving after it, the Sample at its start)."""
     before, believed = flying.moving, thought.believed
-    readings, sensing = measure(flying.sensors, before.sensing, before.state, moved.felt, believed, given.noise.sensors)
+    readings, sensing = measure(
+        flying.sensors, before.sensing, before.state, moved.readings, believed, given.noise.sensors
+    )
     sample = log_sample(flying, thought, acting, moved, given.hand)
     tally = count(before.tally, errors_of(flying, thought, sample))
     lost = maximum(before.lost, is_unsound(moved.state))

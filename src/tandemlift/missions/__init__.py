@@ -9,9 +9,11 @@ from tandemlift.missions.files import DATA, built_in
 from tandemlift.missions.loading import load_mission
 from tandemlift.missions.values import merge
 from tandemlift.missions.writing import format_toml, tables_of, to_toml
+from tandemlift.settings import Mission
 
 __all__ = [
     "DATA",
+    "Mission",
     "built_in",
     "changed",
     "check",

@@ -6,11 +6,12 @@ import math
 from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
+from tandemlift.common.phases import IDLE
 from tandemlift.laws.guidance.admittance import Admittance
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
 from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState
 from tandemlift.laws.guidance.guidance import HandGuidance, HandGuidanceState
-from tandemlift.laws.guidance.phases import IDLE, SETTLE, PhaseSettings, PhaseState
+from tandemlift.laws.guidance.phases import SETTLE, PhaseSettings, PhaseState
 from tandemlift.laws.guidance.yaw_compliance import FixedHeading, YawCompliance, YawState
 from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 from tandemlift.pilot.supervision import NEVER, start_requests, start_supervision

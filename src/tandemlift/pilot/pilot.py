@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.vector import Nothing, total
+from tandemlift.algebra.vector import total
 from tandemlift.controllers import Command, Disturbance, Measured, control
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, last_known, observer_step
 from tandemlift.laws.estimation.rotor_loss_detection import detection_step, failed_rotors
@@ -69,14 +69,9 @@ class Decision(NamedTuple):
     thrusts: Any
 
 
-@choice
+@choice(absent="allocation")
 def given_thrusts(allocation: Any) -> Any:
     """The thrusts [N] that the allocation gave at the last sample, from its memory."""
-
-
-@given_thrusts.register(Nothing)
-def _not_known(allocation):
-    return allocation
 
 
 @given_thrusts.register(AllocationState)
@@ -84,14 +79,9 @@ def _within_limits(allocation):
     return allocation.thrusts
 
 
-@choice
+@choice(absent=0.0)
 def given_thrust(allocation: Any) -> Any:
     """The thrust of all rotors [N] that the allocation gave at the last sample; 0 if it does not keep it."""
-
-
-@given_thrust.register(Nothing)
-def _no_thrust_known(allocation):
-    return 0.0
 
 
 @given_thrust.register(AllocationState)

@@ -6,7 +6,8 @@ import math
 from typing import Any
 
 from tandemlift.algebra.vector import Nothing, Vec3, each, vec3
-from tandemlift.laws.guidance.fault_reactions import REACTIONS, ActiveFaults
+from tandemlift.common.faults import REACTIONS
+from tandemlift.laws.guidance.fault_reactions import ActiveFaults
 from tandemlift.laws.guidance.requests import RequestSchedule
 from tandemlift.laws.guidance.supervision import (
     EventLog,

@@ -15,7 +15,7 @@ from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.rendering.aircraft import aircraft
 from tandemlift.rendering.mesh import Mesh, linear, panel, rod, together
 from tandemlift.rendering.studio import Pane, Scene, SceneLine
-from tandemlift.settings import VehicleTable, wall_tables
+from tandemlift.settings import wall_tables
 from tandemlift.vehicle import Vehicle
 
 PUSH, PATH, AHEAD, GROUND = "#d5281b", "#1f5fbf", "#9db7d6", "#8a9097"
@@ -52,7 +52,7 @@ class FlightStage:
         self.path, self._attitudes = flight["position"][sound], _unbroken(flight["attitude"][sound])
         self._pushes, self._moments = flight["push_force"][sound], flight["push_moment"][sound]
         self._strongest = float(np.linalg.norm(self._pushes, axis=1).max())
-        vehicle = Vehicle.from_settings(VehicleTable.model_validate(flight.mission["vehicle"]))
+        vehicle = Vehicle.from_mission(flight.mission)
         self._aircraft = aircraft(vehicle)
         self.reach = self._aircraft.reach
         self.floor = self._floor_of(flight.mission, vehicle)

@@ -11,8 +11,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tandemlift.common.files import atomic_write
-from tandemlift.controllers.registry import CONTROLLERS
-from tandemlift.figures.captions import Caption
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import DASH, figure_of, number, table_of
@@ -23,6 +21,7 @@ from tandemlift.studies.controller_comparison import (
     Entry,
     ScoredPart,
     best_of,
+    controller_summary,
     moving_axes,
     parts_of,
     run_of,
@@ -31,6 +30,8 @@ from tandemlift.studies.controller_comparison import (
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from tandemlift.figures.drawing.figure import Caption
 
 
 class TableColumn(NamedTuple):
@@ -74,21 +75,6 @@ NOTE = """Errors are desired minus actual position in the air, {when}. The effor
 moments over the same time. Saturated is the share of all steps in which a rotor is at a limit. Bold: the least value
 of those that did not diverge, with all that are within 1 µm, 1 mN m or 0.01 % of it; nothing, where all are."""
 STILL = "<p>{when} every position error is below 1 µm.</p>"
-CAPTIONS = {
-    "errors": Caption(
-        "Errors",
-        "Errors of position in the air, desired minus actual, of all controllers. The time before the first push, with "
-        "take-off or a disturbed start, has a scale of its own. Axes along which no error reaches 1 µm are left out. A "
-        "controller that diverges does not set the scale.",
-        "Panels over time for each axis: the error of position of every controller, before the first push and after.",
-    ),
-    "thrusts": Caption(
-        "Thrusts",
-        "What the rotors give: the mean thrust of all rotors as a line, over the least to the greatest of any of them. "
-        "Each panel has a scale of its own, that of what follows the first second; its range is above it.",
-        "A panel over time for each controller: mean thrust of the rotors, and the band of the least to the greatest.",
-    ),
-}
 
 
 def _cells(column: TableColumn, found: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
@@ -158,23 +144,13 @@ def versions_as_html(flight: Flight) -> str:
 def _settings(flights: Mapping[str, Flight]) -> str:
     shown = []
     for name, flight in flights.items():
-        about = CONTROLLERS[name].summary if name in CONTROLLERS else ""
+        about = controller_summary(name)
         text = format_toml({"controller": flight.mission["controller"]})
         shown.append(
             f"<details>\n<summary>{escape(name)}: {escape(about)}</summary>\n<pre><code>{escape(text)}</code></pre>\n"
             "</details>"
         )
     return f"<section>\n<h2>Settings</h2>\n{chr(10).join(shown)}\n</section>"
-
-
-def _figures(flights: Mapping[str, Flight]) -> str:
-    """The figures in which something moves."""
-    from tandemlift.figures.controller_comparison import draw_errors, draw_thrusts
-
-    drawn = {"thrusts": draw_thrusts(flights)}
-    if any(any(moving_axes(flights.values(), part)) for part in parts_of(flights.values())):
-        drawn = {"errors": draw_errors(flights)} | drawn
-    return figures_as_html(drawn, CAPTIONS)
 
 
 def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> Path:
@@ -187,6 +163,8 @@ def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> 
     Returns:
         The path.
     """
+    from tandemlift.report import controller_figures
+
     path, flights = Path(path), {e.name: e.flight for e in entries if e.flight}
     first = next(iter(flights.values()))
     counts, *others = parts_of(flights.values())
@@ -199,7 +177,7 @@ def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> 
         where=f"engine <b>{escape(first.version.get('engine', ''))}</b>",
         note=NOTE.format(when=counts.words),
         table="\n".join(tables),
-        figures=_figures(flights),
+        figures=figures_as_html(controller_figures.figures_of(flights), controller_figures.CAPTIONS),
         setup=setup_as_html(first, without=["Pilot"]),
         settings=_settings(flights),
         versions=versions_as_html(first),

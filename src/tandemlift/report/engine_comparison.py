@@ -8,31 +8,15 @@ from html import escape
 from pathlib import Path
 
 from tandemlift.common.files import atomic_write
-from tandemlift.engines.registry import ENGINES
-from tandemlift.figures.captions import Caption
 from tandemlift.flight.record import Flight
 from tandemlift.report.controller_comparison import figures_as_html, setup_as_html, versions_as_html
 from tandemlift.report.flight_report import DASH, number, table_of
 from tandemlift.report.page import COMPARISON
-from tandemlift.studies.engine_comparison import QUANTITIES, SETTLED, most_apart, speed
+from tandemlift.studies.engine_comparison import QUANTITIES, SETTLED, engine_summary, most_apart, speed
 
 NOTE = f"""The same mission, pilot and chance; only the body lives in another engine. Differences are the largest of any
 sample from the first engine, joints from {SETTLED:g} s on. Steps a second are with the pilot, on the machine that wrote
 this page."""
-CAPTIONS = {
-    "flights": Caption(
-        "Over each other",
-        "The way of the centre of mass from above, if there are walls, and its position over time, in every engine; "
-        "the first is drawn widest.",
-        "The path from above with walls, and panels over time for x, y and z, with one line for each engine.",
-    ),
-    "differences": Caption(
-        "Differences",
-        "How far each engine’s flight is from that of the first: distance of positions, angle of attitudes, largest "
-        "component of the differences of forces and torques at the joints and of the push as the pilot feels it.",
-        "A panel over time for each quantity, with a logarithmic scale and a line for each engine but the first.",
-    ),
-}
 
 
 def _row(name: str, flight: Flight, first: Flight) -> str:
@@ -54,7 +38,7 @@ def _table(flights: Mapping[str, Flight]) -> str:
 
 
 def _engines(flights: Mapping[str, Flight]) -> str:
-    rows = (f'<tr><th scope="row">{e}</th><td>{escape(ENGINES[e].summary)}</td></tr>' for e in flights)
+    rows = (f'<tr><th scope="row">{e}</th><td>{escape(engine_summary(e))}</td></tr>' for e in flights)
     return f"<section>\n<h2>Engines</h2>\n{table_of('', rows, 'setup')}\n</section>"
 
 
@@ -68,11 +52,10 @@ def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str]) -
     Returns:
         The path.
     """
-    from tandemlift.figures.engine_comparison import draw_differences, draw_over_each_other
+    from tandemlift.report import engine_figures
     from tandemlift.report.page import STYLE
 
     path, first = Path(path), next(iter(flights.values()))
-    drawn = {"flights": draw_over_each_other(flights), "differences": draw_differences(flights)}
     text = COMPARISON.format(
         name=escape(first.name),
         style=STYLE,
@@ -81,7 +64,7 @@ def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str]) -
         where=f"engines <b>{escape(', '.join(flights))}</b>",
         note=NOTE,
         table=_table(flights),
-        figures=figures_as_html(drawn, CAPTIONS),
+        figures=figures_as_html(engine_figures.figures_of(flights), engine_figures.CAPTIONS),
         setup=setup_as_html(first),
         settings=_engines(flights),
         versions=versions_as_html(first),

@@ -10,15 +10,17 @@ import struct
 from collections.abc import Iterable, Mapping
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.files import atomic_write
-from tandemlift.figures.captions import CAPTIONS, Caption
-from tandemlift.figures.registry import VIEWS, figures_of
+from tandemlift.figures.registry import VIEWS, captions, figures_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.report.page import PAGE, STYLE
 from tandemlift.report.setup import setup_of
+
+if TYPE_CHECKING:
+    from tandemlift.figures.drawing.figure import Caption
 
 UNITS = {  # by the end of a metric's name; longer ends first
     "j_m": "J/m",
@@ -202,8 +204,8 @@ def write_report(
     Returns:
         The path.
     """
-    path = Path(path)
-    shown = [figure_of(i, name, png, CAPTIONS[name]) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
+    path, words = Path(path), captions()
+    shown = [figure_of(i, name, png, words[name]) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
     text = PAGE.format(
         name=escape(flight.name),
         style=STYLE,

@@ -28,7 +28,7 @@ from tandemlift.settings.world import ActuatorsTable, DisturbanceTable, FaultTab
 Row = tuple[str, str]
 Settings = TypeVar("Settings", bound=Table)
 
-MOST_CHANGES = 12  # that are told of
+MOST_CHANGES = 12  # that are listed
 OBSERVERS = {"extended-state": "a linear extended-state observer", "super-twisting": "a super-twisting observer"}
 READ = {"truth": "true", "measurement": "measured", "estimate": "estimated"}
 JOINTS = {"force": ("N", "Joint forces"), "torque": ("N m", "Joint torques")}
@@ -81,29 +81,23 @@ def _pilot(flight: Flight) -> Iterator[Row]:
 
 def _guidance(flight: Flight) -> Iterator[Row]:
     if _table(flight, "pilot", PilotTable).guidance == "clock":
-        yield "Guidance", "by the clock: lift and landing at set times, the paper’s admittance between"
+        yield "Guidance", "by the clock: lift and landing at set times, the paper’s admittance in between"
         return
     c, estimator = _table(flight, "compliance", ComplianceTable), _table(flight, "estimator", EstimatorTable)
     caps = f"up to {_spread(c.max_speed, 'm/s')}, {_spread(c.max_acceleration, 'm/s²')}, {_spread(c.max_jerk, 'm/s³')}"
     yaw = "turns with a push at an end" if c.yaw.model == "yielding" else "heading held"
     tank = "; an energy tank adds damping" if c.tank.model != "none" else ""
-    wind = "; wind on the beam told from a push" if estimator.wind_compensation != "none" else ""
+    wind = "; wind on the beam is separated from a push" if estimator.wind_compensation != "none" else ""
     yield "Guidance", f"by hand: {caps}; {yaw}{tank}{wind}"
 
 
 def _watch(flight: Flight) -> Iterator[Row]:
     observer, detection = _table(flight, "observer", ObserverTable), _table(flight, "detection", DetectionTable)
-    yield (
-        "DisturbanceTable",
-        "not estimated" if observer.model == "none" else f"estimated by {OBSERVERS[observer.model]}",
-    )
+    yield "Disturbance", "not estimated" if observer.model == "none" else f"estimated by {OBSERVERS[observer.model]}"
     if detection.model != "none":
-        yield "Lost rotor", "found from what the rotors as modelled do not explain of the motion, and landed with"
+        yield "Rotor failure", "detected from motion that the modelled rotors do not explain; then an emergency landing"
     if _table(flight, "supervision", SupervisionTable).model != "none":
-        yield (
-            "Supervision",
-            "checks before a lift, watchdogs on every sensor, limits and a fence, each with its reaction",
-        )
+        yield "Supervision", "checks before a lift, watchdogs on every sensor, limits and a fence, each with a reaction"
     for change in (ChangeTable.model_validate(c) for c in flight.mission.get("changes", [])[:MOST_CHANGES]):
         over = f" within {describe(change.duration, 's')}" if change.duration else ""
         yield "Change", f"{change.key} = {shown(change.value)} from {describe(change.time, 's')} on{over}"
@@ -124,7 +118,7 @@ def _rotors(flight: Flight) -> Iterator[Row]:
     )
     method = _table(flight, "allocation", AllocationTable).method
     if actuators.model == "ideal":
-        yield "Rotors", f"ideal: every command is given at once and exactly; {method} allocation"
+        yield "Rotors", f"ideal: every command takes effect at once and exactly; {method} allocation"
         return
     most = _spread([q.max_thrust for q in quadrotors], "N")
     late = f"commands {describe(actuators.delay, 'ms', 1e3)} late" if actuators.delay else "commands without delay"
@@ -134,10 +128,8 @@ def _rotors(flight: Flight) -> Iterator[Row]:
     for fault in (f for f in faults if f.time <= flight.mission["mission"]["duration"]):
         known = "never known" if fault.known_after is None else f"known {describe(fault.known_after, 's')} later"
         left = f"{describe(fault.efficiency, '%', 100.0)} of the thrust left"
-        yield (
-            "FaultTable",
-            f"rotor {fault.rotor} of quadrotor {fault.quadrotor}: {left} from {describe(fault.time, 's')} on, {known}",
-        )
+        place = f"rotor {fault.rotor} of quadrotor {fault.quadrotor}"
+        yield "Fault", f"{place}: {left} from {describe(fault.time, 's')} on, {known}"
 
 
 def _errors(unit: str, **sizes: tuple[float, str]) -> str:
@@ -155,14 +147,14 @@ def _every(interval: float, delay: float) -> str:
 def _sensors(flight: Flight) -> Iterator[Row]:
     s = _table(flight, "sensors", SensorsTable)
     if s.model == "none":
-        yield "SensorsTable", "none: the pilot reads what is true"
+        yield "Sensors", "none: the pilot reads true values"
         return
-    drawn = "noise, bias and turns are given as standard deviations; biases and turns are drawn from the seed"
+    drawn = "noise, bias and misalignment are standard deviations; the seed gives biases and misalignments"
     yield "Sensors on board", f"{_every(s.interval, s.delay)}; {drawn}"
     for kind, (unit, name) in JOINTS.items():
         noise, bias, drift, step = (getattr(s.joints, f"{kind}_{x}") for x in ("noise", "bias", "drift", "resolution"))
         errors = _errors(unit, noise=(noise, ""), bias=(bias, ""), drift=(drift, "/√s"), steps=(step, ""))
-        turned = f", turned by {describe(s.joints.misalignment, 'rad')}" if s.joints.misalignment else ""
+        turned = f", misaligned by {describe(s.joints.misalignment, 'rad')}" if s.joints.misalignment else ""
         yield name, f"{errors}{turned}; up to ±{describe(getattr(s.joints, f'{kind}_range'), unit)}"
     for meter, unit, name in ((s.accelerometer, "m/s²", "Accelerometer"), (s.gyroscope, "rad/s", "Gyroscope")):
         errors = _errors(unit, noise=(meter.noise, ""), bias=(meter.bias, ""), drift=(meter.drift, "/√s"))
@@ -180,7 +172,7 @@ def _estimate(e: EstimatorTable) -> str:
         tare = f"tare from {describe(e.tare_start)} to {describe(e.tare_start + e.tare_duration, 's')}"
         tare += ", which also finds the payload’s mass" if e.identify_mass else ""
     trust = f"not used while sensors disagree by {describe(e.disagreement_limit, 'N')} or more"
-    return f"low-pass of {describe(e.push_bandwidth, 'rad/s')}; {tare}; {trust}"
+    return f"low-pass filter of {describe(e.push_bandwidth, 'rad/s')}; {tare}; {trust}"
 
 
 def _surroundings(flight: Flight) -> Iterator[Row]:
@@ -195,7 +187,7 @@ def _surroundings(flight: Flight) -> Iterator[Row]:
     yield "Wind", said
     ground, height = _table(flight, "ground", GroundTable), floor_height(flight)
     if height is not None:
-        effect = "; rotors give more near it" if ground.effect else ""
+        effect = "; ground effect on the rotors" if ground.effect else ""
         yield "Floor", f"at z = {describe(height, 'm')}; friction {describe(ground.friction)}{effect}"
     else:
         yield "Floor", "none"
@@ -211,7 +203,7 @@ LEADS = {
 }
 
 
-def _company(flight: Flight) -> Iterator[Row]:
+def _person(flight: Flight) -> Iterator[Row]:
     p = _table(flight, "person", PersonTable)
     if p.model == "none":
         return
@@ -219,17 +211,17 @@ def _company(flight: Flight) -> Iterator[Row]:
         spring = (
             f"{describe(p.stiffness, 'N/m')} and {describe(p.damping, 'N s/m')}, up to {describe(p.max_force, 'N')}"
         )
-        yield "Person", f"a hand moved from outside, on a spring of {spring}"
+        yield "Person", f"a virtual hand that is moved from outside, on a spring of {spring}"
         return
     where = "" if p.model == "two-hands" else f", {describe(p.grip, 'm')} along the beam from the payload’s centre"
     arm = (
         f"arm of {describe(p.stiffness, 'N/m')} and {describe(p.damping, 'N s/m')}, up to {describe(p.max_force, 'N')}"
     )
-    late = f"{describe(p.delay, 'ms', 1e3)} after seeing, muscles of twice {describe(p.lag, 'ms', 1e3)}"
+    late = f"visual delay {describe(p.delay, 'ms', 1e3)}, two muscle lags of {describe(p.lag, 'ms', 1e3)}"
     yield "Person", f"{LEADS[p.model]}{where}; {late}; {arm}; tremor {describe(p.tremor, 'N')}"
 
 
 def setup_of(flight: Flight) -> list[Row]:
-    """What a flight was flown with: rows of a name and what there is to say."""
-    parts = (_vehicle, _pilot, _guidance, _watch, _rotors, _sensors, _surroundings, _company)
+    """The set-up of a flight: rows of a name and a description."""
+    parts = (_vehicle, _pilot, _guidance, _watch, _rotors, _sensors, _surroundings, _person)
     return [row for part in parts for row in part(flight)]

@@ -1,5 +1,5 @@
-"""A flight in real time that speaks ROS: its samples are topics, pushes and requests come as messages.
+"""A flight in real time as a ROS node: samples are published as topics, pushes and requests come as messages.
 
-`front` puts it together and knows no middleware; `ros1` (rospy) and `ros2` (DDS, without an installed ROS) are two of
-them. Topics of samples are those of exported bags, by the same recipes.
+`node` puts it together and knows no middleware; `ros1` (rospy) and `ros2` (DDS, without an installed ROS) are the two
+that there are. Topics of samples are those of exported bags, made by the same recipes.
 """

@@ -53,7 +53,7 @@ class FlightDiagnostics:
         if "phase" not in flight:
             return
         none = np.zeros(len(stamps))
-        seen = np.column_stack([flight.channels.get(n, none) for n in ("phase", "alarm", "refused")])
+        seen = np.column_stack([flight.channels.get(n, none) for n in ("phase", "alarm", "failed_check")])
         for stamp, (phase, alarm, refused) in zip(stamps, seen.astype(int).tolist(), strict=True):
             now = (phase, alarm, refused)
             if now != self._now:

@@ -1,4 +1,4 @@
-"""What the front asks of a middleware: to publish, to listen, to answer, and to keep parameters."""
+"""What the node needs of a middleware: to publish, to subscribe, to serve requests, and to keep parameters."""
 
 from __future__ import annotations
 

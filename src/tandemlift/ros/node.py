@@ -11,13 +11,12 @@ from tandemlift.export.topics import ROOT
 from tandemlift.flight.record import Flight
 from tandemlift.live.session.session import Session
 from tandemlift.missions import tables_of
-from tandemlift.ros.clock import Clock
 from tandemlift.ros.diagnostics import KIND, TOPIC, FlightDiagnostics
 from tandemlift.ros.middleware import Middleware
 from tandemlift.ros.parameters import Parameters
 from tandemlift.ros.pushes import Pushes
 from tandemlift.ros.requests import REQUESTS, RequestServices
-from tandemlift.ros.sample_queue import SampleBatch, SampleQueue, as_flight, every_of
+from tandemlift.ros.sample_queue import Clock, SampleBatch, SampleQueue, as_flight, every_of
 from tandemlift.ros.topics import LatchedTopics, MarkerTopics, SampleTopics
 from tandemlift.vehicle import Vehicle
 

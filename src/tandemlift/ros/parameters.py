@@ -16,10 +16,10 @@ from tandemlift.common.errors import InputError, unknown
 from tandemlift.live.session.session import Session
 from tandemlift.live.session.tunable_parameters import parameters_of
 from tandemlift.live.wire.page_messages import SetMessage
+from tandemlift.missions import Mission
 from tandemlift.missions.values import shown
 from tandemlift.ros.diagnostics import Tell
 from tandemlift.ros.middleware import Middleware
-from tandemlift.settings import Mission
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
 SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces

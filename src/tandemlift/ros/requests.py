@@ -7,14 +7,14 @@ from collections.abc import Callable
 from typing import Literal
 
 from tandemlift.common.errors import InputError
-from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
-from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.common.faults import ALARM_TEXTS, CHECKS
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.live.session.session import Session
 from tandemlift.live.wire.page_messages import AskMessage, TareMessage
 from tandemlift.ros.middleware import Answer
 
 COMES_TO = {"lift": "lift", "land": "land", "stop": "stopped"}  # the phase that a request leads to
-POSSIBLE = {"lift": ("idle",), "land": ("lift", "guided", "hold"), "stop": NAMES}  # from which
+POSSIBLE = {"lift": ("idle",), "land": ("lift", "guided", "hold"), "stop": PHASE_NAMES}  # from which
 REQUESTS = (*COMES_TO, "tare")
 PATIENCE, NAP = 1.0, 0.02  # s, for the pilot to do it, and between looks
 
@@ -59,7 +59,7 @@ class RequestServices:
     def _reason(self) -> str:
         """Why the pilot does not do it."""
         channels = self._session.channels()
-        alarm, refused = (int(channels[n][0]) if n in channels else 0 for n in ("alarm", "refused"))
-        if refused:
-            return CHECKS[refused - 1]
-        return alarm_name(alarm) if alarm else f"the pilot stays in phase {self._phase()}"
+        alarm, failed = (int(channels[n][0]) if n in channels else 0 for n in ("alarm", "failed_check"))
+        if failed:
+            return CHECKS[failed - 1].text
+        return ALARM_TEXTS[alarm] if alarm else f"the pilot stays in phase {self._phase()}"

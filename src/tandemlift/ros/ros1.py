@@ -1,9 +1,12 @@
-"""ROS 1, by rospy as the machine has it."""
+"""ROS 1, by rospy as the machine has it; the package with a launch file for its own tools, and its RViz."""
 
 from __future__ import annotations
 
 import contextlib
+import shutil
+import subprocess
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from tandemlift.common.errors import InputError
@@ -12,6 +15,8 @@ from tandemlift.export.messages import MessageTypes
 from tandemlift.ros.middleware import Answer, TopicPublisher
 
 NAME = "tandemlift"
+FOLDER = Path(__file__).resolve().parent.parent / "data" / "ros"
+SHOWN = "tandemlift.rviz"
 OLD = {"builtin_interfaces/Time": "Time"}  # what has no message in ROS 1: of the package genpy
 
 
@@ -111,3 +116,20 @@ def _leaves(tree: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any
             yield from _leaves(value, f"{above}{key}.")
         else:
             yield f"{above}{key}", value
+
+
+def folder() -> Path:
+    """The folder of the ROS package `tandemlift`."""
+    return FOLDER
+
+
+def start_rviz() -> subprocess.Popen[bytes]:
+    """Start RViz of ROS 1, with everything that there is to see.
+
+    Raises:
+        InputError: it is not installed.
+    """
+    program = shutil.which("rviz")
+    if program is None:
+        raise InputError("--rviz: rviz is not installed: on Debian apt-get install rviz")
+    return subprocess.Popen([program, "-d", str(FOLDER / SHOWN)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -1,21 +1,48 @@
-"""Samples of a flight on their way from its thread to the one that publishes them; the flight never waits."""
+"""Samples of a flight on their way from its thread to the one that publishes them, and their stamps.
+
+The flight never waits. A stamp is the time of day, in even steps of the flight.
+"""
 
 from __future__ import annotations
 
 import threading
+import time
 from collections import deque
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
+from tandemlift.export.messages import SECOND
 from tandemlift.flight.record import Flight
-from tandemlift.live.session.recorded_flight import RecordedFlight
+from tandemlift.live.session.session import Session
+from tandemlift.simulation.recorded_flight import RecordedFlight
 from tandemlift.simulation.results import channels_of
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first
+
+
+class Clock:
+    """The time of day at which every step of a session's flight is due.
+
+    It is the time of the flight on top of when it began, so that samples are evenly apart to the nanosecond; after a
+    delay that the flight will not make good, by that much later.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session, self._dt = session, session.flight.dt
+        self._began = time.time_ns() - round(session.flight.step * self._dt * SECOND)
+
+    @property
+    def late(self) -> float:
+        """By how much the flight is late for good [s]."""
+        return self._session.pacer.forgotten
+
+    def stamp(self, step: int) -> int:
+        """The time of day of the step that is flown now [ns]."""
+        return self._began + round((step * self._dt + self.late) * SECOND)
 
 
 class SampleBatch(NamedTuple):
@@ -27,10 +54,10 @@ class SampleBatch(NamedTuple):
 
 
 class SampleQueue:
-    """Every so manieth sample of a flight.
+    """The samples of every so many steps of a flight.
 
     Args:
-        every: steps from one to the next.
+        every: steps from one sample to the next.
         stamp: the time of day of a step that is flown now [ns].
     """
 
@@ -57,10 +84,10 @@ class SampleQueue:
         return SampleBatch(list(steps), list(stamps), np.array(rows))
 
 
-def as_flight(taken: SampleBatch, flight: RecordedFlight, tables: dict) -> Flight:
+def as_flight(taken: SampleBatch, flight: RecordedFlight, tables: dict[str, Any]) -> Flight:
     """Samples as a flight, by which topics are made; `tables`: of its mission."""
-    time = np.array(taken.steps) * flight.dt
-    return Flight(time, dict(channels_of(flight.layout, taken.rows)), tables, {})
+    at = np.array(taken.steps) * flight.dt
+    return Flight(at, dict(channels_of(flight.layout, taken.rows)), tables, {})
 
 
 def every_of(rate: float, dt: float) -> int:

@@ -7,12 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.algebra.vector import Vec3
 from tandemlift.common.types import Array
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, to_world
+from tandemlift.export.frames import ALIGNED, BASE, WORLD, quaternions, to_world
 from tandemlift.export.messages import MessageTypes
-from tandemlift.laws.mechanics.rotation import rotation_from_euler
-from tandemlift.live.wire.frame_values import points_of
+from tandemlift.live.session.frame_values import points_of
 from tandemlift.models.visuals import VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.stage import GLASS, PUSH, WALL
 from tandemlift.ros.drawing import MARKERS, MarkerWriter
@@ -120,7 +118,7 @@ class PushMarkers:
         place, here = channels["reference_position"], channels["position"]
         if not np.linalg.norm(place - here) > APART:
             return [self._ghost.nothing(i) for i in range(len(self._shapes))]
-        R = np.array(rotation_from_euler(Vec3(*channels["reference_euler"][0].tolist())))
+        R = to_world(np.repeat(quaternions(channels["reference_euler"][:1]), 3, axis=0), np.eye(3)).T
         there = [s._replace(position=place[0] + R @ s.position, axes=R @ s.axes) for s in self._shapes]
         return [self._ghost.shape(i, shape, stamp) for i, shape in enumerate(there)]
 

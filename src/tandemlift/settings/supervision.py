@@ -4,30 +4,27 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, create_model
 
+from tandemlift.common.faults import FAULTS, REACTION_MEANINGS, Fault, Reaction
 from tandemlift.settings.facts import key
 from tandemlift.settings.leaves import NonNegative, PerAxis, Positive, Scale, Table, Tilt
 
 Fraction = Annotated[float, Field(gt=0.0, le=1.0)]
 Samples = Annotated[int, Field(ge=2, le=1_000_000)]
-Reaction = Literal["none", "hold", "land", "stop"]
 Corner = Annotated[float, Field(ge=-1e3, le=1e3)]  # m
 Corners = Annotated[tuple[Corner, Corner, Corner], PerAxis(3)]
 
 CHOSEN = "chosen"
 FAR = "chosen: beyond what the vehicle should meet"
-REACTIONS = {
-    "none": "nothing",
-    "hold": "hold the position and ignore pushes until all is well",
-    "land": "land",
-    "stop": "turn the rotors off",
-}
 
 
-def _reaction(default: str, fault: str) -> Any:
-    """A key of `[supervision.reactions]`: the reaction to a fault."""
-    return key(default, None, f"reaction when {fault}", choices=REACTIONS)
+def _reaction(fault: Fault) -> Any:
+    """The key of a fault in `[supervision.reactions]`."""
+    return key(fault.reaction, None, f"reaction when {fault.condition}", choices=REACTION_MEANINGS)
+
+
+_REACTION_KEYS: dict[str, Any] = {fault.key: (Reaction, _reaction(fault)) for fault in FAULTS}
 
 
 class ChecksTable(Table):
@@ -117,29 +114,8 @@ class LimitsTable(Table):
     tracking_error_time: NonNegative = key(1.0, "s", "time for which it may exceed its limit", source=CHOSEN)
 
 
-class ReactionsTable(Table):
-    """`[supervision.reactions]`: the reaction to each fault."""
-
-    imu: Reaction = _reaction("land", "the inertial measurement unit sends nothing")
-    joints: Reaction = _reaction("hold", "a joint's sensor is lost")
-    accelerometer: Reaction = _reaction("land", "the accelerometer is lost")
-    gyroscope: Reaction = _reaction("land", "the gyroscope is lost")
-    motion: Reaction = _reaction("land", "the motion measurement sends nothing")
-    position: Reaction = _reaction("land", "the position is lost")
-    velocity: Reaction = _reaction("land", "the velocity is lost")
-    attitude: Reaction = _reaction("land", "the attitude is lost")
-    joints_inconsistent: Reaction = _reaction("hold", "the joints' sensors disagree")
-    attitude_inconsistent: Reaction = _reaction("land", "attitude and gyroscope disagree")
-    velocity_inconsistent: Reaction = _reaction("land", "velocity and position disagree")
-    speed_inconsistent: Reaction = _reaction("land", "accelerometer and velocity disagree")
-    state: Reaction = _reaction("stop", "the state has values that are not numbers")
-    orientation: Reaction = _reaction("stop", "both attitude and gyroscope are lost")
-    fence: Reaction = _reaction("hold", "the vehicle is outside the fence")
-    thrust: Reaction = _reaction("land", "too little thrust is left")
-    tilt: Reaction = _reaction("stop", "the vehicle is tilted too far")
-    rates: Reaction = _reaction("stop", "the vehicle turns too fast")
-    tracking_error: Reaction = _reaction("land", "the vehicle is too far from the reference")
-    rotor: Reaction = _reaction("land", "a rotor has failed")
+class ReactionsTable(create_model("Reactions", __base__=Table, **_REACTION_KEYS)):  # type: ignore[misc]
+    """`[supervision.reactions]`: the reaction to each fault, in the order of their priority."""
 
 
 class SupervisionTable(Table):

@@ -4,8 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.algebra.vector import Nothing, each
-from tandemlift.laws.rotors.dynamics import FreeAir, IdealRotors, RotorState, ground_effect, rotor_faults, rotors_from
+from tandemlift.algebra.vector import Nothing, each, spread
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.dynamics import (
+    FreeAir,
+    GroundEffect,
+    IdealRotors,
+    NoFaults,
+    RotorFaults,
+    Rotors,
+    RotorState,
+    lag,
+    rotor_faults,
+)
 from tandemlift.laws.rotors.thrust_limits import share_scale
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
@@ -17,13 +28,49 @@ def hover_thrusts(vehicle: Vehicle, weights: Any) -> Any:
     return each(vehicle.rotor_count)(*thrusts.tolist())
 
 
+def ground_effect_from(vehicle: Vehicle, floor: float) -> GroundEffect:
+    """Ground effect over a floor at z = `floor` [m]."""
+    places = [
+        (d[0] + x, d[1] + y, d[2])
+        for d, q in zip(vehicle.lever_arms, vehicle.quadrotors, strict=True)
+        for x, y in q.rotors
+    ]
+    quarter = [q.rotor_radius / 4.0 for q in vehicle.quadrotors for _ in range(4)]
+    return GroundEffect(spread(places), each(len(quarter))(*quarter), floor)
+
+
+def rotors_from(
+    vehicle: Vehicle,
+    step: float,
+    *,
+    late: bool,
+    faults: NoFaults | RotorFaults,
+    surface: FreeAir | GroundEffect,
+    per_reach: Wrench,
+) -> Rotors:
+    """The real rotors of a vehicle, for steps of `step` [s]."""
+    each_rotor = [q for q in vehicle.quadrotors for _ in range(4)]
+    cls = each(len(each_rotor))
+    return Rotors(
+        max_thrust=cls(*[q.max_thrust for q in each_rotor]),
+        constant=cls(*[q.thrust_constant for q in each_rotor]),
+        per_constant=cls(*[1.0 / q.thrust_constant for q in each_rotor]),
+        up=lag([q.lag_up for q in each_rotor], step),
+        down=lag([q.lag_down for q in each_rotor], step),
+        faults=faults,
+        surface=surface,
+        late=float(late),
+        per_reach=per_reach,
+    )
+
+
 def start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, late: bool) -> tuple[Any, Any, Any]:
     """The rotors of a mission, their memory at t = 0, and their thrusts [N] then."""
     hover = hover_thrusts(vehicle, mission.allocation.weights)
     if mission.actuators.model == "ideal":
         return IdealRotors(), Nothing(), hover
     failures = [(f.quadrotor, f.rotor, f.time, f.efficiency) for f in mission.faults]
-    surface = ground_effect(vehicle, floor.height) if mission.ground.effect else FreeAir()
+    surface = ground_effect_from(vehicle, floor.height) if mission.ground.effect else FreeAir()
     rotors = rotors_from(
         vehicle,
         mission.mission.step,

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.algebra.vector import ZERO, Nothing, mat3, vec3
+from tandemlift.algebra.vector import ZERO, Nothing, mat3, spread, vec3
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
 from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush
 from tandemlift.laws.mechanics.rectangle import WALL, wall
 from tandemlift.laws.mechanics.walls import nowhere
-from tandemlift.laws.mechanics.wind import Gust, NoTurbulence, Wind, WindNoise, air_drag_from, dryden, start_turbulence
+from tandemlift.laws.mechanics.wind import AirDrag, Gust, NoTurbulence, Wind, WindNoise, dryden, start_turbulence
 from tandemlift.laws.person.person import PATH_LEG, PathLeg
 from tandemlift.loop.wind_loads import WindModel
 from tandemlift.settings import Mission
@@ -41,6 +41,15 @@ def input_tables_from(mission: Mission, legs: list[PathLeg]) -> InputTables:
 
 def _table(rows: list[Any], like: Any) -> NDArray[np.float64]:
     return np.array([flat(row) for row in rows], dtype=float).reshape(len(rows), leaves(like))
+
+
+def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
+    """The drag of a vehicle's parts in air of a density [kg/m³]."""
+    payload, quadrotors = vehicle.payload, vehicle.quadrotors
+    return AirDrag(
+        vec3(payload.areas) * (0.5 * density * payload.drag_coefficient),
+        spread([np.multiply(q.drag_area, 0.5 * density * q.drag_coefficient) for q in quadrotors]),
+    )
 
 
 def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) -> tuple[Any, Any]:

@@ -68,7 +68,7 @@ def _fly_compiled(
             progress(k, p.steps)
     wall = (time.perf_counter() - began) / count
     moving = memory.numbers.reshape(-1, len(lanes))[: leaves(p.flying.moving)]
-    last = memory.work[memory.room("sample")].reshape(-1, len(lanes)) if count > 1 else memory.last[:, None]
+    last = memory.work[memory.span("sample")].reshape(-1, len(lanes)) if count > 1 else memory.last[:, None]
     flown = [
         RawResult(
             unflat(moving[:, i], p.flying.moving),

@@ -10,9 +10,9 @@ import numpy as np
 
 from tandemlift.algebra.vector import ZERO, each, layout
 from tandemlift.controllers import NoMemory, control
+from tandemlift.flight.record import LATE
 from tandemlift.kernels import FlightStart, Kernels, PythonController, TimeGrid
 from tandemlift.laws.person.caller_inputs import CallerInput
-from tandemlift.loop.running_metrics import LATE
 from tandemlift.settings import Mission
 from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import flat
@@ -60,7 +60,7 @@ class FlightPlan:
     @property
     def sample(self) -> Any:
         """The layout of a row of the log."""
-        return self.kernels.likes.sample
+        return self.kernels.templates.sample
 
     @property
     def late_step(self) -> int:
@@ -87,7 +87,7 @@ class FlightPlan:
         numbers = np.array(flat(self.flying))
         if not self.delays.any():
             return np.zeros((1, 0))
-        row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.kernels.lines])
+        row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.kernels.delayed])
         return np.tile(row, (1 << int(self.delays.max()).bit_length(), 1))
 
 

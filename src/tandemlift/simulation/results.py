@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
+from tandemlift.common.faults import ALARM_TEXTS, CHECKS
+from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.kernels import leaf_offset
-from tandemlift.laws.guidance.fault_reactions import CHECKS, alarm_name
-from tandemlift.laws.guidance.phases import IDLE, NAMES
 from tandemlift.laws.guidance.supervision import SupervisionState
 from tandemlift.laws.guidance.supervisor import ALARM, PHASE
 from tandemlift.laws.mechanics.body import State
@@ -110,10 +110,10 @@ def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> s
     """An event in words, from phase, alarm and the check that refuses; now, and in the event before."""
     phase, alarm, refused = now
     if alarm and (alarm != before[1] or phase not in (IDLE, before[0])):
-        return f"{alarm_name(alarm)} -> {NAMES[phase]}"
+        return f"{ALARM_TEXTS[alarm]} -> {PHASE_NAMES[phase]}"
     if phase != before[0] or not refused:
-        return NAMES[phase] + (f": {CHECKS[refused - 1]}" if refused else "")
-    return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1]}"
+        return PHASE_NAMES[phase] + (f": {CHECKS[refused - 1].text}" if refused else "")
+    return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1].text}"
 
 
 def _of_detection(p: FlightPlan, flown: RawResult) -> dict[str, Any]:

@@ -13,11 +13,12 @@ from tandemlift.common.sensors import additional_sensor
 from tandemlift.common.types import Array
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
 from tandemlift.laws.estimation.push_estimate import push_estimator, start_push
-from tandemlift.laws.mechanics.air_drag import payload_drag
+from tandemlift.laws.mechanics.air_drag import PayloadDrag
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.sensors.noise_bias_drift import SensorGrade, scalar_sensor_model, sensor_model
 from tandemlift.laws.sensors.readings import AdditionalChannels, by_name, sensors, zero_noise
 from tandemlift.laws.sensors.sensor_registry import PARAMETERS
+from tandemlift.laws.signals.low_pass import low_pass
 from tandemlift.loop.perception import Estimators, EstimatorState, NominalVehicle, TareAtTime, TareInHover
 from tandemlift.settings import AdditionalSensorTable, InertialSensor, JointSensors, Mission
 from tandemlift.vehicle import Vehicle
@@ -83,6 +84,13 @@ def _additional(s: AdditionalSensorTable, step: float, chance: np.random.Generat
     return PARAMETERS[s.name](AdditionalChannels(model), float(period))
 
 
+def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
+    """The windage of a vehicle as it is believed to be, with a low-pass of a bandwidth [rad/s]."""
+    beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
+    quadrotors = np.sum([np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
+    return PayloadDrag(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
+
+
 def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings: Any) -> tuple[Any, Any]:
     """The estimators of a mission and their memory at t = 0, as the vehicle is believed to be; or `Nothing`."""
     if isinstance(readings, Nothing):
@@ -105,7 +113,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         tare_duration=e.tare_duration,
         identify_mass=e.identify_mass,
         disagreement_limit=e.disagreement_limit,
-        windage=Nothing() if e.wind_compensation == "none" else payload_drag(vehicle, e.wind_bandwidth, step),
+        windage=Nothing() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, step),
     )
     observer = navigator(
         vehicle.center_of_mass,

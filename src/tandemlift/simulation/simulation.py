@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.types import Array
-from tandemlift.flight.record import DERIVED, Channel, Divergence, Flight, channel_of
+from tandemlift.flight.channels import DERIVED, Channel, channel_of
+from tandemlift.flight.record import Divergence, Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions.recording import engine_of

@@ -74,15 +74,15 @@ class Stepper:
     def _find_rooms(self) -> None:
         """Where a step's parts leave what Python or another engine takes, and look for what it answers."""
         room = {
-            name: self.memory.work[self.memory.room(name)]
+            name: self.memory.work[self.memory.span(name)]
             for name in ("asked", "answer", "external", "acting", "push", "moved")
         }
-        acting = self.p.kernels.likes.acting
+        acting = self.p.kernels.templates.acting
         thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "weather", "loads")
         self.x, self.y, self.v, self.push = room["asked"], room["answer"], room["moved"], room["push"]
         self.external = room["external"]
         if self.body is not None:
-            self.v[:] = flat(self.p.kernels.likes.moved)
+            self.v[:] = flat(self.p.kernels.templates.moved)
         self.thrusts = room["acting"][thrusts.at : thrusts.at + thrusts.size]
         self.loads = room["acting"][air.at : air.at + air.size]
 
@@ -160,7 +160,7 @@ class Stepper:
     def _advance(self, body: EngineBody) -> None:
         body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
         self.v[:STATE] = body.state
-        self.v[STATE : STATE + body.felt.size] = body.felt
+        self.v[STATE : STATE + body.readings.size] = body.readings
 
     def rest(self) -> None:
         """Take no step for now; to be called ten times a second, or more often, by who lets a flight wait."""

@@ -15,8 +15,7 @@ from tandemlift.common.types import Progress
 from tandemlift.controllers import CONTROLLERS, Controller, controller, error_text, file_of
 from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import Flight
-from tandemlift.missions import load_mission
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission, load_mission
 from tandemlift.simulation.fly import fly, fly_many
 
 Mask = NDArray[np.bool_]
@@ -216,6 +215,11 @@ def best_of(values: Sequence[float | None], least: float) -> list[bool]:
     known = [value for value in values if value is not None]
     wins = [value is not None and value - min(known) < least for value in values]
     return wins if 0 < sum(wins) < len(known) else [False] * len(values)
+
+
+def controller_summary(name: str) -> str:
+    """What a controller is, in a sentence; "" for one that is not registered, such as a file of one's own."""
+    return CONTROLLERS[name].summary if name in CONTROLLERS else ""
 
 
 def summary_of(entries: Sequence[Entry]) -> list[dict[str, Any]]:

@@ -9,9 +9,9 @@ import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array, Progress
-from tandemlift.engines.registry import engine_named
+from tandemlift.engines.registry import ENGINES, engine_named
 from tandemlift.flight.record import Flight
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly
 
 QUANTITIES = {"position": "m", "attitude": "rad", "joint_force": "N", "joint_torque": "N m", "push_estimate": "N"}
@@ -78,6 +78,11 @@ def most_apart(flight: Flight, first: Flight) -> dict[str, float]:
         late = first.time[: len(values)] > SETTLED if name.startswith("joint") else slice(None)
         found[name] = float(np.nanmax(values[late], initial=0.0))
     return found
+
+
+def engine_summary(name: str) -> str:
+    """What an engine is, in a sentence."""
+    return ENGINES[name].summary
 
 
 def summary_of(flights: Mapping[str, Flight]) -> list[dict[str, Any]]:

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.constants import GRAVITY
-from tandemlift.missions import load_mission
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission, load_mission
 from tandemlift.studies.rows import Row
 from tandemlift.studies.scenarios import Bench
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.flight.record import Flight
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.studies.rows import Row, below
 from tandemlift.studies.scenarios import STEADY, TURBULENCE, Bench, Changes, mission, wind
 
@@ -64,7 +64,7 @@ def landed(flight: Flight, rotor: int, time: float) -> dict[str, Any]:
     m = flight.metrics()
     after = np.flatnonzero(flight.time >= time)
     touched = after[np.abs(flight["contact_force"][after, 2]) > 0.0]
-    found = flight["rotor_lost"][-1] == rotor + 1
+    found = flight["failed_rotor"][-1] == rotor + 1
     row = {
         "found": m["rotor_loss_found_after_s"] if found else None,
         "landed": bool(flight.divergence is None and len(touched) and flight["phase"][-1] == 0.0),

@@ -7,9 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.types import Array
-from tandemlift.flight.record import Flight
-
-LATE = 10.0  # s: from then on the reference is to be followed
+from tandemlift.flight.record import LATE, Flight
 
 
 class Row(NamedTuple):

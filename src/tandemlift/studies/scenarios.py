@@ -13,8 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.flight.record import Flight
-from tandemlift.missions import load_mission
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission, load_mission
 from tandemlift.simulation.fly import fly, fly_many
 
 Changes = dict[str, Any]

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tandemlift.flight.record import Flight
-from tandemlift.studies.rows import LATE, Row, below, errors, rms, triple, true_yielding
+from tandemlift.flight.record import LATE, Flight
+from tandemlift.studies.rows import Row, below, errors, rms, triple, true_yielding
 from tandemlift.studies.scenarios import SLOW, WINDY, Bench, Changes, drawn, mission
 
 HEAVIER = 0.3  # kg

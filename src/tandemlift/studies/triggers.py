@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.flight.record import Flight
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
 from tandemlift.studies.rows import Row
 from tandemlift.studies.scenarios import Bench, Changes, mission
 
@@ -67,7 +67,7 @@ def delays(flight: Flight) -> list[float]:
     for i in range(PUSHES):
         start = FIRST + EVERY * i
         within = (flight.time >= start) & (flight.time < start + LASTS)
-        heard = np.flatnonzero(flight["push_on"][within, i % 2] > 0.0)
+        heard = np.flatnonzero(flight["push_active"][within, i % 2] > 0.0)
         found.append(float(flight.time[within][heard[0]] - start) if len(heard) else float("inf"))
     return found
 

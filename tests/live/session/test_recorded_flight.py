@@ -9,9 +9,8 @@ from tandemlift.algebra.vector import Vec3
 from tandemlift.cli.main import cli
 from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
 from tandemlift.live.session.interactive_mission import interactive_mission
-from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.live.session.saving import save_in_process
-from tandemlift.live.session.snapshot import FLIGHT, HAND, MISSION
+from tandemlift.simulation.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
 
 GUIDED = {
     "pilot.guidance": "hand",

@@ -9,6 +9,8 @@ from sessions import fly, say, seen, unprepared
 
 import tandemlift as tl
 from tandemlift.live.session.interactive_mission import interactive_mission
+from tandemlift.live.session.session import Session
+from tandemlift.live.wire.page_messages import PAGE_MESSAGES, PingMessage
 
 
 def test_a_flight_that_is_over_says_so_and_changes_no_more(session):
@@ -18,6 +20,11 @@ def test_a_flight_that_is_over_says_so_and_changes_no_more(session):
     assert session.status()["phase"] == "over"
     with pytest.raises(tl.InputError, match="the flight is over; reset it first"):
         say(session, "set", key="admittance.mass", value=5.0)
+
+
+def test_a_session_handles_every_message_of_a_page_that_the_server_does_not_answer_itself():
+    handled = set(Session.__dict__["_handle"].dispatcher.registry)
+    assert set(PAGE_MESSAGES.values()) - handled == {PingMessage}
 
 
 def test_an_error_in_flight_is_told(session, monkeypatch):

@@ -3,10 +3,10 @@
 import importlib.util
 import json
 import types
-from pathlib import Path
 from typing import Annotated, Literal, NotRequired, Union, get_args, get_origin, get_type_hints, is_typeddict
 
 import pytest
+from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.live.replay import scene_and_frames
@@ -17,8 +17,6 @@ from tandemlift.live.wire.quantities import OneOf
 from tandemlift.live.wire.scene import FlightScene
 from tandemlift.live.wire.server_messages import SERVER_MESSAGES, SHOWN_PARAMETERS, FlightStatus
 from tandemlift.missions import built_in
-
-ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture(scope="module")

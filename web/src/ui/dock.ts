@@ -4,14 +4,14 @@ import { LIMITS, type PageMessage, type StatusMessage } from "../wire/messages.g
 import { button, el, icon } from "./dom.ts";
 
 const { min, max } = LIMITS.speed.factor;
-const PACES = [max, 0.5, 0.25, min].map(String);
+const SPEEDS = [max, 0.5, 0.25, min].map(String);
 
 export class Dock {
   private paused = false;
   private enabled = true;
   private readonly pauseButton: HTMLButtonElement;
   private readonly enableButton: HTMLButtonElement;
-  private readonly paces: HTMLSelectElement;
+  private readonly speeds: HTMLSelectElement;
   private readonly videoButton: HTMLButtonElement;
 
   constructor(
@@ -28,11 +28,11 @@ export class Dock {
       send({ type: "enable", on: this.enabled });
     });
     this.enable(true);
-    this.paces = this.pace();
+    this.speeds = this.speedChoice();
     this.videoButton = button("video", "Video", "Record a video of the picture", film);
     place.replaceChildren(
       el("div", { class: "strip" }, ...this.requests(), this.enableButton),
-      el("div", { class: "strip" }, this.pauseButton, this.paces, this.resetButton()),
+      el("div", { class: "strip" }, this.pauseButton, this.speeds, this.resetButton()),
       el("div", { class: "strip" }, button("save", "Save", "Save the flight so far", save), this.videoButton),
     );
   }
@@ -43,8 +43,8 @@ export class Dock {
       const [name, text] = this.paused ? ["play", "Continue"] : ["pause", "Pause"];
       this.pauseButton.replaceChildren(icon(name), el("span", {}, text));
     }
-    const pace = String(Number(status.speed.toPrecision(3)));
-    if (document.activeElement !== this.paces && PACES.includes(pace)) this.paces.value = pace;
+    const speed = String(Number(status.speed.toPrecision(3)));
+    if (document.activeElement !== this.speeds && SPEEDS.includes(speed)) this.speeds.value = speed;
     this.enable(status.enabled);
   }
 
@@ -79,8 +79,8 @@ export class Dock {
     ];
   }
 
-  private pace(): HTMLSelectElement {
-    const options = PACES.map((value) => el("option", { value }, `\u00d7${value}`));
+  private speedChoice(): HTMLSelectElement {
+    const options = SPEEDS.map((value) => el("option", { value }, `\u00d7${value}`));
     const select = el("select", { title: "Speed of the flight", "aria-label": "Speed of the flight" }, ...options);
     select.addEventListener("change", () => {
       this.send({ type: "speed", factor: Number(select.value) });

@@ -1,7 +1,7 @@
 // The last seconds of the flight, in columns for the plots.
 
 import type { Frame } from "../wire/frames.ts";
-import type { FrameFieldName, FlightScene } from "../wire/messages.generated.ts";
+import type { FlightScene, FrameFieldName } from "../wire/messages.generated.ts";
 
 export const SPAN = 20; // s
 const RATE = 20; // samples/s that are kept
@@ -33,7 +33,7 @@ export class History {
     this.first = this.end = 0;
   }
 
-  /** Keeps a frame if it is due; after a jump of time the past is forgotten. True if there was one. */
+  /** Keeps a frame if it is due; a jump of time clears the history. True if there was a jump. */
   add(frame: Frame): boolean {
     const time = frame.scalar("time");
     const step = time - this.latest;

@@ -27,7 +27,8 @@ export class SliderScale {
 
   value(place: number): number {
     const fraction = place / 1000;
-    const raw = this.logarithmic ? this.low * (this.high / this.low) ** fraction : this.low + fraction * (this.high - this.low);
+    const { low, high } = this;
+    const raw = this.logarithmic ? low * (high / low) ** fraction : low + fraction * (high - low);
     return Number(raw.toPrecision(3));
   }
 }

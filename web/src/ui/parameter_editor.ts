@@ -1,4 +1,4 @@
-// One parameter in the panel: sliders and numbers per axis, a choice, or a switch; a button restores the mission's value.
+// One parameter in the panel: sliders and numbers per axis, a choice, or a switch; a button restores its value.
 
 import type { PageMessage, ParameterValue, SceneParameter } from "../wire/messages.generated.ts";
 import { el, icon } from "./dom.ts";
@@ -41,7 +41,7 @@ export class ParameterEditor {
     const name = el("div", { class: "name", title: parameter.key }, el("span", {}, parameter.label), unit, back);
     this.fields = this.makeFields();
     const body = el("div", { class: "fields" }, ...this.fields.map(({ row }) => row));
-    this.element = el("div", { class: "control", "data-key": parameter.key }, name, body, this.reason);
+    this.element = el("div", { class: "parameter", "data-key": parameter.key }, name, body, this.reason);
     this.show(parameter.value);
   }
 
@@ -76,14 +76,14 @@ export class ParameterEditor {
 
   private makeFields(): Field[] {
     const { value, choices } = this.parameter;
-    if (choices) return [this.chooser(choices)];
-    if (typeof value === "boolean") return [this.switcher()];
+    if (choices) return [this.select(choices)];
+    if (typeof value === "boolean") return [this.checkbox()];
     const parts = [value].flat() as number[];
     const names = AXES[parts.length] ?? parts.map((_, i) => String(i + 1));
     return parts.map((_, i) => this.number(i, parts.length > 1 ? names[i] : ""));
   }
 
-  private chooser(choices: string[]): Field {
+  private select(choices: string[]): Field {
     const options = choices.map((one) => el("option", { value: one }, one));
     const select = el("select", { "aria-label": this.parameter.label }, ...options);
     select.addEventListener("change", () => {
@@ -92,7 +92,7 @@ export class ParameterEditor {
     return { row: select, show: (value) => (select.value = String(value)) };
   }
 
-  private switcher(): Field {
+  private checkbox(): Field {
     const input = el("input", { type: "checkbox" });
     input.addEventListener("change", () => {
       this.set(input.checked);

@@ -19,6 +19,7 @@ export interface PlotOptions {
   curves: Curve[];
   least: number; // the smallest span of values that is shown
   fromZero?: boolean;
+  headroom?: number; // above the curves, as a fraction of the span
   under?: (plot: uPlot) => void; // drawn below the curves
   more?: HTMLElement;
 }
@@ -114,11 +115,13 @@ function series(stroke: string, dash: number[] | undefined, width = 1.5): uPlot.
 const seconds = (value: number): string => (value < 0 ? "" : `${value} s`);
 
 /** The range to show: all values, with some room, and at least `least`, so that noise does not fill the plot. */
-function span(low: number | null, high: number | null, { least, fromZero }: PlotOptions): [number, number] {
+function span(low: number | null, high: number | null, options: PlotOptions): [number, number] {
+  const { least, fromZero, headroom = 0.06 } = options;
   if (low === null || high === null || !Number.isFinite(low + high)) return [0, least];
   const missing = Math.max(least - (high - low), 0) / 2;
-  const room = 0.06 * Math.max(high - low, least);
-  return fromZero ? [0, Math.max(high, least) + room] : [low - missing - room, high + missing + room];
+  const size = Math.max(high - low, least);
+  const [below, above] = [0.06 * size, headroom * size];
+  return fromZero ? [0, Math.max(high, least) + above] : [low - missing - below, high + missing + above];
 }
 
 /** A dashed level line across a plot. */

@@ -17,7 +17,7 @@ const FRONTS = ["#e8641b", "#f29a4a", "#b5440a", "#f7b977"];
 const REARS = ["#2f6fb0", "#6ea3d6", "#1b4a7d", "#9cc3e6"];
 
 /** A plot, and the columns that it shows. */
-interface PlotOf {
+interface PlotWithData {
   plot: Plot;
   columns: () => Float64Array[];
 }
@@ -25,7 +25,7 @@ interface PlotOf {
 export class Plots {
   readonly history: History;
   threshold: Vector;
-  private readonly all: PlotOf[];
+  private readonly all: PlotWithData[];
   private asError = false;
   private turn = 0;
 
@@ -56,7 +56,7 @@ export class Plots {
     return [0, 1, 2].map((i) => this.history.column(`${field}${i}`));
   }
 
-  private pushes(): PlotOf {
+  private pushes(): PlotWithData {
     const actual = AXES.map((color, i) => ({ color, label: NAMES[i] }));
     const pilot = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "pilot" }) }));
     const under = (plot: uPlot): void => {
@@ -65,19 +65,21 @@ export class Plots {
         level(plot, -limit, "#8d949e");
       }
     };
-    const plot = new Plot({ title: "Push", unit: "N", curves: [...pilot, ...actual], least: 1.2, under }, this.graphics);
+    const look = { title: "Push", unit: "N", curves: [...pilot, ...actual], least: 1.2, under };
+    const plot = new Plot(look, this.graphics);
     return { plot, columns: () => [...this.vector("pilot_push"), ...this.vector("push")] };
   }
 
-  private tracking(): PlotOf {
+  private tracking(): PlotWithData {
     const reference = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "ref." }) }));
     const actual = AXES.map((color, i) => ({ color, label: NAMES[i] }));
-    const more = choice("What is shown", { position: "m", error: "error, cm" }, "position", (value) => {
+    const more = choice("What is shown", { position: "m", error: "\u0394 cm" }, "position", (value) => {
       this.asError = value === "error";
     });
     const curves = [...reference, ...actual];
     const plot = new Plot({ title: "Position", unit: "", curves, least: 0.5, more }, this.graphics);
-    return { plot, columns: () => (this.asError ? this.error() : [...this.vector("reference"), ...this.vector("position")]) };
+    const positions = () => [...this.vector("reference"), ...this.vector("position")];
+    return { plot, columns: () => (this.asError ? this.error() : positions()) };
   }
 
   /** Reference and position minus the reference [cm]. */
@@ -87,7 +89,7 @@ export class Plots {
     return [...reference.map((column) => new Float64Array(column.length)), ...gaps];
   }
 
-  private thrusts(): PlotOf {
+  private thrusts(): PlotWithData {
     const { quadrotors } = this.scene.vehicle;
     const curves = quadrotors.flatMap((q, n) =>
       q.rotors.map((_, i) => ({ color: (ahead(q, i) ? FRONTS : REARS)[n % 4], width: 1.2 })),
@@ -106,7 +108,7 @@ export class Plots {
     return { plot, columns: () => curves.map((_, i) => this.history.column(`thrusts${i}`)) };
   }
 
-  private disturbance(): PlotOf {
+  private disturbance(): PlotWithData {
     const curves = AXES.map((color, i) => ({ color, label: NAMES[i] }));
     const under = (plot: uPlot): void => {
       for (const { from, to, phase } of this.phases()) {
@@ -114,7 +116,8 @@ export class Plots {
         band(plot, from, to, phaseTint(name), name);
       }
     };
-    const plot = new Plot({ title: "Disturbance, phase", unit: "N", curves, least: 1, under }, this.graphics);
+    const look = { title: "Disturbance, phase", unit: "N", curves, least: 1, headroom: 0.3, under }; // for the names
+    const plot = new Plot(look, this.graphics);
     return { plot, columns: () => this.vector("disturbance") };
   }
 

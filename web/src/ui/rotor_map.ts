@@ -1,7 +1,7 @@
 // The vehicle from above: each rotor is filled by its thrust; two presses stop it for good.
 
 import type { FlightScene, PageMessage, ScenePayload, SceneQuadrotor } from "../wire/messages.generated.ts";
-import { ahead, guardRadius } from "../view/quadrotor.ts";
+import { ahead } from "../view/quadrotor.ts";
 import { el, svg } from "./dom.ts";
 
 const CONFIRM_WITHIN = 3000; // ms, for the second press
@@ -9,8 +9,8 @@ const CONFIRM_WITHIN = 3000; // ms, for the second press
 export class RotorMap {
   readonly element: HTMLElement;
   private readonly fills: SVGElement[] = [];
-  private readonly spots: SVGElement[] = [];
-  private readonly most: number[];
+  private readonly buttons: SVGElement[] = [];
+  private readonly maxThrusts: number[];
   private readonly note = el("p", { class: "note" });
   private armed = -1;
   private timer = 0;
@@ -20,16 +20,16 @@ export class RotorMap {
     private readonly send: (message: PageMessage) => void,
   ) {
     const { quadrotors, payload } = scene.vehicle;
-    this.most = quadrotors.flatMap((q) => q.rotors.map((r) => r.max_thrust));
+    this.maxThrusts = quadrotors.flatMap((q) => q.rotors.map((r) => r.max_thrust));
     // seen from above with x up and y to the left
     const half =
-      Math.max(payload.length / 2, ...quadrotors.map((q) => Math.abs(q.position[1]) + guardRadius(q))) + 0.05;
-    const deep = Math.max(0.2, ...quadrotors.map((q) => Math.abs(q.position[0]) + guardRadius(q))) + 0.05;
+      Math.max(payload.length / 2, ...quadrotors.map((q) => Math.abs(q.position[1]) + q.guard)) + 0.05;
+    const deep = Math.max(0.2, ...quadrotors.map((q) => Math.abs(q.position[0]) + q.guard)) + 0.05;
     const viewBox = [-half, -deep, 2 * half, 2 * deep].join(" ");
     const picture = svg("svg", { viewBox, class: "rotormap" }, beam(payload));
     for (const quadrotor of quadrotors) {
       const [x, y] = quadrotor.position;
-      picture.append(svg("circle", { class: "guard", cx: -y, cy: -x, r: guardRadius(quadrotor) }));
+      picture.append(svg("circle", { class: "guard", cx: -y, cy: -x, r: quadrotor.guard }));
       quadrotor.rotors.forEach((_, i) => {
         picture.append(this.rotor(quadrotor, i));
       });
@@ -40,26 +40,26 @@ export class RotorMap {
 
   showThrusts(values: Float32Array): void {
     this.fills.forEach((fill, i) => {
-      fill.setAttribute("fill-opacity", Math.min(values[i] / this.most[i], 1).toFixed(2));
+      fill.setAttribute("fill-opacity", Math.min(values[i] / this.maxThrusts[i], 1).toFixed(2));
     });
   }
 
-  /** Which rotors are stopped for good. */
+  /** Marks the rotors that have stopped for good. */
   markFailed(rotors: readonly number[]): void {
-    this.spots.forEach((spot, i) => {
+    this.buttons.forEach((spot, i) => {
       spot.classList.toggle("failed", rotors.includes(i));
     });
   }
 
   private rotor(quadrotor: SceneQuadrotor, i: number): SVGElement {
     const { position, radius } = quadrotor.rotors[i];
-    const number = this.spots.length;
+    const number = this.buttons.length;
     const place = { cx: -position[1], cy: -position[0], r: 0.92 * radius };
     const fill = svg("circle", { ...place, class: ahead(quadrotor, i) ? "front" : "rear" });
     const rim = svg("circle", { ...place, class: "rim" });
     const cross = 0.5 * radius;
-    const way = 2 * cross;
-    const path = `M${place.cx - cross} ${place.cy - cross}l${way} ${way}m0 ${-way}l${-way} ${way}`;
+    const arm = 2 * cross;
+    const path = `M${place.cx - cross} ${place.cy - cross}l${arm} ${arm}m0 ${-arm}l${-arm} ${arm}`;
     const label = `Stop rotor ${number + 1}`;
     const spot = svg("g", { role: "button", tabindex: 0, "aria-label": label }, fill, rim, svg("path", { d: path }));
     spot.addEventListener("click", () => {
@@ -69,12 +69,12 @@ export class RotorMap {
       if (event.key === "Enter") this.press(number);
     });
     this.fills.push(fill);
-    this.spots.push(spot);
+    this.buttons.push(spot);
     return spot;
   }
 
   private press(rotor: number): void {
-    if (this.spots[rotor].classList.contains("failed")) return;
+    if (this.buttons[rotor].classList.contains("failed")) return;
     window.clearTimeout(this.timer);
     if (this.armed === rotor) {
       this.send({ type: "kill", rotor });
@@ -89,7 +89,7 @@ export class RotorMap {
 
   private arm(rotor: number): void {
     this.armed = rotor;
-    this.spots.forEach((spot, i) => {
+    this.buttons.forEach((spot, i) => {
       spot.classList.toggle("armed", i === rotor);
     });
     this.note.textContent =

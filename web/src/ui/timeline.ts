@@ -4,7 +4,7 @@ import type { SceneReplay } from "../wire/messages.generated.ts";
 import type { Replay } from "../wire/replay.ts";
 import { button, el, icon } from "./dom.ts";
 
-const PACES = ["0.1", "0.25", "0.5", "1", "2", "4"];
+const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "4"];
 const STEP = 1; // s, of an arrow key
 
 export class Timeline {
@@ -17,7 +17,7 @@ export class Timeline {
     place: HTMLElement,
     { start, end, speed }: SceneReplay,
     private readonly flight: Replay,
-    film: () => void,
+    record: () => void,
   ) {
     this.bar = el("input", { type: "range", min: start, max: end, step: 0.01, value: start, "aria-label": "Time" });
     this.bar.addEventListener("input", () => {
@@ -26,17 +26,17 @@ export class Timeline {
     this.player = button("pause", "", "Play or pause (P)", () => {
       this.toggle();
     });
-    const options = PACES.map((pace) =>
-      el("option", { value: pace, selected: Number(pace) === speed }, `\u00d7${pace}`),
+    const options = SPEEDS.map((factor) =>
+      el("option", { value: factor, selected: Number(factor) === speed }, `\u00d7${factor}`),
     );
-    const paces = el("select", { "aria-label": "Speed" }, ...options);
-    paces.addEventListener("change", () => {
-      flight.setSpeed(Number(paces.value));
-      paces.blur();
+    const speeds = el("select", { "aria-label": "Speed" }, ...options);
+    speeds.addEventListener("change", () => {
+      flight.setSpeed(Number(speeds.value));
+      speeds.blur();
     });
-    const video = button("video", "Video", "Record a video of the picture", film, "film");
+    const video = button("video", "Video", "Record a video of the picture", record, "film");
     const time = el("output", {}, this.clock, el("span", {}, ` / ${end.toFixed(1)} s`));
-    place.replaceChildren(el("div", { class: "strip timeline" }, this.player, this.bar, time, paces, video));
+    place.replaceChildren(el("div", { class: "strip timeline" }, this.player, this.bar, time, speeds, video));
   }
 
   toggle(): void {

@@ -29,13 +29,13 @@ export class Arrow {
     return this.group.visible;
   }
 
-  /** Shows a vector that acts at a place of the world, which the arrow starts from. */
+  /** Shows a vector that acts at a place of the world, where the arrow starts. */
   show(from: Vector3, vector: Vector): void {
     const way = new Vector3(...vector);
     const strength = way.length();
     this.group.visible = strength > this.faintest;
     if (!this.group.visible) return;
-    // a short arrow is a small one, as its length has to tell
+    // a short arrow is scaled down as a whole
     const length = strength * this.scale;
     const fraction = Math.min(length / (8 * this.radius), 1);
     const neck = length / fraction - 7 * this.radius;

@@ -45,7 +45,7 @@ export class HandMarker {
     this.group.visible = false;
   }
 
-  /** The cursor is over the beam, and could take hold here. */
+  /** The cursor is over the beam, and could hold it here. */
   offer(grab: Vector3): void {
     this.group.visible = true;
     this.end.visible = this.spring.visible = this.zone.visible = false;

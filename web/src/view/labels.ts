@@ -13,7 +13,7 @@ export class Label {
     this.element.className = `label ${kind}`;
     this.element.hidden = true;
     layer.append(this.element);
-    // read here and not with every picture, as that would lay the page out anew each time
+    // read here: reading it with every picture would force a layout each time
     new ResizeObserver(() => {
       [this.width, this.height] = [layer.clientWidth, layer.clientHeight];
     }).observe(layer);

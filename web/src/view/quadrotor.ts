@@ -1,4 +1,4 @@
-// One quadrotor to look at: hull, arms, motors, guard and legs, in body axes of the whole vehicle.
+// One quadrotor: hull, arms, motors, guard and legs, in body axes of the whole vehicle.
 
 import type { BufferGeometry } from "three";
 
@@ -8,29 +8,18 @@ import { at, ball, box, lathe, type Place, ring, rod, strut } from "./shapes.ts"
 
 const POSTS = 12; // of a guard
 
-/** How far the rotors are from the centre, on average [m]: all else is as large as that. */
-export function spread(quadrotor: SceneQuadrotor): number {
-  const [x, y] = quadrotor.position;
-  const ways = quadrotor.rotors.map(({ position }) => Math.hypot(position[0] - x, position[1] - y));
-  return ways.reduce((a, b) => a + b, 0) / ways.length || quadrotor.arm;
-}
-
 /** Whether a rotor is in front of its quadrotor's centre. */
 export function ahead(quadrotor: SceneQuadrotor, rotor: number): boolean {
   return quadrotor.rotors[rotor].position[0] > quadrotor.position[0] + 1e-6;
 }
 
-export function guardRadius(quadrotor: SceneQuadrotor): number {
-  return quadrotor.guard;
-}
-
-/** Height of a rotor's disc in body axes: above the arms, even where a mission puts it at the centre's height. */
+/** Height of a rotor's disc in body axes: above the arms, even if the mission has it at the centre's height. */
 export function hubHeight(quadrotor: SceneQuadrotor, rotor: number): number {
-  return Math.max(quadrotor.rotors[rotor].position[2], quadrotor.position[2] + 0.2 * spread(quadrotor));
+  return Math.max(quadrotor.rotors[rotor].position[2], quadrotor.position[2] + 0.2 * quadrotor.arm);
 }
 
 export function quadrotorParts(quadrotor: SceneQuadrotor, sides: number): BufferGeometry[] {
-  const size = spread(quadrotor);
+  const size = quadrotor.arm;
   const center = at(...quadrotor.position);
   const hull = shell(size, sides).map((part) => part.translate(center.x, center.y, center.z));
   return [...hull, ...arms(quadrotor, size, sides), ...guard(quadrotor, size, sides), ...legs(quadrotor, size, sides)];
@@ -64,7 +53,7 @@ function shell(size: number, sides: number): BufferGeometry[] {
 /** Booms out to the guard, with a motor and a coloured hub under each rotor. */
 function arms(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGeometry[] {
   const center = at(...quadrotor.position);
-  const reach = guardRadius(quadrotor);
+  const reach = quadrotor.guard;
   return quadrotor.rotors.flatMap(({ position }, i) => {
     const foot = at(position[0], position[1], center.z);
     const outward = foot.clone().sub(center).normalize();
@@ -82,7 +71,7 @@ function arms(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGeo
 /** Two rings around all rotors, held apart by posts. */
 function guard(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGeometry[] {
   const center = at(...quadrotor.position);
-  const radius = guardRadius(quadrotor);
+  const radius = quadrotor.guard;
   const [low, high] = [lifted(center, 0.02 * size), lifted(center, 0.26 * size)];
   const posts = Array.from({ length: POSTS }, (_, i) => {
     const turn = (2 * Math.PI * i) / POSTS;

@@ -23,9 +23,9 @@ import type { Graphics } from "./graphics.ts";
 import { CARBON, FRONT, REAR } from "./palette.ts";
 import { ahead, hubHeight } from "./quadrotor.ts";
 
-const TURN = 26; // rad/s at full thrust as it is shown; the true turning would be a blur
-const TALL = 0.45; // m, an arrow of full thrust
-const STOPPED = 0.01; // of full thrust: less, and the blades do not turn
+const TURN = 26; // rad/s as shown at full thrust; the true speed would be a blur
+const TALL = 0.45; // m, length of the arrow at full thrust
+const STOPPED = 0.01; // fraction of full thrust below which the blades stand still
 const CALM = new Color("#1f9d76");
 const HARD = new Color("#d5281b");
 const AXIS = new Vector3(0, 0, 1);
@@ -111,7 +111,7 @@ function seenThrough(opacity: number, flat = false): MeshBasicMaterial {
   return new MeshBasicMaterial({ transparent: true, opacity, depthWrite: false, side, forceSinglePass: true });
 }
 
-/** A shape along y from its middle, stood on its foot along z. */
+/** A shape along y about its middle, turned to stand along z on its foot. */
 function onFoot(shape: BufferGeometry): BufferGeometry {
   return shape.rotateX(Math.PI / 2).translate(0, 0, 0.5);
 }

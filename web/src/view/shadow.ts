@@ -1,4 +1,4 @@
-// A shadow for machines that cannot compute one: the vehicle pressed flat on the floor along the sun's rays.
+// The shadow of light graphics: the vehicle projected on the floor along the sun's rays.
 
 import { type BufferGeometry, Matrix4, Mesh, MeshBasicMaterial, type Object3D, Vector3 } from "three";
 

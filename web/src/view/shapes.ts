@@ -1,4 +1,4 @@
-// Solid shapes with their colours in their corners, so that a whole vehicle is one mesh.
+// Solid shapes with a colour at each vertex, so that a whole vehicle is one mesh.
 
 import {
   BoxGeometry,
@@ -20,7 +20,7 @@ export const at = (x: number, y: number, z: number): Place => new Vector3(x, y, 
 
 const UP = new Vector3(0, 1, 0); // along which three.js builds its cylinders
 
-/** How round things are: sides of a full turn. */
+/** Sides of a full turn. */
 export interface Detail {
   sides: number;
 }
@@ -44,7 +44,7 @@ export function rod(
   return between(from, to, new CylinderGeometry(end, radius, to.distanceTo(from), sides), color);
 }
 
-/** A rod whose ends nobody sees. */
+/** A rod without end faces. */
 export function strut(from: Place, to: Place, radius: number, color: string, sides: number): BufferGeometry {
   return between(from, to, new CylinderGeometry(radius, radius, to.distanceTo(from), sides, 1, true), color);
 }

@@ -43,7 +43,7 @@ export class Stage {
     }).observe(surface);
   }
 
-  /** A fresh renderer: antialiasing cannot be switched on one that exists. */
+  /** Makes a new renderer: antialiasing of an existing one cannot be switched. */
   build(graphics: Graphics): void {
     this.graphics = graphics;
     const full = graphics === "full";
@@ -65,7 +65,7 @@ export class Stage {
     this.resize();
   }
 
-  /** Draws what is around a vehicle of a reach [m]. */
+  /** Draws the surroundings of a vehicle of a reach [m]. */
   draw(vehicle: Vector3, reach: number): void {
     const apart = this.camera.position.distanceTo(vehicle);
     this.fog.near = apart + 8;
@@ -93,7 +93,7 @@ export class Stage {
   }
 }
 
-/** A renderer whose picture is opaque: a page behind it that shines through would cost the processor a third more. */
+/** An opaque renderer: blending with the page behind it would cost the processor a third more. */
 function rendererOf(antialias: boolean): WebGLRenderer {
   const canvas = document.createElement("canvas");
   const powerPreference = "high-performance";

@@ -1,4 +1,4 @@
-// The vehicle: its solid parts as one mesh, its rotors as instances, its ghost and its shadow on the floor.
+// The vehicle: its solid parts as one mesh, its rotors as instances, its ghost at the reference.
 
 import {
   type BufferGeometry,
@@ -14,7 +14,7 @@ import {
 import type { FlightScene, Quaternion, ScenePayload, SceneQuadrotor, Vector } from "../wire/messages.generated.ts";
 import type { Graphics } from "./graphics.ts";
 import { CARBON, JOINT, METAL, PATH, WOOD } from "./palette.ts";
-import { quadrotorParts, spread } from "./quadrotor.ts";
+import { quadrotorParts } from "./quadrotor.ts";
 import { Rotors } from "./rotors.ts";
 import { at, rod, strut, together } from "./shapes.ts";
 
@@ -33,7 +33,7 @@ export function beamAxis(payload: ScenePayload): Axis {
 
 export class Vehicle {
   readonly group = new Group();
-  readonly outline: BufferGeometry; // the solid, as rough as a shadow or a ghost of it may be
+  readonly outline: BufferGeometry; // the solid in less detail, for its shadow and its ghost
   readonly rotors: Rotors;
 
   constructor(scene: FlightScene, graphics: Graphics) {
@@ -52,7 +52,7 @@ export class Vehicle {
   }
 }
 
-/** Where the vehicle should be: seen through, and only where it differs from where the vehicle is. */
+/** The reference pose: transparent, and visible only where it is off the vehicle. */
 export class Ghost {
   readonly group = new Group();
   private readonly veil = new MeshBasicMaterial({ color: PATH, transparent: true, depthWrite: false });
@@ -102,7 +102,7 @@ function mount(payload: ScenePayload, quadrotor: SceneQuadrotor, sides: number):
   const joint = at(axis.from[0], Math.min(Math.max(along, axis.from[1]), axis.to[1]), axis.from[2]);
   const way = center.clone().sub(joint);
   if (way.length() < 1e-3) return [];
-  const width = 0.09 * spread(quadrotor);
+  const width = 0.09 * quadrotor.arm;
   const start = joint.clone().addScaledVector(way, Math.min(axis.radius / way.length(), 0.6));
   const end = joint.clone().addScaledVector(way, Math.min((axis.radius + 2 * width) / way.length(), 0.9));
   return [strut(joint, center, width, METAL, sides), rod(start, end, 1.8 * width, JOINT, sides)];

@@ -29,7 +29,7 @@ const COARSE = 5; // m, between bold lines
 const PIECE = 5; // m
 const BOLD = 0.9; // opacity of lines, each fifth and the others
 const FINE = 0.5;
-const SEEN_THROUGH = 0.1; // opacity of a wall between the eye and the vehicle
+const CLEAR = 0.1; // opacity of a wall between the eye and the vehicle
 const CLOUDY = 0.34;
 const CORNERS = 24; // of a box as three.js builds it
 
@@ -50,7 +50,7 @@ export class World {
     if (scene.corridor) this.group.add(lane(scene, graphics));
   }
 
-  /** Keeps the floor below the vehicle, and the walls that hide it thin. */
+  /** Keeps the floor below the vehicle, and the walls that hide it transparent. */
   update(vehicle: Vector3, eye: Vector3): void {
     this.ground.position.x = COARSE * Math.round(vehicle.x / COARSE);
     this.ground.position.y = COARSE * Math.round(vehicle.y / COARSE);
@@ -58,11 +58,11 @@ export class World {
   }
 }
 
-/** All walls as one mesh, and all their edges as another: each of them costs as much as one wall would. */
+/** All walls as one mesh, and all their edges as another: two draw calls. */
 class Walls {
   readonly parts: [Mesh, LineSegments];
   private readonly paint: BufferAttribute;
-  private readonly places: { center: Vector3; across: Vector3; seenThrough: boolean }[];
+  private readonly places: { center: Vector3; across: Vector3; clear: boolean }[];
 
   constructor(walls: SceneWall[], graphics: Graphics) {
     const boxes = walls.map((wall) => new BoxGeometry(...wall.size).rotateZ(wall.heading).translate(...wall.center));
@@ -79,18 +79,18 @@ class Walls {
     this.places = walls.map(({ center, size, heading }) => {
       const [x, y] = size[0] < size[1] ? [1, 0] : [0, 1];
       const across = new Vector3(x, y, 0).applyAxisAngle(new Vector3(0, 0, 1), heading);
-      return { center: new Vector3(...center), across, seenThrough: false };
+      return { center: new Vector3(...center), across, clear: false };
     });
   }
 
-  /** Makes the walls thin that are between the eye and the vehicle. */
+  /** Makes the walls between the eye and the vehicle transparent. */
   update(vehicle: Vector3, eye: Vector3): void {
     this.places.forEach((wall, i) => {
       const side = (place: Vector3) => wall.across.dot(place) - wall.across.dot(wall.center);
-      const seenThrough = side(vehicle) * side(eye) < 0;
-      if (seenThrough === wall.seenThrough) return;
-      wall.seenThrough = seenThrough;
-      for (let k = CORNERS * i; k < CORNERS * (i + 1); k++) this.paint.setW(k, seenThrough ? SEEN_THROUGH : CLOUDY);
+      const clear = side(vehicle) * side(eye) < 0;
+      if (clear === wall.clear) return;
+      wall.clear = clear;
+      for (let k = CORNERS * i; k < CORNERS * (i + 1); k++) this.paint.setW(k, clear ? CLEAR : CLOUDY);
       this.paint.needsUpdate = true;
     });
   }
@@ -98,7 +98,7 @@ class Walls {
 
 function floor(): Mesh {
   const size = 6 * EXTENT;
-  // nothing is below it, and nothing fights with it
+  // nothing is below it, so it needs no depth
   const mesh = new Mesh(new PlaneGeometry(size, size), new MeshLambertMaterial({ color: FLOOR, depthWrite: false }));
   mesh.receiveShadow = true;
   mesh.renderOrder = -2;
@@ -152,7 +152,7 @@ function lane(scene: FlightScene, graphics: Graphics): Mesh {
   return mesh;
 }
 
-/** From a corner of a line to the left edge of a band of a half width, where the edges of both sides meet. */
+/** From a corner of a line to the left corner of a band of a half width around it. */
 function mitre(line: [number, number][], i: number, half: number): [number, number] {
   const way = (a: number): number => {
     const [from, to] = [line[Math.max(a, 0)], line[Math.min(a + 1, line.length - 1)]];

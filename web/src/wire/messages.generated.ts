@@ -47,7 +47,6 @@ export const MAX_FORCE = "person.max_force";
 export const LIMITS = {
   kill: { rotor: { min: 0, max: 255 } },
   speed: { factor: { min: 0.1, max: 1 } },
-  ping: { t: { min: -1e+12, max: 1e+12 } },
 } as const;
 
 /** The four feet of a quadrotor. */
@@ -74,7 +73,7 @@ export interface SceneQuadrotor {
   rotors: SceneRotor[];
 }
 
-/** The payload: a beam, or a box if it has no length of its own. */
+/** The payload as drawn: a beam along body y. */
 export interface ScenePayload {
   position: Vector; // m, body axes
   length: number; // m

@@ -1,4 +1,4 @@
-"""How far a logged flight was from the walls, and where the person held on."""
+"""Distances of a logged flight from the walls, and where the person holds the payload."""
 
 from __future__ import annotations
 
@@ -8,14 +8,13 @@ import numpy as np
 
 from tandemlift.algebra.vector import Quat, Vec3, vec3
 from tandemlift.common.types import Array
-from tandemlift.figures.drawing.vehicle import vehicle_of
+from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import parts_layout
 from tandemlift.laws.mechanics.rectangle import edges_of, offset, offset_from_top, wall
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import beam_axis, on_beam, point_by_edge, point_by_top
 from tandemlift.settings import wall_tables
+from tandemlift.vehicle import Vehicle
 
 
 class Clearances(NamedTuple):
@@ -36,20 +35,20 @@ def _length(o: Vec3) -> Array:
 
 
 def clearances(flight: Flight) -> Clearances:
-    """How far guards and beam were from the nearest wall, below zero where they were in it."""
-    vehicle, s = vehicle_of(flight), state_of(flight)
+    """Distance of guards and beam from the nearest wall; below zero where they are in it."""
+    vehicle, s = Vehicle.from_mission(flight.mission), state_of(flight)
     upright = [wall(w["start"], w["end"], w["top"]) for w in wall_tables(flight.mission)]
-    R = rotation_from_quaternion(s.attitude)
+    R = body_to_world(flight["attitude"])
     guards = np.full(len(flight.time), np.inf)
     for quadrotor, arm in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
-        x, y, z = (sum(row[i] * arm[i] for i in range(3)) for row in R)
-        place = Vec3(s.position.x + x, s.position.y + y, s.position.z + z)
+        place = Vec3(*(flight["position"] + R @ arm).T)
         for one in upright:
             guards = np.minimum(guards, _length(offset(one, place)) - quadrotor.guard_radius)
     payload = vehicle.payload
     if not (payload.length and payload.radius):
         return Clearances(guards, None)
-    axis, half, beam = beam_axis(parts_layout(vehicle), s), 0.5 * payload.length, np.full(len(flight.time), np.inf)
+    axis, half = beam_axis(vec3(-vehicle.center_of_mass), s), 0.5 * payload.length
+    beam = np.full(len(flight.time), np.inf)
     for one in upright:
         ways = [offset(one, on_beam(axis, end)) for end in (-half, half)]
         ways += [offset(edge, on_beam(axis, point_by_edge(axis, half, edge))) for edge in edges_of(one)]
@@ -60,12 +59,10 @@ def clearances(flight: Flight) -> Clearances:
 
 
 def grips(flight: Flight) -> Array | None:
-    """Where the person of [person] holds on (T, 3) [m, world axes], or None without one."""
+    """Where the person of [person] holds the payload (T, 3) [m, world axes], or None without one."""
     partner = flight.mission.get("person", {"model": "none"})
     if partner["model"] in ("none", "grab"):
         return None
     along = 0.0 if partner["model"] == "two-hands" else partner["grip"]
-    arm = vec3(np.array([0.0, along, 0.0]) - vehicle_of(flight).center_of_mass)
-    R = rotation_from_quaternion(Quat(*flight["attitude"].T))
-    ways = np.column_stack([row.x * arm.x + row.y * arm.y + row.z * arm.z for row in R])
-    return flight["position"] + ways
+    arm = np.array([0.0, along, 0.0]) - Vehicle.from_mission(flight.mission).center_of_mass
+    return flight["position"] + body_to_world(flight["attitude"]) @ arm

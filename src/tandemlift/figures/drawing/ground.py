@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from tandemlift.algebra.constants import GRAVITY
-from tandemlift.algebra.vector import Quat
 from tandemlift.common.types import Array
-from tandemlift.figures.drawing.vehicle import mass_of, vehicle_of
-from tandemlift.flight import Flight
+from tandemlift.figures.drawing.attitude import body_to_world
+from tandemlift.figures.drawing.vehicle import mass_of
+from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.settings.surroundings import GroundTable
 from tandemlift.vehicle import Vehicle
 
@@ -29,7 +26,7 @@ def floor_height(flight: Flight) -> float | None:
     ground = GroundTable.model_validate(flight.mission.get("ground", {}))
     if ground.model == "none" or ground.height is not None:
         return ground.height if ground.model != "none" else None
-    vehicle, mission, mass = vehicle_of(flight), flight.mission, mass_of(flight)
+    vehicle, mission, mass = Vehicle.from_mission(flight.mission), flight.mission, mass_of(flight)
     step, friction = mission["mission"]["step"], ground.friction
     at_zero = floor(_soles(vehicle), mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage)
     return mission["initial"]["position"][2] - standing_height(at_zero, mass * GRAVITY)
@@ -37,7 +34,6 @@ def floor_height(flight: Flight) -> float | None:
 
 def clearance(flight: Flight, height: float) -> Array:
     """How high the lowest sole is (T) over a floor at a height [m]."""
-    R = rotation_from_quaternion(Quat(*flight["attitude"].T))
-    soles = _soles(vehicle_of(flight)).reshape(-1, 3)
-    below = np.column_stack([R.z.x, R.z.y, R.z.z]) @ soles.T
+    soles = _soles(Vehicle.from_mission(flight.mission)).reshape(-1, 3)
+    below = body_to_world(flight["attitude"])[:, 2] @ soles.T
     return flight["position"][:, 2] + below.min(axis=1) - height

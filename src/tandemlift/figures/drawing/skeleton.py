@@ -5,15 +5,12 @@ Everything comes from the mission's `vehicle` table, so the drawing has the vehi
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.algebra.vector import Quat
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.settings import VehicleTable
+from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.vehicle import Vehicle, mixer
 
 CORNERS = 24  # of the polygon that stands for a rotor's disc
@@ -29,7 +26,7 @@ class Skeleton(NamedTuple):
 
     def placed(self, position: Array, attitude: Array) -> Skeleton:
         """The skeleton with its centre of mass at a position (3) [m, world] and a unit quaternion w, x, y, z (4)."""
-        R = np.array(rotation_from_quaternion(Quat(*map(float, attitude))))
+        R = body_to_world(attitude)
         return Skeleton(*(points @ R.T + position for points in self))
 
     @property
@@ -38,12 +35,11 @@ class Skeleton(NamedTuple):
         return np.concatenate([part.reshape(-1, 3) for part in self])
 
 
-def skeleton(table: Mapping[str, Any]) -> Skeleton:
-    """The skeleton of a mission's `vehicle` table, in body axes about the system's centre of mass.
+def skeleton(vehicle: Vehicle) -> Skeleton:
+    """The skeleton of a vehicle, in body axes about the system's centre of mass.
 
     A payload with a length is a beam along body y; one without is the point that the struts meet in.
     """
-    vehicle = Vehicle.from_settings(VehicleTable.model_validate(table))
     half = (vehicle.payload.length or 0.0) / 2.0
     origin = -vehicle.center_of_mass
     beam = origin + np.array([[0.0, -half, 0.0], [0.0, half, 0.0]])[: 2 if half else 1]

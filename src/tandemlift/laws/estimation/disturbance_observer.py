@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, clip, sqrt
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3
+from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.laws.mechanics.body import UP, Wrench
 from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
 from tandemlift.laws.mechanics.rotation import body_z_axis
@@ -97,7 +97,7 @@ def growth(e: Any, bandwidth: Any, slope: Any) -> Any:
     return clip(bandwidth * bandwidth * e, -slope, slope)
 
 
-@choice
+@choice(absent=(NONE, "memory"))
 def observer_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, learning: Any, dt: Any) -> Any:
     """(what is `DisturbanceEstimate`, the new memory) at a sample.
 
@@ -110,11 +110,6 @@ def observer_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, le
         learning: 1; 0 to keep what was found, where feet may press on the floor, which is no disturbance.
         dt: since the last sample [s].
     """
-
-
-@observer_step.register(Nothing)
-def _unknowing(k, memory, heard, thrusts, active, learning, dt):
-    return NONE, memory
 
 
 @law
@@ -156,14 +151,9 @@ def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
     return DisturbanceEstimate(m.acceleration * k.mass, turn_by(k.inertia, m.turning), m.residual, m.turning_residual)
 
 
-@choice
+@choice(absent=NONE)
 def last_known(k: Any, memory: Any) -> Any:
     """What was `DisturbanceEstimate` at the last sample."""
-
-
-@last_known.register(Nothing)
-def _nothing_known(k, memory):
-    return NONE
 
 
 @last_known.register(DisturbanceObserver)

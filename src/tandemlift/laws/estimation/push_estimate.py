@@ -24,7 +24,6 @@ import numpy as np
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total
-from tandemlift.common.errors import InputError
 from tandemlift.laws.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
 from tandemlift.laws.mechanics.air_drag import blown, start_payload_drag
 from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
@@ -231,12 +230,12 @@ def push_estimator(
         windage: how the wind on the payload is taken off, or `Nothing`.
 
     Raises:
-        InputError: the mass is to be identified without a tare, or the tare is shorter than a sample.
+        ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
     """
     if identify_mass and tare_start is None:
-        raise InputError("the payload's mass is identified during the tare: give its start, or do not identify")
+        raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
     if tare_start is not None and tare_duration < step * imu_period:
-        raise InputError(f"a tare of {tare_duration:g} s holds no sample: they come every {step * imu_period:g} s")
+        raise ValueError(f"a tare of {tare_duration:g} s holds no sample: they come every {step * imu_period:g} s")
     J, N = np.array(inertia, dtype=float), len(joints)
     return PushEstimator(
         mass=float(mass),

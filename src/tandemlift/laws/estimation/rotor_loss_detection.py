@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import maximum, minimum, where
-from tandemlift.algebra.vector import Nothing, each, total
+from tandemlift.algebra.vector import each, total
 from tandemlift.laws.estimation.fault_decision import DecisionRules, DecisionState, decision_step, share_gone, support
 from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
 from tandemlift.laws.mechanics.rotation import body_z_axis
@@ -70,7 +70,7 @@ class DetectionState(NamedTuple):
     verdict: DecisionState
 
 
-@choice
+@choice(absent="memory")
 def detection_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, t: Any, dt: Any) -> Any:
     """The memory after a sample.
 
@@ -83,11 +83,6 @@ def detection_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, t
         t: time [s].
         dt: since the last sample [s].
     """
-
-
-@detection_step.register(Nothing)
-def _unwatched(k, memory, heard, thrusts, active, t, dt):
-    return memory
 
 
 @elementwise
@@ -211,14 +206,9 @@ def _watched(k: RotorLossDetection, memory: Any, heard: Any, thrusts: Any, activ
     )
 
 
-@choice
+@choice(absent=0.0)
 def failed_rotors(k: Any, memory: Any, t: Any) -> Any:
     """1 once a rotor is lost for good at time t [s], else 0."""
-
-
-@failed_rotors.register(Nothing)
-def _never_lost(k, memory, t):
-    return 0.0
 
 
 @failed_rotors.register(RotorLossDetection)
@@ -232,14 +222,9 @@ def allotted(lost: Any) -> Any:
     return 1.0 - lost
 
 
-@choice
+@choice(absent=1.0)
 def left_of(k: Any, memory: Any) -> Any:
     """The share of its most that each rotor may be allotted, as far as detection knows: a set, or 1."""
-
-
-@left_of.register(Nothing)
-def _all_left(k, memory):
-    return 1.0
 
 
 @left_of.register(RotorLossDetection)
@@ -247,14 +232,9 @@ def _alive(k: RotorLossDetection, memory: Any) -> Any:
     return allotted(memory.verdict.lost)
 
 
-@choice
+@choice(absent="commands")
 def with_trials(k: Any, memory: Any, commands: Any, t: Any) -> Any:
     """Commands [N], with those by which a lost rotor is tried again."""
-
-
-@with_trials.register(Nothing)
-def _as_they_are(k, memory, commands, t):
-    return commands
 
 
 @with_trials.register(RotorLossDetection)

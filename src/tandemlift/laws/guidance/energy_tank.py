@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.ops import clip, maximum
-from tandemlift.algebra.vector import Nothing, dot
+from tandemlift.algebra.vector import dot
 
 
 class EnergyTank(NamedTuple):
@@ -35,14 +35,9 @@ class EnergyTankState(NamedTuple):
     added: Any
 
 
-@choice
+@choice(absent=(0.0, "m"))
 def passivity_damping(k: Any, m: Any, push: Any, velocity: Any, burned: Any, dt: Any) -> Any:
     """(damping to add [N·s/m], the new memory): a push [N] at a velocity [m/s], and power burned by damping [W]."""
-
-
-@passivity_damping.register(Nothing)
-def _no_tank(k, m, push, velocity, burned, dt):
-    return 0.0, m
 
 
 @passivity_damping.register(EnergyTank)

@@ -1,79 +1,27 @@
-"""What can go wrong in flight, the number of each, and how the worst of it is found: fault → reaction.
+"""The reaction to faults, such as a failed rotor: the strongest reaction that is configured for any of them.
 
-An alarm is ten times the number of a fault in `FAULTS`, plus what is wrong with a sensor (`health.KINDS`, from 1).
+The faults, their numbers and their order are in `common.faults`; `supervision.active_faults` detects them.
 """
 
-from typing import Any, NamedTuple
+from collections import namedtuple
+from typing import Any, NamedTuple, cast
 
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import where
-from tandemlift.laws.sensors.health import KINDS
+from tandemlift.common.faults import FAULTS, REACTIONS
 
-HOLDS, LANDS, STOPS = 1.0, 2.0, 3.0
-REACTIONS = ("none", "hold", "land", "stop")
-FAULTS = (
-    "unit stale",
-    "joints",
-    "accelerometer",
-    "gyroscope",
-    "motion stale",
-    "position",
-    "velocity",
-    "attitude",
-    "joints disagree",
-    "attitude disagrees with gyroscope",
-    "velocity disagrees with position",
-    "state not a number",
-    "attitude and gyroscope lost",
-    "outside the fence",
-    "too little thrust left",
-    "tilted too far",
-    "turning too fast",
-    "too far from the reference",
-    "rotor lost",
-    "accelerometer disagrees with velocity",
-)
-CHECKS = (
-    "unit not heard",
-    "motion not heard",
-    "a sensor is not well",
-    "hover not feasible",
-    "not level",
-    "not at rest",
-    "a rotor is lost",
-    "no tare yet",
-    "payload mass not plausible",
-    "joints disagree",
-)
+_, HOLDS, LANDS, STOPS = map(float, range(len(REACTIONS)))
+_FaultTuple: Any = cast(Any, namedtuple("_FaultTuple", [fault.key for fault in sorted(FAULTS)]))
 
 
-class ActiveFaults(NamedTuple):
-    """By fault, in the order of `FAULTS`: what is wrong (of a sensor, `KINDS` from 1), 1 for a fault, 0 for none."""
+class ActiveFaults(_FaultTuple):
+    """A value for each fault, by its key: 1 or the number of a symptom (from 1) while it is present, else 0."""
 
-    imu: Any
-    joints: Any
-    accelerometer: Any
-    gyroscope: Any
-    motion: Any
-    position: Any
-    velocity: Any
-    attitude: Any
-    joints_inconsistent: Any
-    attitude_inconsistent: Any
-    velocity_inconsistent: Any
-    state: Any
-    orientation: Any
-    fence: Any
-    thrust: Any
-    tilt: Any
-    rates: Any
-    tracking_error: Any
-    rotor: Any
-    speed_inconsistent: Any
+    __slots__ = ()
 
 
 class FaultReaction(NamedTuple):
-    """The strongest reaction that is called for, and the alarm of the first fault that calls for it; or zeros."""
+    """The strongest reaction to the faults that are present, and the alarm of the first that calls for it; or zeros."""
 
     reaction: Any
     alarm: Any
@@ -84,37 +32,16 @@ NO_ALARM = FaultReaction(0.0, 0.0)
 
 @law
 def stronger(w: FaultReaction, fault: Any, reaction: Any, alarm: Any) -> FaultReaction:
-    """The worst with one more fault, if it is there (above 0) and calls for more."""
+    """The reaction with one more fault: to that fault if it is present (above 0) and its reaction is stronger."""
     more = where(fault > 0.0, where(reaction > w.reaction, 1.0, 0.0), 0.0)
     return FaultReaction(where(more > 0.0, reaction, w.reaction), where(more > 0.0, alarm, w.alarm))
 
 
 @law
 def strongest_reaction(f: ActiveFaults, r: ActiveFaults) -> FaultReaction:
-    """The worst of faults `f`, with the reactions `r` to each."""
-    w = stronger(NO_ALARM, f.orientation, r.orientation, 130.0)
-    w = stronger(w, f.state, r.state, 120.0)
-    w = stronger(w, f.imu, r.imu, 10.0)
-    w = stronger(w, f.motion, r.motion, 50.0)
-    w = stronger(w, f.joints, r.joints, 20.0 + f.joints)
-    w = stronger(w, f.accelerometer, r.accelerometer, 30.0 + f.accelerometer)
-    w = stronger(w, f.gyroscope, r.gyroscope, 40.0 + f.gyroscope)
-    w = stronger(w, f.position, r.position, 60.0 + f.position)
-    w = stronger(w, f.velocity, r.velocity, 70.0 + f.velocity)
-    w = stronger(w, f.attitude, r.attitude, 80.0 + f.attitude)
-    w = stronger(w, f.joints_inconsistent, r.joints_inconsistent, 90.0)
-    w = stronger(w, f.attitude_inconsistent, r.attitude_inconsistent, 100.0)
-    w = stronger(w, f.velocity_inconsistent, r.velocity_inconsistent, 110.0)
-    w = stronger(w, f.speed_inconsistent, r.speed_inconsistent, 200.0)
-    w = stronger(w, f.rotor, r.rotor, 190.0)
-    w = stronger(w, f.tilt, r.tilt, 160.0)
-    w = stronger(w, f.rates, r.rates, 170.0)
-    w = stronger(w, f.fence, r.fence, 140.0)
-    w = stronger(w, f.thrust, r.thrust, 150.0)
-    return stronger(w, f.tracking_error, r.tracking_error, 180.0)
-
-
-def alarm_name(alarm: float) -> str:
-    """An alarm in words, such as "gyroscope frozen"."""
-    fault, kind = divmod(round(alarm), 10)
-    return FAULTS[fault - 1] + (f" {KINDS[kind - 1]}" if kind else "")
+    """The strongest reaction to the faults `f`, with the reaction `r` to each."""
+    w = NO_ALARM
+    for fault in FAULTS:
+        present, alarm = getattr(f, fault.key), float(fault.alarm)
+        w = stronger(w, present, getattr(r, fault.key), alarm + present if fault.has_symptoms else alarm)
+    return w

@@ -10,12 +10,12 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, dot
+from tandemlift.common.phases import LAND
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.laws.guidance.admittance import Admittance, admittance_response, admittance_step, gate
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compliance_step, countered
 from tandemlift.laws.guidance.energy_tank import passivity_damping
 from tandemlift.laws.guidance.phases import (
-    LAND,
     PhaseOutput,
     PhaseSettings,
     PhaseState,
@@ -111,8 +111,8 @@ class HandGuidanceChannels(NamedTuple):
     """What a guidance by hand shows."""
 
     phase: Any
-    push_heard: Vec3
-    push_on: Vec3
+    push_filtered: Vec3
+    push_active: Vec3
     added_damping: Any
     reference_yaw_rate: Any
     supervised: Any

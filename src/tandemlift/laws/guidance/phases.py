@@ -10,12 +10,11 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, minimum, where
 from tandemlift.algebra.vector import dot
+from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, STOPPED
 from tandemlift.laws.guidance.requests import RequestCounts
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.signals.trajectories import SmoothStep, smoothstep
 
-IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
-NAMES = ("idle", "lift", "guided", "land", "hold", "stopped")
 SETTLE = 1.0  # s, of steady hover before a tare
 STEADY = 0.1  # m/s and rad/s
 

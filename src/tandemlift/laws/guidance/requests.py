@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import maximum, minimum, where
-from tandemlift.algebra.vector import Nothing, total
+from tandemlift.algebra.vector import total
 
 
 class OperatorRequest(NamedTuple):
@@ -61,24 +61,14 @@ def due(time, what, t):
     return where(t >= time, what, 0.0)
 
 
-@choice
+@choice(absent=NOBODY)
 def operator_of(company: Any) -> Any:
     """What is asked by somebody at the vehicle, from their memory: nothing, but of those who can."""
 
 
-@operator_of.register(Nothing)
-def _nobody_asks(company):
-    return NOBODY
-
-
-@choice
+@choice(absent=RequestCounts(0.0, 0.0, 0.0, 1.0))
 def asked_until(requests: Any, t: Any) -> Any:
     """What requests ask until time t [s]."""
-
-
-@asked_until.register(Nothing)
-def _nothing_asked(requests, t):
-    return RequestCounts(0.0, 0.0, 0.0, 1.0)
 
 
 @asked_until.register(RequestSchedule)

@@ -1,19 +1,22 @@
 """Supervision of a flight by hand: checks before a lift and before a hand is listened to, limits, and reactions.
 
-The checks: `refusal_to_lift`, `refusal_to_listen`. The limits: a fence about the vehicle, the share of its thrust,
+The checks: `refusal_to_lift`, `refusal_to_follow`. The limits: a fence about the vehicle, the share of its thrust,
 tilt, rates, distance from the reference. What the watchdogs report and what leaves a limit are the faults; each calls
 for a reaction: to hold the position and not to listen, to land, to stop the rotors. A hold ends when all has been well
 for a time, or in a landing when it has lasted too long; a landing and a stop are not taken back.
 """
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Nothing, Vec3, dot
+from tandemlift.common.faults import CHECKS
+from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, STOPPED
 from tandemlift.laws.guidance.fault_reactions import HOLDS, LANDS, STOPS, ActiveFaults
-from tandemlift.laws.guidance.phases import GUIDED, HOLD, IDLE, LAND, STOPPED, PhaseBounds
+from tandemlift.laws.guidance.phases import PhaseBounds
 from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import body_z_axis
@@ -151,7 +154,7 @@ class SupervisionChannels(NamedTuple):
     """What a supervision shows."""
 
     alarm: Any
-    refused: Any
+    failed_check: Any
 
 
 FREE = SupervisionOutput(PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0)
@@ -191,8 +194,16 @@ def outside(f: Fence, p: Vec3) -> Any:
 
 @law
 def first_check(number: Any, fails: Any, others: Any) -> Any:
-    """The number of a check if it fails (1), else what the others come to."""
+    """The number of a check if it fails (above 0), else that of the first of the others."""
     return where(fails > 0.0, number, others)
+
+
+def first_failed(before: str, fails: Mapping[str, Any]) -> Any:
+    """The number of the first check before a phase that fails (above 0, by the check's key), or 0."""
+    number = 0.0
+    for check in reversed([c for c in CHECKS if c.before == before]):
+        number = first_check(float(check.number), fails[check.key], number)
+    return number
 
 
 @law
@@ -206,23 +217,24 @@ def refusal_to_lift(k: Supervision, s: SensorStatus, state: State, own: VehicleS
     weight = (k.mass + s.payload - k.payload) * GRAVITY
     moving = where(dot(state.velocity, state.velocity) > c.speed * c.speed, 1.0, 0.0)
     turning = where(dot(state.rates, state.rates) > c.rates * c.rates, 1.0, 0.0)
-    n = first_check(7.0, own.rotor_lost, 0.0)
-    n = first_check(6.0, moving + turning, n)
-    n = first_check(5.0, where(body_z_axis(state.attitude).z < c.upright, 1.0, 0.0), n)
-    n = first_check(4.0, where(weight > c.share * most, 1.0, 0.0), n)
-    n = first_check(3.0, ill + s.apart + reaction, n)
-    n = first_check(2.0, maximum(r.motion, 1.0 - r.seen), n)
-    return first_check(1.0, maximum(r.imu, 1.0 - r.seen), n)
+    fails = {
+        "imu": maximum(r.imu, 1.0 - r.seen),
+        "motion": maximum(r.motion, 1.0 - r.seen),
+        "sensors": ill + s.apart + reaction,
+        "hover": where(weight > c.share * most, 1.0, 0.0),
+        "level": where(body_z_axis(state.attitude).z < c.upright, 1.0, 0.0),
+        "rest": moving + turning,
+        "rotors": own.rotor_lost,
+    }
+    return first_failed("lift", fails)
 
 
 @law
-def refusal_to_listen(k: Supervision, s: SensorStatus) -> Any:
+def refusal_to_follow(k: Supervision, s: SensorStatus) -> Any:
     """The number of the first check that refuses to listen to a hand, or 0."""
     c = k.checks
     plausible = where(s.payload < c.lightest, 0.0, where(s.payload > c.heaviest, 0.0, 1.0))
-    n = first_check(10.0, s.apart, 0.0)
-    n = first_check(9.0, 1.0 - plausible, n)
-    return first_check(8.0, 1.0 - s.armed, n)
+    return first_failed("guided", {"tare": 1.0 - s.armed, "payload": 1.0 - plausible, "joints": s.apart})
 
 
 @law
@@ -254,10 +266,10 @@ def timed(
 
 
 @law
-def faults_of(
+def active_faults(
     k: Supervision, s: SensorStatus, timers: LimitTimers, state: State, own: VehicleStatus, phase: Any
 ) -> ActiveFaults:
-    """What is wrong."""
+    """Every fault that is present."""
     r, b = s.report, k.bounds
     listening = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, 0.0))
     no_attitude = where(r.attitude + r.motion > 0.0, where(r.gyroscope + r.imu > 0.0, 1.0, 0.0), 0.0)

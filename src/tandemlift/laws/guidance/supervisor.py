@@ -6,9 +6,10 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, total
+from tandemlift.common.phases import HOLD, IDLE, STOPPED
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, with_speed
 from tandemlift.laws.guidance.fault_reactions import HOLDS, LANDS, FaultReaction, strongest_reaction
-from tandemlift.laws.guidance.phases import HOLD, IDLE, STOPPED, PhaseState
+from tandemlift.laws.guidance.phases import PhaseState
 from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.guidance.supervision import (
     FREE,
@@ -17,10 +18,10 @@ from tandemlift.laws.guidance.supervision import (
     Supervision,
     SupervisionChannels,
     SupervisionState,
+    active_faults,
     bounds_of,
-    faults_of,
+    refusal_to_follow,
     refusal_to_lift,
-    refusal_to_listen,
     sensor_status,
     timed,
 )
@@ -58,14 +59,9 @@ def reacted(
     return SupervisionState(reaction, alarm, held, well, timers, state, m.reference, m.refused, m.deaf, m.events)
 
 
-@choice
+@choice(absent=(FREE, "m"))
 def supervise(k: Any, m: Any, heard: Any, phase: PhaseState, wants: Any, t: Any, dt: Any) -> Any:
     """(`Supervised`, the new memory) at time t [s]; `wants` is 1 if a lift is asked for, else 0."""
-
-
-@supervise.register(Nothing)
-def _unsupervised(k, m, heard, phase, wants, t, dt):
-    return FREE, m
 
 
 @supervise.register(Supervision)
@@ -75,9 +71,9 @@ def _supervised(k, m, heard, phase, wants, t, dt):
     timers = timed(k, m, senses, state, own, own.thrust / maximum(most, 1e-9), phase.phase, dt)
     idle = where(phase.phase == IDLE, 1.0, 0.0)
     grounded = maximum(idle, where(phase.phase == STOPPED, 1.0, 0.0))
-    faults = faults_of(k, senses, timers, state, own, phase.phase)
+    faults = active_faults(k, senses, timers, state, own, phase.phase)
     after = reacted(k, m, strongest_reaction(faults, k.reactions), timers, state, idle, dt)
-    refused = refusal_to_lift(k, senses, state, own, after.reaction, most), refusal_to_listen(k, senses)
+    refused = refusal_to_lift(k, senses, state, own, after.reaction, most), refusal_to_follow(k, senses)
     return bounds_of(k, senses, after, refused, grounded), with_refusals(after, refused[0] * wants, refused[1])
 
 
@@ -112,14 +108,9 @@ def recorded(k: Supervision, m: EventLog, phase: Any, alarm: Any, refused: Any, 
     )
 
 
-@choice
+@choice(absent=("k", "m"))
 def concluded(k: Any, m: Any, phase: PhaseState, reference: Vec3, t: Any) -> Any:
     """(what is shown, the memory of a supervision) once the phase and the reference [m] are known."""
-
-
-@concluded.register(Nothing)
-def _nothing_to_conclude(k, m, phase, reference, t):
-    return k, m
 
 
 @concluded.register(Supervision)
@@ -164,14 +155,9 @@ def speed_left(position, velocity, pull, low, high, slowing, most):
     return clip(slowing * where(toward > 0.0, high - position, position - low), 0.0, most)
 
 
-@choice
+@choice(absent="compliance")
 def kept_inside(k: Any, compliance: Compliance, m: ComplianceState, up: Any) -> Any:
     """The compliance with such limits of speed that the reference stays inside the fence; `up`: how far lifted [m]."""
-
-
-@kept_inside.register(Nothing)
-def _unfenced(k, compliance, m, up):
-    return compliance
 
 
 @kept_inside.register(Supervision)
@@ -180,17 +166,12 @@ def _fenced(k, compliance, m, up):
     return with_speed(compliance, speed_left(at, m.velocity, m.eased.value, f.low, f.high, f.braking_gain, most))
 
 
-@choice
+@choice(absent="target")
 def given_up(k: Any, target: Trajectory, state: State, blind: Any, lands: Any, share: Any) -> Any:
     """The reference; that of a vehicle `blind` to its motion (1): level, and less than hover as it `lands` (1).
 
     `share` of the landing's time step that is over: in its second half the feet should press.
     """
-
-
-@given_up.register(Nothing)
-def _never_given_up(k, target, state, blind, lands, share):
-    return target
 
 
 @given_up.register(Supervision)

@@ -11,20 +11,18 @@ of N joints, ratio σ √(ω T/4N); it is as much too late for gusts, 2/ω.
 
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum
+from tandemlift.algebra.types import Condition, Number, PerQuadrotor
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, total
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
-from tandemlift.vehicle import Vehicle
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
 
 
 class PayloadDrag(NamedTuple):
     """Drag of the payload over that of all quadrotors together, along body x and y; and the low-pass."""
 
-    ratio_x: Any
-    ratio_y: Any
+    ratio_x: Number
+    ratio_y: Number
     low_pass: LowPass
 
 
@@ -32,12 +30,20 @@ class PayloadDragState(NamedTuple):
     """Memory: sum over the tare's samples of what is to be taken off, their count, and the low-pass [N, body axes]."""
 
     sum: Vec3
-    count: Any
+    count: Number
     force: LowPassState
 
 
-@choice
-def blown(k: Any, memory: Any, x: Any, y: Any, begun: Any, taken: Any, armed: Any) -> Any:
+@choice(absent=(ZERO, "memory"))
+def blown(
+    k: PayloadDrag | Nothing,
+    memory: PayloadDragState | Nothing,
+    x: PerQuadrotor,
+    y: PerQuadrotor,
+    begun: Condition,
+    taken: Condition,
+    armed: Condition,
+) -> Any:
     """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
 
     Args:
@@ -51,11 +57,6 @@ def blown(k: Any, memory: Any, x: Any, y: Any, begun: Any, taken: Any, armed: An
     """
 
 
-@blown.register(Nothing)
-def _unknown(k, memory, x, y, begun, taken, armed):
-    return ZERO, memory
-
-
 @law
 def bias_of(memory: PayloadDragState) -> Vec3:
     """The mean over the tare [N]."""
@@ -63,20 +64,21 @@ def bias_of(memory: PayloadDragState) -> Vec3:
 
 
 @blown.register(PayloadDrag)
-def _scaled(k, memory, x, y, begun, taken, armed):
+def _scaled(
+    k: PayloadDrag,
+    memory: PayloadDragState,
+    x: PerQuadrotor,
+    y: PerQuadrotor,
+    begun: Condition,
+    taken: Condition,
+    armed: Condition,
+) -> tuple[Vec3, PayloadDragState]:
     force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
     summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
     after = smooth(k.low_pass, memory.force, (force - bias_of(summed)) * armed)
     return after.value, PayloadDragState(summed.sum, summed.count, after)
 
 
-def payload_drag(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
-    """The windage of a vehicle as it is believed to be, with a low-pass of a bandwidth [rad/s]."""
-    beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
-    quadrotors = np.sum([np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
-    return PayloadDrag(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
-
-
-def start_payload_drag(windage: Any) -> Any:
+def start_payload_drag(windage: PayloadDrag | Nothing) -> PayloadDragState | Nothing:
     """The memory before the first step."""
     return windage if isinstance(windage, Nothing) else PayloadDragState(ZERO, 0.0, LowPassState(ZERO, ZERO))

@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import sqrt
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Quat, Vec3, dot, linear, plus, times
-from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
+from tandemlift.laws.mechanics.inertia import Inertia, gyroscopic, turn_by
 from tandemlift.laws.mechanics.push import Push, PushSamples, moment_of
 from tandemlift.laws.mechanics.rotation import body_z_axis, quaternion_rate
 
@@ -29,14 +30,14 @@ class State(NamedTuple):
     def __add__(self, other: "State") -> "State":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Any) -> "State":
+    def __mul__(self, k: Number) -> "State":
         return times(self, k)
 
 
 class Wrench(NamedTuple):
     """What the rotors give: thrust [N] along body z and moments [N·m] in body axes; (F_t, U_t) or U₁…U₄."""
 
-    thrust: Any
+    thrust: Number
     moment: Vec3
 
 
@@ -47,9 +48,9 @@ class RigidBody(NamedTuple):
     world velocity [N·s/m] and on body rates [N·m·s]; a constant disturbing force [N, world] and moment [N·m, body].
     """
 
-    inverse_mass: Any
-    inertia: Any
-    inverse_inertia: Any
+    inverse_mass: Number
+    inertia: Inertia
+    inverse_inertia: Inertia
     drag_force: Vec3
     drag_moment: Vec3
     force: Vec3
@@ -62,7 +63,7 @@ def motion(body: Any, s: State, u: Wrench, push: Push) -> Any:
 
 
 @motion.register(RigidBody)
-def rigid_body_motion(body, s, u, push):
+def rigid_body_motion(body: RigidBody, s: State, u: Wrench, push: Push) -> State:
     """The equations of motion of one rigid body."""
     # paper: trans_rot_sys_equ
     force = body_z_axis(s.attitude) * u.thrust - body.drag_force * s.velocity + body.force + push.force
@@ -76,7 +77,7 @@ def rigid_body_motion(body, s, u, push):
 
 
 @law
-def rk4(body: Any, s: State, k1: State, u: Wrench, hand: PushSamples, dt: Any) -> State:
+def rk4(body: Any, s: State, k1: State, u: Wrench, hand: PushSamples, dt: Number) -> State:
     """One classical Runge-Kutta step of `dt` [s] with the wrench held and the push continuous; unit quaternion.
 
     `k1` is the motion at the start.

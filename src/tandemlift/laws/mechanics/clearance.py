@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import least, minimum, sqrt
+from tandemlift.algebra.types import Condition, Number, PerQuadrotor
 from tandemlift.algebra.vector import Nothing, Vec3, apply, dot
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartsLayout
@@ -15,6 +16,7 @@ from tandemlift.laws.mechanics.rectangle import offset, offset_from_top
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import (
     Beam,
+    NearBeam,
     NearWalls,
     Walls,
     beam_axis,
@@ -30,42 +32,37 @@ FAR = 1000.0  # m
 class Clearance(NamedTuple):
     """The least distance from walls [m], below zero where it presses: of every guard (a set), and of the beam."""
 
-    guards: Any
-    beam: Any
+    guards: PerQuadrotor
+    beam: "BeamClearance | Nothing"
 
 
 class BeamClearance(NamedTuple):
     """The least distance of the beam [m]: of its ends (a set), and along its length."""
 
     ends: Any
-    length: Any
+    length: Number
 
 
 @elementwise
-def between(square, radius):
+def between(square: Number, radius: Number) -> Number:
     """Distance of a surface [m] whose axis is √square away."""
     return sqrt(square) - radius
 
 
 @law
-def away(o: Vec3, radius: Any) -> Any:
+def away(o: Vec3, radius: Number) -> Number:
     """Distance of surfaces [m] whose centres are o away, which may be of sets."""
     return between(dot(o, o), radius)
 
 
-@choice
-def beam_clearance(beam: Any, w: Walls, near: Any, frame: PartsLayout, s: State) -> Any:
+@choice(absent="beam")
+def beam_clearance(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
     """How far the beam is from the walls near it."""
 
 
-@beam_clearance.register(Nothing)
-def _shapeless(beam, w, near, frame, s):
-    return beam
-
-
 @beam_clearance.register(Beam)
-def _capsule(beam, w, near, frame, s):
-    a, half = beam_axis(frame, s), beam.ends[1]
+def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> BeamClearance:
+    a, half = beam_axis(frame.payload, s), beam.ends[1]
     edge = offset(near.edge, on_beam(a, point_by_edge(a, half, near.edge)))
     other = offset(near.other_edge, on_beam(a, point_by_edge(a, half, near.other_edge)))
     top = offset_from_top(near.topped, on_beam(a, point_by_top(a, half, near.topped)))
@@ -73,51 +70,41 @@ def _capsule(beam, w, near, frame, s):
     return BeamClearance(away(offset(near.ends, on_beam(a, beam.ends)), beam.radius), length)
 
 
-@choice
-def clearance(w: Any, near: Any, frame: PartsLayout, s: State) -> Any:
+@choice(absent="w")
+def clearance(w: Walls | Nothing, near: NearWalls | Nothing, frame: PartsLayout, s: State) -> Any:
     """How far the vehicle is from the walls near it, as a `Clearance`."""
 
 
-@clearance.register(Nothing)
-def _no_walls(w, near, frame, s):
-    return w
-
-
 @clearance.register(Walls)
-def _walls(w, near: NearWalls, frame, s):
+def _walls(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> Clearance:
     p = moved_to(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
     guards = minimum(away(offset(near.first, p), w.guards), away(offset(near.second, p), w.guards))
     return Clearance(guards, beam_clearance(w.beam, w, near.beam, frame, s))
 
 
-@choice
-def closest(c: Any) -> Any:
+@choice(absent=FAR)
+def closest(c: Clearance | BeamClearance | Nothing) -> Number:
     """The least of a clearance [m]."""
 
 
-@closest.register(Nothing)
-def _of_no_beam(c):
-    return FAR
-
-
 @closest.register(BeamClearance)
-def _of_a_beam(c):
+def _of_a_beam(c: BeamClearance) -> Number:
     return minimum(least(c.ends), c.length)
 
 
 @closest.register(Clearance)
-def _of_a_vehicle(c):
+def _of_a_vehicle(c: Clearance) -> Number:
     return minimum(least(c.guards), closest(c.beam))
 
 
 @law
-def fastest(w: Walls, s: State) -> Any:
+def fastest(w: Walls, s: State) -> Number:
     """A bound on the speed of every point of the vehicle [m/s], or on its acceleration, if `s` is the motion."""
     return sqrt(dot(s.velocity, s.velocity)) + w.reach * sqrt(dot(s.rates, s.rates))
 
 
 @law
-def may_press(w: Walls, c: Clearance, s: State, rate: State, dt: Any) -> Any:
+def may_press(w: Walls, c: Clearance, s: State, rate: State, dt: Number) -> Condition:
     """Whether anything may touch a wall in a step of dt [s] from state `s`, whose motion without walls is `rate`.
 
     Every point moves at no more than |v| + r |ω|, r the vehicle's reach, and that grows by what it is accelerated;
@@ -127,21 +114,16 @@ def may_press(w: Walls, c: Clearance, s: State, rate: State, dt: Any) -> Any:
     return closest(c) < 2.0 * dt * (fast + faster * dt)
 
 
-@choice
+@choice(absent="a")
 def nearer_of(a: Any, b: Any) -> Any:
     """The lesser of two clearances, part by part."""
 
 
-@nearer_of.register(Nothing)
-def _of_nothing(a, b):
-    return a
-
-
 @nearer_of.register(BeamClearance)
-def _of_beams(a, b):
+def _of_beams(a: BeamClearance, b: BeamClearance) -> BeamClearance:
     return BeamClearance(minimum(a.ends, b.ends), minimum(a.length, b.length))
 
 
 @nearer_of.register(Clearance)
-def _of_vehicles(a, b):
+def _of_vehicles(a: Clearance, b: Clearance) -> Clearance:
     return Clearance(minimum(a.guards, b.guards), nearer_of(a.beam, b.beam))

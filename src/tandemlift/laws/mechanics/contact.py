@@ -13,7 +13,7 @@ Below μ N the grip does not move at all: a vehicle that stands, stays.
 A step is `touch` in every stage with the memory held, then `slip`. Nothing but the feet touches the floor.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
+from tandemlift.algebra.types import Condition, Number, PerQuadrotor
 from tandemlift.algebra.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
 from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import State
@@ -43,16 +44,16 @@ class Floor(NamedTuple):
     far feet are along each body axis; `reach`: how far any pad can be.
     """
 
-    height: Any
-    stiffness: Any
-    damping: Any
-    friction: Any
-    tangential_stiffness: Any
-    tangential_damping: Any
-    radius: Any
+    height: Number
+    stiffness: Number
+    damping: Number
+    friction: Number
+    tangential_stiffness: Number
+    tangential_damping: Number
+    radius: Number
     feet: Quarters
     extent: Vec3
-    reach: Any
+    reach: Number
 
 
 class FootGrip(NamedTuple):
@@ -61,36 +62,36 @@ class FootGrip(NamedTuple):
     The memory of a vehicle is `Quarters` of it.
     """
 
-    x: Any
-    y: Any
-    normal: Any
+    x: PerQuadrotor
+    y: PerQuadrotor
+    normal: PerQuadrotor
 
 
 class Foot(NamedTuple):
     """One foot of every quadrotor, world axes: its centre from the system's, its place, its velocity, and N."""
 
     arm: Vec3
-    x: Any
-    y: Any
-    velocity_x: Any
-    velocity_y: Any
-    normal: Any
+    x: PerQuadrotor
+    y: PerQuadrotor
+    velocity_x: PerQuadrotor
+    velocity_y: PerQuadrotor
+    normal: PerQuadrotor
 
 
 @elementwise
-def spring_damper(depth, rate, stiffness, damping):
+def spring_damper(depth: Number, rate: Number, stiffness: Number, damping: Number) -> Number:
     """Normal force [N] at a depth [m] that grows at a rate [m/s]: never pulls, never makes energy."""
     return where(depth > 0.0, maximum(stiffness * depth + damping * rate, 0.0), 0.0)
 
 
 @elementwise
-def shortening(square, longest):
+def shortening(square: Number, longest: Number) -> Number:
     """The factor that cuts a vector whose length squared is `square` to the length `longest`; at most 1."""
     return longest / sqrt(maximum(maximum(square, longest * longest), TINY))
 
 
 @elementwise
-def moved(anchor, place, factor):
+def moved(anchor: Number, place: Number, factor: Number) -> Number:
     """The anchor drawn towards a place, to `factor` of the distance; untouched at a factor of 1."""
     return where(factor < 1.0, place + (anchor - place) * factor, anchor)
 
@@ -166,7 +167,7 @@ def slip(floor: Floor, grip: Quarters, s: State) -> Quarters:
 
 
 @law
-def may_touch(floor: Floor, s: State, time: Any) -> Any:
+def may_touch(floor: Floor, s: State, time: Number) -> Condition:
     """Whether a foot may touch the floor within `time` [s] of state `s`."""
     q, size = s.attitude, floor.extent
     tilt = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))

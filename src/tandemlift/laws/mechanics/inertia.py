@@ -1,35 +1,38 @@
 """Inertia tensors by type: a `Vec3` is a diagonal one, a `Mat3` a full one."""
 
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import Mat3, Vec3, apply, cross, mat3, vec3
 
+Inertia: TypeAlias = Vec3 | Mat3
+
 
 @choice
-def turn_by(J: Any, v: Any) -> Any:
+def turn_by(J: Inertia, v: Vec3) -> Any:
     """J v for a tensor J, or J⁻¹ v for an inverse one."""
 
 
 @turn_by.register(Vec3)
-def _diagonal(J, v):
+def _diagonal(J: Vec3, v: Vec3) -> Vec3:
     return J * v
 
 
 @turn_by.register(Mat3)
-def _full(J, v):
+def _full(J: Mat3, v: Vec3) -> Vec3:
     return apply(J, v)
 
 
 @law
-def gyroscopic(J: Any, rates: Vec3) -> Vec3:
+def gyroscopic(J: Inertia, rates: Vec3) -> Vec3:
     """−ω × J ω: for a diagonal J the terms (J_y − J_z) q r, (J_z − J_x) p r, (J_x − J_y) p q."""
     return -cross(rates, turn_by(J, rates))
 
 
-def inertia_value(J: np.ndarray) -> Any:
+def inertia_value(J: NDArray[np.floating]) -> Inertia:
     """A 3 × 3 tensor as a Vec3 if it is diagonal to rounding, else as a Mat3."""
     off = np.abs(J - np.diag(np.diag(J))).max()
     return vec3(np.diag(J)) if off <= 1e-12 * np.abs(J).max() else mat3(J)

@@ -5,30 +5,26 @@ A vector of every quadrotor is a `Vec3` of sets. Joints transmit what a quadroto
 
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, elementwise, law
+from tandemlift.algebra.types import Number, PerQuadrotor, PerRotor
 from tandemlift.algebra.vector import (
     ZERO,
     Nothing,
     Quarters,
+    Quat,
     Vec3,
     apply_transposed,
     cross,
-    each,
     linear,
     plus,
     quarters,
-    spread,
     times,
     total,
-    vec3,
 )
 from tandemlift.laws.mechanics.body import UP, State, Wrench
 from tandemlift.laws.mechanics.parts import Acceleration
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.vehicle import Vehicle
 
 
 @linear
@@ -41,7 +37,7 @@ class PartLoad(NamedTuple):
     def __add__(self, other: "PartLoad") -> "PartLoad":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Any) -> "PartLoad":
+    def __mul__(self, k: Number) -> "PartLoad":
         return times(self, k)
 
 
@@ -55,7 +51,7 @@ class PartLoads(NamedTuple):
     def __add__(self, other: "PartLoads") -> "PartLoads":  # type: ignore[override]
         return plus(self, other)
 
-    def __mul__(self, k: Any) -> "PartLoads":
+    def __mul__(self, k: Number) -> "PartLoads":
         return times(self, k)
 
 
@@ -70,7 +66,7 @@ class PartsLayout(NamedTuple):
     payload: Vec3
     quadrotors: Vec3
     joints: Vec3
-    mass: Any
+    mass: PerQuadrotor
     inertia: Vec3
     x: Quarters
     y: Quarters
@@ -91,23 +87,6 @@ class PerfectReadings(NamedTuple):
     contact_force: Vec3
 
 
-def parts_layout(vehicle: Vehicle) -> PartsLayout:
-    """The frame of a vehicle."""
-    quadrotors, N = vehicle.quadrotors, vehicle.count
-    x, y = np.array([q.rotors for q in quadrotors]).reshape(4 * N, 2).T
-    torque = [q.torque_per_thrust * spin for q in quadrotors for spin in q.spins]
-    return PartsLayout(
-        payload=vec3(-vehicle.center_of_mass),
-        quadrotors=spread(vehicle.lever_arms),
-        joints=spread([np.subtract(q.joint_position, q.position) for q in quadrotors]),
-        mass=each(N)(*[q.mass for q in quadrotors]),
-        inertia=spread([q.inertia for q in quadrotors]),
-        x=quarters(each(4 * N)(*map(float, x))),
-        y=quarters(each(4 * N)(*map(float, y))),
-        torque=quarters(each(4 * N)(*torque)),
-    )
-
-
 @law
 def total_of_each(v: Vec3) -> Vec3:
     """The sum of a vector of sets."""
@@ -115,7 +94,7 @@ def total_of_each(v: Vec3) -> Vec3:
 
 
 @law
-def of_quadrotors(frame: PartsLayout, attitude: Any, load: PartLoad) -> PartLoad:
+def of_quadrotors(frame: PartsLayout, attitude: Quat, load: PartLoad) -> PartLoad:
     """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of loads on quadrotors."""
     R = rotation_from_quaternion(attitude)
     moments = load.moment + cross(frame.quadrotors, apply_transposed(R, load.force))
@@ -123,7 +102,7 @@ def of_quadrotors(frame: PartsLayout, attitude: Any, load: PartLoad) -> PartLoad
 
 
 @law
-def resultant(frame: PartsLayout, attitude: Any, loads: PartLoads) -> PartLoad:
+def resultant(frame: PartsLayout, attitude: Quat, loads: PartLoads) -> PartLoad:
     """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of all loads together."""
     R = rotation_from_quaternion(attitude)
     beam = loads.payload
@@ -132,7 +111,7 @@ def resultant(frame: PartsLayout, attitude: Any, loads: PartLoads) -> PartLoad:
 
 
 @law
-def thrust_of_each(frame: PartsLayout, thrusts: Any) -> Wrench:
+def thrust_of_each(frame: PartsLayout, thrusts: PerRotor) -> Wrench:
     """Thrust [N] of every quadrotor and its rotors' moment about its centre of mass [N·m], as sets."""
     # paper: total_i_thrust_moments_equ
     f, x, y, torque = quarters(thrusts), frame.x, frame.y, frame.torque
@@ -143,7 +122,7 @@ def thrust_of_each(frame: PartsLayout, thrusts: Any) -> Wrench:
 
 
 @elementwise
-def raised(x, k):
+def raised(x: Number, k: Number) -> Number:
     """x + k, where k serves every value of a set."""
     return x + k
 
@@ -158,7 +137,7 @@ def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
 
 
 @law
-def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: Any) -> PerfectReadings:
+def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: PerRotor) -> PerfectReadings:
     """What the sensors feel in state `s` under an acceleration and thrusts [N], but for loads on the quadrotors."""
     # paper: trans_rot_quad_equ, solved for the joint
     made = thrust_of_each(frame, thrusts)
@@ -177,18 +156,13 @@ def plus_zero(v: Vec3) -> Vec3:
     return Vec3(raised(v.x, 0.0), raised(v.y, 0.0), raised(v.z, 0.0))
 
 
-@choice
-def under(load: Any, frame: PartsLayout, attitude: Any, felt: PerfectReadings) -> Any:
+@choice(absent="felt")
+def under(load: PartLoad | Nothing, frame: PartsLayout, attitude: Quat, felt: PerfectReadings) -> Any:
     """`felt`, with a load on the quadrotors, which their joints pass on to the payload."""
 
 
-@under.register(Nothing)
-def _no_load(load, frame, attitude, felt):
-    return felt
-
-
 @under.register(PartLoad)
-def _loaded(load, frame, attitude, felt):
+def _loaded(load: PartLoad, frame: PartsLayout, attitude: Quat, felt: PerfectReadings) -> PerfectReadings:
     force = plus_zero(apply_transposed(rotation_from_quaternion(attitude), load.force))
     torque = felt.joint_torque + plus_zero(load.moment - cross(frame.joints, force))
     return PerfectReadings(felt.specific_force, felt.joint_force + force, torque, felt.contact_force)

@@ -4,13 +4,14 @@ Forces F_i and couples τ_i are what quadrotor i puts on the payload, reduced to
 world axes, τ_i, rates and lever arms d_i (payload centre to quadrotor) in body axes, which all parts share.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Mat3, Vec3, apply, apply_transposed, cross
 from tandemlift.laws.mechanics.body import UP
-from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
+from tandemlift.laws.mechanics.inertia import Inertia, gyroscopic, turn_by
 
 
 class Point(NamedTuple):
@@ -51,7 +52,7 @@ def point_on_body(origin: Point, R: Mat3, rates: Vec3, angular: Vec3, d: Vec3) -
 
 @law
 def quadrotor_acceleration(
-    mass: Any, J: Vec3, z_axis: Vec3, thrust: Any, torque: Vec3, rates: Vec3, joint: Joint
+    mass: Number, J: Vec3, z_axis: Vec3, thrust: Number, torque: Vec3, rates: Vec3, joint: Joint
 ) -> Acceleration:
     """Acceleration of one quadrotor that bears the reaction of its joint. `z_axis`: R (0, 0, 1)."""
     # paper: trans_rot_quad_equ
@@ -61,7 +62,9 @@ def quadrotor_acceleration(
 
 
 @law
-def joint_wrench(mass: Any, J: Any, z_axis: Vec3, thrust: Any, torque: Vec3, rates: Vec3, a: Acceleration) -> Joint:
+def joint_wrench(
+    mass: Number, J: Inertia, z_axis: Vec3, thrust: Number, torque: Vec3, rates: Vec3, a: Acceleration
+) -> Joint:
     """trans_rot_quad_equ solved for F_i and τ_i, given the quadrotor's acceleration."""
     force = z_axis * thrust - (a.linear + UP * GRAVITY) * mass
     couple = torque + gyroscopic(J, rates) - turn_by(J, a.angular)
@@ -79,7 +82,7 @@ def joint_on_payload(R: Mat3, d: Vec3, joint: Joint) -> Joint:
 
 
 @law
-def payload_acceleration(mass: Any, J: Vec3, rates: Vec3, total: Joint) -> Acceleration:
+def payload_acceleration(mass: Number, J: Vec3, rates: Vec3, total: Joint) -> Acceleration:
     """Acceleration of the payload under the sum of `joint_on_payload` over its quadrotors."""
     # paper: trans_rot_payload_equ
     return Acceleration(total.force / mass - UP * GRAVITY, (total.couple + gyroscopic(J, rates)) / J)

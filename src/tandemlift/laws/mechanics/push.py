@@ -5,11 +5,12 @@ Several pushes at several points act as one force F = Σ F_i in world axes and o
 number of pushes does not enter the equations of motion.
 """
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import exp, where
-from tandemlift.algebra.vector import ZERO, Mat3, Vec3, linear, outer, plus
+from tandemlift.algebra.types import Number
+from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 SUPPORT = 9.0  # a push is exactly zero beyond 9 σ, where the Gaussian is 3e-18 of its peak
@@ -36,7 +37,7 @@ class PointPush(NamedTuple):
         return plus(self, other)
 
 
-Push = Any  # CentralPush or PointPush
+Push: TypeAlias = CentralPush | PointPush
 
 
 class PushSamples(NamedTuple):
@@ -51,46 +52,46 @@ class GaussianPush(NamedTuple):
     """One push A exp(−(t − t₀)²/2σ²): peak force A [N, world axes], time t₀ [s], 1/σ [1/s], point r [m, body axes]."""
 
     force: Vec3
-    time: Any
-    per_sigma: Any
+    time: Number
+    per_sigma: Number
     point: Vec3
 
 
 @law
-def gaussian_force(p: GaussianPush, t: Any) -> Vec3:
+def gaussian_force(p: GaussianPush, t: Number) -> Vec3:
     """Force of one push at time t [s], N in world axes."""
     s = (t - p.time) * p.per_sigma
     return p.force * where(s * s < SUPPORT * SUPPORT, exp(-0.5 * s * s), 0.0)
 
 
 @choice
-def push_of(kind: Any, p: Any, t: Any) -> Any:
+def push_of(kind: Push, p: GaussianPush, t: Number) -> Any:
     """One push at time t, as a value of the same type as `kind`."""
 
 
 @push_of.register(CentralPush)
-def _central(kind, p, t):
+def _central(kind: CentralPush, p: GaussianPush, t: Number) -> CentralPush:
     return CentralPush(gaussian_force(p, t))
 
 
 @push_of.register(PointPush)
-def _at_point(kind, p, t):
+def _at_point(kind: PointPush, p: GaussianPush, t: Number) -> PointPush:
     F = gaussian_force(p, t)
     return PointPush(F, outer(F, p.point))
 
 
 @choice
-def moment_of(push: Any, attitude: Any) -> Any:
+def moment_of(push: Push, attitude: Quat) -> Any:
     """Moment of a push about the centre of mass, body axes [N·m]."""
 
 
 @moment_of.register(CentralPush)
-def _no_moment(push, attitude):
+def _no_moment(push: CentralPush, attitude: Quat) -> Vec3:
     return ZERO
 
 
 @moment_of.register(PointPush)
-def _moment(push, attitude):
+def _moment(push: PointPush, attitude: Quat) -> Vec3:
     # Σ r × RᵀF, with G = Rᵀ (Σ F rᵀ) = Σ (RᵀF) rᵀ
     R = rotation_from_quaternion(attitude)
     P = push.spread

@@ -3,10 +3,11 @@
 World axes. A rectangle of numbers serves one point, one of sets serves a set of points, each its own.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import clip, maximum, where
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Vec3, dot
 
 SEAM = 1e-8  # m²: rectangles that are this near to each other are joined there
@@ -20,12 +21,12 @@ class Wall(NamedTuple):
     A wall of no length is an edge, with 0 for 1 over its square.
     """
 
-    x: Any
-    y: Any
-    along_x: Any
-    along_y: Any
-    per_square: Any
-    top: Any
+    x: Number
+    y: Number
+    along_x: Number
+    along_y: Number
+    per_square: Number
+    top: Number
 
 
 WALL = Wall(AWAY, AWAY, 0.0, 0.0, 0.0, -AWAY)  # nowhere
@@ -40,19 +41,21 @@ def wall(start: tuple[float, float], end: tuple[float, float], top: float) -> Wa
 
 
 @elementwise
-def share_of(p_x, p_y, x, y, along_x, along_y, per_square):
+def share_of(
+    p_x: Number, p_y: Number, x: Number, y: Number, along_x: Number, along_y: Number, per_square: Number
+) -> Number:
     """How far along a wall its point nearest to p is, in [0, 1]."""
     return clip(((p_x - x) * along_x + (p_y - y) * along_y) * per_square, 0.0, 1.0)
 
 
 @elementwise
-def apart(p, start, along, share):
+def apart(p: Number, start: Number, along: Number, share: Number) -> Number:
     """One coordinate of p less that of a wall's point."""
     return p - start - along * share
 
 
 @elementwise
-def above(z, top):
+def above(z: Number, top: Number) -> Number:
     """z above the top [m], or 0 below it."""
     return maximum(z - top, 0.0)
 
@@ -81,13 +84,13 @@ def edges_of(wall: Wall) -> tuple[Wall, Wall]:
 
 
 @elementwise
-def smaller(d, limit, a, b):
+def smaller(d: Number, limit: Number, a: Number, b: Number) -> Number:
     """a where d < limit, else b."""
     return where(d < limit, a, b)
 
 
 @law
-def pick(d: Any, limit: Any, a: Wall, b: Wall) -> Wall:
+def pick(d: Number, limit: Number, a: Wall, b: Wall) -> Wall:
     """The wall a where d < limit, else b."""
     return Wall(
         smaller(d, limit, a.x, b.x),

@@ -3,10 +3,11 @@
 R = Rz(ψ) Rx(φ) Ry(θ) maps body axes to world axes. The Euler rates are singular at roll φ = ±90°, not at pitch.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import atan2, atan_ratio, clip, cos, maximum, sin, sqrt, where
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Mat3, Quat, Vec3, hamilton
 
 PI = 3.141592653589793
@@ -16,17 +17,17 @@ class Euler(NamedTuple):
     """Euler angles with the cosines and sines that the laws need, from the attitude without trigonometry."""
 
     angles: Vec3  # φ, θ, ψ [rad]
-    cos_roll: Any
-    sin_roll: Any
-    cos_pitch: Any
-    sin_pitch: Any
-    cos_yaw: Any
-    sin_yaw: Any
-    sec_roll: Any
+    cos_roll: Number
+    sin_roll: Number
+    cos_pitch: Number
+    sin_pitch: Number
+    cos_yaw: Number
+    sin_yaw: Number
+    sec_roll: Number
 
 
 @elementwise
-def turned_least(angle):
+def turned_least(angle: Number) -> Number:
     """The same angle within half a turn, for angles within one and a half turns [rad]."""
     return angle - where(angle > PI, 2.0 * PI, where(angle < -PI, -2.0 * PI, 0.0))
 
@@ -65,7 +66,7 @@ def rotation_from_quaternion(q: Quat) -> Mat3:
 
 
 @law
-def sine_of_roll(q: Quat) -> Any:
+def sine_of_roll(q: Quat) -> Number:
     """sin φ, the third row and second column of R."""
     return 2.0 * (q.y * q.z + q.w * q.x)
 

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import atan_ratio, cos, maximum, minimum, sin, sqrt, where
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Nothing, Vec3
 from tandemlift.laws.mechanics.rotation import Euler
 
@@ -20,33 +21,28 @@ class TiltPrinted(NamedTuple):
 class TiltLimit(NamedTuple):
     """The tangent of the greatest angle between the force and the vertical."""
 
-    tangent: Any
+    tangent: Number
 
 
-@choice
-def within_tilt(limit: Any, u: Any) -> Any:
+@choice(absent="u")
+def within_tilt(limit: TiltLimit | Nothing, u: Vec3) -> Any:
     """The force (u_x, u_y, u_z) [N, world axes], its horizontal part shortened to keep within a tilt."""
 
 
-@within_tilt.register(Nothing)
-def _any_tilt(limit, u):
-    return u
-
-
 @within_tilt.register(TiltLimit)
-def _tilted(limit, u):
+def _tilted(limit: TiltLimit, u: Vec3) -> Vec3:
     across = sqrt(maximum(u.x * u.x + u.y * u.y, 1e-24))
     share = minimum(limit.tangent * maximum(u.z, 0.0) / across, 1.0)
     return Vec3(u.x * share, u.y * share, u.z)
 
 
-def tilt_limit(angle: float | None) -> Any:
+def tilt_limit(angle: float | None) -> TiltLimit | Nothing:
     """The limit of a tilt [rad], or of none."""
     return Nothing() if angle is None else TiltLimit(math.tan(angle))
 
 
 @law
-def virtual_inputs(e: Euler, thrust: Any) -> Vec3:
+def virtual_inputs(e: Euler, thrust: Number) -> Vec3:
     """(u_x, u_y, u_z) = R (0, 0, U₁) [N, world axes]."""
     # paper: vertual_cont_equ
     return (
@@ -60,26 +56,26 @@ def virtual_inputs(e: Euler, thrust: Any) -> Vec3:
 
 
 @law
-def total_thrust(e: Euler, u: Vec3) -> Any:
+def total_thrust(e: Euler, u: Vec3) -> Number:
     """U₁ = u_z / (cos φ cos θ) [N]."""
     # paper: thrus_z_equ
     return u.z / (e.cos_roll * e.cos_pitch)
 
 
 @choice
-def desired_orientation(inverse: Any, u: Any, e: Any, yaw: Any) -> Any:
+def desired_orientation(inverse: TiltZXY | TiltPrinted, u: Vec3, e: Euler, yaw: Number) -> Any:
     """(φ_d, θ_d, ψ_d) [rad] that points the thrust along u [N, world axes]; e is the actual attitude, yaw is ψ_d."""
 
 
 @law
-def tilt_angles(first: Any, second: Any, u_z: Any) -> Any:
+def tilt_angles(first: Number, second: Number, u_z: Number) -> tuple[Number, Number]:
     """(atan(first/u_z), atan(cos(that) · second/u_z)) [rad], without dividing by u_z."""
     h = sqrt(u_z * u_z + first * first)
     return atan_ratio(first, u_z), atan_ratio(second, where(u_z < 0.0, -h, h))
 
 
 @desired_orientation.register(TiltZXY)
-def _zxy(inverse, u, e, yaw):
+def _zxy(inverse: TiltZXY, u: Vec3, e: Euler, yaw: Number) -> Vec3:
     # paper: equ_des_orient, corrected: φ_d = atan(Q/u_z) first, then θ_d = atan(cos φ_d · A/u_z)
     A = u.x * e.cos_yaw + u.y * e.sin_yaw
     Q = u.x * e.sin_yaw - u.y * e.cos_yaw
@@ -88,7 +84,7 @@ def _zxy(inverse, u, e, yaw):
 
 
 @desired_orientation.register(TiltPrinted)
-def _printed(inverse, u, e, yaw):
+def _printed(inverse: TiltPrinted, u: Vec3, e: Euler, yaw: Number) -> Vec3:
     # paper: equ_des_orient, as printed: θ_d = atan(A/u_z) first, then φ_d = atan(cos θ_d · Q/u_z), at ψ_d
     A = u.x * cos(yaw) + u.y * sin(yaw)
     Q = u.x * sin(yaw) - u.y * cos(yaw)

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
+from tandemlift.algebra.types import Number, PerQuadrotor
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
 from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import State
@@ -34,7 +35,7 @@ PARALLEL = 1e-12  # sin² of the angle between lines that have no one nearest po
 class Beam(NamedTuple):
     """The payload as a capsule along body y: its radius [m], and its two ends, −½ and +½ of its axis [m], as a set."""
 
-    radius: Any
+    radius: Number
     ends: Any
 
 
@@ -44,13 +45,13 @@ class Walls(NamedTuple):
     `beam`: a `Beam`, or `Nothing` if the payload has no shape; `reach` [m]: of all these from the centre of mass.
     """
 
-    stiffness: Any
-    damping: Any
-    friction: Any
-    tangential_damping: Any
-    guards: Any
+    stiffness: Number
+    damping: Number
+    friction: Number
+    tangential_damping: Number
+    guards: PerQuadrotor
     beam: Any
-    reach: Any
+    reach: Number
 
 
 class NearBeam(NamedTuple):
@@ -67,7 +68,7 @@ class NearWalls(NamedTuple):
 
     first: Wall
     second: Wall
-    beam: Any
+    beam: NearBeam | Nothing
 
 
 class BeamAxis(NamedTuple):
@@ -80,19 +81,19 @@ class BeamAxis(NamedTuple):
 
 
 @elementwise
-def inverse_root(square):
+def inverse_root(square: Number) -> Number:
     """1/√square, bounded."""
     return 1.0 / sqrt(maximum(square, SMALL))
 
 
 @elementwise
-def depth_at(distance, radius):
+def depth_at(distance: Number, radius: Number) -> Number:
     """How deep a sphere is [m] whose centre is at a distance."""
     return radius - distance
 
 
 @law
-def scaled(v: Vec3, k: Any) -> Vec3:
+def scaled(v: Vec3, k: Number) -> Vec3:
     """v k, where either may be of sets."""
     return Vec3(k * v.x, k * v.y, k * v.z)
 
@@ -104,7 +105,7 @@ def moved_to(origin: Vec3, v: Vec3) -> Vec3:
 
 
 @law
-def pressed(w: Walls, o: Vec3, radius: Any, velocity: Vec3, spin: Vec3) -> PartLoad:
+def pressed(w: Walls, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> PartLoad:
     """What a wall puts on a sphere that moves at a velocity [m/s] and turns at `spin` [rad/s], all in world axes.
 
     o is the way from the wall to the sphere's centre [m]. Moment about that centre [N·m].
@@ -121,7 +122,7 @@ def pressed(w: Walls, o: Vec3, radius: Any, velocity: Vec3, spin: Vec3) -> PartL
 
 
 @law
-def point_by_edge(a: BeamAxis, half: Any, edge: Wall) -> Any:
+def point_by_edge(a: BeamAxis, half: Number, edge: Wall) -> Number:
     """Where along the beam's axis, ±half, it is nearest to an edge [m]: level with it, or nearest to its upper end."""
     x, y, b = edge.x - a.center.x, edge.y - a.center.y, a.direction
     along = x * b.x + y * b.y
@@ -131,7 +132,7 @@ def point_by_edge(a: BeamAxis, half: Any, edge: Wall) -> Any:
 
 
 @law
-def point_by_top(a: BeamAxis, half: Any, wall: Wall) -> Any:
+def point_by_top(a: BeamAxis, half: Number, wall: Wall) -> Number:
     """Where along the beam's axis, ±half, it is nearest to a wall's top [m]."""
     # Ericson, Real-Time Collision Detection, section 5.1.9
     b, r = a.direction, a.center - Vec3(wall.x, wall.y, wall.top)
@@ -144,40 +145,35 @@ def point_by_top(a: BeamAxis, half: Any, wall: Wall) -> Any:
 
 
 @law
-def beam_axis(frame: PartsLayout, s: State) -> BeamAxis:
-    """The beam's axis in state `s`."""
+def beam_axis(center: Vec3, s: State) -> BeamAxis:
+    """The beam's axis in state `s`; its centre from the system's centre of mass [m, body axes]."""
     R = rotation_from_quaternion(s.attitude)
-    spin, arm = apply(R, s.rates), apply(R, frame.payload)
+    spin, arm = apply(R, s.rates), apply(R, center)
     return BeamAxis(s.position + arm, s.velocity + cross(spin, arm), Vec3(R.x.y, R.y.y, R.z.y), spin)
 
 
 @law
-def on_beam(a: BeamAxis, along: Any) -> Vec3:
+def on_beam(a: BeamAxis, along: Number) -> Vec3:
     """Points of the beam's axis [m, world axes]."""
     return moved_to(a.center, scaled(a.direction, along))
 
 
 @law
-def on_beam_pressed(w: Walls, a: BeamAxis, along: Any, o: Vec3) -> PartLoad:
+def on_beam_pressed(w: Walls, a: BeamAxis, along: Number, o: Vec3) -> PartLoad:
     """What a wall puts on the beam at a place along its axis [m], o from the wall: world axes, about its centre."""
     arm = scaled(a.direction, along)
     load = pressed(w, o, w.beam.radius, moved_to(a.velocity, cross(a.spin, arm)), a.spin)
     return PartLoad(load.force, load.moment + cross(arm, load.force))
 
 
-@choice
-def press_beam(beam: Any, w: Walls, near: Any, frame: PartsLayout, s: State) -> Any:
+@choice(absent=PartLoad(ZERO, ZERO))
+def press_beam(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
     """What the near walls put on the payload, as a Load."""
 
 
-@press_beam.register(Nothing)
-def _shapeless(beam, w, near, frame, s):
-    return PartLoad(ZERO, ZERO)
-
-
 @press_beam.register(Beam)
-def _capsule(beam, w, near, frame, s):
-    a, half = beam_axis(frame, s), beam.ends[1]
+def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> PartLoad:
+    a, half = beam_axis(frame.payload, s), beam.ends[1]
     ends = on_beam_pressed(w, a, beam.ends, offset(near.ends, on_beam(a, beam.ends)))
     i, j = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
     k = point_by_top(a, half, near.topped)
@@ -199,19 +195,14 @@ def press(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> PartLoads:
     return PartLoads(press_beam(w.beam, w, near.beam, frame, s), PartLoad(load.force, apply_transposed(R, load.moment)))
 
 
-@choice
-def consider_beam(beam: Any, wall: Wall, near: Any, frame: PartsLayout, s: State) -> Any:
+@choice(absent="near")
+def consider_beam(beam: Beam | Nothing, wall: Wall, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
     """The walls nearest to the beam, once `wall` is considered too."""
 
 
-@consider_beam.register(Nothing)
-def _nothing_near(beam, wall, near, frame, s):
-    return near
-
-
 @consider_beam.register(Beam)
-def _near_beam(beam, wall, near, frame, s):
-    a, half = beam_axis(frame, s), beam.ends[1]
+def _near_beam(beam: Beam, wall: Wall, near: NearBeam, frame: PartsLayout, s: State) -> NearBeam:
+    a, half = beam_axis(frame.payload, s), beam.ends[1]
     ends, (start, end) = on_beam(a, beam.ends), edges_of(wall)
     edge, other = with_edge(a, half, start, near.edge, near.other_edge)
     edge, other = with_edge(a, half, end, edge, other)
@@ -221,7 +212,7 @@ def _near_beam(beam, wall, near, frame, s):
 
 
 @law
-def with_edge(a: BeamAxis, half: Any, edge: Wall, first: Wall, second: Wall) -> Any:
+def with_edge(a: BeamAxis, half: Number, edge: Wall, first: Wall, second: Wall) -> tuple[Wall, Wall]:
     """The two of three edges that are nearest to the beam."""
     p = on_beam(a, point_by_edge(a, half, edge))
     p1, p2 = on_beam(a, point_by_edge(a, half, first)), on_beam(a, point_by_edge(a, half, second))

@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, cos, maximum, sqrt
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, spread, vec3
+from tandemlift.algebra.types import Number
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, vec3
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, raised
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.vehicle import Vehicle
 
 FOOT = 0.3048  # m
 LOWEST, HIGHEST = 10.0, 1000.0  # ft, between which the standard's low-altitude model holds
@@ -44,35 +44,35 @@ class Wind(NamedTuple):
     """Steady velocity [m/s, world axes], and turbulence: `NoTurbulence` or `Dryden`."""
 
     velocity: Vec3
-    turbulence: Any
+    turbulence: "NoTurbulence | Dryden"
 
 
 class Gust(NamedTuple):
     """One gust: peak [m/s, world axes], start [s], 1/(rise time) [1/s], and how long it holds [s] (it may be inf)."""
 
     velocity: Vec3
-    start: Any
-    per_rise: Any
-    hold: Any
+    start: Number
+    per_rise: Number
+    hold: Number
 
 
 class Longitudinal(NamedTuple):
     """A step of the eddies along the wind: u ← keep u + kick n, n a standard normal number."""
 
-    keep: Any
-    kick: Any
+    keep: Number
+    kick: Number
 
 
 class Transverse(NamedTuple):
     """A step of the eddies across the wind or up: (v, h) ← [[vv, vh], [hv, hh]] (v, h) + [[vn, 0], [hn, hm]] (n, m)."""
 
-    vv: Any
-    vh: Any
-    hv: Any
-    hh: Any
-    vn: Any
-    hn: Any
-    hm: Any
+    vv: Number
+    vh: Number
+    hv: Number
+    hh: Number
+    vn: Number
+    hn: Number
+    hm: Number
 
 
 class Dryden(NamedTuple):
@@ -92,21 +92,21 @@ class TurbulenceState(NamedTuple):
     In the stationary process the five are independent standard normal numbers.
     """
 
-    along: Any
-    across: Any
-    across_hidden: Any
-    up: Any
-    up_hidden: Any
+    along: Number
+    across: Number
+    across_hidden: Number
+    up: Number
+    up_hidden: Number
 
 
 class WindNoise(NamedTuple):
     """Five independent standard normal numbers that drive the eddies over one step."""
 
-    along: Any
-    across: Any
-    across_hidden: Any
-    up: Any
-    up_hidden: Any
+    along: Number
+    across: Number
+    across_hidden: Number
+    up: Number
+    up_hidden: Number
 
 
 class NoAir(NamedTuple):
@@ -183,22 +183,13 @@ def dryden(wind_20ft: float, height: float, airspeed: float, direction: Sequence
     )
 
 
-def start_turbulence(turbulence: Any, normals: Sequence[float]) -> Any:
+def start_turbulence(turbulence: NoTurbulence | Dryden, normals: Sequence[float]) -> TurbulenceState | Nothing:
     """The memory at the start of a flight, drawn from the stationary process by five standard normal numbers."""
     return TurbulenceState(*map(float, normals)) if isinstance(turbulence, Dryden) else Nothing()
 
 
-def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
-    """The drag of a vehicle's parts in air of a density [kg/m³]."""
-    payload, quadrotors = vehicle.payload, vehicle.quadrotors
-    return AirDrag(
-        vec3(payload.areas) * (0.5 * density * payload.drag_coefficient),
-        spread([np.multiply(q.drag_area, 0.5 * density * q.drag_coefficient) for q in quadrotors]),
-    )
-
-
 @law
-def gust_velocity(g: Gust, t: Any) -> Vec3:
+def gust_velocity(g: Gust, t: Number) -> Vec3:
     """Velocity of one gust at time t [s]: ½ V (1 − cos) while it rises, V while it holds, and down as it rose."""
     since = (t - g.start) * g.per_rise
     rising, falling = clip(since, 0.0, 1.0), clip(since - 1.0 - g.hold * g.per_rise, 0.0, 1.0)
@@ -206,44 +197,44 @@ def gust_velocity(g: Gust, t: Any) -> Vec3:
 
 
 @law
-def seen(step: Transverse, v: Any, h: Any, n: Any) -> Any:
+def seen(step: Transverse, v: Number, h: Number, n: Number) -> Number:
     """The component of the turbulence after a step."""
     return step.vv * v + step.vh * h + step.vn * n
 
 
 @law
-def hidden(step: Transverse, v: Any, h: Any, n: Any, m: Any) -> Any:
+def hidden(step: Transverse, v: Number, h: Number, n: Number, m: Number) -> Number:
     """The hidden number beside it after the step."""
     return step.hv * v + step.hh * h + step.hn * n + step.hm * m
 
 
 @choice
-def swirl(turbulence: Any, eddies: Any) -> Any:
+def swirl(turbulence: NoTurbulence | Dryden, eddies: TurbulenceState | Nothing) -> Any:
     """Velocity of the turbulence [m/s, world axes]."""
 
 
 @swirl.register(NoTurbulence)
-def _no_swirl(turbulence, eddies):
+def _no_swirl(turbulence: NoTurbulence, eddies: Nothing) -> Vec3:
     return ZERO
 
 
 @swirl.register(Dryden)
-def _swirl(d, e):
+def _swirl(d: Dryden, e: TurbulenceState) -> Vec3:
     return d.along * e.along + d.across * e.across + d.up * e.up
 
 
 @choice
-def pass_by(turbulence: Any, eddies: Any, whiffs: Any) -> Any:
+def pass_by(turbulence: NoTurbulence | Dryden, eddies: TurbulenceState | Nothing, whiffs: WindNoise | Nothing) -> Any:
     """The eddies one step later."""
 
 
 @pass_by.register(NoTurbulence)
-def _none_pass(turbulence, eddies, whiffs):
+def _none_pass(turbulence: NoTurbulence, eddies: Nothing, whiffs: Nothing) -> Nothing:
     return eddies
 
 
 @pass_by.register(Dryden)
-def _pass(d, e, n):
+def _pass(d: Dryden, e: TurbulenceState, n: WindNoise) -> TurbulenceState:
     return TurbulenceState(
         d.longitudinal.keep * e.along + d.longitudinal.kick * n.along,
         seen(d.lateral, e.across, e.across_hidden, n.across),
@@ -254,23 +245,25 @@ def _pass(d, e, n):
 
 
 @choice
-def wind_step(wind: Any, eddies: Any, gust: Any, whiffs: Any) -> Any:
+def wind_step(wind: StillAir | Wind, eddies: TurbulenceState | Nothing, gust: Vec3, whiffs: WindNoise | Nothing) -> Any:
     """(Velocity of the air now [m/s, world axes], the eddies one step later); `gust`: the gusts' velocity now."""
 
 
 @wind_step.register(StillAir)
-def _still(wind, eddies, gust, whiffs):
+def _still(wind: StillAir, eddies: Nothing, gust: Vec3, whiffs: Nothing) -> tuple[Vec3, Nothing]:
     return ZERO, eddies
 
 
 @wind_step.register(Wind)
-def _blow(wind, eddies, gust, whiffs):
+def _blow(
+    wind: Wind, eddies: TurbulenceState | Nothing, gust: Vec3, whiffs: WindNoise | Nothing
+) -> tuple[Vec3, TurbulenceState | Nothing]:
     air = wind.velocity + gust + swirl(wind.turbulence, eddies)
     return air, pass_by(wind.turbulence, eddies, whiffs)
 
 
 @elementwise
-def nought(x):
+def nought(x: Number) -> Number:
     """0 in place of x."""
     return 0.0
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, elementwise
 from tandemlift.algebra.ops import where
-from tandemlift.algebra.vector import ZERO, Mat3, Nothing, Vec3, linear, outer, plus
+from tandemlift.algebra.vector import ZERO, Mat3, Vec3, linear, outer, plus
 from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, moment_of
 
 
@@ -51,14 +51,9 @@ def _on_points(push, force, point):
     return PointPush(push.force + force, push.spread + outer(force, point))
 
 
-@choice
+@choice(absent="hand")
 def pushed(external: Any, hand: PushSamples) -> Any:
     """The push of a step with what is added to it."""
-
-
-@pushed.register(Nothing)
-def _as_it_is(external, hand):
-    return hand
 
 
 @pushed.register(CallerInput)
@@ -73,14 +68,9 @@ def overridden(own, given, override):
     return where(override > 0.0, given, own)
 
 
-@choice
+@choice(absent="own")
 def thrusts_of(external: Any, own: Any) -> Any:
     """The thrusts [N] that the rotors are commanded, where the pilot wants its own."""
-
-
-@thrusts_of.register(Nothing)
-def _own(external, own):
-    return own
 
 
 @thrusts_of.register(CallerInput)

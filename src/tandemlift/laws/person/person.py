@@ -266,14 +266,9 @@ def _somebody(partner, memory, hand, state, noise, t, dt):
     return PersonOutput(PushSamples(hand.start + push, hand.middle + push, hand.end + push), after)
 
 
-@choice
+@choice(absent=0.0)
 def asks_to_land(memory: Any) -> Any:
     """1 once the person asks to land, else 0."""
-
-
-@asks_to_land.register(Nothing)
-def _never_asks(memory):
-    return 0.0
 
 
 @asks_to_land.register(PersonState)

@@ -14,9 +14,9 @@ import numpy as np
 
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.algebra.vector import Vec3, each, spread
-from tandemlift.laws.mechanics.body import State
-from tandemlift.vehicle import Vehicle
+from tandemlift.algebra.types import Number, PerRotor
+from tandemlift.algebra.vector import Nothing, Vec3, each
+from tandemlift.laws.mechanics.body import State, Wrench
 
 REST = 1e-100  # rad/s, lost in any speed; one that dies ends near 1e-115, not in slow denormal numbers
 NEVER = 1e18  # s
@@ -30,9 +30,9 @@ class IdealRotors(NamedTuple):
 class Lag(NamedTuple):
     """A first-order lag over one step: what is left of a deviation, and of it and its square in the mean; sets."""
 
-    left: Any
-    mean: Any
-    mean_square: Any
+    left: PerRotor
+    mean: PerRotor
+    mean_square: PerRotor
 
 
 class NoFaults(NamedTuple):
@@ -42,8 +42,8 @@ class NoFaults(NamedTuple):
 class RotorFaults(NamedTuple):
     """From `time` [s] on, the share of its thrust that each rotor has left; sets."""
 
-    time: Any
-    efficiency: Any
+    time: PerRotor
+    efficiency: PerRotor
 
 
 class FreeAir(NamedTuple):
@@ -54,8 +54,8 @@ class GroundEffect(NamedTuple):
     """Rotors from the centre of mass [m, body axes, vector of sets], a quarter of their radius [m], floor's z [m]."""
 
     rotors: Vec3
-    quarter_radius: Any
-    floor: Any
+    quarter_radius: PerRotor
+    floor: Number
 
 
 class Rotors(NamedTuple):
@@ -64,48 +64,52 @@ class Rotors(NamedTuple):
     `per_reach`: one over the size of each component of the wrench.
     """
 
-    max_thrust: Any
-    constant: Any
-    per_constant: Any
+    max_thrust: PerRotor
+    constant: PerRotor
+    per_constant: PerRotor
     up: Lag
     down: Lag
-    faults: Any
-    surface: Any
-    late: Any
-    per_reach: Any
+    faults: NoFaults | RotorFaults
+    surface: FreeAir | GroundEffect
+    late: Number
+    per_reach: Wrench
 
 
 class RotorState(NamedTuple):
     """Memory: speed of each rotor [rad/s]; the command [N] that arrives in this step, if commands are delayed."""
 
-    speed: Any
-    arriving: Any
+    speed: PerRotor
+    arriving: PerRotor
 
 
 @choice
-def drive(rotors: Any, memory: Any, command: Any, state: Any, t: Any) -> Any:
+def drive(
+    rotors: IdealRotors | Rotors, memory: RotorState | Nothing, command: PerRotor, state: State, t: Number
+) -> Any:
     """(thrust of each rotor [N] over the step from time t [s], the new memory) under a command [N]."""
 
 
 @drive.register(IdealRotors)
-def _ideal(rotors, memory, command, state, t):
+def _ideal(
+    rotors: IdealRotors, memory: Nothing, command: PerRotor, state: State, t: Number
+) -> tuple[PerRotor, Nothing]:
     return command, memory
 
 
 @elementwise
-def lagged(command, speed, up, down):
+def lagged(command: Number, speed: Number, up: Number, down: Number) -> Number:
     """The number that applies to a rotor that spins up or down."""
     return where(command > speed, up, down)
 
 
 @elementwise
-def drawn(command, away, left):
+def drawn(command: Number, away: Number, left: Number) -> Number:
     """The speed [rad/s] that is left of one `away` from its command, at the end of a step."""
     return (command + away * left + REST) - REST
 
 
 @law
-def spin(r: Rotors, speed: Any, thrust: Any) -> Any:
+def spin(r: Rotors, speed: PerRotor, thrust: PerRotor) -> tuple[PerRotor, PerRotor]:
     """(mean of Ω² over the step, Ω at its end [rad/s]) from a speed and a thrust wanted [N]."""
     command = sqrt(thrust * r.per_constant)
     away = speed - command
@@ -116,7 +120,7 @@ def spin(r: Rotors, speed: Any, thrust: Any) -> Any:
 
 
 @drive.register(Rotors)
-def _real(r, memory, command, state, t):
+def _real(r: Rotors, memory: RotorState, command: PerRotor, state: State, t: Number) -> tuple[PerRotor, RotorState]:
     now = memory.arriving * r.late + command * (1.0 - r.late)
     squared, speed = spin(r, memory.speed, clip(now, 0.0, r.max_thrust))
     thrust = squared * r.constant * efficiency_at(r.faults, t)
@@ -124,38 +128,38 @@ def _real(r, memory, command, state, t):
 
 
 @choice
-def efficiency_at(faults: Any, t: Any) -> Any:
+def efficiency_at(faults: NoFaults | RotorFaults, t: Number) -> PerRotor:
     """The share of its thrust that each rotor has at time t [s]."""
 
 
 @efficiency_at.register(NoFaults)
-def _sound(faults, t):
+def _sound(faults: NoFaults, t: Number) -> Number:
     return 1.0
 
 
 @elementwise
-def since(time, efficiency, t):
+def since(time: Number, efficiency: Number, t: Number) -> Number:
     """The efficiency of a rotor that fails at a time."""
     return where(t >= time, efficiency, 1.0)
 
 
 @efficiency_at.register(RotorFaults)
-def _failing(faults, t):
+def _failing(faults: RotorFaults, t: Number) -> PerRotor:
     return since(faults.time, faults.efficiency, t)
 
 
 @choice
-def near_ground(surface: Any, state: State) -> Any:
+def near_ground(surface: FreeAir | GroundEffect, state: State) -> PerRotor:
     """Thrust near the floor over thrust in free air."""
 
 
 @near_ground.register(FreeAir)
-def _free(surface, state):
+def _free(surface: FreeAir, state: State) -> Number:
     return 1.0
 
 
 @elementwise
-def lifted(height, quarter_radius):
+def lifted(height: Number, quarter_radius: Number) -> Number:
     """1/(1 − (R/4z)²), with z no less than half a radius.
 
     Cheeseman and Bennett, The effect of the ground on a helicopter rotor in forward flight, ARC R&M 3021 (1955).
@@ -166,13 +170,13 @@ def lifted(height, quarter_radius):
 
 
 @elementwise
-def height_above(offset, z):
+def height_above(offset: Number, z: Number) -> Number:
     """The height of a point that is `offset` above the centre of mass, z above the floor."""
     return offset + z
 
 
 @near_ground.register(GroundEffect)
-def _near(surface, state):
+def _near(surface: GroundEffect, state: State) -> PerRotor:
     q, r = state.attitude, surface.rotors
     up = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
     offset = r.x * up.x + r.y * up.y + r.z * up.z
@@ -190,35 +194,7 @@ def lag(time_constants: list[float], step: float) -> Lag:
     return Lag(*[cls(*map(float, row)) for row in (np.exp(-ratio), mean, mean_square)])
 
 
-def ground_effect(vehicle: Vehicle, floor: float) -> GroundEffect:
-    """Ground effect over a floor at z = `floor` [m]."""
-    places = [
-        (d[0] + x, d[1] + y, d[2])
-        for d, q in zip(vehicle.lever_arms, vehicle.quadrotors, strict=True)
-        for x, y in q.rotors
-    ]
-    quarter = [q.rotor_radius / 4.0 for q in vehicle.quadrotors for _ in range(4)]
-    return GroundEffect(spread(places), each(len(quarter))(*quarter), floor)
-
-
-def rotors_from(vehicle: Vehicle, step: float, *, late: bool, faults: Any, surface: Any, per_reach: Any) -> Rotors:
-    """The real rotors of a vehicle, for steps of `step` [s]."""
-    each_rotor = [q for q in vehicle.quadrotors for _ in range(4)]
-    cls = each(len(each_rotor))
-    return Rotors(
-        max_thrust=cls(*[q.max_thrust for q in each_rotor]),
-        constant=cls(*[q.thrust_constant for q in each_rotor]),
-        per_constant=cls(*[1.0 / q.thrust_constant for q in each_rotor]),
-        up=lag([q.lag_up for q in each_rotor], step),
-        down=lag([q.lag_down for q in each_rotor], step),
-        faults=faults,
-        surface=surface,
-        late=float(late),
-        per_reach=per_reach,
-    )
-
-
-def rotor_faults(count: int, failures: Iterable[tuple[int, int, float, float]]) -> Any:
+def rotor_faults(count: int, failures: Iterable[tuple[int, int, float, float]]) -> NoFaults | RotorFaults:
     """The faults of `count` rotors, from (quadrotor, rotor, time [s], share of the thrust left) of each; from 1 on."""
     failures = tuple(failures)
     if not failures:

@@ -23,12 +23,14 @@ from __future__ import annotations
 
 import functools
 import operator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, sqrt, where
+from tandemlift.algebra.types import Condition, Number, PerRotor
 from tandemlift.algebra.vector import Vec3, dot, each
 from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import Wrench
@@ -49,44 +51,44 @@ class BoundedProblem(NamedTuple):
     rows: Mixer
     weights: Wrench
     wanted: Wrench
-    unlimited: Any
-    limits: Any
+    unlimited: PerRotor
+    limits: PerRotor
 
 
 class Search(NamedTuple):
     """A step's outcome; 1 or 0 each: whole steps are taken, this one is to be repeated, the search has ended."""
 
     found: AllocationState
-    opening: Any
-    repeated: Any
-    ended: Any
+    opening: Number
+    repeated: Number
+    ended: Number
 
 
 class WrenchVector(NamedTuple):
     """Four numbers, one for each component of a wrench."""
 
-    thrust: Any
-    roll: Any
-    pitch: Any
-    yaw: Any
+    thrust: Number
+    roll: Number
+    pitch: Number
+    yaw: Number
 
 
 class Factor(NamedTuple):
     """L D Lᵀ of a 4 × 4 matrix: L by columns, then 1/D."""
 
-    rt: Any
-    pt: Any
-    yt: Any
-    pr: Any
-    yr: Any
-    yp: Any
-    t: Any
-    r: Any
-    p: Any
-    y: Any
+    rt: Number
+    pt: Number
+    yt: Number
+    pr: Number
+    yr: Number
+    yp: Number
+    t: Number
+    r: Number
+    p: Number
+    y: Number
 
 
-def weights_of(effect: Array, priorities: Any) -> Array:
+def weights_of(effect: Array, priorities: ArrayLike) -> Array:
     """The diagonal of W (4): priority over row rms of the effect B (4 × n), so that priorities compare rotor for rotor.
 
     Args:
@@ -108,7 +110,7 @@ def share_scale(effect: Array) -> Wrench:
 
 
 @law
-def given_share(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: Any) -> Any:
+def given_share(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: PerRotor) -> Number:
     """Share of a wanted wrench that thrusts give: 1 − ‖B f − τ‖/‖τ‖ in the measure of `scale`, within [0, 1]; 1 at 0.
 
     Args:
@@ -125,37 +127,37 @@ def given_share(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: Any) -> A
     return where(size > 0.0, clip(1.0 - sqrt(lost), 0.0, 1.0), 1.0)
 
 
-def _summed(start: Any, parts: Any) -> Any:
+def _summed(start: Number, parts: PerRotor) -> Number:
     """start + the values of a set, one after the other."""
     return functools.reduce(operator.add, parts, start)
 
 
-def _numbered(like: Any) -> Any:
+def _numbered(like: PerRotor) -> PerRotor:
     """0, 1, 2, … as a set."""
     return each(len(like))(*map(float, range(len(like))))
 
 
-def _at_least(x: Any, least: Any) -> Any:
+def _at_least(x: Number, least: Number) -> Number:
     return where(least > x, least, x)
 
 
 @elementwise
-def _top(limit):
+def _top(limit: Number) -> Number:
     return where(limit > 0.0, limit, 0.0)
 
 
 @elementwise
-def _side(active, top):
+def _side(active: Number, top: Number) -> Number:
     return where(top > 0.0, where(active > 0.0, 1.0, 0.0) - where(active < 0.0, 1.0, 0.0), -1.0)
 
 
 @elementwise
-def _standing(thrust, side, top):
+def _standing(thrust: Number, side: Number, top: Number) -> Number:
     x = where(thrust > 0.0, thrust, 0.0)
     return where(side == 0.0, where(x < top, x, top), where(side > 0.0, top, 0.0))
 
 
-def placed(limits: Any, held: AllocationState) -> AllocationState:
+def placed(limits: PerRotor, held: AllocationState) -> AllocationState:
     """A working set and thrusts that are feasible to start from. A rotor without a limit > 0 stands."""
     top = _top(limits)
     side = _side(held.active, top)
@@ -163,11 +165,11 @@ def placed(limits: Any, held: AllocationState) -> AllocationState:
 
 
 @elementwise
-def _free(active):
+def _free(active: Number) -> Number:
     return 1.0 - absolute(active)
 
 
-def _factored(rows: Mixer, active: Any) -> Factor:
+def _factored(rows: Mixer, active: PerRotor) -> Factor:
     """L D Lᵀ = γI + C Cᵀ over the free rotors. No pivot is below γ but for rounding."""
     free = _free(active)
     thrust, roll, pitch, yaw = rows
@@ -201,7 +203,7 @@ def _solved(k: Factor, b: WrenchVector) -> WrenchVector:
     return WrenchVector(x0, x1, x2, x3)
 
 
-def _missing(p: BoundedProblem, thrusts: Any) -> WrenchVector:
+def _missing(p: BoundedProblem, thrusts: PerRotor) -> WrenchVector:
     """r = W(τ − B f)."""
     weights, wanted = (WrenchVector(u.thrust, *u.moment) for u in (p.weights, p.wanted))
     made = [row * thrusts for row in p.rows]
@@ -210,39 +212,39 @@ def _missing(p: BoundedProblem, thrusts: Any) -> WrenchVector:
     )
 
 
-def _mapped(rows: Mixer, four: WrenchVector) -> Any:
+def _mapped(rows: Mixer, four: WrenchVector) -> PerRotor:
     """Cᵀ x of four numbers x, for every rotor."""
     return rows.thrust * four.thrust + rows.roll * four.roll + rows.pitch * four.pitch + rows.yaw * four.yaw
 
 
-def _largest(values: Any) -> Any:
+def _largest(values: PerRotor) -> Number:
     """The largest of the sizes of values, at least 0."""
     return functools.reduce(lambda most, size: where(size > most, size, most), absolute(values), 0.0)
 
 
 @elementwise
-def _met(active, x, top):
+def _met(active: Number, x: Number, top: Number) -> Number:
     """−1 where a whole step of a free rotor ends below 0, 1 where it ends above the limit, 0 else; held ones as are."""
     return where(active == 0.0, where(x < 0.0, -1.0, where(x > top, 1.0, 0.0)), active)
 
 
 @elementwise
-def _if_free(active, moved, before):
+def _if_free(active: Number, moved: Number, before: Number) -> Number:
     return where(active == 0.0, moved, before)
 
 
 @elementwise
-def _within(x, top, before):
+def _within(x: Number, top: Number, before: Number) -> Number:
     """A thrust held within its limits; as it was before where it is no number."""
     return where(x < 0.0, 0.0, where(x > top, top, where(x >= 0.0, x, before)))
 
 
 @elementwise
-def _newly(active, met):
+def _newly(active: Number, met: Number) -> Number:
     return absolute(met) * (1.0 - absolute(active))
 
 
-def _clipped(p: BoundedProblem, now: AllocationState, pull: Any) -> Any:
+def _clipped(p: BoundedProblem, now: AllocationState, pull: PerRotor) -> tuple[AllocationState, Condition]:
     """(The whole step, every free rotor that would leave its limits held there; whether there is such a rotor)."""
     x = now.thrusts + pull * (1.0 / GAMMA)
     met = _met(now.active, x, p.limits)
@@ -251,7 +253,7 @@ def _clipped(p: BoundedProblem, now: AllocationState, pull: Any) -> Any:
 
 
 @elementwise
-def _part(active, before, step, top):
+def _part(active: Number, before: Number, step: Number, top: Number) -> Number:
     """The share of a step that a free rotor can take; 1 where it meets no limit."""
     x = before + step
     bound = where(x < 0.0, 0.0, where(x > top, top, x))
@@ -260,16 +262,16 @@ def _part(active, before, step, top):
 
 
 @elementwise
-def _side_met(number, first, active, pull):
+def _side_met(number: Number, first: Number, active: Number, pull: Number) -> Number:
     return where(number == first, where(pull < 0.0, -1.0, 1.0), active)
 
 
 @elementwise
-def _at_side(number, first, kept, side, top):
+def _at_side(number: Number, first: Number, kept: Number, side: Number, top: Number) -> Number:
     return where(number == first, where(side < 0.0, 0.0, top), kept)
 
 
-def _advanced(p: BoundedProblem, now: AllocationState, pull: Any) -> Any:
+def _advanced(p: BoundedProblem, now: AllocationState, pull: PerRotor) -> tuple[AllocationState, Condition]:
     """(The step as far as the first limit that a free rotor meets, and that rotor held; whether there is one)."""
     step, numbers = pull * (1.0 / GAMMA), _numbered(pull)
     share, first = 1.0, -1.0
@@ -282,13 +284,13 @@ def _advanced(p: BoundedProblem, now: AllocationState, pull: Any) -> Any:
 
 
 @elementwise
-def _inward(active, pull, size, limit):
+def _inward(active: Number, pull: Number, size: Number, limit: Number) -> Number:
     """How hard a held rotor pulls back into its limits, 0 within rounding."""
     inward = -active * pull
     return where(limit > 0.0, where(inward > 4.0 * ROUNDING * size, inward, 0.0), 0.0)
 
 
-def _held_in_vain(p: BoundedProblem, active: Any, r: WrenchVector, pull: Any) -> Any:
+def _held_in_vain(p: BoundedProblem, active: PerRotor, r: WrenchVector, pull: PerRotor) -> Number:
     """The number of the held rotor that pulls hardest back into its limits; −1 if none does, beyond rounding."""
     sizes = [absolute(row * x) for row, x in zip(p.rows, r, strict=True)]
     inward = _inward(active, pull, sizes[0] + sizes[1] + sizes[2] + sizes[3], p.limits)
@@ -299,11 +301,11 @@ def _held_in_vain(p: BoundedProblem, active: Any, r: WrenchVector, pull: Any) ->
 
 
 @elementwise
-def _released(number, free, active):
+def _released(number: Number, free: Number, active: Number) -> Number:
     return where(number == free, 0.0, active)
 
 
-def _either(condition: Any, a: AllocationState, b: AllocationState) -> AllocationState:
+def _either(condition: Condition, a: AllocationState, b: AllocationState) -> AllocationState:
     return AllocationState(where(condition, a.active, b.active), where(condition, a.thrusts, b.thrusts))
 
 
@@ -330,7 +332,7 @@ def searched(p: BoundedProblem, s: Search) -> Search:
     return Search(AllocationState(active, after.thrusts), s.opening * (1.0 - still), again, ended)
 
 
-def begun(limits: Any, held: AllocationState) -> Search:
+def begun(limits: PerRotor, held: AllocationState) -> Search:
     """The search from a working set and thrusts, of any size, made feasible."""
     return Search(placed(limits, held), 1.0, 0.0, 0.0)
 

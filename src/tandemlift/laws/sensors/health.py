@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Quat, Vec3, dot, total
+from tandemlift.common.faults import SYMPTOMS
 from tandemlift.common.sensors import SENSORS, Sensor
 from tandemlift.laws.sensors.readings import Readings
 
-FROZEN, NO_NUMBER, OUT_OF_RANGE = 1.0, 2.0, 3.0
-KINDS = ("frozen", "not a number", "out of range")
+FROZEN, NO_NUMBER, OUT_OF_RANGE = (1.0 + i for i in range(len(SYMPTOMS)))
 UNIT_NORM = 0.05  # by which an attitude's norm may differ from 1
 
 
@@ -52,7 +52,7 @@ class SensorHealth(NamedTuple):
     """Memory of one sensor.
 
     `identical`: samples in a row that equal the one before. `invalid_time` [s]: since the last valid sample. `failure`:
-    what is wrong with the last sample (`KINDS`, from 1), 0 for nothing.
+    what is wrong with the last sample (`SYMPTOMS`, from 1), 0 for nothing.
     """
 
     identical: Any

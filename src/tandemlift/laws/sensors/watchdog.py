@@ -104,7 +104,7 @@ class WatchdogState(NamedTuple):
 
 
 class WatchdogReport(NamedTuple):
-    """What is wrong: 1 or 0, or what is wrong with a sensor (`KINDS`, from 1; 0 for nothing).
+    """What is wrong: 1 or 0, or what is wrong with a sensor (`SYMPTOMS`, from 1; 0 for nothing).
 
     `imu` and `motion`: stale. `seen`: 1 once both devices have sent a sample.
     """
@@ -136,7 +136,7 @@ class PredictedReadings(NamedTuple):
 
 @law
 def lost(k: Watchdog, h: SensorHealth, limits: Any) -> Any:
-    """What is wrong with a sensor that is lost (`KINDS`, from 1), or 0."""
+    """What is wrong with a sensor that is lost (`SYMPTOMS`, from 1), or 0."""
     invalid = where(h.invalid_time >= k.invalid_time, h.failure, 0.0)
     return where(h.failure > 0.0, invalid, where(h.identical >= limits.frozen_samples, FROZEN, 0.0))
 

@@ -6,9 +6,10 @@ Computer-Controlled Systems.
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.types import Number
 
 REST = 1e-200  # of any unit: far below what matters, and lost beside what is above 1e-184
 
@@ -16,27 +17,27 @@ REST = 1e-200  # of any unit: far below what matters, and lost beside what is ab
 class LowPass(NamedTuple):
     """The transition of (y − u, ẏ) over one step."""
 
-    value_from_value: Any
-    value_from_rate: Any
-    rate_from_value: Any
-    rate_from_rate: Any
+    value_from_value: Number
+    value_from_rate: Number
+    rate_from_value: Number
+    rate_from_rate: Number
 
 
 class LowPassState(NamedTuple):
     """Memory of a low-pass, of a number, a vector or a set: y and ẏ."""
 
-    value: Any
-    rate: Any
+    value: Number
+    rate: Number
 
 
 @elementwise
-def at_rest(x):
+def at_rest(x: Number) -> Number:
     """x, or 0 where it is below 1e-216: what fades ends, and not in denormal numbers, which are slow."""
     return (x + REST) - REST
 
 
 @law
-def smooth(k: LowPass, memory: LowPassState, held: Any) -> LowPassState:
+def smooth(k: LowPass, memory: LowPassState, held: Number) -> LowPassState:
     """The memory after a step over which the input was `held`."""
     off = memory.value - held
     return LowPassState(

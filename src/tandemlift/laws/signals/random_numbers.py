@@ -8,12 +8,13 @@ Words are integers below 2³². Products of two wrap in compiled 64-bit integers
 both are the same. The laws here take single numbers, not arrays: a loop over flights calls them for each.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import cos, log, sin, sqrt
+from tandemlift.algebra.types import Number
 
 MASK = 0xFFFFFFFF
 MULTIPLIER = (0xD2511F53, 0xCD9E8D57)
@@ -25,27 +26,27 @@ TURN = 6.283185307179586  # 2π
 class Words(NamedTuple):
     """Four 32-bit words: a counter, or what Philox makes of it."""
 
-    first: Any
-    second: Any
-    third: Any
-    fourth: Any
+    first: Number
+    second: Number
+    third: Number
+    fourth: Number
 
 
 class Scramble(NamedTuple):
     """Words between two rounds of Philox, and the two words of the key for the next."""
 
     words: Words
-    key0: Any
-    key1: Any
+    key0: Number
+    key1: Number
 
 
 class Normals(NamedTuple):
     """Four independent standard normal numbers."""
 
-    first: Any
-    second: Any
-    third: Any
-    fourth: Any
+    first: Number
+    second: Number
+    third: Number
+    fourth: Number
 
 
 def keys_of(seed: int) -> tuple[float, float]:
@@ -75,25 +76,25 @@ def five_rounds(s: Scramble) -> Scramble:
 
 
 @law
-def philox(counter: Words, key0: Any, key1: Any) -> Words:
+def philox(counter: Words, key0: Number, key1: Number) -> Words:
     """Philox4x32-10: four words from a counter under a key, all integers."""
     return five_rounds(five_rounds(Scramble(counter, key0, key1))).words
 
 
 @law
-def radius(word: Any) -> Any:
+def radius(word: Number) -> Number:
     """√(−2 ln u), u the middle of one of 2³² equal parts of (0, 1), so never 0: at most 6.77."""
     return sqrt(-2.0 * log((word + 0.5) * WORD))
 
 
 @law
-def angle(word: Any) -> Any:
+def angle(word: Number) -> Number:
     """2π u [rad], u as above."""
     return (word + 0.5) * (TURN * WORD)
 
 
 @law
-def normals(step: Any, draw: Any, key0: Any, key1: Any) -> Normals:
+def normals(step: Number, draw: Number, key0: Number, key1: Number) -> Normals:
     """Four standard normal numbers, the same whenever and wherever they are asked for.
 
     Args:

@@ -4,10 +4,11 @@ x_d, y_d = T_r; z_d = (T_r,z + height · q(lift)) (1 − q(land)), with exact de
 smoothstep 10 s³ − 15 s⁴ + 6 s⁵ on [0, 1].
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Vec3
 
 
@@ -27,32 +28,32 @@ class Reference(NamedTuple):
     """
 
     trajectory: Trajectory
-    yaw: Any
-    yaw_rate: Any = 0.0
-    yaw_acceleration: Any = 0.0
+    yaw: Number
+    yaw_rate: Number = 0.0
+    yaw_acceleration: Number = 0.0
     lead: Vec3 = ZERO
 
 
 class ScheduledPhases(NamedTuple):
     """Lift to `height` [m] from `lift_start` [s], land from `land_start`; rates are 1/duration [1/s], 0 for never."""
 
-    height: Any
-    lift_start: Any
-    lift_rate: Any
-    land_start: Any
-    land_rate: Any
+    height: Number
+    lift_start: Number
+    lift_rate: Number
+    land_start: Number
+    land_rate: Number
 
 
 class SmoothStep(NamedTuple):
     """A smooth step from 0 to 1 with its first and second time derivatives."""
 
-    value: Any
-    rate: Any
-    curvature: Any
+    value: Number
+    rate: Number
+    curvature: Number
 
 
 @law
-def smoothstep(t: Any, start: Any, rate: Any) -> SmoothStep:
+def smoothstep(t: Number, start: Number, rate: Number) -> SmoothStep:
     """q((t − start) rate) and its time derivatives [1/s, 1/s²]."""
     s = clip((t - start) * rate, 0.0, 1.0)
     return SmoothStep(
@@ -63,7 +64,7 @@ def smoothstep(t: Any, start: Any, rate: Any) -> SmoothStep:
 
 
 @law
-def reference(p: ScheduledPhases, T: Trajectory, t: Any) -> Trajectory:
+def reference(p: ScheduledPhases, T: Trajectory, t: Number) -> Trajectory:
     """The desired trajectory of the centre of mass at time t [s], world axes."""
     lift = smoothstep(t, p.lift_start, p.lift_rate)
     land = smoothstep(t, p.land_start, p.land_rate)

@@ -9,10 +9,10 @@ import math
 from collections.abc import Iterator, Sequence
 
 from tandemlift.common.errors import InputError
-from tandemlift.laws.guidance.phases import GUIDED, HOLD, NAMES
-from tandemlift.live.session.recorded_flight import RecordedFlight
+from tandemlift.common.phases import GUIDED, HOLD, PHASE_NAMES
 from tandemlift.live.wire.scene import SceneVehicle
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
 TARE_NOTICE = 1.0  # s, from the request until a tare begins: to prepare it, and to let go
@@ -75,7 +75,7 @@ def check_may_tare(flight: RecordedFlight, phase: str) -> None:
     """
     if flight.now.estimator.tare == "clock":
         check_hands_off(flight)
-    if phase not in (NAMES[int(GUIDED)], NAMES[int(HOLD)]):
+    if phase not in (PHASE_NAMES[int(GUIDED)], PHASE_NAMES[int(HOLD)]):
         raise InputError(f"tare: only in the air, hovering; the phase is {phase}")
     if flight.hand.held or any(flight.hand.force):
         raise InputError("tare: hands off first")

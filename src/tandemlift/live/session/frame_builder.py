@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.common.types import Array
-from tandemlift.live.session.recorded_flight import FlightSetup
-from tandemlift.live.wire.frame_values import channel_columns, field_values
+from tandemlift.live.session.frame_values import channel_columns, field_values
+from tandemlift.live.session.scene_builder import scene_of
 from tandemlift.live.wire.frames import layout_for, pack_frames
-from tandemlift.live.wire.scene_builder import scene_of
-from tandemlift.missions import tables_of
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission, tables_of
+from tandemlift.simulation.recorded_flight import FlightSetup
 from tandemlift.vehicle import Vehicle
 
 
@@ -32,8 +31,8 @@ class FrameBuilder:
     def __init__(self, mission: Mission, engine: str, setup: FlightSetup) -> None:
         self.scene = scene_of(mission, engine)
         self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
-        self._phases, self._columns = tables_of(mission)["phases"], channel_columns(setup.p.sample)
-        self._start = setup.p.flying.moving.state
+        self._phases, self._columns = tables_of(mission)["phases"], channel_columns(setup.plan.sample)
+        self._start = setup.plan.flying.moving.state
 
     def values(self, sample: Array, at: float) -> dict[str, Array]:
         """The values of the fields in a sample, at a time [s]."""

@@ -7,9 +7,9 @@ from typing import Any
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.live.session.checks import check_touch
-from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.live.wire.page_messages import AskMessage, ForceMessage, GrabMessage, MoveMessage
 from tandemlift.live.wire.scene import SceneVehicle
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 REQUEST_TIME = 0.2  # s, for which a request to lift or to land is held
 

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from tandemlift.common.errors import FlightWarning, InputError
-from tandemlift.missions import changed
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission, changed
 
 MAX_DURATION = 3600.0  # s
 NEVER = 1e6  # s

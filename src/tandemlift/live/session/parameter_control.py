@@ -11,12 +11,11 @@ from typing import Any
 from tandemlift.common.errors import InputError
 from tandemlift.live.session.checks import TARE, check_in_time, tare_start_for
 from tandemlift.live.session.interactive_mission import NEVER
-from tandemlift.live.session.recorded_flight import RecordedFlight
 from tandemlift.live.session.tunable_parameters import BY_KEY, CHOICES, CONTROLLER, bounds_of, keys_of, value_of
 from tandemlift.live.wire.server_messages import Answer, ChangedMessage, RefusedMessage
-from tandemlift.missions import tables_of
+from tandemlift.missions import Mission, tables_of
 from tandemlift.missions.values import MISSING, shown
-from tandemlift.settings import Mission
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RAMP = 0.5  # s, within which a parameter goes to its new value
 

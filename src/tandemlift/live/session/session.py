@@ -15,7 +15,8 @@ from typing import Any
 
 from tandemlift.algebra.vector import Quat
 from tandemlift.common.errors import InputError
-from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.common.faults import ALARM_TEXTS
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
 from tandemlift.live.session.checks import check_may_tare, check_takes_requests, failed_rotors
 from tandemlift.live.session.frame_builder import FrameBuilder
@@ -24,14 +25,13 @@ from tandemlift.live.session.interactive_mission import interactive_mission, wit
 from tandemlift.live.session.pacing import Pacer, RealTimeThread
 from tandemlift.live.session.parameter_control import ParameterControl
 from tandemlift.live.session.preparation import Preparation
-from tandemlift.live.session.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.live.session.saving import save_in_process
 from tandemlift.live.session.tunable_parameters import CHOICES, parameters_of
 from tandemlift.live.wire import page_messages as page
 from tandemlift.live.wire.scene import FlightScene, SceneSpring
-from tandemlift.live.wire.scene_builder import alarm_names
 from tandemlift.live.wire.server_messages import Answer, DoneMessage, FlightStatus, SceneMessage
-from tandemlift.settings import Mission
+from tandemlift.missions import Mission
+from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
 
 log = logging.getLogger(__name__)
@@ -59,7 +59,7 @@ class Session:
         self._lock, self.pacer = threading.RLock(), Pacer(mission.mission.step)
         self._thread = RealTimeThread(self.pacer, self._lock, self._is_prepared, self._fly)
         self._parameters = ParameterControl(self._mission, self._lock)
-        self._alarms, self._failed = alarm_names(), False
+        self._failed = False
         self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
         self._flight: RecordedFlight
         self._hand: HandControl
@@ -158,7 +158,7 @@ class Session:
             most, pacer.most_behind = pacer.most_behind, 0.0
             return FlightStatus(
                 phase=self._phase(int(values["phase"][0])),
-                alarm=self._alarms[int(values["alarm"][0])] if "alarm" in values else "",
+                alarm=ALARM_TEXTS[int(values["alarm"][0])] if "alarm" in values else "",
                 enabled=bool(flight.hand.enabled),
                 paused=pacer.paused,
                 speed=pacer.speed,
@@ -173,7 +173,7 @@ class Session:
 
     def _phase(self, number: int) -> str:
         ends = {"failed": self._failed, "lost": self._flight.lost, "over": self._flight.over}
-        return next((name for name, true in ends.items() if true), NAMES[number])
+        return next((name for name, true in ends.items() if true), PHASE_NAMES[number])
 
     # messages
 

@@ -8,9 +8,8 @@ from typing import Any, NamedTuple
 from tandemlift.controllers import CONTROLLERS
 from tandemlift.live.wire.scene import SceneParameter
 from tandemlift.live.wire.server_messages import MAX_FORCE, STIFFNESS, THRESHOLD
-from tandemlift.missions import tables_of
+from tandemlift.missions import Mission, tables_of
 from tandemlift.missions.values import MISSING, value_at
-from tandemlift.settings import Mission
 
 EVERY = "vehicle.quadrotors.each."  # begins the key of a parameter that all quadrotors share
 

@@ -12,7 +12,7 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import AfterValidator, Field
 
-from tandemlift.laws.guidance.phases import NAMES
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.settings.leaves import must
 
 MAX_WORD = 100  # characters of a key or of a word
@@ -67,5 +67,5 @@ Metres = Annotated[float, "m"]
 Newtons = Annotated[float, "N"]
 Seconds = Annotated[float, "s"]
 ParameterValue = float | bool | str | list[float]
-Phase = Annotated[str, OneOf("Phase", (*NAMES, PREPARING, *ENDS))]
+Phase = Annotated[str, OneOf("Phase", (*PHASE_NAMES, PREPARING, *ENDS))]
 JsonObject = dict[str, Any]

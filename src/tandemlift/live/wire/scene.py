@@ -55,7 +55,7 @@ class SceneQuadrotor(TypedDict):
 
 
 class ScenePayload(TypedDict):
-    """The payload: a beam, or a box if it has no length of its own."""
+    """The payload as drawn: a beam along body y."""
 
     position: BodyPosition
     length: Metres

@@ -1,0 +1,191 @@
+"""Contact of the compiled body: loads of floor and walls on its parts, and what they do to its motion and readings.
+
+What a mission does not have is `Nothing`, and costs nothing. What is out of reach for a step (`DistantFloor`,
+`DistantWalls`) gives zero loads, added like any other.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import choice
+from tandemlift.algebra.vector import ZERO, Nothing
+from tandemlift.laws.mechanics.body import RigidBody, State
+from tandemlift.laws.mechanics.contact import Floor, slip, touch
+from tandemlift.laws.mechanics.inertia import turn_by
+from tandemlift.laws.mechanics.loads import (
+    PartLoad,
+    PartLoads,
+    PartsLayout,
+    PerfectReadings,
+    of_quadrotors,
+    plus_zero,
+    resultant,
+    under,
+)
+from tandemlift.laws.mechanics.walls import Walls, press
+from tandemlift.laws.rotors.allocation import Mixer
+
+NO_LOAD = PartLoad(ZERO, ZERO)
+
+
+class CompiledPlant(NamedTuple):
+    """The true body: effect of the rotor thrusts, mass and inertia, parts, floor and walls."""
+
+    effect: Mixer
+    body: RigidBody
+    frame: PartsLayout
+    floor: Any
+    walls: Any
+
+
+class BodySurroundings(NamedTuple):
+    """What is held during a step: the plant, loads of the air, the feet's grip, the nearest walls."""
+
+    plant: CompiledPlant
+    air: Any
+    grip: Any
+    near: Any
+
+
+class DistantFloor(NamedTuple):
+    """A floor out of reach for some steps: the same numbers, without force."""
+
+    floor: Floor
+
+
+class DistantWalls(NamedTuple):
+    """Walls out of reach for a step: the same numbers, without force."""
+
+    walls: Walls
+
+
+class ZeroLoad(NamedTuple):
+    """The load of what is out of reach: zero, added like any other, so that the flight is the same to the last bit."""
+
+
+def without_contact(plant: CompiledPlant) -> CompiledPlant:
+    """The same body, with floor and walls out of reach."""
+    floor, walls = plant.floor, plant.walls
+    return plant._replace(
+        floor=floor if isinstance(floor, Nothing) else DistantFloor(floor),
+        walls=walls if isinstance(walls, Nothing) else DistantWalls(walls),
+    )
+
+
+@choice(absent="floor")
+def floor_loads(floor: Any, b: BodySurroundings, s: State) -> Any:
+    """Loads of the floor on the quadrotors, or `Nothing`."""
+
+
+@floor_loads.register(DistantFloor)
+def _floor_out_of_reach(floor: DistantFloor, b: BodySurroundings, s: State) -> ZeroLoad:
+    return ZeroLoad()
+
+
+@floor_loads.register(Floor)
+def _floor(floor: Floor, b: BodySurroundings, s: State) -> Any:
+    return touch(floor, b.grip, b.plant.frame, s)
+
+
+@choice(absent="walls")
+def wall_loads(walls: Any, b: BodySurroundings, s: State) -> Any:
+    """Loads of the walls on all parts, or `Nothing`."""
+
+
+@wall_loads.register(DistantWalls)
+def _walls_out_of_reach(walls: DistantWalls, b: BodySurroundings, s: State) -> ZeroLoad:
+    return ZeroLoad()
+
+
+@wall_loads.register(Walls)
+def _walls(walls: Walls, b: BodySurroundings, s: State) -> Any:
+    return press(walls, b.near, b.plant.frame, s)
+
+
+@choice(absent="load")
+def load_about_center(load: Any, frame: PartsLayout, attitude: Any) -> Any:
+    """A load about the centre of mass: of everything, of the quadrotors (vectors of sets), or `Nothing`."""
+
+
+@load_about_center.register(PartLoads)
+def _of_all_parts(load: PartLoads, frame: PartsLayout, attitude: Any) -> PartLoad:
+    return resultant(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
+
+
+@load_about_center.register(PartLoad)
+def _of_quadrotors(load: PartLoad, frame: PartsLayout, attitude: Any) -> PartLoad:
+    return of_quadrotors(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
+
+
+@load_about_center.register(ZeroLoad)
+def _of_no_contact(load: ZeroLoad, frame: PartsLayout, attitude: Any) -> PartLoad:
+    return NO_LOAD
+
+
+@choice(absent="rate")
+def with_load(load: Any, body: RigidBody, rate: State) -> Any:
+    """The motion with a further load about the centre of mass."""
+
+
+@with_load.register(PartLoad)
+def _with_load(load: PartLoad, body: RigidBody, rate: State) -> State:
+    turned = turn_by(body.inverse_inertia, load.moment)
+    return State(rate.position, rate.velocity + load.force * body.inverse_mass, rate.attitude, rate.rates + turned)
+
+
+@choice(absent="loads")
+def quadrotor_loads(loads: Any) -> Any:
+    """The part of loads that acts on the quadrotors, or `Nothing`."""
+
+
+@quadrotor_loads.register(PartLoads)
+def _of_parts(loads: PartLoads) -> Any:
+    return loads.quadrotors
+
+
+@quadrotor_loads.register(PartLoad)
+def _of_quadrotors_alone(loads: PartLoad) -> PartLoad:
+    return loads
+
+
+@quadrotor_loads.register(ZeroLoad)
+def _of_zero(loads: ZeroLoad) -> ZeroLoad:
+    return loads
+
+
+@under.register(ZeroLoad)
+def _unloaded(load: ZeroLoad, frame: PartsLayout, attitude: Any, readings: PerfectReadings) -> PerfectReadings:
+    return PerfectReadings(
+        readings.specific_force,
+        plus_zero(readings.joint_force),
+        plus_zero(readings.joint_torque),
+        readings.contact_force,
+    )
+
+
+@choice(absent="readings")
+def with_contact_force(load: Any, readings: PerfectReadings) -> Any:
+    """`readings`, with the force of a contact about the centre of mass."""
+
+
+@with_contact_force.register(PartLoad)
+def _with_contact(load: PartLoad, readings: PerfectReadings) -> PerfectReadings:
+    return PerfectReadings(
+        readings.specific_force, readings.joint_force, readings.joint_torque, readings.contact_force + load.force
+    )
+
+
+@choice(absent="grip")
+def grip_after(floor: Any, grip: Any, s: State) -> Any:
+    """The feet's grip at the end of a step."""
+
+
+@grip_after.register(DistantFloor)
+def _in_the_air(floor: DistantFloor, grip: Any, s: State) -> Any:
+    return grip
+
+
+@grip_after.register(Floor)
+def _feet(floor: Floor, grip: Any, s: State) -> Any:
+    return slip(floor, grip, s)

@@ -1,0 +1,41 @@
+"""Photographs of a flight from the cameras of a world, side by side, each with its letter, title and time."""
+# paper: fig9
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+
+import matplotlib.image
+from matplotlib.figure import Figure
+
+from tandemlift.figures.drawing.figure import Caption
+from tandemlift.figures.drawing.style import PAGE, styled
+
+CAPTION = Caption(
+    "Photographs",
+    "The flight as seen by cameras in Gazebo.",
+    "Photographs of the vehicle in its surroundings, each with its letter, what it shows, and the time.",
+)
+ACROSS = 2  # pictures side by side
+HEAD = 0.24  # in, over each picture
+
+
+@styled
+def draw(pictures: Sequence[tuple[str, bytes]]) -> Figure:
+    """Draw pictures, each with its title.
+
+    Args:
+        pictures: title and JPEG of each, all of one size.
+    """
+    shown = [matplotlib.image.imread(io.BytesIO(jpeg), format="jpeg") for _, jpeg in pictures]
+    rows = -(-len(shown) // ACROSS)
+    height, width = shown[0].shape[:2]
+    figure = Figure(figsize=(PAGE, rows * (HEAD + PAGE / ACROSS * height / width)), layout="constrained")
+    axes = figure.subplots(rows, ACROSS, squeeze=False)
+    for letter, ax, image, (title, _) in zip("abcdefgh", axes.flat, shown, pictures, strict=False):
+        ax.imshow(image, interpolation="lanczos")
+        ax.set_title(f"({letter}) {title}", fontsize=8.5, pad=3)
+    for ax in axes.flat:
+        ax.set_axis_off()
+    return figure

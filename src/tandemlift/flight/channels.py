@@ -1,0 +1,185 @@
+"""The channels of a flight: what each holds, its unit, its frame, its width, and the missions that have it.
+
+This is the only list of channels. Tables, bags, CSV files and the tables in docs/flights.md are made from it. The laws
+in `loop.log_sample` give the values, in the same order. CONTRIBUTING.md says how to add a channel.
+
+Frames: `world` is inertial with z up; `body` is fixed to the vehicle; `zxy` are Euler angles roll, pitch, yaw.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from tandemlift.common.phases import PHASE_NUMBERS
+from tandemlift.common.sensors import ADDITIONAL
+
+
+class Channel(NamedTuple):
+    """What a channel holds.
+
+    Attributes:
+        unit: of its numbers, "1" for none.
+        frame: in which they are, "" if they have no direction.
+        meaning: in a few words.
+        width: how many numbers a sample has, for each `per`.
+        per: `rotor` or `quadrotor` if a sample has `width` numbers for each of them, one after another; else "".
+    """
+
+    unit: str
+    frame: str
+    meaning: str
+    width: int = 3
+    per: str = ""
+
+    def columns(self, quadrotors: int, rotors: int) -> int:
+        """How many numbers a sample has on a vehicle of so many quadrotors, with so many rotors in all."""
+        return self.width * {"": 1, "quadrotor": quadrotors, "rotor": rotors}[self.per]
+
+
+class ChannelGroup(NamedTuple):
+    """Channels that are there together: `when` the mission has them, in Markdown, a note on them, and the channels."""
+
+    when: str
+    channels: dict[str, Channel]
+    note: str = ""
+
+
+GROUPS: tuple[ChannelGroup, ...] = (
+    ChannelGroup(
+        "In every flight",
+        {
+            "position": Channel("m", "world", "position of the vehicle's centre of mass"),
+            "velocity": Channel("m/s", "world", "velocity of the centre of mass"),
+            "attitude": Channel("1", "body to world", "unit quaternion w, x, y, z", 4),
+            "euler": Channel("rad", "zxy", "roll, pitch, yaw"),
+            "rates": Channel("rad/s", "body", "angular velocity p, q, r"),
+            "reference_position": Channel("m", "world", "reference that the position law tracks"),
+            "reference_velocity": Channel("m/s", "world", "derivative of reference_position"),
+            "reference_acceleration": Channel("m/s^2", "world", "derivative of reference_velocity"),
+            "reference_euler": Channel(
+                "rad", "zxy", "reference that the attitude law tracks, filtered if it has a filter"
+            ),
+            "admittance_position": Channel("m", "world", "T_r, response of the admittance to the push"),
+            "admittance_velocity": Channel("m/s", "world", "derivative of admittance_position"),
+            "admittance_acceleration": Channel(
+                "m/s^2", "world", "derivative of admittance_velocity, constant over a step"
+            ),
+            "admittance_force": Channel("N", "world", "push after the gate; 0 while the gate is closed"),
+            "push_force": Channel("N", "world", "force of the person on the vehicle"),
+            "push_moment": Channel("N m", "body", "moment of the person about the centre of mass"),
+            "thrust": Channel("N", "body z", "commanded total thrust U1", 1),
+            "moment": Channel("N m", "body", "commanded moments U2, U3, U4"),
+            "rotor_thrusts": Channel("N", "body z", "thrust of each rotor, quadrotor by quadrotor", 1, "rotor"),
+            "joint_force": Channel("N", "body", "force of each quadrotor on the payload at its joint", 3, "quadrotor"),
+            "joint_torque": Channel(
+                "N m", "body", "torque of each quadrotor on the payload at its joint", 3, "quadrotor"
+            ),
+        },
+    ),
+    ChannelGroup(
+        'With real rotors (`actuators.model = "rotors"`)',
+        {
+            "rotor_commands": Channel("N", "body z", "commanded thrust of each rotor", 1, "rotor"),
+            "allocated_thrust": Channel("N", "body z", "U1 that the rotor commands give within the rotors' limits", 1),
+            "allocated_moment": Channel("N m", "body", "U2, U3, U4 that the rotor commands give within the limits"),
+            "allocation_fraction": Channel("1", "", "fraction of the commanded wrench that is given, 0 to 1", 1),
+        },
+    ),
+    ChannelGroup(
+        'With wind (`wind.model = "air"`)',
+        {
+            "wind_velocity": Channel("m/s", "world", "velocity of the air"),
+            "wind_force": Channel("N", "world", "force of the air on all parts together"),
+        },
+    ),
+    ChannelGroup(
+        'With a floor (`ground.model = "floor"`)',
+        {"contact_force": Channel("N", "world", "force of floor and walls on the vehicle")},
+    ),
+    ChannelGroup(
+        'With sensors (`sensors.model = "simulated"`)',
+        {
+            "measured_position": Channel("m", "world", "motion capture reading of position"),
+            "measured_velocity": Channel("m/s", "world", "motion capture reading of velocity"),
+            "measured_attitude": Channel(
+                "1", "body to world", "motion capture reading of attitude, quaternion w, x, y, z", 4
+            ),
+            "measured_rates": Channel("rad/s", "body", "gyroscope reading"),
+            "measured_specific_force": Channel(
+                "m/s^2", "body", "accelerometer reading, at the payload's centre of mass"
+            ),
+            "measured_joint_force": Channel("N", "body", "force reading at each joint, as joint_force", 3, "quadrotor"),
+            "measured_joint_torque": Channel("N m", "body", "torque reading at each joint", 3, "quadrotor"),
+            "estimated_position": Channel("m", "world", "estimated position of the vehicle's centre of mass"),
+            "estimated_velocity": Channel("m/s", "world", "estimated velocity of the centre of mass"),
+            "estimated_attitude": Channel("1", "body to world", "estimated attitude, quaternion w, x, y, z", 4),
+            "estimated_rates": Channel("rad/s", "body", "gyroscope reading less its estimated bias"),
+            "push_measured": Channel("N", "world", "push from the latest joint readings, before the low-pass filter"),
+            "push_estimate": Channel(
+                "N", "world", "estimated push, after the low-pass filter; 0 until the tare is over"
+            ),
+            "push_moment_estimate": Channel("N m", "body", "moment of the push about the payload's centre of mass"),
+            "push_point_estimate": Channel(
+                "m", "body y", "where on the beam the push acts; 0 while it is too small to tell", 1
+            ),
+            "payload_mass_estimate": Channel("kg", "", "payload mass; the tare identifies it where asked to", 1),
+            "sensor_disagreement": Channel("N", "body", "error of one joint sensor that would explain the readings", 1),
+            "push_usable": Channel("1", "", "1 while the push is estimated and the joint sensors agree, else 0", 1),
+        },
+        "A measured value is the one that the pilot has at that time, taken a step before or earlier; estimates come "
+        "from such values.",
+    ),
+    ChannelGroup(
+        "With a disturbance observer (`observer.model`)",
+        {
+            "disturbance_force": Channel("N", "world", "estimated force besides rotors, weight and person"),
+            "disturbance_moment": Channel("N m", "body", "estimated moment besides these, about the centre of mass"),
+            "disturbance_residual": Channel(
+                "m/s^2", "world", "estimation error δ − δ̂ of translation; must stay below λ₂"
+            ),
+            "disturbance_angular_residual": Channel(
+                "rad/s^2", "body", "estimation error δ − δ̂ of rotation; must stay below λ₂"
+            ),
+        },
+    ),
+    ChannelGroup(
+        'Guided by hand (`pilot.guidance = "hand"`)',
+        {
+            "phase": Channel("1", "", PHASE_NUMBERS, 1),
+            "push_filtered": Channel("N", "world", "push after the pilot's low-pass filter, less its bias"),
+            "push_active": Channel("1", "world", "1 while the pilot follows the push along an axis, else 0"),
+            "added_damping": Channel("N s/m", "", "damping that is added to keep the compliance passive", 1),
+            "reference_yaw_rate": Channel("rad/s", "world", "derivative of the yaw reference", 1),
+        },
+    ),
+    ChannelGroup(
+        'Guided by hand under supervision (`supervision.model = "watch"`)',
+        {
+            "alarm": Channel("1", "", "number of the fault reacted to, as in docs/safety.md; 0 for none", 1),
+            "failed_check": Channel("1", "", "number of the check that fails, as in docs/safety.md; 0 for none", 1),
+        },
+    ),
+    ChannelGroup(
+        'With detection of a lost rotor (`detection.model = "residual"`)',
+        {"failed_rotor": Channel("1", "", "number of the rotor that is taken for failed; 0 for none", 1)},
+    ),
+)
+
+CHANNELS: dict[str, Channel] = {name: channel for group in GROUPS for name, channel in group.channels.items()}
+TIME = Channel("s", "", "time", 1)
+OTHER = Channel("", "", "not one of tandemlift's own")
+
+DERIVED: dict[str, tuple[str, str, Channel]] = {
+    "position_error": ("reference_position", "position", Channel("m", "world", "desired minus actual")),
+    "velocity_error": ("reference_velocity", "velocity", Channel("m/s", "world", "desired minus actual")),
+    "attitude_error": ("reference_euler", "euler", Channel("rad", "zxy", "desired minus actual")),
+}
+"""Channels that are formed when they are asked for: the first less the second."""
+
+
+def channel_of(name: str) -> Channel:
+    """What a channel of that name holds; of an additional sensor, as it is registered."""
+    sensor = ADDITIONAL.get(name.removeprefix("measured_"))
+    if name in CHANNELS or sensor is None:
+        return CHANNELS.get(name, TIME if name == "time" else OTHER)
+    return Channel(sensor.unit, sensor.frame, f"reading of the {sensor.name}: {sensor.meaning}", sensor.width)

@@ -1,0 +1,49 @@
+"""The files of a flight: mission, channels, metrics, figures and report, written into one folder."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Progress
+from tandemlift.figures.registry import VIEWS, captions, save_figure, save_figures
+from tandemlift.flight.record import Flight
+from tandemlift.missions import format_toml
+from tandemlift.report.flight_report import write_report
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def write_flight_files(
+    flight: Flight,
+    folder: Path,
+    *,
+    figures: bool = True,
+    photographs: Figure | None = None,
+    progress: Progress | None = None,
+) -> None:
+    """Write mission.toml, flight.npz, metrics.json, figures/ and report.html; figures of an earlier flight are removed.
+
+    Args:
+        flight: a flight, also one that diverged.
+        folder: an existing folder.
+        figures: whether to draw the figures.
+        photographs: the photographs of a flight in Gazebo, if there are any.
+        progress: called after each figure with (figures written, figures in all).
+    """
+    with atomic_write(folder / "mission.toml") as partial:
+        partial.write_text(format_toml(flight.mission), "utf-8")
+    flight.save(folder / "flight.npz")
+    with atomic_write(folder / "metrics.json") as partial:
+        partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
+    for name in captions():
+        for kind in ("png", "pdf"):
+            (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
+    if figures:
+        save_figures(flight, folder / "figures", progress)
+    if photographs:
+        save_figure(photographs, folder / "figures" / f"{VIEWS}.png")
+    write_report(flight, folder / "figures", folder / "report.html")

@@ -1,0 +1,116 @@
+"""The channels of a flight: those of the parts that its mission has, each of its width, all of them in the table."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.algebra.vector import Nothing
+from tandemlift.flight.channel_tables import with_tables
+from tandemlift.flight.channels import CHANNELS, DERIVED
+from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
+from tandemlift.laws.guidance.guidance import HandGuidanceChannels
+from tandemlift.laws.guidance.supervision import SupervisionChannels
+from tandemlift.loop.estimate_channels import EstimatedChannels, MeasuredChannels
+from tandemlift.loop.log_sample import (
+    ActuatorChannels,
+    ContactChannels,
+    DetectionChannels,
+    DisturbanceChannels,
+    Sample,
+    WindChannels,
+)
+from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import RawResult, flight_of
+from tandemlift.trace import leaves
+
+GROUPS = {
+    "actuated": ActuatorChannels,
+    "air": WindChannels,
+    "contact": ContactChannels,
+    "measured": MeasuredChannels,
+    "additional": Nothing,
+    "estimated": EstimatedChannels,
+    "disturbed": DisturbanceChannels,
+    "guided": HandGuidanceChannels,
+    "supervised": SupervisionChannels,
+    "watched": DetectionChannels,
+}
+
+
+def channels_in(names):
+    """The channels that fields of a sample stand for, group by group, groups within groups too."""
+    return [channel for name in names for channel in (channels_in(GROUPS[name]._fields) if name in GROUPS else [name])]
+
+
+ALWAYS = [name for name in Sample._fields if name not in GROUPS]
+
+
+def test_a_step_logs_the_channels_of_the_record_and_no_others_in_its_order():
+    assert list(CHANNELS) == channels_in(Sample._fields)
+    assert len(CHANNELS) == sum(len(group.channels) for group in CHANNEL_GROUPS), "a name in two groups"
+    assert not set(DERIVED) & set(CHANNELS)
+
+
+def test_a_channel_says_its_unit_its_meaning_and_in_which_frame_a_vector_is():
+    assert all(channel.unit and channel.meaning for channel in CHANNELS.values())
+    assert [name for name, channel in CHANNELS.items() if channel.width > 1 and not channel.frame] == []
+    assert {channel.per for channel in CHANNELS.values()} == {"", "rotor", "quadrotor"}
+
+
+def test_the_tables_of_the_documents_are_made_from_the_record():
+    page = (Path(__file__).parent.parent / "docs" / "flights.md").read_text("utf-8")
+    assert page == with_tables(page), "run: python -m tandemlift.flight.channel_tables docs/flights.md"
+    assert all(f"| `{name}` |" in page for name in CHANNELS)
+
+
+def unflown(changes, count=2):
+    """The record of mission iris with changes and so many quadrotors, before anything was flown."""
+    quadrotor = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(exclude_none=True)
+    fleet = [quadrotor | {"position": [0.3 * i, 1.0, 0.075]} for i in range(count)]
+    p = FlightPlan(tl.load_mission("iris", {"vehicle.quadrotors": fleet, **changes}))
+    row = np.zeros(leaves(p.sample))
+    return flight_of(p, RawResult(p.flying.moving, EMPTY, 0, row[None], row, 0.0))
+
+
+BARE = {"pilot": {"state": "truth", "push": "truth"}, "phases.rotors": "always"}
+WHOLE = BARE | {"wind.model": "air", "supervision.model": "watch", "detection.model": "residual"}
+PARTS = {  # a part that a mission may have, what takes it out, and the group of channels that goes with it
+    "actuated": {"actuators.model": "ideal", "ground.effect": False},
+    "contact": {"ground": {"model": "none", "effect": False}},
+    "measured, estimated": {"sensors.model": "none"},
+    "air": {"wind.model": "none"},
+    "disturbed": {"observer.model": "none"},
+    "guided": {"pilot.guidance": "clock", "supervision.model": "none"},
+    "supervised": {"supervision.model": "none"},
+    "watched": {"detection.model": "none"},
+}
+
+
+@pytest.mark.parametrize("groups", PARTS)
+def test_channels_are_there_if_and_only_if_the_mission_has_their_part(groups):
+    whole = unflown(WHOLE)
+    without = unflown(WHOLE | PARTS[groups])
+    missing = channels_in(groups.split(", "))
+    assert list(whole) == list(CHANNELS)
+    assert list(without) == [name for name in CHANNELS if name not in missing]
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_all_channels_have_their_widths(count):
+    flight = unflown(WHOLE, count)
+    widths = {name: (1 if array.ndim == 1 else array.shape[1]) for name, array in flight.items()}
+    assert widths == {name: channel.columns(count, 4 * count) for name, channel in CHANNELS.items()}
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_channels_have_their_widths_for_any_number_of_quadrotors(count):
+    quadrotor = tl.load_mission("paper").vehicle.quadrotors[0].model_dump()
+    spread = [quadrotor | {"position": [0.3 * i, 1.0, 0.1]} for i in range(count)]
+    flight = tl.fly(tl.load_mission("flight-ready", {"vehicle.quadrotors": spread, "mission.duration": 0.05}))
+    widths = {name: (1 if array.ndim == 1 else array.shape[1]) for name, array in flight.items()}
+    assert widths == {name: CHANNELS[name].columns(count, 4 * count) for name in ALWAYS}
+    assert {len(array) for array in flight.values()} == {len(flight.time)} == {6}
+    assert np.allclose(flight["rotor_thrusts"].sum(axis=1), flight["thrust"], rtol=1e-12)

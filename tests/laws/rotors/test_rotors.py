@@ -1,0 +1,115 @@
+"""Real rotors: lag, limits, delay, faults and ground effect against their closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.rotors.dynamics import FreeAir, IdealRotors, NoFaults, RotorFaults, RotorState, drive, near_ground
+from tandemlift.laws.rotors.thrust_limits import share_scale
+from tandemlift.missions import load_mission
+from tandemlift.simulation.actuators import ground_effect_from, rotors_from
+from tandemlift.vehicle import Vehicle
+
+VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)
+UP, DOWN, CONSTANT, MOST = 0.0125, 0.025, 5.84e-6, 5.84e-6 * 1100.0**2
+LEVEL = State(Vec3(0.0, 0.0, 5.0), ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
+EIGHT = each(8)
+
+
+def rotors(step=0.001, *, late=False, faults=None, surface=None):
+    scale = share_scale(VEHICLE.effect)
+    return rotors_from(
+        VEHICLE, step, late=late, faults=faults or NoFaults(), surface=surface or FreeAir(), per_reach=scale
+    )
+
+
+def spun(command, speed, steps, step=0.001):
+    """Thrusts and speeds over steps under a held command [N], all rotors alike."""
+    r, memory = rotors(step), RotorState(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
+    thrusts, speeds = [], []
+    for k in range(steps):
+        thrust, memory = drive(r, memory, EIGHT(*(command,) * 8), LEVEL, k * step)
+        thrusts.append(thrust[3])
+        speeds.append(memory.speed[3])
+    return np.array(thrusts), np.array(speeds)
+
+
+@pytest.mark.parametrize("step", [0.0005, 0.001, 0.01])
+@pytest.mark.parametrize(("first", "last", "tau"), [(0.0, 900.0, UP), (1000.0, 300.0, DOWN)])
+def test_speed_follows_its_closed_form_up_and_down_at_any_step(step, first, last, tau):
+    _, speeds = spun(CONSTANT * last**2, first, 40, step)
+    t = step * np.arange(1, 41)
+    assert speeds == pytest.approx(last + (first - last) * np.exp(-t / tau), rel=1e-12)
+
+
+@pytest.mark.parametrize(("first", "last", "tau"), [(0.0, 900.0, UP), (1000.0, 300.0, DOWN)])
+def test_the_impulse_of_a_step_is_that_of_the_lag(first, last, tau):
+    thrusts, _ = spun(CONSTANT * last**2, first, 5, 0.004)
+
+    def thrust(t):
+        return CONSTANT * (last + (first - last) * math.exp(-t / tau)) ** 2
+
+    for k, mean in enumerate(thrusts):
+        impulse, _ = quad(thrust, 0.004 * k, 0.004 * (k + 1), epsabs=1e-14)
+        assert mean * 0.004 == pytest.approx(impulse, rel=1e-11)
+
+
+@pytest.mark.parametrize("command", [-5.0, 0.0, 3.0, MOST, 50.0, 1e9])
+def test_thrust_stays_within_limits_and_settles_there(command):
+    thrusts, _ = spun(command, 500.0, 800)
+    assert thrusts.min() >= 0.0
+    assert thrusts.max() <= MOST * (1.0 + 1e-12)
+    assert thrusts[-1] == pytest.approx(min(max(command, 0.0), MOST), abs=1e-9)
+
+
+def test_a_stopped_rotor_ends_at_rest_and_not_in_denormal_numbers():
+    _, speeds = spun(0.0, 1000.0, 12_000)
+    assert speeds[-1] < 1e-100
+    assert speeds.min() > 1e-150
+
+
+def test_a_late_command_is_the_one_that_arrives():
+    r = rotors(late=True)
+    arriving, given = EIGHT(*(5.0,) * 8), EIGHT(*(1.0,) * 8)
+    late, after = drive(r, RotorState(EIGHT(*(800.0,) * 8), arriving), given, LEVEL, 0.0)
+    at_once, _ = drive(rotors(), RotorState(EIGHT(*(800.0,) * 8), given), arriving, LEVEL, 0.0)
+    assert late == at_once
+    assert after.arriving == given
+
+
+def test_a_rotor_fails_at_its_time_and_keeps_its_share():
+    times, left = (
+        EIGHT(*[2.0 if i == 4 else 1e18 for i in range(8)]),
+        EIGHT(*[0.3 if i == 4 else 1.0 for i in range(8)]),
+    )
+    speed = math.sqrt(4.0 / CONSTANT)
+    r, memory = rotors(faults=RotorFaults(times, left)), RotorState(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
+    before, _ = drive(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 1.999)
+    after, _ = drive(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 2.0)
+    assert list(before) == pytest.approx([4.0] * 8, rel=1e-12)
+    assert list(after) == pytest.approx([4.0] * 4 + [1.2] + [4.0] * 3, rel=1e-12)
+
+
+@pytest.mark.parametrize("height", [0.1, 0.2, 0.5, 2.0])
+def test_thrust_near_the_floor_is_that_of_cheeseman_and_bennett(height):
+    surface, radius = ground_effect_from(VEHICLE, -1.0), 0.128
+    low = LEVEL._replace(position=Vec3(0.0, 0.0, height - 1.0 - float(VEHICLE.lever_arms[0, 2])))
+    assert list(near_ground(surface, low)) == pytest.approx(
+        [1.0 / (1.0 - (radius / (4.0 * height)) ** 2)] * 8, rel=1e-12
+    )
+
+
+def test_ground_effect_is_bounded_on_the_floor_and_gone_high_up():
+    surface = ground_effect_from(VEHICLE, 0.0)
+    on_it = near_ground(surface, LEVEL._replace(position=ZERO))
+    assert max(on_it) == pytest.approx(4.0 / 3.0, rel=1e-12)
+    assert max(near_ground(surface, LEVEL)) < 1.0001
+
+
+def test_ideal_rotors_give_any_thrust_at_once():
+    command = EIGHT(-3.0, 0.0, 100.0, *(1.0,) * 5)
+    assert drive(IdealRotors(), Nothing(), command, LEVEL, 0.0) == (command, Nothing())

@@ -1,0 +1,74 @@
+"""The documents tell the truth: their code runs, their tables are complete, their links lead somewhere."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from repository import ROOT
+
+import tandemlift as tl
+from tandemlift.cli.main import cli
+
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+CODE = [
+    ROOT / "README.md",
+    *[ROOT / "docs" / name for name in ("flights.md", "simulation.md")],
+]  # docs/controllers.md has tests of its own
+
+
+def blocks(path, language):
+    return re.findall(rf"^```{language}\n(.*?)^```", path.read_text("utf-8"), flags=re.M | re.S)
+
+
+@pytest.mark.parametrize("path", CODE, ids=lambda p: p.name)
+def test_every_block_of_python_runs(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = blocks(path, "python")
+    assert found
+    for block in found:
+        exec(compile(block, path.name, "exec"), {})
+
+
+def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
+    from click.testing import CliRunner
+
+    monkeypatch.chdir(tmp_path)
+    lines = [line for block in blocks(ROOT / "README.md", "sh") for line in block.splitlines()]
+    commands = [shlex.split(line, comments=True) for line in lines if line.startswith("tandemlift")]
+    waiting = ("live", "ros", "gazebo")  # which go on until they are stopped, or need Gazebo
+    commands = [c for c in commands if c[1] not in waiting]
+    assert len(commands) == 12
+    for _, *arguments in commands:
+        target = None
+        if ">" in arguments:
+            at = arguments.index(">")
+            arguments, target = arguments[:at], arguments[at + 1]
+        result = CliRunner().invoke(cli, [*arguments, *(["--no-figures"] if arguments[0] == "run" else [])])
+        assert result.exit_code == 0, result.output
+        if target:
+            Path(target).write_text(result.stdout, "utf-8")
+    assert (tmp_path / "out" / "mine" / "report.html").is_file()
+
+
+def test_the_makefile_has_the_targets_of_the_readme():
+    makefile = (ROOT / "Makefile").read_text("utf-8")
+    for target in re.findall(r"^make (\S+)", "\n".join(blocks(ROOT / "README.md", "sh")), flags=re.M):
+        assert re.search(rf"^{target}:", makefile, flags=re.M)
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)
+def test_links_within_the_project_lead_somewhere(path):
+    for target in re.findall(r"\]\((?!https?:)([^)#]+)", path.read_text("utf-8")):
+        assert (path.parent / target).exists(), target
+
+
+def test_the_table_of_metrics_names_every_metric():
+    text = (ROOT / "docs" / "flights.md").read_text("utf-8")
+    metrics = tl.fly(tl.load_mission("one-push")).metrics()
+    assert [name for name in metrics if f"`{name}`" not in text] == []
+
+
+def test_the_package_and_the_changelog_and_the_citation_are_of_one_version():
+    for name in ("CHANGELOG.md", "CITATION.cff"):
+        assert tl.__version__ in (ROOT / name).read_text("utf-8")

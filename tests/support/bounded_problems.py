@@ -1,0 +1,229 @@
+"""What the tests of allocation within limits share: vehicles, wrenches, the solver, two other ways to the optimum."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from law_values import BEAM, quadrotor
+from scipy.optimize import lsq_linear
+
+from tandemlift.algebra.vector import each, vec3
+from tandemlift.kernels.limit_solver import write_solver
+from tandemlift.kernels.traced_step import TracedSolver
+from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer
+from tandemlift.laws.rotors.thrust_limits import GAMMA, BoundedProblem, weighted_rows, weights_of
+from tandemlift.trace import Function, Module, Place, flat
+from tandemlift.trace.machine import BEST, QUICK, Loaded
+from tandemlift.trace.machine import compiled as object_code
+from tandemlift.vehicle import Vehicle
+
+PRIORITIES = (30.0, 900.0, 900.0, 1.0)
+LIMIT = 7.066  # N, of IRIS
+PLACES = {
+    1: [(0.0, 0.0)],
+    2: [(0.0, 1.0), (0.0, -1.0)],
+    3: [(0.9, 0.0), (-0.5, 0.8), (-0.5, -0.8)],
+    4: [(0.8, 0.8), (0.8, -0.8), (-0.8, 0.8), (-0.8, -0.8)],
+}
+VEHICLES = [(count, layout) for count in PLACES for layout in ("+", "x")]
+EVERY = pytest.mark.parametrize(("count", "layout"), VEHICLES)
+
+
+class Craft(NamedTuple):
+    """A vehicle, its effect B, what the pseudo-inverse asks for a wrench, and the weighted problem."""
+
+    vehicle: Vehicle
+    B: np.ndarray
+    inverse: np.ndarray
+    weights: np.ndarray
+    rows: np.ndarray
+
+
+class Problem(NamedTuple):
+    """A wanted wrench, what the pseudo-inverse asks for it, and the limits."""
+
+    wanted: np.ndarray
+    unlimited: np.ndarray
+    limits: np.ndarray
+
+
+class Answer(NamedTuple):
+    """Thrusts, working set, number of steps."""
+
+    f: np.ndarray
+    active: np.ndarray
+    steps: int
+
+
+def craft_of(v: Vehicle) -> Craft:
+    weights = weights_of(v.effect, PRIORITIES)
+    return Craft(v, v.effect, v.allocation(), weights, weighted_rows(v.effect, weights))
+
+
+@cache
+def craft(count: int, layout: str) -> Craft:
+    return craft_of(Vehicle(BEAM, [quadrotor((x, y, 0.075), layout=layout) for x, y in PLACES[count]]))
+
+
+def problem(c: Craft, wanted: Any, lost: Any = ()) -> Problem:
+    limits = np.full(c.B.shape[1], LIMIT)
+    limits[list(lost)] = 0.0
+    return Problem(np.array(wanted, float), c.inverse @ wanted, limits)
+
+
+def problems(c: Craft, number: int, seed: int = 0) -> Iterator[Problem]:
+    """Wrenches from hover to far out of reach; often one or two rotors lost, sometimes all weakened."""
+    rng, n = np.random.default_rng(seed), c.B.shape[1]
+    for _ in range(number):
+        far = rng.choice([0.3, 1.0, 4.0])
+        wanted = [c.vehicle.weight * rng.uniform(0.0, 2.0), *(rng.standard_normal(3) * [8.0, 3.0, 1.5] * far)]
+        p = problem(c, wanted, rng.choice(n, rng.choice([0, 0, 0, 1, 2]), replace=False))
+        yield p if rng.random() < 0.8 else p._replace(limits=p.limits * rng.uniform(0.0, 1.0, n))
+
+
+def wrench_of(values: Any) -> Wrench:
+    return Wrench(float(values[0]), vec3(values[1:]))
+
+
+def set_of(values: Any) -> Any:
+    """One number for each rotor."""
+    return each(len(values))(*map(float, values))
+
+
+def asked(c: Craft, p: Problem) -> BoundedProblem:
+    """What is minimised, as values."""
+    rows = Mixer(*map(set_of, c.rows))
+    return BoundedProblem(rows, wrench_of(c.weights), wrench_of(p.wanted), set_of(p.unlimited), set_of(p.limits))
+
+
+class Code:
+    """The solver of so many rotors in machine code: as it flies, `solve`, for lanes of problems, and `search`, counted.
+
+    `search` takes at most so many steps, and gives their number; otherwise it is the same. Sets of `rolls_from` rotors
+    or more are loops, none if it is 0.
+    """
+
+    def __init__(self, bounded: BoundedProblem, lanes: int, rolls_from: int) -> None:
+        self.lanes, solver, module = lanes, TracedSolver(bounded, rolls_from), Module()
+        self.begin, self.end = solver.problem_size, solver.problem_size + 2 * solver.rotors + 3
+        write_solver(module, solver, lanes)
+        module.functions[-1] = module.functions[-1].replace("internal void", "void")
+        if lanes == 1:
+            self._write_search(module, solver)
+        level = BEST if solver.rotors <= 16 else QUICK
+        names = ["solve", "search"] if lanes == 1 else ["solve"]
+        self.code = Loaded(object_code(module.text, level), names)
+        self.solve = ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self.code.addresses["solve"])
+        if lanes == 1:
+            counted = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64)
+            self.search = counted(self.code.addresses["search"])
+
+    def _write_search(self, module: Module, solver: TracedSolver) -> None:
+        f = Function(module, solver.graph, 1, "i64 @search(ptr noalias %s, i64 %most) #0")
+        f.read = {"problem": lambda i: Place("%s", i), "search": lambda i: Place("%s", self.begin + i)}
+        for values in (solver.begun, solver.after):
+            if values is solver.after:
+                f.label("first")
+                f.label("search")
+                f.lines.append("  %step = phi i64 [ 1, %first ], [ %next, %goes_on ]")
+            with f.scope():
+                f.put("%s", self.begin, values, "search")
+        ended = f.op(f"fcmp one double {f.load('%s', self.end - 1)}, 0.0")
+        last = f.op("icmp sge i64 %step, %most")
+        f.do(f"br i1 {f.op(f'or i1 {ended}, {last}')}, label %done, label %goes_on")
+        f.lines += ["goes_on:", "  %next = add i64 %step, 1", "  br label %search", "done:"]
+        f.end("i64 %step")
+
+    def numbers(self, bounded: BoundedProblem, held: AllocationState) -> np.ndarray:
+        """A problem, where its search begins, and room for its flags."""
+        return np.array([*flat(bounded), *flat(held), 0.0, 0.0, 0.0])
+
+
+CODES: dict[tuple[int, int, int], Code] = {}
+
+
+def code_of(bounded: BoundedProblem, lanes: int = 1, rolls_from: int = 0) -> Code:
+    key = len(bounded.limits), lanes, rolls_from
+    if key not in CODES:
+        CODES[key] = Code(bounded, lanes, rolls_from)
+    return CODES[key]
+
+
+def compiled(p: BoundedProblem, held: AllocationState, most: int) -> tuple[AllocationState, int]:
+    """`limited` in machine code."""
+    code, n = code_of(p), len(p.limits)
+    numbers = code.numbers(p, held)
+    steps = code.search(numbers.ctypes.data, most)
+    active, thrusts = numbers[code.begin : code.begin + n], numbers[code.begin + n : code.begin + 2 * n]
+    return AllocationState(set_of(active), set_of(thrusts)), steps
+
+
+def solve(c: Craft, p: Problem, start: Answer | None = None, run: Any = compiled, most: int | None = None) -> Answer:
+    n = len(p.limits)
+    f, active = (np.zeros(n), np.zeros(n)) if start is None else (start.f, start.active)
+    found, steps = run(asked(c, p), AllocationState(set_of(active), set_of(f)), most or 8 * n)
+    f, active = np.array(found.thrusts), np.array(found.active)
+    assert np.all(f >= 0.0)
+    assert np.all(f <= np.maximum(p.limits, 0.0))
+    return Answer(f, active, steps)
+
+
+def cost(c: Craft, p: Problem, f: np.ndarray) -> float:
+    return float(np.sum((c.rows @ f - c.weights * p.wanted) ** 2) + GAMMA * np.sum((f - p.unlimited) ** 2))
+
+
+def outside(p: Problem) -> bool:
+    return bool(np.any((p.unlimited < 0.0) | (p.unlimited > p.limits)))
+
+
+def exact_solution(A: list[list[Fraction]], b: list[Fraction]) -> list[Fraction]:
+    """A⁻¹ b by elimination, A positive definite."""
+    rows = [[*row, x] for row, x in zip(A, b, strict=True)]
+    for k in range(len(rows)):
+        pivot = [x / rows[k][k] for x in rows[k]]
+        rows = [pivot if i == k else [x - r[k] * y for x, y in zip(r, pivot, strict=True)] for i, r in enumerate(rows)]
+    return [row[-1] for row in rows]
+
+
+def fractions(values: Any) -> list[Fraction]:
+    return [Fraction(float(x)) for x in values]
+
+
+def exact_optimum(c: Craft, p: Problem, active: np.ndarray) -> np.ndarray:
+    """The optimum by exact arithmetic, proven by the conditions of Karush, Kuhn and Tucker; `active`: where to look.
+
+    The cost is strictly convex, so thrusts within limits that are f₀ + Cᵀλ clipped to them, with γλ = W(τ − B f), are
+    the only optimum.
+    """
+    w, tau, f0, top, gamma = *map(fractions, (c.weights, p.wanted, p.unlimited, p.limits)), Fraction(GAMMA)
+    columns = [[wj * bj for wj, bj in zip(w, fractions(column), strict=True)] for column in c.B.T]
+    held = [a != 0 for a in active]
+    base = [(t if a > 0 else Fraction(0)) if h else x for a, h, t, x in zip(active, held, top, f0, strict=True)]
+    left = [w[j] * tau[j] - sum(col[j] * b for col, b in zip(columns, base, strict=True)) for j in range(4)]
+    free = [col for col, h in zip(columns, held, strict=True) if not h]
+    A = [[sum(col[j] * col[k] for col in free) + gamma * (j == k) for k in range(4)] for j in range(4)]
+    multipliers = exact_solution(A, left)
+    asked = [x + sum(a * m for a, m in zip(col, multipliers, strict=True)) for x, col in zip(f0, columns, strict=True)]
+    f = [b if h else x for b, h, x in zip(base, held, asked, strict=True)]
+    slack = Fraction(1, 10**8)  # N: a rotor so close to changing sides may be on either
+    for x, a, ask, t in zip(f, active, asked, top, strict=True):
+        assert -slack <= x <= t + slack
+        assert t == 0 or a == 0 or (ask <= slack if a < 0 else ask >= t - slack)
+    return np.array([float(x) for x in f])
+
+
+def bounded_least_squares(c: Craft, p: Problem) -> np.ndarray:
+    """The optimum by SciPy, of the rotors that have any limit."""
+    live, root = p.limits > 0.0, np.sqrt(GAMMA)
+    A = np.vstack([c.rows[:, live], root * np.eye(live.sum())])
+    b = np.hstack([c.weights * p.wanted, root * p.unlimited[live]])
+    f = np.zeros(len(live))
+    f[live] = lsq_linear(A, b, (0.0, p.limits[live]), method="bvls", tol=1e-15, max_iter=500).x
+    return f

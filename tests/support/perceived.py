@@ -1,0 +1,131 @@
+"""A flight's truth through sensors and estimators, in one compiled loop: what the tests of both estimators share."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any, NamedTuple
+
+import numpy as np
+from machine_code import Loop
+
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.laws.estimation.navigation import NavigationState, Navigator, navigate, navigator, start_navigation
+from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.sensors.readings import Readings, Sensors, readings_of, sense, sensors, start_sensing, zero_noise
+from tandemlift.trace import leaves, unflat
+
+STEP = 1e-3
+SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
+STATE = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
+FELT = PerfectReadings(ZERO, SETS, SETS, ZERO)
+DEVICES = sensors(2, STEP)
+HISS = zero_noise(DEVICES)
+PUSHES = push_estimator(0.5, (1.0, 1.0, 1.0), np.eye(3)[:2], np.eye(3)[:2], (1.5, 1.5), STEP)
+OBSERVER = navigator((0.0, 0.0, 0.0), STEP)
+SENSING = start_sensing(DEVICES, STATE, FELT, STATE.attitude)
+READ = readings_of(SENSING)
+
+
+class Happening(NamedTuple):
+    """The truth of a step."""
+
+    state: State
+    felt: PerfectReadings
+
+
+class Onboard(NamedTuple):
+    """Sensors and estimators with their memories."""
+
+    sensors: Sensors
+    pushes: PushEstimator
+    observer: Navigator
+    sensing: Any
+    push_memory: Any
+    navigation: NavigationState
+
+
+class Seen(NamedTuple):
+    """What a step shows."""
+
+    push: PushEstimate
+    state: State
+    readings: Readings
+    navigation: NavigationState
+
+
+ONBOARD = Onboard(DEVICES, PUSHES, OBSERVER, SENSING, start_push(PUSHES, READ.imu), start_navigation(OBSERVER, STATE))
+LIKE = Happening(STATE, FELT)
+_push, _memory = estimate(PUSHES, ONBOARD.push_memory, READ.imu, 0.0)
+_state, _navigation = navigate(OBSERVER, ONBOARD.navigation, READ)
+SEEN = Seen(_push, _state, READ, _navigation)
+
+
+def step(x: Onboard, truth: Any, hiss: Any, t: Any) -> Any:
+    """(what a step shows, Onboard after it); nothing is delayed."""
+    readings, sensing = sense(x.sensors, x.sensing, truth.state, truth.felt, truth.state.attitude, hiss)
+    push, push_memory = estimate(x.pushes, x.push_memory, readings.imu, t)
+    state, navigation = navigate(x.observer, x.navigation, readings)
+    after = Onboard(x.sensors, x.pushes, x.observer, sensing, push_memory, navigation)
+    return Seen(push, state, readings, navigation), after
+
+
+class Given(NamedTuple):
+    """What a step of a flight is given."""
+
+    truth: Happening
+    hiss: Any
+    time: Any
+
+
+def step_of(fixed: Any, x: Onboard, given: Given) -> Any:
+    return step(x, given.truth, given.hiss, given.time)
+
+
+@functools.cache
+def loop() -> Loop:
+    """All steps of a flight, in machine code."""
+    return Loop(step_of, Nothing(), ONBOARD, Given(LIKE, HISS, 0.0))
+
+
+def onboard(
+    first: Happening,
+    devices: Sensors = DEVICES,
+    pushes: PushEstimator = PUSHES,
+    observer: Navigator = OBSERVER,
+    believed: State | None = None,
+) -> Onboard:
+    """Sensors and estimators before the first step; the observer begins at `believed`, or at the truth."""
+    start = first.state if believed is None else believed
+    sensing = start_sensing(devices, first.state, first.felt, start.attitude)
+    return Onboard(
+        devices,
+        pushes,
+        observer,
+        sensing,
+        start_push(pushes, readings_of(sensing).imu),
+        start_navigation(observer, start),
+    )
+
+
+def perceived(x: Onboard, truth: np.ndarray, seed: int = 0, step_size: float = STEP) -> Any:
+    """`Seen` with arrays over the steps of `truth` (steps × numbers of a `Happening`)."""
+    normals = np.random.default_rng(seed).standard_normal((len(truth), leaves(HISS)))
+    times = step_size * np.arange(len(truth))[:, None]
+    columns = iter(loop()(Nothing(), x, np.hstack([truth, normals, times])).T)
+
+    def gathered(like: Any) -> Any:
+        return type(like)(*map(gathered, like)) if isinstance(like, tuple) else next(columns)
+
+    return gathered(SEEN)
+
+
+def rows(v: Any) -> np.ndarray:
+    """A vector or quaternion of arrays as an array (steps × components)."""
+    return np.array(v).T
+
+
+def happening(row: np.ndarray) -> Happening:
+    """The truth of a step from its row of numbers."""
+    return unflat(row, LIKE)
