@@ -23,7 +23,6 @@ KNOWN_FILES = [
     "src/tandemlift/laws/guidance/guidance.py",
     "src/tandemlift/laws/guidance/supervision.py",
     "src/tandemlift/laws/rotors/thrust_limits.py",
-    "src/tandemlift/laws/sensors/watchdog.py",
     "src/tandemlift/models/sdf.py",
     "tests/laws/mechanics/test_walls.py",
     "tests/models/test_models.py",

@@ -12,9 +12,11 @@ from tandemlift.laws.estimation.navigation import centre_of_mass
 from tandemlift.laws.estimation.push_estimate import PushEstimate
 from tandemlift.laws.guidance.supervision import SensorStatus, sensor_status
 from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.sensors.health import WatchdogReport
 from tandemlift.laws.sensors.readings import Readings, Sensors, SensorState, sense
 from tandemlift.laws.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults
-from tandemlift.laws.sensors.watchdog import PredictedReadings, Watchdog, WatchdogReport, WatchdogState, watchdog_step
+from tandemlift.laws.sensors.substitutes import PredictedReadings
+from tandemlift.laws.sensors.watchdog import Watchdog, WatchdogState, watchdog_step
 from tandemlift.loop.estimate_channels import shown_estimate
 from tandemlift.loop.perception import (
     Estimates,
