@@ -1,4 +1,4 @@
-"""What sensors read and estimators know, as channels."""
+"""The channels of readings and estimates."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tandemlift.loop.perception import Estimates
 
 
 class MeasuredChannels(NamedTuple):
-    """What sensors show: the last readings that the pilot has."""
+    """The last readings that the pilot has; `additional`: those of additional sensors, `measured_NAME`."""
 
     measured_position: Vec3
     measured_velocity: Vec3
@@ -24,7 +24,7 @@ class MeasuredChannels(NamedTuple):
 
 
 class EstimatedChannels(NamedTuple):
-    """What is estimated from them."""
+    """The estimates from them."""
 
     estimated_position: Vec3
     estimated_velocity: Vec3
@@ -67,7 +67,7 @@ def _readings(readings: Readings) -> Any:
 
 @choice(absent="known")
 def shown_estimate(known: Any) -> Any:
-    """The channels of what is estimated."""
+    """The channels of estimates."""
 
 
 @shown_estimate.register(Estimates)
