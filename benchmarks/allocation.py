@@ -22,8 +22,8 @@ from tandemlift.algebra.vector import Vec3, each
 from tandemlift.kernels.limit_solver import write_solver
 from tandemlift.kernels.traced_step import TracedSolver
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import AllocationState, Mixer
-from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, begun, searched, weighted_rows, weights_of
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
+from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, search_step, start_search
 from tandemlift.trace import Function, Module, double, flat, leaves
 from tandemlift.trace.functions import compiled
 from tandemlift.trace.machine import BEST, Loaded
@@ -60,13 +60,13 @@ def in_a_row(like: BoundedProblem, warm: bool) -> Callable[[np.ndarray, np.ndarr
     write_solver(module, solver, 1)
     f = Function(module, solver.graph, 1, "i64 @all(ptr noalias %problems, i64 %count, ptr noalias %s) #0")
     with f.repeat("%count") as k:
-        problem = f.at("%problems", f.whole("mul", k, size - fixed))
+        problem = f.at("%problems", f.integer("mul", k, size - fixed))
         with f.repeat(size - fixed) as m:
-            f.store(f.load(problem, m), "%s", f.whole("add", m, fixed))
+            f.store(f.load(problem, m), "%s", f.integer("add", m, fixed))
         if not warm:
             with f.repeat(n) as i:
-                f.store(f.zero, "%s", f.whole("add", i, search))
-                f.store(f.load(problem, f.whole("add", i, 4)), "%s", f.whole("add", i, search + n))
+                f.store(f.zero, "%s", f.integer("add", i, search))
+                f.store(f.load(problem, f.integer("add", i, 4)), "%s", f.integer("add", i, search + n))
         f.store(double(0.0), "%s", search + 2 * n + 2)
         f.do("call void @solve(ptr %s)")
     f.end("i64 0")
@@ -82,7 +82,10 @@ def steps_of(like: BoundedProblem, problems: np.ndarray, warm: bool) -> np.ndarr
     """How many steps of the search each problem takes."""
     n = len(like.limits)
     working = AllocationState(like.limits, like.limits)
-    begin, step = compiled(begun, like.limits, working), compiled(searched, like, Search(working, 0.0, 0.0, 0.0))
+    begin, step = (
+        compiled(start_search, like.limits, working),
+        compiled(search_step, like, Search(working, 0.0, 0.0, 0.0)),
+    )
     fixed, taken, held = flat(like)[: -4 - 2 * n], np.zeros(len(problems)), np.zeros(2 * n)
     for k, problem in enumerate(problems):
         start = held if warm else np.concatenate([np.zeros(n), problem[4 : 4 + n]])

@@ -178,8 +178,8 @@ DERIVED: dict[str, tuple[str, str, Channel]] = {
 
 
 def channel_of(name: str) -> Channel:
-    """What a channel of that name holds; of an additional sensor, as it is registered."""
+    """What a channel of that name holds; the channel of an additional sensor is described by the sensor's row."""
     sensor = ADDITIONAL.get(name.removeprefix("measured_"))
     if name in CHANNELS or sensor is None:
         return CHANNELS.get(name, TIME if name == "time" else OTHER)
-    return Channel(sensor.unit, sensor.frame, f"reading of the {sensor.name}: {sensor.meaning}", sensor.width)
+    return Channel(sensor.unit, sensor.frame, f"reading of the sensor {sensor.name!r}: {sensor.meaning}", sensor.width)

@@ -9,7 +9,7 @@ from tandemlift.algebra.vector import Quat, Vec3, apply_transposed, cross
 from tandemlift.laws.estimation.navigation import Navigator, navigate
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.push import moment_of
+from tandemlift.laws.mechanics.push import push_moment
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import Readings, Sensors, sense
 
@@ -176,7 +176,7 @@ def read_push(reads: Any, true: Any, state: State, known: Any) -> Any:
 
 @read_push.register(TruthSource)
 def _true_push(reads: TruthSource, true: Any, state: State, known: Any) -> Any:
-    return PushWrench(true.force, moment_of(true, state.attitude))
+    return PushWrench(true.force, push_moment(true, state.attitude))
 
 
 @read_push.register(MeasurementSource)

@@ -1,4 +1,4 @@
-"""What is around the vehicle: pushes, wind, floor and walls of a mission."""
+"""Pushes, wind and walls of a mission, as the inputs of a flight."""
 
 from __future__ import annotations
 
@@ -10,22 +10,24 @@ from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing, mat3, spread, vec3
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
+from tandemlift.laws.mechanics.air_drag import AirDrag
 from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush
 from tandemlift.laws.mechanics.rectangle import WALL, wall
-from tandemlift.laws.mechanics.walls import nowhere
-from tandemlift.laws.mechanics.wind import AirDrag, Gust, NoTurbulence, Wind, WindNoise, dryden, start_turbulence
+from tandemlift.laws.mechanics.turbulence import WindNoise, dryden, start_turbulence
+from tandemlift.laws.mechanics.walls import no_walls_near
+from tandemlift.laws.mechanics.wind import Gust, Wind
 from tandemlift.laws.person.person import PATH_LEG, PathLeg
 from tandemlift.loop.wind_loads import WindModel
 from tandemlift.settings import Mission
 from tandemlift.trace import flat, leaves
 from tandemlift.vehicle import Vehicle
 
-LEAST_AIRSPEED = 0.5  # m/s, at which eddies pass in still air
-NO_WHIFFS = WindNoise(0.0, 0.0, 0.0, 0.0, 0.0)
+LEAST_AIRSPEED = 0.5  # m/s, at which turbulence passes in still air
+NO_NOISE = WindNoise(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def push_kind(mission: Mission) -> Any:
-    """The zero push of the type that serves a mission's pushes: with a moment only if one has any."""
+    """A zero push of the type that the mission needs: with a moment only if a push has one."""
     central = all(p.point == ZERO for p in mission.pushes) and mission.person.model == "none"
     return CentralPush(ZERO) if central else PointPush(ZERO, mat3([[0.0] * 3] * 3))
 
@@ -53,11 +55,11 @@ def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
 
 
 def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) -> tuple[Any, Any]:
-    """The wind of a mission and its eddies at t = 0, or `Nothing`."""
+    """The wind of a mission and its turbulence at t = 0, or `Nothing`."""
     w = mission.wind
     if w.model == "none":
         return Nothing(), Nothing()
-    turbulence: Any = NoTurbulence()
+    turbulence: Any = Nothing()
     if w.turbulence > 0.0:
         airspeed = w.airspeed or max(math.dist(w.velocity, ZERO), LEAST_AIRSPEED)
         turbulence = dryden(w.turbulence, w.height, airspeed, w.velocity, mission.mission.step)
@@ -69,10 +71,10 @@ def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generato
 
 def wind_noise_from(weather: Any) -> Any:
     """The layout of the wind's standard normals."""
-    still = isinstance(weather, Nothing) or isinstance(weather.wind.turbulence, NoTurbulence)
-    return Nothing() if still else NO_WHIFFS
+    still = isinstance(weather, Nothing) or isinstance(weather.wind.turbulence, Nothing)
+    return Nothing() if still else NO_NOISE
 
 
 def near_walls_from(settings: Any) -> Any:
-    """The walls nearest to the parts, before any was looked at; or `Nothing`."""
-    return settings if isinstance(settings, Nothing) else nowhere(settings)
+    """The nearest walls before any was looked at, or `Nothing`."""
+    return settings if isinstance(settings, Nothing) else no_walls_near(settings)

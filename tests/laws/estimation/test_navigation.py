@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from tandemlift.algebra.vector import Vec3, vec3
 from tandemlift.laws.estimation.navigation import Navigator, navigator
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.mechanics.rotation import rotated_by
 from tandemlift.laws.sensors.noise_bias_drift import SensorGrade
 from tandemlift.laws.sensors.readings import Sensors, sensors
 
@@ -105,7 +105,7 @@ def test_an_error_at_the_start_dies_as_two_equal_poles_and_one_say():
     wrong = estimated(truth, k, sensors(2, STEP), lambda s: s._replace(position=s.position + Vec3(0.0, 0.1, 0.0)))
     assert errors(wrong, truth)["position"][:, 1] == pytest.approx(0.1 * np.exp(-3.0 * t), abs=5e-4)
     turn = Vec3(0.0, 0.0, 0.1)
-    wrong = estimated(truth, k, sensors(2, STEP), lambda s: s._replace(attitude=turned(s.attitude, turn)))
+    wrong = estimated(truth, k, sensors(2, STEP), lambda s: s._replace(attitude=rotated_by(s.attitude, turn)))
     assert errors(wrong, truth)["turn"][:, 2] == pytest.approx(0.1 * (1 - 1.5 * t) * np.exp(-1.5 * t), abs=5e-4)
 
 
@@ -155,7 +155,7 @@ def test_it_finds_its_way_from_far_off():
 
     def lost(s: State) -> State:
         return State(s.position + vec3([1.0, -1.0, 1.0]), s.velocity - vec3([1.0, 1.0, 1.0]),
-                     turned(s.attitude, vec3([0.5, -0.5, 0.5])), s.rates)  # fmt: skip
+                     rotated_by(s.attitude, vec3([0.5, -0.5, 0.5])), s.rates)  # fmt: skip
 
     seen = estimated(truth, navigator(CENTRE, STEP, motion_period=10), devices, lost)
     off = errors(seen, truth)

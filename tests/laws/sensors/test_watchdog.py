@@ -8,7 +8,7 @@ import pytest
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, vec3
 from tandemlift.common.sensors import SENSORS
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.mechanics.rotation import rotated_by
 from tandemlift.laws.sensors.health import (
     FROZEN,
     NO_NUMBER,
@@ -75,12 +75,13 @@ def stream(seconds, rates=ZERO, velocity=ZERO, seed=1):
         return Vec3(*[TWO(*row) for row in chance.normal(0.0, size, (3, 2)).tolist()])
 
     for _ in range(round(seconds / DT)):
-        attitude, position = turned(attitude, rates * DT), position + velocity * DT
+        attitude, position = rotated_by(attitude, rates * DT), position + velocity * DT
         unit = ImuReading(
             Vec3(0.0, 0.0, 9.81) + noise(0.03), rates + noise(0.0025), joints(0.05), joints(0.005), LEVEL, 1.0
         )
         yield Readings(
-            unit, MotionReading(position + noise(0.003), velocity + noise(0.01), turned(attitude, noise(0.002)), 1.0)
+            unit,
+            MotionReading(position + noise(0.003), velocity + noise(0.01), rotated_by(attitude, noise(0.002)), 1.0),
         )
 
 
@@ -204,7 +205,7 @@ def test_what_is_predicted_stands_in_for_a_lost_motion_measurement():
 
 
 def test_a_lost_accelerometer_reads_as_if_nothing_accelerated():
-    tilted = turned(LEVEL, Vec3(0.3, 0.0, 0.0))
+    tilted = rotated_by(LEVEL, Vec3(0.3, 0.0, 0.0))
     expected = PredictedReadings(State(ZERO, ZERO, tilted, ZERO), ZERO, Vec3(0.1, 0.0, 0.0))
     clean, _ = list(watched(stream(2.0), failing("accelerometer", "nan"), expected))[-1]
     assert clean.imu.specific_force == pytest.approx((0.1, 9.81 * math.sin(0.3), 9.81 * math.cos(0.3)))

@@ -22,10 +22,10 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, clip, sqrt
 from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.laws.mechanics.body import UP, Wrench
-from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
+from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic
 from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.laws.rotors.allocation import Mixer, wrench
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 
 class DisturbanceFilter(NamedTuple):
@@ -116,7 +116,7 @@ def observer_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, le
 def expected(k: DisturbanceObserver, memory: ObserverState, thrusts: Any) -> Any:
     """(the modelled rotors' thrust, moment) after a step under these commands, each with its rate."""
     u = wrench(k.effect, thrusts)
-    return smooth(k.thrust, memory.thrust, u.thrust), smooth(k.moment, memory.moment, u.moment)
+    return low_pass_step(k.thrust, memory.thrust, u.thrust), low_pass_step(k.moment, memory.moment, u.moment)
 
 
 @law
@@ -125,7 +125,7 @@ def rates_of_change(k: DisturbanceObserver, heard: Any, u: Wrench) -> Any:
     s = heard.state
     force = body_z_axis(s.attitude) * u.thrust + heard.push - k.drag_force * s.velocity
     moment = u.moment + heard.moment + gyroscopic(k.inertia, s.rates) - k.drag_moment * s.rates
-    return force * (1.0 / k.mass) - UP * GRAVITY, turn_by(k.inverse_inertia, moment)
+    return force * (1.0 / k.mass) - UP * GRAVITY, apply_inertia(k.inverse_inertia, moment)
 
 
 @observer_step.register(DisturbanceObserver)
@@ -148,7 +148,9 @@ def _observed(
 @law
 def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
     """The estimate in a memory."""
-    return DisturbanceEstimate(m.acceleration * k.mass, turn_by(k.inertia, m.turning), m.residual, m.turning_residual)
+    return DisturbanceEstimate(
+        m.acceleration * k.mass, apply_inertia(k.inertia, m.turning), m.residual, m.turning_residual
+    )
 
 
 @choice(absent=NONE)

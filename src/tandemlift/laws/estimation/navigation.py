@@ -23,8 +23,7 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, cross, vec3
 from tandemlift.laws.mechanics.body import UP, State
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.rotation_vectors import normalised, turn_left, turned
+from tandemlift.laws.mechanics.rotation import normalised, rotated_by, rotation_between, rotation_from_quaternion
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
 
 
@@ -79,7 +78,7 @@ def propagated(k: Navigator, m: NavigationState, imu: ImuReading) -> NavigationS
     """The estimate propagated to the IMU's sample, if that is fresh."""
     T = k.interval * imu.fresh * m.started
     rates = (m.measured_rates + imu.rates) * 0.5 - m.gyroscope_bias
-    attitude = turned(m.attitude, rates * T)
+    attitude = rotated_by(m.attitude, rates * T)
     new = apply(rotation_from_quaternion(attitude), imu.specific_force - m.accelerometer_bias) - UP * GRAVITY
     acceleration = (m.acceleration + new) * 0.5
     smoothed = m.rates + (imu.rates - m.gyroscope_bias - m.rates) * (k.rates * imu.fresh)
@@ -106,7 +105,7 @@ def innovation(k: Navigator, m: NavigationState, motion: MotionReading) -> Innov
     """The innovation of a motion sample: its values less the estimate at its time, `age` before."""
     s, ago = centre_of_mass(k, m), k.age
     return Innovation(
-        turn_left(s.attitude, motion.attitude) + s.rates * ago,
+        rotation_between(s.attitude, motion.attitude) + s.rates * ago,
         motion.velocity - (s.velocity - m.acceleration * ago),
         motion.position - (s.position - s.velocity * ago + m.acceleration * (0.5 * ago * ago)),
     )
@@ -120,7 +119,7 @@ def corrected(k: Navigator, m: NavigationState, motion: MotionReading) -> Naviga
     return m._replace(
         position=m.position + off.position * (k.position * fresh),
         velocity=m.velocity + off.velocity * (k.velocity * fresh),
-        attitude=normalised(turned(m.attitude, off.turn * (k.attitude * fresh))),
+        attitude=normalised(rotated_by(m.attitude, off.turn * (k.attitude * fresh))),
         gyroscope_bias=m.gyroscope_bias - off.turn * (k.gyroscope * fresh),
         accelerometer_bias=m.accelerometer_bias - velocity_body * (k.accelerometer * fresh),
     )

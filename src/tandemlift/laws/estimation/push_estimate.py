@@ -25,12 +25,12 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total
 from tandemlift.laws.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
-from tandemlift.laws.mechanics.air_drag import blown, start_payload_drag
-from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
-from tandemlift.laws.mechanics.loads import raised, total_of_each
+from tandemlift.laws.estimation.wind_compensation import start_payload_drag, wind_on_payload
+from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
+from tandemlift.laws.mechanics.loads import add_to_each, sum_over_set
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import ImuReading
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 
 NOTHING = Nothing()
 
@@ -103,7 +103,7 @@ class PushEstimate(NamedTuple):
 def moment_on_payload(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
     """The moment M on the payload besides those of the joints [N·m, body axes], about its centre of mass."""
     joints = imu.joint_torque + cross(k.joints, imu.joint_force)
-    return turn_by(k.inertia, angular) - gyroscopic(k.inertia, imu.rates) - total_of_each(joints)
+    return apply_inertia(k.inertia, angular) - gyroscopic(k.inertia, imu.rates) - sum_over_set(joints)
 
 
 @law
@@ -111,8 +111,8 @@ def external_forces(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideFor
     """The external horizontal force on every quadrotor [N], body axes."""
     a, w = imu.specific_force, imu.rates
     turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
-    x = imu.joint_force.x + raised(turn.x, a.x) * k.quadrotor_mass
-    y = imu.joint_force.y + raised(turn.y, a.y) * k.quadrotor_mass
+    x = imu.joint_force.x + add_to_each(turn.x, a.x) * k.quadrotor_mass
+    y = imu.joint_force.y + add_to_each(turn.y, a.y) * k.quadrotor_mass
     return SideForces(x, y)
 
 
@@ -120,7 +120,7 @@ def external_forces(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideFor
 def less_mean(k: PushEstimator, outside: SideForces) -> SideForces:
     """These forces less their mean over the quadrotors [N]."""
     x, y = outside
-    return SideForces(raised(x, -total(x) * k.share), raised(y, -total(y) * k.share))
+    return SideForces(add_to_each(x, -total(x) * k.share), add_to_each(y, -total(y) * k.share))
 
 
 @law
@@ -146,7 +146,7 @@ def disagreement(k: PushEstimator, x: Any, y: Any) -> Any:
 @law
 def estimate(k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: Any) -> Any:
     """(Push, the new memory) from a reading of the IMU at time t [s]."""
-    a, f = imu.specific_force, total_of_each(imu.joint_force)
+    a, f = imu.specific_force, sum_over_set(imu.joint_force)
     angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
     moment, outside = moment_on_payload(k, imu, angular), external_forces(k, imu, angular)
     unequal = less_mean(k, outside)
@@ -155,16 +155,16 @@ def estimate(k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: A
     sums = summed(memory.sums, begun, taken, f, a, moment, unequal)
     armed = where(t < k.tare_end, 0.0, 1.0)
     tare = tare_of(k.mass, k.identify, sums, armed)
-    wind, gone = blown(k.windage, memory.blown, outside.x, outside.y, begun, taken, armed)
+    wind, gone = wind_on_payload(k.windage, memory.blown, outside.x, outside.y, begun, taken, armed)
     force = a * tare.mass - f - tare.force - wind
     after = PushEstimatorState(
         imu.rates,
         angular,
         sums,
-        smooth(k.low_pass, memory.force, force * armed),
-        smooth(k.low_pass, memory.moment, (moment - tare.moment) * armed),
-        smooth(k.low_pass, memory.x, (unequal.x - tare.sides.x) * armed),
-        smooth(k.low_pass, memory.y, (unequal.y - tare.sides.y) * armed),
+        low_pass_step(k.low_pass, memory.force, force * armed),
+        low_pass_step(k.low_pass, memory.moment, (moment - tare.moment) * armed),
+        low_pass_step(k.low_pass, memory.x, (unequal.x - tare.sides.x) * armed),
+        low_pass_step(k.low_pass, memory.y, (unequal.y - tare.sides.y) * armed),
         gone,
     )
     return concluded(k, imu, force, moment - tare.moment, after, tare.mass, armed), after

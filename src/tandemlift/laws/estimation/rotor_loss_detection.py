@@ -25,10 +25,10 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import maximum, minimum, where
 from tandemlift.algebra.vector import each, total
 from tandemlift.laws.estimation.fault_decision import DecisionRules, DecisionState, decision_step, share_gone, support
-from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
+from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic
 from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.laws.rotors.allocation import Mixer, wrench
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 FOUR = each(4)
 UPRIGHT = 0.3  # least cosine of the tilt
@@ -121,15 +121,15 @@ def residual(k: RotorLossDetection, m: DetectionState, heard: Any) -> Any:
 def followed(k: RotorLossDetection, m: DetectionState, heard: Any, thrusts: Any, t: Any) -> DetectionState:
     """The memory with the low-passes of a sample."""
     s = heard.state
-    rotors = smooth(k.rotors, m.rotors, thrusts + trials(k, m.verdict, t))
-    turning, about = turn_by(k.inertia, s.rates), heard.moment + gyroscopic(k.inertia, s.rates)
+    rotors = low_pass_step(k.rotors, m.rotors, thrusts + trials(k, m.verdict, t))
+    turning, about = apply_inertia(k.inertia, s.rates), heard.moment + gyroscopic(k.inertia, s.rates)
     momentum = FOUR(s.velocity.z * k.mass, turning.x, turning.y, turning.z)
     others = FOUR(heard.push.z - k.mass * GRAVITY, about.x, about.y, about.z)
     return m._replace(
         rotors=rotors,
-        thrusts=smooth(k.quick, m.thrusts, rotors.value),
-        momentum=smooth(k.quick, m.momentum, momentum),
-        others=smooth(k.quick, m.others, others),
+        thrusts=low_pass_step(k.quick, m.thrusts, rotors.value),
+        momentum=low_pass_step(k.quick, m.momentum, momentum),
+        others=low_pass_step(k.quick, m.others, others),
     )
 
 
@@ -190,8 +190,8 @@ def _watched(k: RotorLossDetection, memory: Any, heard: Any, thrusts: Any, activ
     )
     rest = r - explained_by(k, m.verdict, f)
     left = rest - m.mean.value
-    mean = smooth(k.bias_filter, m.mean, rest)
-    scatter = smooth(k.scatter_filter, m.scatter, minimum(left * left, k.bound))
+    mean = low_pass_step(k.bias_filter, m.mean, rest)
+    scatter = low_pass_step(k.scatter_filter, m.scatter, minimum(left * left, k.bound))
     still = kept_or(scatter.value, k.bound * START_SCATTER, free)
     return m._replace(mean=mean, scatter=LowPassState(still, scatter.rate * free), verdict=verdict)
 

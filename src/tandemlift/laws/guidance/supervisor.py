@@ -26,7 +26,7 @@ from tandemlift.laws.guidance.supervision import (
     timed,
 )
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.rotors.dynamics import efficiency_at
+from tandemlift.laws.rotors.rotor_faults import efficiency_at
 from tandemlift.laws.sensors.health import any_component, not_finite
 from tandemlift.laws.sensors.watchdog import state_not_finite
 from tandemlift.laws.signals.trajectories import Trajectory

@@ -13,8 +13,7 @@ from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import Quat, Vec3, apply, dot
 from tandemlift.laws.mechanics.body import UP
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.rotation_vectors import turn_left, turned
+from tandemlift.laws.mechanics.rotation import rotated_by, rotation_between, rotation_from_quaternion
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading
 
 
@@ -41,14 +40,14 @@ def inconsistency_after(
 
     While a measurement is `invalid` (1), nothing is compared.
     """
-    attitude, position = turned(m.integrated_attitude, imu.rates * dt), m.integrated_position + v.velocity * dt
+    attitude, position = rotated_by(m.integrated_attitude, imu.rates * dt), m.integrated_position + v.velocity * dt
     acceleration = apply(rotation_from_quaternion(v.attitude), imu.specific_force) - UP * GRAVITY
     velocity = m.integrated_velocity + acceleration * dt
     restart = maximum(v.fresh, invalid)
     keep = (1.0 - forgetting * v.fresh) * (1.0 - invalid)
     compared = v.fresh * (1.0 - invalid)
     return Inconsistency(
-        attitude=m.attitude * keep + turn_left(attitude, v.attitude) * compared,
+        attitude=m.attitude * keep + rotation_between(attitude, v.attitude) * compared,
         position=m.position * keep + (v.position - position) * compared,
         velocity=m.velocity * keep + (v.velocity - velocity) * compared,
         integrated_attitude=chosen(restart, v.attitude, attitude),

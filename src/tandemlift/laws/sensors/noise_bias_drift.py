@@ -20,8 +20,7 @@ from tandemlift.algebra.law import choice, elementwise
 from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.vector import ZERO, Mat3, Nothing, Quat, Vec3, apply, each, is_set, spread, vec3
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.rotation_vectors import quaternion_of_turn, turned
+from tandemlift.laws.mechanics.rotation import quaternion_from_rotation_vector, rotated_by, rotation_from_quaternion
 
 ROUNDING = 6755399441055744.0  # 1.5 · 2⁵²: a sum with it has no fraction left
 
@@ -124,7 +123,7 @@ def _read_with_noise(k: WhiteNoise, drift: Nothing, truth: Vec3, normals: Vec3) 
 
 @read.register(AttitudeNoise)
 def _read_attitude(k: AttitudeNoise, drift: Nothing, truth: Quat, normals: Vec3) -> Quat:
-    return turned(truth, normals * k.sigma)
+    return rotated_by(truth, normals * k.sigma)
 
 
 @read.register(NoError)
@@ -173,7 +172,7 @@ def _rows(value: Any, count: int) -> Array:
 
 def _sensor_axes(turn: Array) -> Array:
     """Axes (3 × 3, rows) of a sensor turned by a rotation vector; exactly the body's for none."""
-    return np.array(rotation_from_quaternion(quaternion_of_turn(vec3(turn)))).T
+    return np.array(rotation_from_quaternion(quaternion_from_rotation_vector(vec3(turn)))).T
 
 
 class _Errors(NamedTuple):

@@ -15,7 +15,7 @@ from tandemlift.algebra.ops import where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.common.sensors import SENSORS, additional_sensor, sensors_on
-from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.mechanics.rotation import rotated_by
 from tandemlift.laws.sensors.readings import AdditionalChannels, ImuChannels, MotionChannels, Readings, by_name
 
 NEVER = 1e18  # steps
@@ -115,7 +115,7 @@ def _faulty_scalar(k: ScalarFault, x: Any, given: Any, step: Any) -> Any:
 def _faulty_attitude(k: AttitudeFault, x: Quat, given: Quat, step: Any) -> Quat:
     f = k.fault
     off = f.size.x * (1.0 - f.keep)
-    q = turned(x, f.size * (f.keep * during(f.start, f.end, step)))
+    q = rotated_by(x, f.size * (f.keep * during(f.start, f.end, step)))
     return Quat(
         faulty_number(q.w, given.w, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
         faulty_number(q.x, given.x, off, f.start, f.end, f.frozen, f.keep, f.poison, step),

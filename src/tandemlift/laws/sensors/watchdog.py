@@ -16,7 +16,7 @@ from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.rotation_vectors import turn_left
+from tandemlift.laws.mechanics.rotation import rotation_between
 from tandemlift.laws.sensors.consistency import Inconsistency, exceeds, inconsistency_after
 from tandemlift.laws.sensors.health import (
     FROZEN,
@@ -108,7 +108,7 @@ def substitute_rates(
     k: Watchdog, m: WatchdogState, imu: ImuReading, attitude: Quat, fresh: Any, measured: Any, p: PredictedReadings
 ) -> Vec3:
     """The rates [rad/s]: of the gyroscope while they are `measured` (1), else the derivative of the attitude."""
-    derivative = turn_left(m.valid.motion.attitude, attitude) * k.motion_rate
+    derivative = rotation_between(m.valid.motion.attitude, attitude) * k.motion_rate
     return chosen(measured, imu.rates - p.gyroscope_bias, m.rates + (derivative - m.rates) * (k.rates_gain * fresh))
 
 
