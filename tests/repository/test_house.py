@@ -21,7 +21,6 @@ KNOWN_FOLDERS = ["src/tandemlift/cli", "src/tandemlift/trace"]
 KNOWN_FILES = [
     "src/tandemlift/laws/guidance/guidance.py",
     "src/tandemlift/laws/guidance/supervision.py",
-    "src/tandemlift/laws/sensors/watchdog.py",
     "src/tandemlift/models/sdf.py",
 ]
 KNOWN_FUNCTIONS = [
