@@ -1,7 +1,7 @@
-"""A mission put together for the loop: the flight at t = 0, and what it is given from outside.
+"""A flight assembled from a mission: its state and parameters at t = 0, and its inputs from outside.
 
-Everything random is drawn from the mission's seed: constant errors and the first eddies here, the rest step by step by
-a counter-based generator with the seed's key.
+All random numbers derive from the mission's seed: constant errors and the initial turbulence are drawn here, the rest
+step by step by a counter-based generator with the seed's key.
 """
 
 from __future__ import annotations
@@ -41,7 +41,15 @@ from tandemlift.vehicle import Vehicle
 
 
 class AssembledFlight(NamedTuple):
-    """A flight at t = 0, its inputs' layout, its tables, the delays in steps, its key."""
+    """An assembled flight.
+
+    Attributes:
+        flying: the flight at t = 0.
+        given: the layout of its inputs.
+        tables: pushes, gusts, walls and path legs.
+        delays: of IMU, motion sensor, rotor commands and the person's sight, in steps.
+        seeds: the key of its random numbers.
+    """
 
     flying: FlightModel
     given: StepInputs
@@ -59,7 +67,7 @@ def delays_from(mission: Mission) -> NDArray[np.int64]:
         mission.actuators.delay * real,
     ]
     steps = [round(s / mission.mission.step) for s in seconds]
-    sight = round(mission.person.delay / mission.mission.step) - 1  # what is seen is known a step later anyway
+    sight = round(mission.person.delay / mission.mission.step) - 1  # a step of delay is inherent
     accompanied = mission.person.model not in ("none", "grab")
     more = [round(s.delay / mission.mission.step) * simulated for s in mission.sensors.additional]
     return np.array([*steps, max(sight, 0) * accompanied, *more], dtype=np.int64)
@@ -74,18 +82,16 @@ def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> Any:
     return DelayLines(imu, motion, command, view, by_name(names)(*more))
 
 
-def start_metrics(far: Any, memory_of_person: Any) -> RunningMetrics:
-    """The tally of a flight before its first step; `far`: the clearance before any wall was looked at."""
-    return EMPTY._replace(
-        clearance=far, effort=memory_of_person if isinstance(memory_of_person, Nothing) else NO_EFFORT
-    )
+def start_metrics(far: Any, person: Any) -> RunningMetrics:
+    """The running metrics before the first step; `far`: the clearance before any wall was looked at."""
+    return EMPTY._replace(clearance=far, effort=person if isinstance(person, Nothing) else NO_EFFORT)
 
 
 def assemble(mission: Mission) -> AssembledFlight:
-    """A mission's loop at t = 0.
+    """Assemble the flight of a mission at t = 0.
 
     Raises:
-        InputError: something in the mission cannot be built.
+        InputError: a part of the mission cannot be built.
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
     chance = np.random.default_rng(mission.mission.seed)
@@ -101,8 +107,8 @@ def assemble(mission: Mission) -> AssembledFlight:
     devices, sensor_noise = sensors_from(mission, vehicle, chance)
     sensing: Any = Nothing()
     if not isinstance(devices, Nothing):
-        felt = readings_at_rest(plant, state, grip, near, thrusts, hand)
-        sensing = start_sensing(devices, state, felt, state.attitude)
+        initial = readings_at_rest(plant, state, grip, near, thrusts, hand)
+        sensing = start_sensing(devices, state, initial, state.attitude)
     readings = Nothing() if isinstance(devices, Nothing) else readings_of(sensing)
     estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)

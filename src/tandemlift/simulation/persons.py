@@ -1,4 +1,4 @@
-"""The person of a mission: their path as a table of legs, and how they are before the first step."""
+"""The person of a mission: the path as a table of legs, and the person's state at t = 0."""
 
 from __future__ import annotations
 
@@ -25,26 +25,26 @@ from tandemlift.vehicle import Vehicle
 
 
 def person_settings_from(p: PersonTable) -> PersonSettings:
-    """How a person of a mission leads."""
+    """The person's way of leading, from the mission."""
     hands = 1.0 if p.model == "two-hands" else 0.0
     at_grip, stays = 0.0 if p.model == "steer" else 1.0, 1.0 if p.model == "hold" else 0.0
     return PersonSettings(at_grip, hands * p.yaw_gain, hands * p.yaw_damping, stays)
 
 
 def waypoints_from(mission: Mission) -> tuple[WaypointTable, ...]:
-    """The path of a mission's person: their own, or the corridor's centreline."""
+    """The path of the person: their own, or the centreline of the corridor."""
     centreline = mission.corridor.centreline
     return mission.person.path or tuple(WaypointTable(point=point) for point in centreline)
 
 
 def grip_from(mission: Mission, vehicle: Vehicle) -> Vec3:
-    """Where the person holds on [m, body axes, from the centre of mass]."""
+    """The point that the person holds [m, body axes, from the centre of mass]."""
     along = 0.0 if mission.person.model == "two-hands" else mission.person.grip
     return vec3([0.0, along, 0.0] - vehicle.center_of_mass)
 
 
 def path_legs_from(mission: Mission, person: Any, state: State) -> list[PathLeg]:
-    """The legs of a mission's path, from where what is guided_point is at the start; none without a person."""
+    """The legs of the path, from the initial position of the steered point; none without a person."""
     if not isinstance(person, Person):
         return []
     p, waypoints = mission.person, waypoints_from(mission)
@@ -62,14 +62,14 @@ def path_legs_from(mission: Mission, person: Any, state: State) -> list[PathLeg]
 
 
 def start_virtual_hand(p: PersonTable, step: float) -> tuple[VirtualHand, VirtualHandState]:
-    """A hand that is moved from outside, and its memory at t = 0."""
+    """The virtual hand and its state at t = 0."""
     nothing, still = LowPassState(ZERO, ZERO), LowPassState(0.0, 0.0)
     grab = VirtualHand(HAND_RELEASED, p.stiffness, p.damping, low_pass(1.0 / p.lag, step), p.max_force)
     return grab, VirtualHandState(nothing, still, nothing, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def start_person(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any, Any, Any]:
-    """The person of a mission, their memory at t = 0 and the layout of their noise; or `Nothing` three times."""
+    """The person of a mission, their state at t = 0 and the layout of their noise; or `Nothing` three times."""
     p, step = mission.person, mission.mission.step
     if p.model == "none":
         return Nothing(), Nothing(), Nothing()

@@ -196,7 +196,7 @@ class RecordedFlight:
     def hold(self, hand: VirtualHandInput) -> None:
         """Move the hand, from the next step on."""
         numbers = np.array(flat(hand))
-        self._stepper.hold(numbers)
+        self._stepper.move_hand(numbers)
         if self._hand and self._hand[-1][0] == self.step:
             self._hand.pop()
         self._hand.append((self.step, numbers))
