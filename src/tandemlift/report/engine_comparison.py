@@ -12,7 +12,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.report.controller_comparison import figures_as_html, setup_as_html, versions_as_html
 from tandemlift.report.flight_report import DASH, number, table_of
 from tandemlift.report.page import COMPARISON
-from tandemlift.studies.engine_comparison import QUANTITIES, SETTLED, engine_summary, most_apart, speed
+from tandemlift.studies.engine_comparison import QUANTITIES, SETTLED, engine_summary, largest_differences, speed
 
 NOTE = f"""The same mission, pilot and chance; only the body lives in another engine. Differences are the largest of any
 sample from the first engine, joints from {SETTLED:g} s on. Steps a second are with the pilot, on the machine that wrote
@@ -20,7 +20,7 @@ this page."""
 
 
 def _row(name: str, flight: Flight, first: Flight) -> str:
-    found = most_apart(flight, first) if flight is not first else {}
+    found = largest_differences(flight, first) if flight is not first else {}
     cells = "".join(f"<td>{number(found[q]) if q in found else DASH}</td>" for q in QUANTITIES)
     end = flight.metrics().get("final_position_m") or ()
     place = ", ".join(f"{v + 0.0:.3f}".replace("-", "−") for v in end) or DASH
@@ -46,7 +46,7 @@ def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str]) -
     """Write one mission in several engines as one HTML file without references; it appears whole or not at all.
 
     Args:
-        flights: from `apart.fly_in`.
+        flights: from `fly_in`.
         path: of the HTML file; its folder is there.
 
     Returns:
