@@ -61,7 +61,7 @@ def test_a_channel_says_its_unit_its_meaning_and_in_which_frame_a_vector_is():
 
 
 def test_the_tables_of_the_documents_are_made_from_the_record():
-    page = (Path(__file__).parent.parent / "docs" / "flights.md").read_text("utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "flights.md").read_text("utf-8")
     assert page == with_tables(page), "run: python -m tandemlift.flight.channel_tables docs/flights.md"
     assert all(f"| `{name}` |" in page for name in CHANNELS)
 

@@ -17,15 +17,12 @@ LONGEST_FUNCTION = 60  # lines
 
 # What does not keep a rule yet, exactly; what keeps it is taken out.
 KNOWN_MEASURES = ["arrows"]
-KNOWN_FOLDERS = ["src/tandemlift/cli", "src/tandemlift/figures", "src/tandemlift/ros", "src/tandemlift/trace"]
+KNOWN_FOLDERS = ["src/tandemlift/cli", "src/tandemlift/trace"]
 KNOWN_FILES = [
-    "src/tandemlift/kernels/loops.py",
     "src/tandemlift/laws/guidance/guidance.py",
     "src/tandemlift/laws/guidance/supervision.py",
     "src/tandemlift/laws/sensors/watchdog.py",
     "src/tandemlift/models/sdf.py",
-    "tests/laws/mechanics/test_walls.py",
-    "tests/models/test_models.py",
 ]
 KNOWN_FUNCTIONS = [
     "src/tandemlift/laws/estimation/push_estimate.py: push_estimator",

@@ -212,39 +212,39 @@ def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSam
         joint_force=felt.joint_force,
         joint_torque=felt.joint_torque,
         actuated=actuated(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
-        air=air_of(acting.weather.loads, acting.weather.velocity),
+        air=air_of(acting.wind.loads, acting.wind.velocity),
         contact=contact_of(flying.plant.floor, felt),
         measured=shown_readings(flying.moving.readings),
-        estimated=shown_estimate(thought.known),
-        disturbed=disturbed(flying.pilot.observer, read.unknown),
-        guided=guidance.shown,
+        estimated=shown_estimate(thought.estimates),
+        disturbed=disturbed(flying.pilot.observer, read.disturbance),
+        guided=guidance.channels,
         watched=watched(flying.pilot.detection, thought.memory.detection),
     )
 
 
-@choice(absent="partner")
-def effort(partner: Any, x: Sample) -> Any:
+@choice(absent="person")
+def effort(person: Any, x: Sample) -> Any:
     """What a step costs the person who guides the vehicle."""
 
 
 @effort.register(PersonState)
-def _somebody(partner, x):
-    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+def _somebody(person, x):
+    return effort_of(where(person.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
 @effort.register(VirtualHandState)
-def _a_hand(partner, x):
-    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+def _a_hand(person, x):
+    return effort_of(where(person.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
 @choice(absent=0.0)
-def hearing(shown: Any) -> Any:
-    """1 while a push is heard along any axis, else 0; from what guidance shows."""
+def push_active(channels: Any) -> Any:
+    """1 while a push is active along any axis, else 0; from the channels of guidance."""
 
 
-@hearing.register(HandGuidanceChannels)
-def _heard(shown):
-    return greatest(shown.push_active)
+@push_active.register(HandGuidanceChannels)
+def _by_hand(channels: HandGuidanceChannels) -> Any:
+    return greatest(channels.push_active)
 
 
 @law
@@ -262,6 +262,6 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
         saturated=saturated(flying.rotors, thought.decision.thrusts)
         * thrust_fraction(thought.decision.guidance.running),
         clearance=clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
-        effort=effort(flying.moving.partner, x),
-        hearing=hearing(thought.decision.guidance.shown),
+        effort=effort(flying.moving.person, x),
+        push_active=push_active(thought.decision.guidance.channels),
     )
