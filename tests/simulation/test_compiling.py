@@ -17,7 +17,7 @@ from tandemlift.kernels import LANES
 from tandemlift.missions import built_in
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import key, machine
-from tandemlift.trace.key import key_of, sources
+from tandemlift.trace.store import key_of, sources
 
 PACKAGE = Path(tl.__file__).parent
 LEVELS = {"quick": machine.QUICK, "best": machine.BEST, "best of blocks": machine.BEST_OF_VECTORS}
@@ -82,7 +82,7 @@ def test_the_key_is_of_the_sources_that_run_even_if_they_are_edited_meanwhile(tm
 import sys, tandemlift as tl
 from pathlib import Path
 from tandemlift.simulation.plan import Prepared
-from tandemlift.trace.key import key_of
+from tandemlift.trace.store import key_of
 flying = Prepared(tl.load_mission("one-push")).flying
 print(key_of(flying))
 with (Path(tl.__file__).parent / "laws" / "mechanics" / "rotation.py").open("a") as law:

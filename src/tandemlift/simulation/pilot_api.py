@@ -20,7 +20,7 @@ from tandemlift.pilot.pilot import PilotInput
 from tandemlift.settings import Mission
 from tandemlift.trace import flat, leaves
 from tandemlift.trace.code import Code
-from tandemlift.trace.key import key_of
+from tandemlift.trace.store import key_of
 from tandemlift.vehicle import Vehicle
 
 HEARD = PilotInput(

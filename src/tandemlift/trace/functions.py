@@ -11,8 +11,7 @@ import numpy as np
 from tandemlift.common.types import Array
 from tandemlift.trace import machine
 from tandemlift.trace.fused import traced
-from tandemlift.trace.graph import Graph, symbols
-from tandemlift.trace.layout import leaves
+from tandemlift.trace.graph import Graph, leaves, symbols
 from tandemlift.trace.llvm import Function
 from tandemlift.trace.rolled import Place
 from tandemlift.trace.text import Module
