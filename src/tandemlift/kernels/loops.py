@@ -191,7 +191,7 @@ class LoopWriter:
         f.do(f"br i1 {f.op(f'icmp slt i64 %k, {stop}')}, label %sound, label %over")
         f.lines.append("sound:")
         if self.lanes == 1:
-            lost = f.load("%flying", leaf_offset(self.templates.flying, "moving", "lost").at)
+            lost = f.load("%flying", leaf_offset(self.templates.flying, "moving", "diverged").at)
             f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
             f.lines.append("step:")
         self.begin_step(f, "%k")

@@ -108,8 +108,8 @@ def write_surroundings(step: LoopWriter) -> None:
 def _find_legs(step: LoopWriter, f: Function) -> None:
     flying, lanes = step.templates.flying, step.lanes
     index, leg = (
-        leaf_offset(flying, "moving", "partner", "index").at,
-        leaf_offset(flying, "moving", "partner", "leg").at,
+        leaf_offset(flying, "moving", "person", "index").at,
+        leaf_offset(flying, "moving", "person", "leg").at,
     )
     legs, last = step.context_word(f, "legs"), f.integer("sub", step.context_word(f, "leg_count"), 1)
     for lane in range(lanes):

@@ -77,14 +77,14 @@ def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> Any:
     """Which delay lines a mission has; `Nothing` if it has none."""
     if not delays.any():
         return Nothing()
-    imu, motion, command, seen, *more = [Delayed() if d else Nothing() for d in delays]
+    imu, motion, command, view, *more = [Delayed() if d else Nothing() for d in delays]
     names = tuple(s.name for s in mission.sensors.additional)
-    return DelayLines(imu, motion, command, seen, by_name(names)(*more))
+    return DelayLines(imu, motion, command, view, by_name(names)(*more))
 
 
-def start_metrics(far: Any, company: Any) -> RunningMetrics:
+def start_metrics(far: Any, person: Any) -> RunningMetrics:
     """The running metrics before the first step; `far`: the clearance before any wall was looked at."""
-    return EMPTY._replace(clearance=far, effort=company if isinstance(company, Nothing) else NO_EFFORT)
+    return EMPTY._replace(clearance=far, effort=person if isinstance(person, Nothing) else NO_EFFORT)
 
 
 def assemble(mission: Mission) -> AssembledFlight:
@@ -101,10 +101,10 @@ def assemble(mission: Mission) -> AssembledFlight:
     grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
     delays = delays_from(mission)
     rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, delayed=bool(delays[2]))
-    weather, eddies = start_weather(mission, vehicle, chance)
+    wind, eddies = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
     near, hand = near_walls_from(walls), PushSamples(push, push, push)
-    devices, hiss = sensors_from(mission, vehicle, chance)
+    devices, sensor_noise = sensors_from(mission, vehicle, chance)
     sensing: Any = Nothing()
     if not isinstance(devices, Nothing):
         initial = readings_at_rest(plant, state, grip, near, thrusts, hand)
@@ -112,17 +112,29 @@ def assemble(mission: Mission) -> AssembledFlight:
     readings = Nothing() if isinstance(devices, Nothing) else readings_of(sensing)
     estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
-    partner, company, twitch = start_person(mission, vehicle, state)
-    tally = start_metrics(clearance(walls, near, plant.frame, state), company)
-    moving = FlightState(state, memory, eddies, grip, near, sensing, known, spinning, readings, company, tally, 0.0)
-    reads = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
+    person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
+    moving = FlightState(
+        state=state,
+        memory=memory,
+        wind=eddies,
+        grip=grip,
+        near=near,
+        sensing=sensing,
+        estimator=known,
+        rotors=spinning,
+        readings=readings,
+        person=memory_of_person,
+        metrics=start_metrics(clearance(walls, near, plant.frame, state), memory_of_person),
+        diverged=0.0,
+    )
+    sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
     late = delay_lines_from(mission, delays)
-    flying = FlightModel(moving, pilot, plant, rotors, weather, devices, estimators, reads, partner, late)
-    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(weather), hiss, twitch), company)
+    flying = FlightModel(moving, pilot, plant, rotors, wind, devices, estimators, sources, person, late)
+    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), sensor_noise, tremor_noise), memory_of_person)
     return AssembledFlight(
         flying,
         given,
-        input_tables_from(mission, path_legs_from(mission, partner, state)),
+        input_tables_from(mission, path_legs_from(mission, person, state)),
         delays,
         np.array(key_from_seed(mission.mission.seed)),
     )

@@ -66,7 +66,7 @@ def _kept(p: FlightPlan) -> tuple[Any, ...]:
     rest = moving._replace(memory=moving.memory._replace(controller=Nothing()))
     data = (plant, *p.tables, p.delays, p.seeds)
     numbers = [np.asarray(_numbers(x)).tobytes() for x in data]
-    return layout(rest), layout(plant), layout(p.given), layout(p.flying.partner), p.steps, p.every, p.dt, numbers
+    return layout(rest), layout(plant), layout(p.given), layout(p.flying.person), p.steps, p.every, p.dt, numbers
 
 
 def _numbers(value: Any) -> Any:
@@ -161,5 +161,5 @@ class ParameterChanges:
 
 def hand_place(p: FlightPlan) -> slice:
     """The place of the virtual hand in a flight's numbers; empty without one."""
-    span = leaf_offset(p.flying, "partner", "hand")
+    span = leaf_offset(p.flying, "person", "hand")
     return slice(span.at, span.at + span.size)

@@ -13,7 +13,7 @@ from tandemlift.common.types import Array
 from tandemlift.controllers import control
 from tandemlift.kernels.context import aligned
 from tandemlift.kernels.pilot_sampling import PilotData, PilotSampler
-from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
+from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.laws.mechanics.body import State
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.pilot.pilot import PilotInput
@@ -23,7 +23,9 @@ from tandemlift.trace.code import Code
 from tandemlift.trace.key import key_of
 from tandemlift.vehicle import Vehicle
 
-HEARD = PilotInput(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
+HEARD = PilotInput(
+    State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NO_REQUEST, UNKNOWN_STATUS
+)
 SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
 
 

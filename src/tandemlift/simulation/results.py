@@ -17,8 +17,7 @@ from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.kernels import leaf_offset
-from tandemlift.laws.guidance.supervision import SupervisionState
-from tandemlift.laws.guidance.supervisor import ALARM, PHASE
+from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
@@ -52,14 +51,14 @@ class RawResult:
     @property
     def lost(self) -> bool:
         """Whether the flight diverged."""
-        return self.moving.lost != 0.0
+        return self.moving.diverged != 0.0
 
 
 def take_metrics(numbers: Array, like: FlightModel, lanes: int) -> list[RunningMetrics]:
     """Take the running metrics out of a flight or a block, and reset them."""
-    at, size = leaf_offset(like, "moving", "tally")
+    at, size = leaf_offset(like, "moving", "metrics")
     rows = numbers[at * lanes : (at + size) * lanes].reshape(-1, lanes)
-    empty = like.moving.tally
+    empty = like.moving.metrics
     tallies = [unflat(rows[:, lane], empty) for lane in range(lanes)]
     rows[:] = np.array(flat(empty))[:, None]
     return tallies
@@ -91,7 +90,7 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     """The metrics of a flight by their names in metrics.json; None for a metric without a finite value."""
     first, last = unflat(flown.log[0], p.sample), unflat(flown.last, p.sample)
     late_reached = p.late_step < p.steps and flown.step >= p.late_step
-    early, late = (flown.early, flown.moving.tally) if late_reached else (flown.moving.tally, EMPTY)
+    early, late = (flown.early, flown.moving.metrics) if late_reached else (flown.moving.metrics, EMPTY)
     formed = summary(early, late, p.dt)
     formed["final_position_m"] = list(flown.moving.state.position)
     formed["final_reference_m"] = list(last.reference_position)

@@ -68,7 +68,7 @@ class Stepper:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
         self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
-        self.at_lost, self.hand = leaf_offset(p.flying, "moving", "lost").at, hand_place(p)
+        self.at_lost, self.hand = leaf_offset(p.flying, "moving", "diverged").at, hand_place(p)
         self._bind_views()
 
     def _bind_views(self) -> None:
@@ -78,7 +78,7 @@ class Stepper:
             for name in ("asked", "answer", "external", "acting", "push", "moved")
         }
         acting = self.p.kernels.templates.acting
-        thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "weather", "loads")
+        thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "wind", "loads")
         self.x, self.y, self.v, self.push = view["asked"], view["answer"], view["moved"], view["push"]
         self.external = view["external"]
         if self.body is not None:
