@@ -79,7 +79,7 @@ def given_at(k: int, like: StepInputs, tables: Any, seeds: Any) -> StepInputs:
         PushSamples(push(k * DT), push((k + 0.5) * DT), push((k + 1) * DT)),
         gust,
         unflat(chance, like.noise),
-        like.partner,
+        like.person,
     )
 
 

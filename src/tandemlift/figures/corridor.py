@@ -98,9 +98,9 @@ def _pushes(ax: Any, found: list[tuple[Array, Array]]) -> None:
 
 def _desired(flight: Flight) -> Array:
     """The corners (n, 2) of the path that the person was to follow [m]; none without one."""
-    partner, corridor = flight.mission.get("person", {}), flight.mission.get("corridor", {})
-    own = [w["point"] for w in partner.get("path", [])] or corridor.get("centreline", [])
-    return np.array(own if partner.get("model", "none") not in ("none", "grab") else []).reshape(-1, 2)
+    person, corridor = flight.mission.get("person", {}), flight.mission.get("corridor", {})
+    own = [w["point"] for w in person.get("path", [])] or corridor.get("centreline", [])
+    return np.array(own if person.get("model", "none") not in ("none", "grab") else []).reshape(-1, 2)
 
 
 def _bounds(flight: Flight, shown: list[int]) -> Array:

@@ -10,7 +10,7 @@ from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.laws.estimation.navigation import centre_of_mass
 from tandemlift.laws.estimation.push_estimate import PushEstimate
-from tandemlift.laws.guidance.supervision import SensorStatus, sensor_status
+from tandemlift.laws.guidance.preflight_checks import SensorStatus, sensor_status
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.sensors.readings import Readings, Sensors, SensorState, sense
 from tandemlift.laws.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults

@@ -220,25 +220,25 @@ def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSam
         joint_force=readings.joint_force,
         joint_torque=readings.joint_torque,
         actuators=actuator_channels(flying.rotors, flying.plant.effect, command.wrench, decision.thrusts),
-        wind=wind_channels(acting.weather.loads, acting.weather.velocity),
+        wind=wind_channels(acting.wind.loads, acting.wind.velocity),
         contact=contact_channels(flying.plant.floor, readings),
         measured=measured_channels(flying.moving.readings),
-        estimated=estimated_channels(thought.known),
-        disturbance=disturbance_channels(flying.pilot.observer, decision.unknown),
-        guidance=guidance.shown,
+        estimated=estimated_channels(thought.estimates),
+        disturbance=disturbance_channels(flying.pilot.observer, decision.disturbance),
+        guidance=guidance.channels,
         detection=detection_channels(flying.pilot.detection, thought.memory.detection),
     )
 
 
-@choice(absent="partner")
-def effort(partner: Any, x: Sample) -> Any:
+@choice(absent="person")
+def effort(person: Any, x: Sample) -> Any:
     """The effort of the person who guides the vehicle, over a step."""
 
 
 @effort.register(PersonState)
 @effort.register(VirtualHandState)
-def _effort(partner: Any, x: Sample) -> PersonEffort:
-    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+def _effort(person: Any, x: Sample) -> PersonEffort:
+    return effort_of(where(person.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
 @choice(absent=0.0)
@@ -266,6 +266,6 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
         power=dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
         saturated=saturated(flying.rotors, decision.thrusts) * thrust_fraction(decision.guidance.running),
         clearance=clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
-        effort=effort(flying.moving.partner, x),
-        hearing=push_active(decision.guidance.shown),
+        effort=effort(flying.moving.person, x),
+        push_active=push_active(decision.guidance.channels),
     )

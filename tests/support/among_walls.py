@@ -1,0 +1,62 @@
+"""Vehicles at places among walls, and what the laws say of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from law_values import BEAM, paper_vehicle, quadrotor
+
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import PartLoads, PartsLayout
+from tandemlift.laws.mechanics.rectangle import Wall, wall
+from tandemlift.laws.mechanics.walls import Walls, near_wall_loads, nearest_with, no_walls_near, walls
+from tandemlift.models.parts_layout import parts_layout_from
+from tandemlift.vehicle import Vehicle
+
+LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
+LENGTH, RADIUS, GUARD = 2.0, 0.05, 0.375
+STEP = 0.001
+PARTS = (Vec3, Vec3, Quat, Vec3)  # of a state
+EACH_COUNT = pytest.mark.parametrize("count", [1, 2, 3, 4])
+
+
+def walls_of(vehicle: Vehicle, step: float = STEP, friction: float = 0.4, guard: float = GUARD, **more: Any) -> Walls:
+    more = {"beam": (LENGTH, RADIUS), "payload": -vehicle.center_of_mass, **more}
+    return walls(vehicle.lever_arms, guard, vehicle.mass, vehicle.inertia, step, friction=friction, **more)
+
+
+def found(w: Walls, table: Any, frame: PartsLayout, s: State) -> Any:
+    """What is near, of all walls."""
+    near = no_walls_near(w)
+    for one in table:
+        near = nearest_with(w, one, near, frame, s)
+    return near
+
+
+def pressed(w: Walls, table: Any, vehicle: Vehicle, s: State) -> PartLoads:
+    frame = parts_layout_from(vehicle)
+    return near_wall_loads(w, found(w, table, frame, s), frame, s)
+
+
+def polygon(points: Any, top: float = 9.0) -> list[Wall]:
+    return [wall(a, b, top) for a, b in zip(points, [*points[1:], points[0]], strict=True)]
+
+
+def at(position: Any, velocity: Any = (0.0, 0.0, 0.0), attitude: Quat = LEVEL, rates: Vec3 = ZERO) -> State:
+    return State(vec3(position), vec3(velocity), attitude, rates)
+
+
+def one_quadrotor() -> Vehicle:
+    """A quadrotor with its payload at its centre of mass: a sphere to the walls."""
+    return Vehicle(BEAM, [quadrotor((0.0, 0.0, 0.0))])
+
+
+SINGLE, PAIR = one_quadrotor(), paper_vehicle()
+FLAT = Vehicle(BEAM, [quadrotor((0.0, 1.0, 0.0)), quadrotor((0.0, -1.0, 0.0))])  # all centres at one height
+
+
+def random_wall(rng: np.random.Generator, size: float = 1.0) -> Wall:
+    return wall(*rng.uniform(-size, size, (2, 2)), rng.uniform(-size, size))
