@@ -24,7 +24,7 @@ class Clearances(NamedTuple):
     beam: Array | None
 
 
-def state_of(flight: Flight) -> State:
+def logged_states(flight: Flight) -> State:
     """The state of all samples, each number an array (T)."""
     names = zip(("position", "velocity", "attitude", "rates"), (Vec3, Vec3, Quat, Vec3), strict=True)
     return State(*[kind(*flight[name].T) for name, kind in names])
@@ -36,7 +36,7 @@ def _length(o: Vec3) -> Array:
 
 def clearances(flight: Flight) -> Clearances:
     """Distance of guards and beam from the nearest wall; below zero where they are in it."""
-    vehicle, s = Vehicle.from_mission(flight.mission), state_of(flight)
+    vehicle, s = Vehicle.from_mission(flight.mission), logged_states(flight)
     upright = [wall(w["start"], w["end"], w["top"]) for w in wall_tables(flight.mission)]
     R = body_to_world(flight["attitude"])
     guards = np.full(len(flight.time), np.inf)
