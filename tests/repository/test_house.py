@@ -16,17 +16,10 @@ LONGEST_FILE = {PACKAGE: 300, TESTS: 400}  # lines
 LONGEST_FUNCTION = 60  # lines
 
 # What does not keep a rule yet, exactly; what keeps it is taken out.
-KNOWN_MEASURES = ["arrows"]
-KNOWN_FOLDERS = ["src/tandemlift/trace"]
-KNOWN_FILES = [
-    "src/tandemlift/laws/guidance/guidance.py",
-    "src/tandemlift/laws/guidance/supervision.py",
-    "src/tandemlift/models/sdf.py",
-]
-KNOWN_FUNCTIONS = [
-    "src/tandemlift/laws/estimation/push_estimate.py: push_estimator",
-    "tests/missions/test_valid_missions.py: test_the_paper_mission_has_the_paper_s_numbers",
-]
+KNOWN_MEASURES: list[str] = []
+KNOWN_FOLDERS: list[str] = []
+KNOWN_FILES: list[str] = []
+KNOWN_FUNCTIONS: list[str] = []
 
 
 @pytest.fixture(scope="module")

@@ -88,7 +88,9 @@ def pull_by(k: VirtualHand, m: VirtualHandState, state: State) -> Any:
     reach, slip = place.value - now.grip, place.rate - now.grip_velocity
     spring = (reach * k.stiffness + slip * k.damping) * grasp.value
     push = bounded(spring + force.value, k.max_force)
-    after = VirtualHandState(place, grasp, force, h.held, h.lift, h.land, h.stop, h.enabled)
+    after = VirtualHandState(
+        place, grasp, force, holding=h.held, lift=h.lift, land=h.land, stop=h.stop, enabled=h.enabled
+    )
     return PointPush(push, outer(push, h.grip)), after
 
 
