@@ -23,7 +23,7 @@ PACKAGE = Path(tl.__file__).parent
 LEVELS = {"quick": machine.QUICK, "best": machine.BEST, "best of blocks": machine.BEST_OF_VECTORS}
 
 
-def python(code, **environment):
+def check_run(code, **environment):
     command = [sys.executable, "-W", "error", "-c", code]
     done = completed(command, capture_output=True, text=True, env={**os.environ, **environment})
     assert done.returncode == 0, done.stderr
@@ -39,7 +39,7 @@ print("llvmlite" in sys.modules, "matplotlib" in sys.modules)
 tl.fly(mission)
 print("llvmlite" in sys.modules, "matplotlib" in sys.modules, "numba" in sys.modules)
 """
-    assert python(code) == ["False", "False", "False", "False", "True", "False", "False"]
+    assert check_run(code) == ["False", "False", "False", "False", "True", "False", "False"]
 
 
 def test_a_second_process_finds_the_code_and_an_edit_of_a_law_loses_it(tmp_path):
@@ -54,13 +54,13 @@ machine.compiled = lambda *args: made.append(args) or compiled(*args)
 flight = tl.fly(tl.load_mission("one-push", {"mission.duration": 0.1}))
 print(len(made), flight["thrust"].sum().hex(), tl.__file__)
 """
-    first, second = python(code, **environment), python(code, **environment)
+    first, second = check_run(code, **environment), check_run(code, **environment)
     assert [first[0], second[0]] == ["1", "0"]
     assert first[1:] == second[1:]
     assert first[2].startswith(str(copy))
     with (copy / "tandemlift" / "laws" / "mechanics" / "rotation.py").open("a") as law:
         law.write("# an edit\n")
-    assert python(code, **environment) == ["1", *first[1:]]
+    assert check_run(code, **environment) == ["1", *first[1:]]
 
 
 def test_an_edit_of_any_source_changes_the_key(monkeypatch):
@@ -89,8 +89,8 @@ with (Path(tl.__file__).parent / "laws" / "mechanics" / "rotation.py").open("a")
     law.write("# an edit")
 print(key_of(flying))
 """
-    first, second = python(code, PYTHONPATH=str(copy), PYTHONSAFEPATH="1")
-    third, _ = python(code, PYTHONPATH=str(copy), PYTHONSAFEPATH="1")
+    first, second = check_run(code, PYTHONPATH=str(copy), PYTHONSAFEPATH="1")
+    third, _ = check_run(code, PYTHONPATH=str(copy), PYTHONSAFEPATH="1")
     assert first == second != third
 
 
@@ -153,7 +153,8 @@ def undefined(code):
     def word(at, size):
         return int.from_bytes(code[at : at + size], "little")
 
-    assert code[:5] == b"\x7fELF\x02"
+    if code[:5] != b"\x7fELF\x02":
+        raise ValueError("no ELF object of 64 bits")
     sections = [word(40, 8) + i * word(58, 2) for i in range(word(60, 2))]
     table = next(s for s in sections if word(s + 4, 4) == 2)
     names = word(sections[word(table + 40, 4)] + 24, 8)
