@@ -22,8 +22,8 @@ from tandemlift.algebra.vector import Vec3, each
 from tandemlift.kernels.limit_solver import write_solver
 from tandemlift.kernels.traced_step import TracedSolver
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import AllocationState, Mixer
-from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, begun, searched, weighted_rows, weights_of
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
+from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, search_step, start_search
 from tandemlift.trace import Function, Module, double, flat, leaves
 from tandemlift.trace.functions import compiled
 from tandemlift.trace.machine import BEST, Loaded
@@ -82,7 +82,10 @@ def steps_of(like: BoundedProblem, problems: np.ndarray, warm: bool) -> np.ndarr
     """How many steps of the search each problem takes."""
     n = len(like.limits)
     working = AllocationState(like.limits, like.limits)
-    begin, step = compiled(begun, like.limits, working), compiled(searched, like, Search(working, 0.0, 0.0, 0.0))
+    begin, step = (
+        compiled(start_search, like.limits, working),
+        compiled(search_step, like, Search(working, 0.0, 0.0, 0.0)),
+    )
     fixed, taken, held = flat(like)[: -4 - 2 * n], np.zeros(len(problems)), np.zeros(2 * n)
     for k, problem in enumerate(problems):
         start = held if warm else np.concatenate([np.zeros(n), problem[4 : 4 + n]])

@@ -44,7 +44,7 @@ def mixer_inverse(quadrotor: Quadrotor) -> Array:
     return np.asarray(np.linalg.inv(A), dtype=np.float64)
 
 
-def shift(mass: float, d: Array) -> Array:
+def parallel_axis_term(mass: float, d: Array) -> Array:
     """Parallel-axis term of a mass at d: m (dᵀd I − d dᵀ) [kg m²]."""
     return mass * (d @ d * np.eye(3) - np.outer(d, d))
 
@@ -121,9 +121,9 @@ class Vehicle:
     @cached_property
     def inertia(self) -> Array:
         """J_t [kg m²] about the system's centre of mass, body axes (3 × 3)."""
-        total = np.diag(self.payload.moments) + shift(self.payload.mass, self.center_of_mass)
+        total = np.diag(self.payload.moments) + parallel_axis_term(self.payload.mass, self.center_of_mass)
         for q, d in zip(self.quadrotors, self.lever_arms, strict=True):
-            total = total + np.diag(q.inertia) + shift(q.mass, d)
+            total = total + np.diag(q.inertia) + parallel_axis_term(q.mass, d)
         return total
 
     @cached_property

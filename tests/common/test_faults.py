@@ -7,7 +7,7 @@ from typing import get_args
 import pytest
 
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS, REACTION_MEANINGS, REACTIONS, Reaction
-from tandemlift.flight.record import CHANNELS
+from tandemlift.flight.channels import CHANNELS
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
 from tandemlift.laws.guidance.supervision import first_failed
 from tandemlift.settings import SupervisionTable

@@ -13,14 +13,14 @@ from scipy.spatial.transform import Rotation
 from tandemlift.algebra.vector import ZERO, Mat3, Quat, vec3
 from tandemlift.controllers.geometric import (
     Derivatives,
-    attitude_along,
     attitude_error,
-    heading,
+    attitude_from_force,
+    heading_vector,
     zxy_angles,
 )
-from tandemlift.controllers.pid import PIDGains, PIDStageState, drawn_back, pid_of
-from tandemlift.controllers.smc import layer_reaching_time, linear, switched_acceleration
-from tandemlift.controllers.super_twisting import twist, twisting
+from tandemlift.controllers.pid import PIDGains, PIDStageState, back_calculated, pid_step
+from tandemlift.controllers.smc import layer_reaching_time, linear_surface, switched_acceleration
+from tandemlift.controllers.super_twisting import super_twisting_step, twisting_gains
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 
@@ -57,7 +57,11 @@ def path(rng):
     def yaw(t):
         return psi + turn * np.sin(t), turn * np.cos(t), -turn * np.sin(t)
 
-    return lambda t: attitude_along(Derivatives(*map(vec3, force(t))), heading(*map(float, yaw(t)))), force, yaw
+    return (
+        lambda t: attitude_from_force(Derivatives(*map(vec3, force(t))), heading_vector(*map(float, yaw(t)))),
+        force,
+        yaw,
+    )
 
 
 @given(seeds)
@@ -101,7 +105,7 @@ def test_the_answer_to_a_constant_error_is_p_plus_a_ramp_plus_a_filtered_pulse()
     """u = k_p + k_i t + k_d ω² t e^(−ωt): the derivative is that of a critically damped low-pass."""
     k, memory, time, found = stage(2.0, 3.0, 0.5), REST, np.arange(1, 301) * STEP, []
     for _ in time:
-        u, memory = pid_of(k, memory, vec3([1.0, -1.0, 0.0]))
+        u, memory = pid_step(k, memory, vec3([1.0, -1.0, 0.0]))
         found.append(array(u))
     wanted = 2.0 + 3.0 * time + 0.5 * 900.0 * time * np.exp(-30.0 * time)
     assert np.array(found)[:, 0] == pytest.approx(wanted, rel=1e-9)
@@ -115,7 +119,7 @@ def test_the_step_response_of_position_p_and_velocity_pi_is_that_of_their_transf
     k, memory, x, v, found = stage(k_v, k_i), REST, 0.0, 0.0, []
     for _ in range(8000):
         found.append(x)
-        u, memory = pid_of(k, memory, vec3([k_p * (1.0 - x) - v] * 3))
+        u, memory = pid_step(k, memory, vec3([k_p * (1.0 - x) - v] * 3))
         x, v = x + v * STEP + 0.5 * u.x * STEP**2, v + u.x * STEP
     loop = signal.TransferFunction([k_v * k_p, k_i * k_p], [1.0, k_v, k_v * k_p + k_i, k_i * k_p])
     _, wanted = signal.step(loop, T=np.arange(8000) * STEP)
@@ -126,9 +130,9 @@ def test_the_step_response_of_position_p_and_velocity_pi_is_that_of_their_transf
 def test_the_integral_stops_at_its_limit_and_comes_back_at_once():
     k, memory = stage(i=1.0, limit=0.5), REST
     for _ in range(2000):
-        _, memory = pid_of(k, memory, vec3([1.0, -1.0, 0.2]))
+        _, memory = pid_step(k, memory, vec3([1.0, -1.0, 0.2]))
     assert array(memory.integral) == pytest.approx([0.5, -0.5, 0.4], rel=1e-9)
-    _, memory = pid_of(k, memory, vec3([-1.0, 1.0, 0.0]))
+    _, memory = pid_step(k, memory, vec3([-1.0, 1.0, 0.0]))
     assert array(memory.integral) == pytest.approx([0.499, -0.499, 0.4], rel=1e-9)
 
 
@@ -136,8 +140,8 @@ def test_the_integral_is_drawn_back_until_the_excess_balances_the_error():
     """With u held at m, İ = k_i e − k_t (k_p e + I − m) settles at I = m − k_p e + k_i e/k_t."""
     k, memory, tracking, most = stage(2.0, 1.0), REST, 4.0, 0.3
     for _ in range(10000):
-        u, memory = pid_of(k, memory, vec3([1.0] * 3))
-        memory = drawn_back(memory, (u - vec3([most] * 3)) * (tracking * STEP))
+        u, memory = pid_step(k, memory, vec3([1.0] * 3))
+        memory = back_calculated(memory, (u - vec3([most] * 3)) * (tracking * STEP))
     assert array(memory.integral) == pytest.approx([most - 2.0 + 1.0 / tracking] * 3, rel=1e-3)
 
 
@@ -151,7 +155,7 @@ def test_the_layer_of_the_linear_surface_is_reached_after_the_time_of_the_closed
     slope, gain, width = rng.uniform(0.5, 5.0), rng.uniform(1.0, 5.0), rng.uniform(0.05, 0.5)
     S0 = float(rng.choice([-1.0, 1.0]) * (width + rng.uniform(0.2, 3.0)))
     pull = float(rng.uniform(0.0, 0.8) * gain)
-    k = linear([slope] * 3, [gain] * 3, [width] * 3)
+    k = linear_surface([slope] * 3, [gain] * 3, [width] * 3)
 
     def motion(_, y):  # y = e, ė; S0 is all rate
         u = switched_acceleration(k, vec3([y[0]] * 3), vec3([y[1]] * 3)).x
@@ -167,12 +171,12 @@ def test_the_layer_of_the_linear_surface_is_reached_after_the_time_of_the_closed
 
 def twisted(step, width, ramp, duration, L=4.0, slope=2.0):
     """Time, S and v + δ of super-twisting on a double integrator with the matched disturbance 0.5 + ramp · t."""
-    k, v, e, de = twisting(step, [slope] * 3, [L] * 3, [width] * 3, [1e3] * 3), ZERO, 0.4, 0.3
+    k, v, e, de = twisting_gains(step, [slope] * 3, [L] * 3, [width] * 3, [1e3] * 3), ZERO, 0.4, 0.3
     rows = []
     for i in range(round(duration / step)):
         delta = 0.5 + ramp * i * step
         rows.append((i * step, de + slope * e, v.x + delta))
-        u, v = twist(k, v, vec3([e] * 3), vec3([de] * 3))
+        u, v = super_twisting_step(k, v, vec3([e] * 3), vec3([de] * 3))
         e, de = e + de * step - 0.5 * (u.x + delta) * step**2, de - (u.x + delta) * step
     return np.array(rows)
 
@@ -195,7 +199,7 @@ def test_a_linear_core_leaves_what_the_ramp_over_its_stiffness_is():
 
 
 def test_the_integral_of_super_twisting_stops_at_its_limit():
-    k, v = twisting(STEP, [1.0] * 3, [4.0] * 3, [0.1] * 3, [0.25] * 3), ZERO
+    k, v = twisting_gains(STEP, [1.0] * 3, [4.0] * 3, [0.1] * 3, [0.25] * 3), ZERO
     for _ in range(1000):
-        _, v = twist(k, v, vec3([1.0, -1.0, 0.0]), ZERO)
+        _, v = super_twisting_step(k, v, vec3([1.0, -1.0, 0.0]), ZERO)
     assert array(v) == pytest.approx([0.25, -0.25, 0.0])

@@ -12,7 +12,7 @@ import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.controllers import CONTROLLERS, Disturbance, Measured, Reference, control, controller
-from tandemlift.controllers.lqr import LQRSettings, chain, regulator
+from tandemlift.controllers.lqr import LQRSettings, integrator_chain, regulator
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
 from tandemlift.laws.signals.trajectories import Trajectory
@@ -115,7 +115,7 @@ def riccati_gain(A, B, Q, R):
 def test_the_gain_is_that_of_scipy_s_riccati_equation(seed):
     rng = np.random.default_rng(seed)
     length, lag = int(rng.integers(2, 5)), float(rng.uniform(0.01, 0.2))
-    A, B = chain(length, lag, gravity=length == 4)
+    A, B = integrator_chain(length, lag, gravity=length == 4)
     Q = np.diag([*rng.uniform(0.1, 30.0, length), 0.0])
     R = float(10.0 ** rng.uniform(-3.0, 1.0))
     wanted = riccati_gain(A, B, Q, R)
@@ -132,7 +132,7 @@ def weights(s: LQRSettings, place: int, turned: int):
 def test_about_hover_the_moment_is_the_feedback_of_the_linear_chain(place, turned, sign):
     """U = −J K x, with x = (position, velocity, tilt, rate) off hover; roll tilts towards −y."""
     s = LQRSettings(name="lqr")
-    A, B = chain(4, s.lag, gravity=True)
+    A, B = integrator_chain(4, s.lag, gravity=True)
     K = riccati_gain(A, B, weights(s, place, turned), s.moment_weight[turned])
     size = 1e-6
     for part in range(4):
@@ -156,7 +156,7 @@ def offset_of(name, settings):
         return a / settings.position_stiffness[0]
     if name == "smc":
         return a * settings.boundary_layer[0] / (settings.gain[0] * settings.slope[0])
-    A, B = chain(4, settings.lag, gravity=True)
+    A, B = integrator_chain(4, settings.lag, gravity=True)
     K = riccati_gain(A, B, weights(settings, 0, 1), settings.moment_weight[1])
     return np.arctan(a / GRAVITY) * K[2] / K[0]
 

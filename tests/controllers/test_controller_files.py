@@ -148,7 +148,7 @@ WRONG_FILES = {
     ),
     "a failing import": (
         (IMPORT,),
-        "my_pd.py, line 12: ImportError: cannot import name 'clop' from 'tandemlift.algebra.ops'",
+        "my_pd.py, line 7: ImportError: cannot import name 'clop' from 'tandemlift.algebra.ops'",
     ),
     "a typo at its top": ((("class Memory(NamedTuple)", "class Memory(NamedTupel)"),), "NameError: name 'NamedTupel'"),
     "bad syntax": (

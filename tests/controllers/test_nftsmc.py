@@ -18,7 +18,7 @@ from tandemlift.controllers.attitude_reference import (
     CommandFilterState,
     Unfiltered,
     command_filter,
-    shape,
+    shape_reference,
 )
 from tandemlift.controllers.equations_of_motion import GeneralizedVector, euler_dynamics, expanded_dynamics
 from tandemlift.controllers.nftsmc import (
@@ -35,7 +35,7 @@ from tandemlift.laws.mechanics.rotation import (
     euler_from_quaternion,
     euler_rates_from_rates,
     quaternion_from_euler,
-    turned_least,
+    wrap_angle,
 )
 from tandemlift.laws.signals.trajectories import Trajectory
 from tandemlift.simulation.assemble import assemble
@@ -92,7 +92,7 @@ def test_the_attitude_law_makes_the_model_turn_as_the_surface_wants(seed):
     desired = AttitudeReference(*(random_vec3(rng) for _ in range(3)))
     moment = attitude_law(K, e, rates, desired)
     moved = expanded_dynamics(BODY, ZERO, rates, GeneralizedVector(ZERO, moment)).attitude
-    error = turned_least(desired.angles - e.angles)
+    error = wrap_angle(desired.angles - e.angles)
     wanted = wanted_acceleration(K.attitude, error, desired.rates - rates)
     scale = 1.0 + np.abs(array(wanted)).max()
     assert array(moved) == pytest.approx(array(desired.accelerations + wanted), abs=1e-12 * scale)
@@ -156,7 +156,7 @@ def test_the_command_filter_is_exact_for_a_held_command(seed):
     rng = np.random.default_rng(seed)
     bandwidth, step = float(rng.uniform(5.0, 80.0)), 0.01
     memory, desired = CommandFilterState(random_vec3(rng), random_vec3(rng)), random_vec3(rng)
-    tracked, after = shape(command_filter(bandwidth, step), memory, desired)
+    tracked, after = shape_reference(command_filter(bandwidth, step), memory, desired)
 
     def rate(t, y):
         return np.concatenate([y[3:], bandwidth**2 * (array(desired) - y[:3]) - 2.0 * bandwidth * y[3:]])
@@ -170,7 +170,7 @@ def test_the_command_filter_is_exact_for_a_held_command(seed):
 
 
 def test_without_a_filter_the_attitude_reference_is_at_rest():
-    tracked, memory = shape(Unfiltered(), CommandFilterState(ZERO, ZERO), Vec3(0.1, 0.2, 0.3))
+    tracked, memory = shape_reference(Unfiltered(), CommandFilterState(ZERO, ZERO), Vec3(0.1, 0.2, 0.3))
     assert tracked == AttitudeReference(Vec3(0.1, 0.2, 0.3), ZERO, ZERO)
     assert memory == CommandFilterState(ZERO, ZERO)
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.algebra.vector import Nothing
 from tandemlift.flight.channel_tables import with_tables
 from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
@@ -30,6 +31,7 @@ GROUPS = {
     "air": WindChannels,
     "contact": ContactChannels,
     "measured": MeasuredChannels,
+    "additional": Nothing,
     "estimated": EstimatedChannels,
     "disturbed": DisturbanceChannels,
     "guided": HandGuidanceChannels,

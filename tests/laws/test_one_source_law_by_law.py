@@ -25,14 +25,14 @@ from tandemlift.algebra.vector import (
     outer,
 )
 from tandemlift.controllers import equations_of_motion, sliding_surface
-from tandemlift.laws.estimation import fault_decision, rotor_loss_detection
+from tandemlift.laws.estimation import fault_decision, rotor_loss_detection, wind_compensation
 from tandemlift.laws.guidance import admittance, guidance
-from tandemlift.laws.mechanics import air_drag, contact, loads, parts, rotation, tilt, walls
+from tandemlift.laws.mechanics import contact, loads, parts, rotation, tilt, walls
 from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, motion
 from tandemlift.laws.mechanics.inertia import gyroscopic
 from tandemlift.laws.mechanics.push import PointPush
 from tandemlift.laws.mechanics.rectangle import Wall
-from tandemlift.laws.rotors import allocation, dynamics, thrust_limits
+from tandemlift.laws.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
 from tandemlift.laws.signals import low_pass, trajectories
 
 V = Vec3(0.0, 0.0, 0.0)
@@ -54,10 +54,10 @@ GRIP = Quarters(*[contact.FootGrip(TWO, TWO, TWO)] * 4)
 WALLS = walls.Walls(*[0.0] * 4, TWO, walls.Beam(0.0, TWO), 0.0)
 UPRIGHT, UPRIGHTS = Wall(*[0.0] * 6), Wall(*[TWO] * 6)
 NEAR = walls.NearWalls(UPRIGHTS, UPRIGHTS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT, UPRIGHT))
-LAG, MIXER = dynamics.Lag(EIGHT, EIGHT, EIGHT), allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
-SURFACES = dynamics.GroundEffect(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, 0.0)
-ROTORS = dynamics.Rotors(
-    EIGHT, EIGHT, EIGHT, LAG, LAG, dynamics.RotorFaults(EIGHT, EIGHT), SURFACES, 0.0, Wrench(0.0, V)
+LAG, MIXER = rotor_lag.Lag(EIGHT, EIGHT, EIGHT), allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
+SURFACES = ground_effect.GroundEffect(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, 0.0)
+ROTORS = rotors.Rotors(
+    EIGHT, EIGHT, EIGHT, LAG, LAG, rotor_faults.RotorFaults(EIGHT, EIGHT), SURFACES, 0.0, Wrench(0.0, V)
 )
 FOURS, LOW = each(4)(*[0.0] * 4), low_pass.LowPass(*[0.0] * 4)
 SMOOTH, SMOOTHS = low_pass.LowPassState(FOURS, FOURS), low_pass.LowPassState(EIGHT, EIGHT)
@@ -68,8 +68,10 @@ WATCHING = rotor_loss_detection.DetectionState(
     *[SMOOTHS] * 2, *[SMOOTH] * 4, fault_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
 )
 HEARD = guidance.PilotInput(STATE, V, V, 0.0, Nothing())
-BLOWN = air_drag.PayloadDragState(V, 0.0, low_pass.LowPassState(V, V))
-CONSTRAINED = allocation.ConstrainedAllocation(MIXER, MIXER, Wrench(0.0, V), EIGHT, dynamics.RotorFaults(EIGHT, EIGHT))
+BLOWN = wind_compensation.PayloadDragState(V, 0.0, low_pass.LowPassState(V, V))
+CONSTRAINED = allocation.ConstrainedAllocation(
+    MIXER, MIXER, Wrench(0.0, V), EIGHT, rotor_faults.RotorFaults(EIGHT, EIGHT)
+)
 
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "cross": (cross, (V, V)),
@@ -105,21 +107,24 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "reaching time": (sliding_surface.reaching_time, (V, V, V, V)),
     "expanded dynamics": (equations_of_motion.expanded_dynamics, (BODY, V, V, AXES)),
     "Euler dynamics": (equations_of_motion.euler_dynamics, (BODY, EULER, V, V, Wrench(0.0, V))),
-    "thrusts of rotors": (dynamics.drive, (ROTORS, dynamics.RotorState(EIGHT, EIGHT), EIGHT, STATE, 0.0)),
-    "commands to weak rotors": (allocation.commanded, (CONSTRAINED, EIGHT, 0.0)),
+    "thrusts of rotors": (rotors.rotors_step, (ROTORS, rotors.RotorState(EIGHT, EIGHT), EIGHT, STATE, 0.0)),
+    "commands to weak rotors": (allocation.rotor_commands, (CONSTRAINED, EIGHT, 0.0)),
     "watching for a lost rotor": (
         rotor_loss_detection.detection_step,
         (DETECTION, WATCHING, HEARD, EIGHT, 0.0, 0.0, 0.0),
     ),
-    "wind on the payload": (air_drag.blown, (air_drag.PayloadDrag(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0)),
-    "share of a wrench": (thrust_limits.given_share, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
+    "wind on the payload": (
+        wind_compensation.wind_on_payload,
+        (wind_compensation.PayloadDrag(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0),
+    ),
+    "share of a wrench": (allocation.achieved_fraction, (MIXER, Wrench(0.0, V), Wrench(0.0, V), EIGHT)),
     "what joints feel": (loads.perfect_readings, (FRAME, STATE, parts.Acceleration(V, V), EIGHT)),
-    "what joints pass on": (loads.under, (LOADS.quadrotors, FRAME, Q, FELT)),
+    "what joints pass on": (loads.readings_with_load, (LOADS.quadrotors, FRAME, Q, FELT)),
     "loads together": (loads.resultant, (FRAME, Q, LOADS)),
-    "feet on the floor": (contact.touch, (FLOOR, GRIP, FRAME, STATE)),
-    "feet that slip": (contact.slip, (FLOOR, GRIP, STATE)),
-    "near walls": (walls.press, (WALLS, NEAR, FRAME, STATE)),
-    "nearest walls": (walls.consider, (WALLS, UPRIGHT, NEAR, FRAME, STATE)),
+    "feet on the floor": (contact.feet_load, (FLOOR, GRIP, FRAME, STATE)),
+    "feet that slip": (contact.grips_after_step, (FLOOR, GRIP, STATE)),
+    "near walls": (walls.near_wall_loads, (WALLS, NEAR, FRAME, STATE)),
+    "nearest walls": (walls.nearest_with, (WALLS, UPRIGHT, NEAR, FRAME, STATE)),
     "motion, pushed at points": (motion, (BODY, State(V, V, Q, V), Wrench(0.0, V), PointPush(V, M))),
 }
 POSITIVE = {"power", "smooth step", "soft gate", "sliding surface", "surface rate", "wanted acceleration"}

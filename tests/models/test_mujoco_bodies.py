@@ -11,7 +11,7 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height, start_foot_grip
+from tandemlift.laws.mechanics.contact import floor, sole_positions, standing_height, start_foot_grip
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PerfectReadings, resultant
 from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
@@ -190,7 +190,7 @@ def standing(name="four", changes=None):
     """(body, compiled plant's floor, mission, vehicle): a vehicle whose level feet are just on the floor."""
     mission = tl.load_mission(name, LEVEL | (changes or {}))
     vehicle = Vehicle.from_settings(mission.vehicle)
-    soles = soles_below(vehicle.lever_arms, 0.12, 0.18)
+    soles = sole_positions(vehicle.lever_arms, 0.12, 0.18)
     ground = floor(soles, vehicle.mass, vehicle.inertia, DT, friction=FRICTION, sinkage=SINKAGE)
     ground = ground._replace(height=-standing_height(ground, vehicle.weight))
     return MuJoCoBody(mission, vehicle, ground), ground, mission, vehicle

@@ -9,9 +9,9 @@ from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN
-from tandemlift.laws.mechanics.push import PushSamples, push_of
+from tandemlift.laws.mechanics.push import PushSamples, push_at
 from tandemlift.laws.mechanics.rectangle import WALL
-from tandemlift.laws.mechanics.walls import consider
+from tandemlift.laws.mechanics.walls import nearest_with
 from tandemlift.laws.mechanics.wind import gust_velocity
 from tandemlift.laws.rotors.allocation import AllocationState
 from tandemlift.laws.sensors.readings import Readings
@@ -68,7 +68,7 @@ def given_at(k: int, like: StepInputs, tables: Any, seeds: Any) -> StepInputs:
     def push(t):
         felt = like.hand.start
         for row in tables.pushes:
-            felt = felt + push_of(felt, unflat(row, GAUSSIAN), t)
+            felt = felt + push_at(felt, unflat(row, GAUSSIAN), t)
         return felt
 
     gust = ZERO
@@ -96,17 +96,17 @@ def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
         if k % SPAN == 0:
             near, plant = nowhere, flying.plant
             for row in tables.walls:
-                near = consider(plant.walls, unflat(row, WALL), near, plant.frame, flying.moving.state)
+                near = nearest_with(plant.walls, unflat(row, WALL), near, plant.frame, flying.moving.state)
             flying = flying._replace(moving=flying.moving._replace(near=near))
         given = with_person(flying, given_at(k, like, tables, seeds), k * DT, DT)
         thought = run_pilot(flying, given.hand.start, k * DT, DT)
         wished = thought.decision.thrusts
         thought = thought._replace(memory=with_allocation(thought.memory, AllocationState(wished * 0.0, wished)))
         moving, sample = finish_step(flying, thought, given, k * DT, DT)
-        units.append(moving.readings.unit)
+        units.append(moving.readings.imu)
         motions.append(moving.readings.motion)
         commands.append(moving.rotors.arriving)
-        readings = Readings(late(units, UNIT, first.readings.unit), late(motions, MOTION, first.readings.motion))
+        readings = Readings(late(units, UNIT, first.readings.imu), late(motions, MOTION, first.readings.motion))
         arriving = late(commands, COMMAND - 1, first.rotors.arriving)
         moving = moving._replace(readings=readings, rotors=moving.rotors._replace(arriving=arriving))
         flying = flying._replace(moving=moving)

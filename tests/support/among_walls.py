@@ -12,7 +12,7 @@ from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartLoads, PartsLayout
 from tandemlift.laws.mechanics.rectangle import Wall, wall
-from tandemlift.laws.mechanics.walls import Walls, consider, nowhere, press, walls
+from tandemlift.laws.mechanics.walls import Walls, near_wall_loads, nearest_with, no_walls_near, walls
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle
 
@@ -30,15 +30,15 @@ def walls_of(vehicle: Vehicle, step: float = STEP, friction: float = 0.4, guard:
 
 def found(w: Walls, table: Any, frame: PartsLayout, s: State) -> Any:
     """What is near, of all walls."""
-    near = nowhere(w)
+    near = no_walls_near(w)
     for one in table:
-        near = consider(w, one, near, frame, s)
+        near = nearest_with(w, one, near, frame, s)
     return near
 
 
 def pressed(w: Walls, table: Any, vehicle: Vehicle, s: State) -> PartLoads:
     frame = parts_layout_from(vehicle)
-    return press(w, found(w, table, frame, s), frame, s)
+    return near_wall_loads(w, found(w, table, frame, s), frame, s)
 
 
 def polygon(points: Any, top: float = 9.0) -> list[Wall]:

@@ -17,8 +17,9 @@ from tandemlift.algebra.vector import each, vec3
 from tandemlift.kernels.limit_solver import write_solver
 from tandemlift.kernels.traced_step import TracedSolver
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import AllocationState, Mixer
-from tandemlift.laws.rotors.thrust_limits import GAMMA, BoundedProblem, weighted_rows, weights_of
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
+from tandemlift.laws.rotors.normal_equations import GAMMA
+from tandemlift.laws.rotors.thrust_limits import BoundedProblem
 from tandemlift.trace import Function, Module, Place, flat
 from tandemlift.trace.machine import BEST, QUICK, Loaded
 from tandemlift.trace.machine import compiled as object_code

@@ -13,18 +13,19 @@ from tandemlift.laws.estimation.navigation import NavigationState, Navigator, na
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
-from tandemlift.laws.sensors.readings import Readings, SensorNoise, Sensors, sense, sensors, start_sensing
+from tandemlift.laws.sensors.readings import Readings, Sensors, readings_of, sense, sensors, start_sensing, zero_noise
 from tandemlift.trace import leaves, unflat
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
 STATE = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
 FELT = PerfectReadings(ZERO, SETS, SETS, ZERO)
-HISS = SensorNoise(ZERO, ZERO, SETS, SETS, ZERO, ZERO, ZERO)
 DEVICES = sensors(2, STEP)
+HISS = zero_noise(DEVICES)
 PUSHES = push_estimator(0.5, (1.0, 1.0, 1.0), np.eye(3)[:2], np.eye(3)[:2], (1.5, 1.5), STEP)
 OBSERVER = navigator((0.0, 0.0, 0.0), STEP)
 SENSING = start_sensing(DEVICES, STATE, FELT, STATE.attitude)
+READ = readings_of(SENSING)
 
 
 class Happening(NamedTuple):
@@ -54,19 +55,17 @@ class Seen(NamedTuple):
     navigation: NavigationState
 
 
-ONBOARD = Onboard(
-    DEVICES, PUSHES, OBSERVER, SENSING, start_push(PUSHES, SENSING.readings.unit), start_navigation(OBSERVER, STATE)
-)
+ONBOARD = Onboard(DEVICES, PUSHES, OBSERVER, SENSING, start_push(PUSHES, READ.imu), start_navigation(OBSERVER, STATE))
 LIKE = Happening(STATE, FELT)
-_push, _memory = estimate(PUSHES, ONBOARD.push_memory, SENSING.readings.unit, 0.0)
-_state, _navigation = navigate(OBSERVER, ONBOARD.navigation, SENSING.readings)
-SEEN = Seen(_push, _state, SENSING.readings, _navigation)
+_push, _memory = estimate(PUSHES, ONBOARD.push_memory, READ.imu, 0.0)
+_state, _navigation = navigate(OBSERVER, ONBOARD.navigation, READ)
+SEEN = Seen(_push, _state, READ, _navigation)
 
 
 def step(x: Onboard, truth: Any, hiss: Any, t: Any) -> Any:
     """(what a step shows, Onboard after it); nothing is delayed."""
     readings, sensing = sense(x.sensors, x.sensing, truth.state, truth.felt, truth.state.attitude, hiss)
-    push, push_memory = estimate(x.pushes, x.push_memory, readings.unit, t)
+    push, push_memory = estimate(x.pushes, x.push_memory, readings.imu, t)
     state, navigation = navigate(x.observer, x.navigation, readings)
     after = Onboard(x.sensors, x.pushes, x.observer, sensing, push_memory, navigation)
     return Seen(push, state, readings, navigation), after
@@ -101,7 +100,12 @@ def onboard(
     start = first.state if believed is None else believed
     sensing = start_sensing(devices, first.state, first.felt, start.attitude)
     return Onboard(
-        devices, pushes, observer, sensing, start_push(pushes, sensing.readings.unit), start_navigation(observer, start)
+        devices,
+        pushes,
+        observer,
+        sensing,
+        start_push(pushes, readings_of(sensing).imu),
+        start_navigation(observer, start),
     )
 
 

@@ -20,8 +20,8 @@ GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
 LAW, _ = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
 HERE = "    attitude = euler_from_quaternion(state.attitude)\n"
 LINE = LAW[: LAW.index(HERE)].count("\n") + 1
-TWO_WAYS = "choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra.ops"
-NO_NUMBER = "takes a plain number out of its data: use the functions of tandemlift.algebra.ops"
+TWO_WAYS = "choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra"
+NO_NUMBER = "takes a plain number out of its data: use the functions of tandemlift.algebra"
 FAILS = "fails on symbols, TypeError: "
 
 LEVEL = np.eye(1, 16, 6)[0]
@@ -37,7 +37,7 @@ WRONG = {  # what stands in the law, and why it is refused
     "a plain number": ("e = e * float(e.x)", NO_NUMBER),
     "a function of math": ("import math; e = e * math.sin(e.x)", NO_NUMBER),
     "a helper that makes plain numbers": ("import tandemlift.algebra.vector as v; e = v.mat3([e, e, e]).x", NO_NUMBER),
-    "a power": ("e = e * e.x**2", "takes a power by **: write a product, or power(x, p) of tandemlift.algebra.ops"),
+    "a power": ("e = e * e.x**2", "takes a power by **: write a product, or power(x, p) of tandemlift.algebra"),
     "a power of a number": ("e = e * 2.0**e.x", "takes a power by **: write a product, or power(x, p) of tandemlift"),
     "a number taken apart": ("e = e * (sum(e.x) if hasattr(e.x, 'node') else 1.0)", "takes a number apart as if it"),
     "bits of a number": ("e = e * ((e.x & e.y) if hasattr(e.x, 'node') else 1.0)", "joins a number and a number bit"),

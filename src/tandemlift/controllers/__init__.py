@@ -1,4 +1,4 @@
-"""Controllers: what a controller is, and which there are; docs/controllers.md tells how to add one.
+"""Controllers: what a controller is, and which there are; docs/controllers.md says how to add one.
 
 A controller is one file. It names its settings (the keys of `[controller]`), makes its gains and its first memory from
 them, and gives the law
@@ -9,16 +9,18 @@ for its own type of gains. Written as a law it compiles into the loop; registere
 function will do, at a few microseconds a step.
 """
 
-from tandemlift.controllers import geometric, lqr, nftsmc, pid, smc, super_twisting  # register themselves
-from tandemlift.controllers.interface import CALM, Command, Disturbance, Measured, NoMemory, control
+from tandemlift.controllers.interface import NO_DISTURBANCE, Command, Disturbance, Measured, NoMemory, control
 from tandemlift.controllers.loading import load_controller
 from tandemlift.controllers.registry import CONTROLLERS, Controller, controller, file_of, register
 from tandemlift.controllers.trial import error_text
 from tandemlift.laws.signals.trajectories import Reference
 
+# isort: split
+from tandemlift.controllers import geometric, lqr, nftsmc, pid, smc, super_twisting  # register themselves
+
 __all__ = [
-    "CALM",
     "CONTROLLERS",
+    "NO_DISTURBANCE",
     "Command",
     "Controller",
     "Disturbance",

@@ -49,16 +49,16 @@ class AttitudeReference(NamedTuple):
 
 
 @choice
-def shape(kind: Unfiltered | CommandFilter, memory: Any, desired: Vec3) -> Any:
+def shape_reference(kind: Unfiltered | CommandFilter, memory: Any, desired: Vec3) -> Any:
     """(what the attitude law tracks, the new memory), from the desired orientation [rad]."""
 
 
-@shape.register(Unfiltered)
+@shape_reference.register(Unfiltered)
 def _unfiltered(kind: Unfiltered, memory: Any, desired: Vec3) -> tuple[AttitudeReference, Any]:
     return AttitudeReference(desired, ZERO, ZERO), memory
 
 
-@shape.register(CommandFilter)
+@shape_reference.register(CommandFilter)
 def _filtered(
     kind: CommandFilter, memory: CommandFilterState, desired: Vec3
 ) -> tuple[AttitudeReference, CommandFilterState]:

@@ -1,7 +1,7 @@
 """What the baseline controllers share: from an acceleration to a force, a tilt, an attitude reference and a command.
 
-Every one of them is told the same and uses it alike: the force of the person and the disturbance are countered, the
-reference's acceleration is led, yaw rate and yaw acceleration are fed forward. So they differ in their feedback alone.
+All of them get the same inputs and use them alike: they compensate the person's force and the disturbance, lead the
+reference's acceleration, and feed yaw rate and yaw acceleration forward. They differ in their feedback alone.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from tandemlift.controllers.attitude_reference import (
     CommandFilter,
     CommandFilterState,
     command_filter,
-    shape,
+    shape_reference,
     with_heading,
 )
 from tandemlift.controllers.interface import Command, Measured
 from tandemlift.laws.mechanics.body import UP, Wrench
-from tandemlift.laws.mechanics.inertia import Inertia, gyroscopic, inertia_value, turn_by
+from tandemlift.laws.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
 from tandemlift.laws.mechanics.rotation import Euler
 from tandemlift.laws.mechanics.tilt import TiltLimit, TiltZXY, desired_orientation, tilt_limit, total_thrust
 from tandemlift.laws.signals.trajectories import Reference
@@ -75,22 +75,24 @@ def tracked_attitude(
     b: ControllerModel, memory: CommandFilterState, e: Euler, u: Vec3, reference: Reference
 ) -> tuple[AttitudeReference, CommandFilterState]:
     """(what the attitude law tracks, the new memory) for a force u [N, world axes] at the actual attitude e."""
-    desired, memory = shape(b.shaping, memory, desired_orientation(TiltZXY(), u, e, reference.yaw))
+    desired, memory = shape_reference(b.shaping, memory, desired_orientation(TiltZXY(), u, e, reference.yaw))
     return with_heading(desired, reference), memory
 
 
 @law
-def wanted_moment(b: ControllerModel, turn: Vec3, measured: Measured) -> Vec3:
-    """The moments (U₂, U₃, U₄) [N·m, body axes] that turn the vehicle by an angular acceleration [rad/s²]."""
+def wanted_moment(b: ControllerModel, angular_acceleration: Vec3, measured: Measured) -> Vec3:
+    """The moments (U₂, U₃, U₄) [N·m, body axes] for an angular acceleration [rad/s²]."""
     rates = measured.state.rates
-    moment = turn_by(b.inertia, turn) - gyroscopic(b.inertia, rates) + b.drag_moment * rates
+    moment = apply_inertia(b.inertia, angular_acceleration) - gyroscopic(b.inertia, rates) + b.drag_moment * rates
     return moment - measured.disturbance.moment
 
 
 @law
-def commanded(b: ControllerModel, e: Euler, u: Vec3, turn: Vec3, angles: Vec3, measured: Measured) -> Command:
+def command_from(
+    b: ControllerModel, e: Euler, u: Vec3, angular_acceleration: Vec3, angles: Vec3, measured: Measured
+) -> Command:
     """The command for a force [N, world axes], an angular acceleration [rad/s²], and the angles [rad] tracked."""
-    return Command(Wrench(total_thrust(e, u), wanted_moment(b, turn, measured)), angles)
+    return Command(Wrench(total_thrust(e, u), wanted_moment(b, angular_acceleration, measured)), angles)
 
 
 def controller_model(s: CascadeTable, vehicle: Vehicle, step: float) -> ControllerModel:
@@ -106,7 +108,7 @@ def controller_model(s: CascadeTable, vehicle: Vehicle, step: float) -> Controll
     )
 
 
-def halves(*sixes: Sequence[float]) -> tuple[list[Sequence[float]], list[Sequence[float]]]:
+def position_and_attitude(*sixes: Sequence[float]) -> tuple[list[Sequence[float]], list[Sequence[float]]]:
     """The first three numbers of each, those of position, and the last three, those of attitude."""
     return [six[:3] for six in sixes], [six[3:] for six in sixes]
 

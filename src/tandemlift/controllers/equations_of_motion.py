@@ -11,7 +11,7 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.vector import Vec3, linear, plus
 from tandemlift.laws.mechanics.body import UP, RigidBody, Wrench
-from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
+from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic
 from tandemlift.laws.mechanics.rotation import Euler
 from tandemlift.laws.mechanics.tilt import virtual_inputs
 
@@ -33,7 +33,7 @@ def drift(body: RigidBody, velocity: Vec3, euler_rates: Vec3) -> GeneralizedVect
     # paper: components_equ
     return GeneralizedVector(
         -(body.drag_force * velocity) * body.inverse_mass - UP * GRAVITY,
-        turn_by(body.inverse_inertia, gyroscopic(body.inertia, euler_rates) - body.drag_moment * euler_rates),
+        apply_inertia(body.inverse_inertia, gyroscopic(body.inertia, euler_rates) - body.drag_moment * euler_rates),
     )
 
 
@@ -41,7 +41,7 @@ def drift(body: RigidBody, velocity: Vec3, euler_rates: Vec3) -> GeneralizedVect
 def response(body: RigidBody, u: GeneralizedVector) -> GeneralizedVector:
     """b u [m/s², rad/s²], b = (1/m_t, 1/J_t); of a disturbance (d_l, d_r) instead of u, it is δ."""
     # paper: components_equ
-    return GeneralizedVector(u.position * body.inverse_mass, turn_by(body.inverse_inertia, u.attitude))
+    return GeneralizedVector(u.position * body.inverse_mass, apply_inertia(body.inverse_inertia, u.attitude))
 
 
 @law

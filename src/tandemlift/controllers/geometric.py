@@ -7,7 +7,7 @@ Source: Lee, Leok and McClamroch, Geometric tracking control of a quadrotor UAV 
     M = −k_R e_R − k_Ω e_Ω + Ω × JΩ − J (Ω^ RᵀR_d Ω_d − RᵀR_d Ω̇_d).
 
 Here e = desired − actual in position, as everywhere; k_R and k_Ω multiply the inertia, because a beam's differs between
-axes by 50 times; and A passes a command filter on its way to R_d, which gives Ω_d and Ω̇_d without differences. The
+axes by a factor of 50. A passes a command filter before R_d is formed, which gives Ω_d and Ω̇_d without differences. The
 first axis b₁d points along the reference yaw, which makes R_d that of the Z-X-Y angles.
 
 Without filter and limits the tracking error vanishes exponentially, from attitudes within 90° of the desired one, and
@@ -38,13 +38,13 @@ from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.tilt import within_tilt
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
+from tandemlift.laws.mechanics.tilt import limit_tilt
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import Positive3, key
 from tandemlift.vehicle import Vehicle
 
-LEAST = 0.1  # of the weight: the force that R_d points along never has less upwards
+MIN_UPWARD = 0.1  # of the weight: smallest upward component of the force that R_d points along
 
 
 class GeometricSettings(CascadeTable):
@@ -60,7 +60,7 @@ class GeometricSettings(CascadeTable):
 
 
 class Geometric(NamedTuple):
-    """Gains: the vehicle as it is believed to be, the four gains, and the filter of A; `least` [N] of A upwards."""
+    """Gains: the vehicle as it is believed to be, the four gains, the filter of A; `min_upward`: smallest A_z [N]."""
 
     vehicle: ControllerModel
     position_stiffness: Vec3
@@ -69,7 +69,7 @@ class Geometric(NamedTuple):
     attitude_damping: Vec3
     filter: LowPass
     bandwidth: Number
-    least: Number
+    min_upward: Number
 
 
 class Derivatives(NamedTuple):
@@ -89,7 +89,7 @@ class AttitudeTrajectory(NamedTuple):
 
 
 @law
-def direction(a: Derivatives) -> Derivatives:
+def unit_vector(a: Derivatives) -> Derivatives:
     """The unit vector along a, with its derivatives."""
     inverse = 1.0 / sqrt(maximum(dot(a.value, a.value), 1e-12))
     b = a.value * inverse
@@ -100,7 +100,7 @@ def direction(a: Derivatives) -> Derivatives:
 
 
 @law
-def product(a: Derivatives, b: Derivatives) -> Derivatives:
+def cross_product(a: Derivatives, b: Derivatives) -> Derivatives:
     """a × b, with its derivatives."""
     rate = cross(a.rate, b.value) + cross(a.value, b.rate)
     twice = cross(a.rate, b.rate) * 2.0
@@ -110,7 +110,7 @@ def product(a: Derivatives, b: Derivatives) -> Derivatives:
 
 
 @law
-def heading(yaw: Number, rate: Number, acceleration: Number) -> Derivatives:
+def heading_vector(yaw: Number, rate: Number, acceleration: Number) -> Derivatives:
     """b₁d = (cos ψ, sin ψ, 0), with its derivatives."""
     c, s = cos(yaw), sin(yaw)
     ahead, aside = Vec3(c, s, 0.0), Vec3(-s, c, 0.0)
@@ -118,11 +118,11 @@ def heading(yaw: Number, rate: Number, acceleration: Number) -> Derivatives:
 
 
 @law
-def attitude_along(force: Derivatives, b1d: Derivatives) -> AttitudeTrajectory:
+def attitude_from_force(force: Derivatives, b1d: Derivatives) -> AttitudeTrajectory:
     """R_d whose third axis is along the force and whose second is normal to b₁d, with Ω_d and Ω̇_d."""
-    b3 = direction(force)
-    b2 = direction(product(b3, b1d))
-    b1 = product(b2, b3)
+    b3 = unit_vector(force)
+    b2 = unit_vector(cross_product(b3, b1d))
+    b1 = cross_product(b2, b3)
     rates = Vec3(dot(b3.value, b2.rate), dot(b1.value, b3.rate), dot(b2.value, b1.rate))  # Ṙ = R Ω^
     accelerations = Vec3(
         dot(b3.rate, b2.rate) + dot(b3.value, b2.acceleration),
@@ -134,7 +134,7 @@ def attitude_along(force: Derivatives, b1d: Derivatives) -> AttitudeTrajectory:
 
 @law
 def attitude_error(R: Mat3, columns: Mat3) -> Vec3:
-    """e_R = ½ (R_dᵀR − RᵀR_d)^∨, from R and R_dᵀ: for a turn by α about an axis n, n sin α."""
+    """e_R = ½ (R_dᵀR − RᵀR_d)^∨, from R and R_dᵀ: for a rotation by α about an axis n, n sin α."""
     x, y, z = Vec3(R.x.x, R.y.x, R.z.x), Vec3(R.x.y, R.y.y, R.z.y), Vec3(R.x.z, R.y.z, R.z.z)
     d = columns
     return Vec3(dot(d.z, y) - dot(d.y, z), dot(d.x, z) - dot(d.z, x), dot(d.y, x) - dot(d.x, y)) * 0.5
@@ -149,20 +149,20 @@ def zxy_angles(columns: Mat3) -> Vec3:
 
 
 @law
-def wanted_turn(k: Geometric, R: Mat3, rates: Vec3, desired: AttitudeTrajectory) -> Vec3:
-    """The angular acceleration [rad/s², body axes] that the attitude error wants."""
-    there = apply_transposed(R, apply_transposed(desired.columns, desired.rates))  # RᵀR_d Ω_d
-    onward = apply_transposed(R, apply_transposed(desired.columns, desired.accelerations))
-    feedback = k.attitude_stiffness * attitude_error(R, desired.columns) + k.attitude_damping * (rates - there)
-    return onward - cross(rates, there) - feedback
+def wanted_angular_acceleration(k: Geometric, R: Mat3, rates: Vec3, desired: AttitudeTrajectory) -> Vec3:
+    """The commanded angular acceleration [rad/s², body axes] for an attitude error."""
+    desired_rates = apply_transposed(R, apply_transposed(desired.columns, desired.rates))  # RᵀR_d Ω_d
+    feedforward = apply_transposed(R, apply_transposed(desired.columns, desired.accelerations))
+    feedback = k.attitude_stiffness * attitude_error(R, desired.columns) + k.attitude_damping * (rates - desired_rates)
+    return feedforward - cross(rates, desired_rates) - feedback
 
 
 @law
 def filtered_force(k: Geometric, memory: LowPassState, u: Vec3) -> tuple[Derivatives, LowPassState]:
-    """(the force [N] behind the command filter with its derivatives, the new memory)."""
-    w, up = k.bandwidth, Vec3(u.x, u.y, maximum(u.z, k.least))
+    """(the filtered force [N] with its derivatives, the new memory)."""
+    w, up = k.bandwidth, Vec3(u.x, u.y, maximum(u.z, k.min_upward))
     acceleration = (up - memory.value) * (w * w) - memory.rate * (2.0 * w)
-    return Derivatives(memory.value, memory.rate, acceleration), smooth(k.filter, memory, up)
+    return Derivatives(memory.value, memory.rate, acceleration), low_pass_step(k.filter, memory, up)
 
 
 @control.register(Geometric)
@@ -171,13 +171,13 @@ def geometric(
 ) -> tuple[Command, LowPassState]:
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
-    off, off_rate = target.position - state.position, target.velocity - state.velocity
-    wished = k.position_stiffness * off + k.position_damping * off_rate
-    u = within_tilt(k.vehicle.tilt, wanted_force(k.vehicle, wished, measured, reference))
+    position_error, velocity_error = target.position - state.position, target.velocity - state.velocity
+    feedback = k.position_stiffness * position_error + k.position_damping * velocity_error
+    u = limit_tilt(k.vehicle.tilt, wanted_force(k.vehicle, feedback, measured, reference))
     force, memory = filtered_force(k, memory, u)
-    b1d = heading(reference.yaw, reference.yaw_rate, reference.yaw_acceleration)
-    desired, R = attitude_along(force, b1d), rotation_from_quaternion(state.attitude)
-    moment = wanted_moment(k.vehicle, wanted_turn(k, R, state.rates, desired), measured)
+    b1d = heading_vector(reference.yaw, reference.yaw_rate, reference.yaw_acceleration)
+    desired, R = attitude_from_force(force, b1d), rotation_from_quaternion(state.attitude)
+    moment = wanted_moment(k.vehicle, wanted_angular_acceleration(k, R, state.rates, desired), measured)
     return Command(Wrench(dot(u, Vec3(R.x.z, R.y.z, R.z.z)), moment), zxy_angles(desired.columns)), memory
 
 
@@ -193,6 +193,6 @@ def start(s: GeometricSettings, vehicle: Vehicle, step: float) -> tuple[Geometri
         attitude_damping=vec3(s.attitude_damping),
         filter=low_pass(s.filter_bandwidth, step),
         bandwidth=s.filter_bandwidth,
-        least=LEAST * weight,
+        min_upward=MIN_UPWARD * weight,
     )
     return gains, LowPassState(Vec3(0.0, 0.0, weight), ZERO)

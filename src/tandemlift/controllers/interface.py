@@ -1,4 +1,4 @@
-"""What a controller is given and what it answers."""
+"""Inputs and outputs of a controller."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tandemlift.laws.signals.trajectories import Reference
 
 
 class Disturbance(NamedTuple):
-    """What a controller is to counter besides a person's force.
+    """What a controller compensates besides a person's force.
 
     The force that the pilot's observer finds [N, world axes], and the moment [N·m, body axes] that it and the person
     exert about the centre of mass.
@@ -21,15 +21,15 @@ class Disturbance(NamedTuple):
     moment: Vec3
 
 
-CALM = Disturbance(ZERO, ZERO)
+NO_DISTURBANCE = Disturbance(ZERO, ZERO)
 
 
 class Measured(NamedTuple):
-    """What the pilot knows at a sample: the state, the force of the person [N, world axes], and the disturbance."""
+    """The pilot's inputs at a sample: the state, the force of the person [N, world axes], and the disturbance."""
 
     state: State
     push: Vec3
-    disturbance: Disturbance = CALM
+    disturbance: Disturbance = NO_DISTURBANCE
 
 
 class Command(NamedTuple):
@@ -40,7 +40,7 @@ class Command(NamedTuple):
 
 
 class NoMemory(NamedTuple):
-    """Of a controller without memory."""
+    """The memory of a controller without memory."""
 
 
 @choice

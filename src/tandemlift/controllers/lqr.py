@@ -1,7 +1,7 @@
 """Linear-quadratic regulator about hover, of the whole chain from the moment to the position.
 
 Source: Kalman, Contributions to the theory of optimal control, 1960; weights by Bryson and Ho, Applied Optimal Control,
-1975. About hover the vehicle falls apart into chains, in axes that turn with its heading:
+1975. About hover the dynamics separate into chains, in axes that turn with the heading:
 
     x with pitch, y with roll:   ṗ = v,  v̇ = g θ,  θ̇ = q,  q̇ = α,  τ α̇ = u − α
     z:                           ṗ = v,  v̇ = a,                  τ ȧ = u − a
@@ -9,11 +9,11 @@ Source: Kalman, Contributions to the theory of optimal control, 1960; weights by
 
 where τ stands for the rotors' lag and delay. Each minimises ∫ xᵀQx + Ru² dt: u = −Kx with K = R⁻¹BᵀX from the algebraic
 Riccati equation, solved by the stable eigenvectors of its Hamiltonian matrix (Potter, 1966) when the mission starts. α
-and a are not measured: a model of the lag runs beside. x is the deviation from what the reference needs, which is fed
+and a are not measured: a model of the lag gives them. x is the deviation from what the reference needs, which is fed
 forward: its tilt, from a command filter, with its derivatives.
 
 Of the linear vehicle without delay: stable, with 60° of phase and half to any gain left at the input. The tilt that
-position errors ask for is held within `max_tilt`. No integral: a constant force leaves an offset unless it is told.
+position errors ask for is held within `max_tilt`. No integral: a constant force that is not measured leaves an offset.
 
 Tune first: the ratio of position to moment weights; then the rates' for damping.
 """
@@ -37,7 +37,7 @@ from tandemlift.controllers.cascade import (
     TUNED,
     CascadeTable,
     ControllerModel,
-    commanded,
+    command_from,
     controller_model,
     tracked_attitude,
     wanted_force,
@@ -45,8 +45,8 @@ from tandemlift.controllers.cascade import (
 from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
 from tandemlift.laws.mechanics.body import UP
-from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
-from tandemlift.laws.mechanics.tilt import within_tilt
+from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, wrap_angle
+from tandemlift.laws.mechanics.tilt import limit_tilt
 from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import NonNegative3, Positive, Positive3, key
 from tandemlift.vehicle import Vehicle
@@ -82,42 +82,42 @@ class LQRSettings(CascadeTable):
 class LQR(NamedTuple):
     """Gains: the vehicle as it is believed to be, and K of the chains.
 
-    `lean_*` give the tilt [rad] that an error of position or velocity asks for, in axes of the heading; `height_*` are
-    of z; the rest are of roll, pitch, yaw. `share` is how far the lag comes in a step.
+    `tilt_per_*` give the tilt [rad] for an error of position or velocity, in axes of the heading; `height_*` are
+    of z; the rest are of roll, pitch, yaw. `lag_fraction`: how far the lag gets in a step.
     """
 
     vehicle: ControllerModel
-    lean_position: Vec3
-    lean_velocity: Vec3
-    most_lean: Number
+    tilt_per_position: Vec3
+    tilt_per_velocity: Vec3
+    max_tilt: Number
     height_position: Number
     height_velocity: Number
     height_acceleration: Number
     angles: Vec3
     rates: Vec3
     accelerations: Vec3
-    share: Number
+    lag_fraction: Number
 
 
 class LQRState(NamedTuple):
     """Memory: of the attitude reference, and the modelled angular [rad/s²] and vertical [m/s²] acceleration."""
 
     shaped: CommandFilterState
-    turn: Vec3
+    angular: Vec3
     climb: Number
 
 
 @law
-def across(e: Euler, v: Vec3) -> Vec3:
+def tilt_axes(e: Euler, v: Vec3) -> Vec3:
     """A world vector's horizontal part as the tilt to roll and pitch that moves the vehicle that way."""
     return Vec3(v.x * e.sin_yaw - v.y * e.cos_yaw, v.x * e.cos_yaw + v.y * e.sin_yaw, 0.0)
 
 
 @law
-def lean(k: LQR, e: Euler, off: Vec3, off_rate: Vec3) -> Vec3:
-    """The tilt (φ, θ, 0) [rad] by which errors of position [m] and velocity [m/s] are to be removed."""
-    wished = k.lean_position * across(e, off) + k.lean_velocity * across(e, off_rate)
-    return clip(wished, -k.most_lean, k.most_lean)
+def tilt_for_errors(k: LQR, e: Euler, position_error: Vec3, velocity_error: Vec3) -> Vec3:
+    """The tilt (φ, θ, 0) [rad] that reduces errors of position [m] and velocity [m/s]."""
+    tilt = k.tilt_per_position * tilt_axes(e, position_error) + k.tilt_per_velocity * tilt_axes(e, velocity_error)
+    return clip(tilt, -k.max_tilt, k.max_tilt)
 
 
 @control.register(LQR)
@@ -125,20 +125,23 @@ def lqr(k: LQR, memory: LQRState, measured: Measured, reference: Reference) -> t
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     e = euler_from_quaternion(state.attitude)
-    off, off_rate = target.position - state.position, target.velocity - state.velocity
-    climb = k.height_position * off.z + k.height_velocity * off_rate.z - k.height_acceleration * memory.climb
-    u = within_tilt(k.vehicle.tilt, wanted_force(k.vehicle, UP * climb, measured, reference))
+    position_error, velocity_error = target.position - state.position, target.velocity - state.velocity
+    climb = k.height_position * position_error.z + k.height_velocity * velocity_error.z
+    climb = climb - k.height_acceleration * memory.climb
+    u = limit_tilt(k.vehicle.tilt, wanted_force(k.vehicle, UP * climb, measured, reference))
     tracked, shaped = tracked_attitude(k.vehicle, memory.shaped, e, u, reference)
-    angles = tracked.angles + lean(k, e, off, off_rate)
-    spin = tracked.rates - euler_rates_from_rates(e, state.rates)
-    turn = k.angles * turned_least(angles - e.angles) + k.rates * spin - k.accelerations * memory.turn
+    angles = tracked.angles + tilt_for_errors(k, e, position_error, velocity_error)
+    rate_error = tracked.rates - euler_rates_from_rates(e, state.rates)
+    angular = k.angles * wrap_angle(angles - e.angles) + k.rates * rate_error - k.accelerations * memory.angular
     after = LQRState(
-        shaped, memory.turn + (turn - memory.turn) * k.share, memory.climb + (climb - memory.climb) * k.share
+        shaped,
+        memory.angular + (angular - memory.angular) * k.lag_fraction,
+        memory.climb + (climb - memory.climb) * k.lag_fraction,
     )
-    return commanded(k.vehicle, e, u, tracked.accelerations + turn, angles, measured), after
+    return command_from(k.vehicle, e, u, tracked.accelerations + angular, angles, measured), after
 
 
-def chain(length: int, lag: float, *, gravity: bool) -> tuple[Array, Array]:
+def integrator_chain(length: int, lag: float, *, gravity: bool) -> tuple[Array, Array]:
     """A and B of a chain of `length` integrators behind a lag [s]; with `gravity`, the second is of g times a tilt."""
     A = np.diag(np.ones(length), 1)
     if gravity:
@@ -163,27 +166,27 @@ def _sideways(s: LQRSettings, place: int, turned: int) -> Array:
     Q = np.diag(
         [s.position_weight[place], s.velocity_weight[place], s.attitude_weight[turned], s.rates_weight[turned], 0.0]
     )
-    return regulator(*chain(4, s.lag, gravity=True), Q, s.moment_weight[turned])
+    return regulator(*integrator_chain(4, s.lag, gravity=True), Q, s.moment_weight[turned])
 
 
 @register("lqr", LQRSettings)
 def start(s: LQRSettings, vehicle: Vehicle, step: float) -> tuple[LQR, LQRState]:
     """Linear-quadratic regulator about hover, from moment to position (Kalman)."""
     roll, pitch = _sideways(s, 1, 0), _sideways(s, 0, 1)
-    short = chain(2, s.lag, gravity=False)
+    short = integrator_chain(2, s.lag, gravity=False)
     z = regulator(*short, np.diag([s.position_weight[2], s.velocity_weight[2], 0.0]), s.thrust_weight)
     yaw = regulator(*short, np.diag([s.attitude_weight[2], s.rates_weight[2], 0.0]), s.moment_weight[2])
     gains = LQR(
         vehicle=controller_model(s, vehicle, step),
-        lean_position=Vec3(float(roll[0] / roll[2]), float(pitch[0] / pitch[2]), 0.0),
-        lean_velocity=Vec3(float(roll[1] / roll[2]), float(pitch[1] / pitch[2]), 0.0),
-        most_lean=s.max_tilt,
+        tilt_per_position=Vec3(float(roll[0] / roll[2]), float(pitch[0] / pitch[2]), 0.0),
+        tilt_per_velocity=Vec3(float(roll[1] / roll[2]), float(pitch[1] / pitch[2]), 0.0),
+        max_tilt=s.max_tilt,
         height_position=float(z[0]),
         height_velocity=float(z[1]),
         height_acceleration=float(z[2]),
         angles=Vec3(float(roll[2]), float(pitch[2]), float(yaw[0])),
         rates=Vec3(float(roll[3]), float(pitch[3]), float(yaw[1])),
         accelerations=Vec3(float(roll[4]), float(pitch[4]), float(yaw[2])),
-        share=-math.expm1(-step / s.lag),
+        lag_fraction=-math.expm1(-step / s.lag),
     )
     return gains, LQRState(LEVEL, ZERO, 0.0)

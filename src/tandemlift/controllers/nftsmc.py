@@ -26,23 +26,23 @@ from tandemlift.controllers.attitude_reference import (
     CommandFilterState,
     Unfiltered,
     command_filter,
-    shape,
+    shape_reference,
     with_heading,
 )
 from tandemlift.controllers.interface import Command, Measured, NoMemory, control
 from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration
 from tandemlift.laws.mechanics.body import UP, State, Wrench
-from tandemlift.laws.mechanics.inertia import Inertia, gyroscopic, inertia_value, turn_by
-from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, turned_least
+from tandemlift.laws.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
+from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, wrap_angle
 from tandemlift.laws.mechanics.tilt import (
     TiltLimit,
     TiltPrinted,
     TiltZXY,
     desired_orientation,
+    limit_tilt,
     tilt_limit,
     total_thrust,
-    within_tilt,
 )
 from tandemlift.laws.signals.trajectories import Reference, Trajectory
 from tandemlift.settings import AtLeastOne6, ControllerTable, NonNegative6, Positive6, Table, Tilt, key
@@ -169,18 +169,18 @@ def attitude_law(k: NFTSMC, e: Euler, rates: Vec3, desired: AttitudeReference) -
     Errata: J is the whole vehicle's; sat(S_ψ/Φ), not sat(S_ψ)/Φ.
     """
     # paper: orient_cont_equ, control_final_equ, error_equ
-    error, error_rate = turned_least(desired.angles - e.angles), desired.rates - rates
+    error, error_rate = wrap_angle(desired.angles - e.angles), desired.rates - rates
     acceleration = desired.accelerations + wanted_acceleration(k.attitude, error, error_rate)
-    return turn_by(k.inertia, acceleration) - gyroscopic(k.inertia, rates) + k.drag_moment * rates
+    return apply_inertia(k.inertia, acceleration) - gyroscopic(k.inertia, rates) + k.drag_moment * rates
 
 
 @control.register(NFTSMC)
 def nftsmc(k: NFTSMC, memory: Any, measured: Measured, reference: Reference) -> tuple[Command, Any]:
     """The whole controller at one sample."""
     e = euler_from_quaternion(measured.state.attitude)
-    wished = position_law(k, measured.state, reference.trajectory, measured.push)
-    u = within_tilt(k.tilt, wished + reference.lead * k.mass - measured.disturbance.force)
-    desired, memory = shape(k.derivatives, memory, desired_orientation(k.inverse, u, e, reference.yaw))
+    force = position_law(k, measured.state, reference.trajectory, measured.push)
+    u = limit_tilt(k.tilt, force + reference.lead * k.mass - measured.disturbance.force)
+    desired, memory = shape_reference(k.derivatives, memory, desired_orientation(k.inverse, u, e, reference.yaw))
     tracked = with_heading(desired, reference)
     rates = euler_rates(k.rates, e, measured.state.rates)
     moment = attitude_law(k, e, rates, tracked) - measured.disturbance.moment

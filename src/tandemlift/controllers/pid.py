@@ -2,10 +2,10 @@
 
 Source: the multicopter cascade of PX4 (Meier, Honegger and Pollefeys, PX4, ICRA 2015, and its documentation);
 anti-windup by back-calculation and derivative filter: Åström and Hägglund, Advanced PID Control, 2006, sections 3.3
-and 3.5. Every stage is fed forward with what the reference knows, so the feedback has only the rest to do.
+and 3.5. Every stage is fed forward from the reference, so the feedback corrects only what remains.
 
-The velocity integral is held within a limit, and drawn back by what the tilt limit takes off the force; the rate
-integral is held within a limit. No guarantee beyond that of a well-tuned cascade: each stage some three times as fast
+The velocity integral is limited, and reduced by what the tilt limit takes off the force (back-calculation); the rate
+integral is limited. No guarantee beyond that of a well-tuned cascade: each stage some three times as fast
 as the one around it.
 
 Tune from the inside: rates, attitude, velocity, position; integrals last.
@@ -27,16 +27,16 @@ from tandemlift.controllers.cascade import (
     Bandwidth,
     CascadeTable,
     ControllerModel,
-    commanded,
+    command_from,
     controller_model,
     tracked_attitude,
     wanted_force,
 )
 from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rates_from_euler_rates, turned_least
-from tandemlift.laws.mechanics.tilt import within_tilt
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rates_from_euler_rates, wrap_angle
+from tandemlift.laws.mechanics.tilt import limit_tilt
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import Axes3, NonNegative3, Positive3, key
 from tandemlift.vehicle import Vehicle
@@ -84,7 +84,7 @@ class PIDGains(NamedTuple):
 
 
 class PIDStageState(NamedTuple):
-    """Memory of a PID: what the integral gives, and the error behind the low-pass."""
+    """Memory of a PID: the integral term, and the filtered error."""
 
     integral: Vec3
     error: LowPassState
@@ -110,16 +110,16 @@ class PIDState(NamedTuple):
 
 
 @law
-def pid_of(k: PIDGains, memory: PIDStageState, error: Vec3) -> tuple[Vec3, PIDStageState]:
+def pid_step(k: PIDGains, memory: PIDStageState, error: Vec3) -> tuple[Vec3, PIDStageState]:
     """(P + I + D of an error, the new memory)."""
     integral = clip(memory.integral + error * k.integral, -k.limit, k.limit)
-    smoothed = smooth(k.smoothing, memory.error, error)
+    smoothed = low_pass_step(k.smoothing, memory.error, error)
     return error * k.proportional + integral + smoothed.rate * k.derivative, PIDStageState(integral, smoothed)
 
 
 @law
-def drawn_back(memory: PIDStageState, excess: Vec3) -> PIDStageState:
-    """The memory with its integral less what could not be given."""
+def back_calculated(memory: PIDStageState, excess: Vec3) -> PIDStageState:
+    """The memory with its integral reduced by an excess (anti-windup by back-calculation)."""
     return PIDStageState(memory.integral - excess, memory.error)
 
 
@@ -128,16 +128,17 @@ def pid(k: PID, memory: PIDState, measured: Measured, reference: Reference) -> t
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     e = euler_from_quaternion(state.attitude)
-    lacking = target.velocity + (target.position - state.position) * k.position - state.velocity
-    wished, velocity = pid_of(k.velocity, memory.velocity, lacking)
-    wanted = wanted_force(k.vehicle, wished, measured, reference)
-    u = within_tilt(k.vehicle.tilt, wanted)
-    velocity = drawn_back(velocity, (wanted - u) * k.tracking)
+    velocity_error = target.velocity + (target.position - state.position) * k.position - state.velocity
+    feedback, velocity = pid_step(k.velocity, memory.velocity, velocity_error)
+    force = wanted_force(k.vehicle, feedback, measured, reference)
+    u = limit_tilt(k.vehicle.tilt, force)
+    velocity = back_calculated(velocity, (force - u) * k.tracking)
     tracked, shaped = tracked_attitude(k.vehicle, memory.shaped, e, u, reference)
-    angle_rates = tracked.rates + turned_least(tracked.angles - e.angles) * k.attitude
-    spin, rates = pid_of(k.rates, memory.rates, rates_from_euler_rates(e, angle_rates) - state.rates)
-    turn = tracked.accelerations + spin
-    return commanded(k.vehicle, e, u, turn, tracked.angles, measured), PIDState(shaped, velocity, rates)
+    angle_rates = tracked.rates + wrap_angle(tracked.angles - e.angles) * k.attitude
+    rate_feedback, rates = pid_step(k.rates, memory.rates, rates_from_euler_rates(e, angle_rates) - state.rates)
+    angular_acceleration = tracked.accelerations + rate_feedback
+    command = command_from(k.vehicle, e, u, angular_acceleration, tracked.angles, measured)
+    return command, PIDState(shaped, velocity, rates)
 
 
 @register("pid", PIDSettings)

@@ -24,17 +24,17 @@ from tandemlift.controllers.cascade import (
     Bandwidth,
     CascadeTable,
     ControllerModel,
-    commanded,
+    command_from,
     controller_model,
-    halves,
+    position_and_attitude,
     tracked_attitude,
     wanted_force,
 )
 from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import saturate
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, turned_least
-from tandemlift.laws.mechanics.tilt import within_tilt
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, wrap_angle
+from tandemlift.laws.mechanics.tilt import limit_tilt
 from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import Positive6, key
 from tandemlift.vehicle import Vehicle
@@ -86,15 +86,16 @@ def smc(
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     e = euler_from_quaternion(state.attitude)
-    wished = switched_acceleration(k.position, target.position - state.position, target.velocity - state.velocity)
-    u = within_tilt(k.vehicle.tilt, wanted_force(k.vehicle, wished, measured, reference))
+    feedback = switched_acceleration(k.position, target.position - state.position, target.velocity - state.velocity)
+    u = limit_tilt(k.vehicle.tilt, wanted_force(k.vehicle, feedback, measured, reference))
     tracked, memory = tracked_attitude(k.vehicle, memory, e, u, reference)
-    error, error_rate = turned_least(tracked.angles - e.angles), tracked.rates - euler_rates_from_rates(e, state.rates)
-    turn = tracked.accelerations + switched_acceleration(k.attitude, error, error_rate)
-    return commanded(k.vehicle, e, u, turn, tracked.angles, measured), memory
+    attitude_error = wrap_angle(tracked.angles - e.angles)
+    rate_error = tracked.rates - euler_rates_from_rates(e, state.rates)
+    angular_acceleration = tracked.accelerations + switched_acceleration(k.attitude, attitude_error, rate_error)
+    return command_from(k.vehicle, e, u, angular_acceleration, tracked.angles, measured), memory
 
 
-def linear(slope: Sequence[float], gain: Sequence[float], width: Sequence[float]) -> LinearSurface:
+def linear_surface(slope: Sequence[float], gain: Sequence[float], width: Sequence[float]) -> LinearSurface:
     """The gains of three axes by λ [1/s], K and Φ."""
     return LinearSurface(vec3(slope), vec3(gain), vec3(1.0 / w for w in width))
 
@@ -102,5 +103,5 @@ def linear(slope: Sequence[float], gain: Sequence[float], width: Sequence[float]
 @register("smc", SMCSettings)
 def start(s: SMCSettings, vehicle: Vehicle, step: float) -> tuple[SMC, CommandFilterState]:
     """Conventional sliding mode control: linear surfaces with a boundary layer (Slotine and Li)."""
-    position, attitude = (linear(*three) for three in halves(s.slope, s.gain, s.boundary_layer))
+    position, attitude = (linear_surface(*three) for three in position_and_attitude(s.slope, s.gain, s.boundary_layer))
     return SMC(controller_model(s, vehicle, step), position, attitude), LEVEL

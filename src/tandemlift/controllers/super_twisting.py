@@ -28,17 +28,17 @@ from tandemlift.controllers.cascade import (
     Bandwidth,
     CascadeTable,
     ControllerModel,
-    commanded,
+    command_from,
     controller_model,
-    halves,
+    position_and_attitude,
     tracked_attitude,
     wanted_force,
 )
 from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import saturate
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, turned_least
-from tandemlift.laws.mechanics.tilt import within_tilt
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, wrap_angle
+from tandemlift.laws.mechanics.tilt import limit_tilt
 from tandemlift.laws.signals.trajectories import Reference
 from tandemlift.settings import Positive6, key
 from tandemlift.vehicle import Vehicle
@@ -99,11 +99,11 @@ def signed_root(S: Number, width: Number) -> Number:
 
 
 @law
-def twist(k: TwistingGains, v: Vec3, e: Vec3, de: Vec3) -> tuple[Vec3, Vec3]:
+def super_twisting_step(k: TwistingGains, v: Vec3, e: Vec3, de: Vec3) -> tuple[Vec3, Vec3]:
     """(λė + v + 1.5 √L |S|^½ sgn S, the new v) with S = ė + λe: to be added to the reference acceleration."""
     S = de + k.slope * e
-    wished = k.slope * de + v + k.root * signed_root(S, k.width)
-    return wished, clip(v + k.sign_per_step * saturate(S * k.per_width), -k.limit, k.limit)
+    feedback = k.slope * de + v + k.root * signed_root(S, k.width)
+    return feedback, clip(v + k.sign_per_step * saturate(S * k.per_width), -k.limit, k.limit)
 
 
 @control.register(SuperTwisting)
@@ -113,17 +113,19 @@ def super_twisting(
     """The whole controller at one sample."""
     state, target = measured.state, reference.trajectory
     e = euler_from_quaternion(state.attitude)
-    off, off_rate = target.position - state.position, target.velocity - state.velocity
-    wished, position = twist(k.position, memory.position, off, off_rate)
-    u = within_tilt(k.vehicle.tilt, wanted_force(k.vehicle, wished, measured, reference))
+    position_error, velocity_error = target.position - state.position, target.velocity - state.velocity
+    feedback, position = super_twisting_step(k.position, memory.position, position_error, velocity_error)
+    u = limit_tilt(k.vehicle.tilt, wanted_force(k.vehicle, feedback, measured, reference))
     tracked, shaped = tracked_attitude(k.vehicle, memory.shaped, e, u, reference)
-    error, error_rate = turned_least(tracked.angles - e.angles), tracked.rates - euler_rates_from_rates(e, state.rates)
-    turned, attitude = twist(k.attitude, memory.attitude, error, error_rate)
-    turn = tracked.accelerations + turned
-    return commanded(k.vehicle, e, u, turn, tracked.angles, measured), SuperTwistingState(shaped, position, attitude)
+    attitude_error = wrap_angle(tracked.angles - e.angles)
+    rate_error = tracked.rates - euler_rates_from_rates(e, state.rates)
+    attitude_feedback, attitude = super_twisting_step(k.attitude, memory.attitude, attitude_error, rate_error)
+    angular_acceleration = tracked.accelerations + attitude_feedback
+    command = command_from(k.vehicle, e, u, angular_acceleration, tracked.angles, measured)
+    return command, SuperTwistingState(shaped, position, attitude)
 
 
-def twisting(
+def twisting_gains(
     step: float, slope: Sequence[float], growth: Sequence[float], width: Sequence[float], limit: Sequence[float]
 ) -> TwistingGains:
     """The gains of three axes for samples every `step` [s], by λ [1/s], L, Φ and the limit of v."""
@@ -140,6 +142,6 @@ def twisting(
 @register("super-twisting", SuperTwistingSettings)
 def start(s: SuperTwistingSettings, vehicle: Vehicle, step: float) -> tuple[SuperTwisting, SuperTwistingState]:
     """Super-twisting control on linear surfaces, with its integral (Levant)."""
-    sixes = halves(s.slope, s.disturbance_slope, s.boundary_layer, s.integral_limit)
-    position, attitude = (twisting(step, *three) for three in sixes)
+    sixes = position_and_attitude(s.slope, s.disturbance_slope, s.boundary_layer, s.integral_limit)
+    position, attitude = (twisting_gains(step, *three) for three in sixes)
     return SuperTwisting(controller_model(s, vehicle, step), position, attitude), SuperTwistingState(LEVEL, ZERO, ZERO)

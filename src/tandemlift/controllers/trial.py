@@ -1,4 +1,4 @@
-"""A controller tried before it flies: mistakes are told in plain words, with the line of the file."""
+"""A trial of a controller before it flies: an error message in plain words, with the line of the file."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _check_numbers(name: str, path: str, value: Any) -> None:
 
 
 def _try(name: str, gains: Any, memory: Any, like: Any) -> None:
-    """Run a law once in plain Python, where mistakes are told more clearly than by the compiler."""
+    """Run a law once in plain Python, where errors are clearer than those of the compiler."""
     law = control.table[type(gains)]
     if (law, like) in _tried:
         return

@@ -26,7 +26,7 @@ from tandemlift.engines.compiled_contact import (
 )
 from tandemlift.laws.mechanics.body import RigidBody, State, motion, rigid_body_motion, rk4
 from tandemlift.laws.mechanics.inertia import inertia_value
-from tandemlift.laws.mechanics.loads import PerfectReadings, perfect_readings, under
+from tandemlift.laws.mechanics.loads import PerfectReadings, perfect_readings, readings_with_load
 from tandemlift.laws.mechanics.parts import Acceleration
 from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
@@ -58,11 +58,11 @@ def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any
     """Perfect readings in state `s`, whose motion is `k1`, under thrusts [N] and loads of the air on the parts."""
     frame, q = b.plant.frame, s.attitude
     floor, walls = floor_loads(b.plant.floor, b, s), wall_loads(b.plant.walls, b, s)
-    readings = under(
+    readings = readings_with_load(
         quadrotor_loads(air), frame, q, perfect_readings(frame, s, Acceleration(k1.velocity, k1.rates), thrusts)
     )
-    readings = under(quadrotor_loads(floor), frame, q, readings)
-    readings = under(quadrotor_loads(walls), frame, q, readings)
+    readings = readings_with_load(quadrotor_loads(floor), frame, q, readings)
+    readings = readings_with_load(quadrotor_loads(walls), frame, q, readings)
     return with_contact_force(
         load_about_center(walls, frame, q), with_contact_force(load_about_center(floor, frame, q), readings)
     )

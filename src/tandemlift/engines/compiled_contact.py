@@ -11,19 +11,19 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import ZERO, Nothing
 from tandemlift.laws.mechanics.body import RigidBody, State
-from tandemlift.laws.mechanics.contact import Floor, slip, touch
-from tandemlift.laws.mechanics.inertia import turn_by
+from tandemlift.laws.mechanics.contact import Floor, feet_load, grips_after_step
+from tandemlift.laws.mechanics.inertia import apply_inertia
 from tandemlift.laws.mechanics.loads import (
     PartLoad,
     PartLoads,
     PartsLayout,
     PerfectReadings,
-    of_quadrotors,
-    plus_zero,
+    readings_with_load,
     resultant,
-    under,
+    resultant_of_quadrotors,
+    without_negative_zero,
 )
-from tandemlift.laws.mechanics.walls import Walls, press
+from tandemlift.laws.mechanics.walls import Walls, near_wall_loads
 from tandemlift.laws.rotors.allocation import Mixer
 
 NO_LOAD = PartLoad(ZERO, ZERO)
@@ -85,7 +85,7 @@ def _floor_out_of_reach(floor: DistantFloor, b: BodySurroundings, s: State) -> Z
 
 @floor_loads.register(Floor)
 def _floor(floor: Floor, b: BodySurroundings, s: State) -> Any:
-    return touch(floor, b.grip, b.plant.frame, s)
+    return feet_load(floor, b.grip, b.plant.frame, s)
 
 
 @choice(absent="walls")
@@ -100,7 +100,7 @@ def _walls_out_of_reach(walls: DistantWalls, b: BodySurroundings, s: State) -> Z
 
 @wall_loads.register(Walls)
 def _walls(walls: Walls, b: BodySurroundings, s: State) -> Any:
-    return press(walls, b.near, b.plant.frame, s)
+    return near_wall_loads(walls, b.near, b.plant.frame, s)
 
 
 @choice(absent="load")
@@ -115,7 +115,7 @@ def _of_all_parts(load: PartLoads, frame: PartsLayout, attitude: Any) -> PartLoa
 
 @load_about_center.register(PartLoad)
 def _of_quadrotors(load: PartLoad, frame: PartsLayout, attitude: Any) -> PartLoad:
-    return of_quadrotors(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
+    return resultant_of_quadrotors(frame, attitude, load) + NO_LOAD  # no zero of either sign but +0
 
 
 @load_about_center.register(ZeroLoad)
@@ -130,7 +130,7 @@ def with_load(load: Any, body: RigidBody, rate: State) -> Any:
 
 @with_load.register(PartLoad)
 def _with_load(load: PartLoad, body: RigidBody, rate: State) -> State:
-    turned = turn_by(body.inverse_inertia, load.moment)
+    turned = apply_inertia(body.inverse_inertia, load.moment)
     return State(rate.position, rate.velocity + load.force * body.inverse_mass, rate.attitude, rate.rates + turned)
 
 
@@ -154,12 +154,12 @@ def _of_zero(loads: ZeroLoad) -> ZeroLoad:
     return loads
 
 
-@under.register(ZeroLoad)
+@readings_with_load.register(ZeroLoad)
 def _unloaded(load: ZeroLoad, frame: PartsLayout, attitude: Any, readings: PerfectReadings) -> PerfectReadings:
     return PerfectReadings(
         readings.specific_force,
-        plus_zero(readings.joint_force),
-        plus_zero(readings.joint_torque),
+        without_negative_zero(readings.joint_force),
+        without_negative_zero(readings.joint_torque),
         readings.contact_force,
     )
 
@@ -188,4 +188,4 @@ def _in_the_air(floor: DistantFloor, grip: Any, s: State) -> Any:
 
 @grip_after.register(Floor)
 def _feet(floor: Floor, grip: Any, s: State) -> Any:
-    return slip(floor, grip, s)
+    return grips_after_step(floor, grip, s)

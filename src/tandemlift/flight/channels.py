@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.common.phases import PHASE_NUMBERS
+from tandemlift.common.sensors import ADDITIONAL
 
 
 class Channel(NamedTuple):
@@ -174,3 +175,11 @@ DERIVED: dict[str, tuple[str, str, Channel]] = {
     "attitude_error": ("reference_euler", "euler", Channel("rad", "zxy", "desired minus actual")),
 }
 """Channels that are formed when they are asked for: the first less the second."""
+
+
+def channel_of(name: str) -> Channel:
+    """What a channel of that name holds; the channel of an additional sensor is described by the sensor's row."""
+    sensor = ADDITIONAL.get(name.removeprefix("measured_"))
+    if name in CHANNELS or sensor is None:
+        return CHANNELS.get(name, TIME if name == "time" else OTHER)
+    return Channel(sensor.unit, sensor.frame, f"reading of the sensor {sensor.name!r}: {sensor.meaning}", sensor.width)

@@ -15,7 +15,7 @@ import numpy as np
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Array
-from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, TIME, Channel
+from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.old_names import renamed_channels, renamed_tables, warn_of_old_names
 from tandemlift.flight.tables import to_pandas, to_xarray
 
@@ -100,7 +100,7 @@ class Flight(Mapping[str, Array]):
     def info(self, name: str) -> Channel:
         """Unit, frame and meaning of a channel."""
         self[name]
-        return DERIVED[name][2] if name in DERIVED else CHANNELS.get(name, TIME if name == "time" else OTHER)
+        return DERIVED[name][2] if name in DERIVED else channel_of(name)
 
     def metrics(self) -> dict[str, Any]:
         """The flight's metrics: flat, SI, the unit at the end of each name; None where it could not be formed."""

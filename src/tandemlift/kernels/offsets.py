@@ -18,16 +18,11 @@ class LeafSpan(NamedTuple):
 NONE = LeafSpan(0, 0)
 
 
-class DelayedSpans(NamedTuple):
-    """The delayed parts of a flight: IMU and motion readings, rotor commands, what the person sees.
+class DelayedSpans(tuple[LeafSpan, ...]):
+    """The delayed parts of a flight, as spans in the order of `loop.delays.DelayLines`, additional sensors last.
 
     Each is a span of the flight's numbers, empty without delay. A row of the delay lines holds them one after another.
     """
-
-    unit: LeafSpan
-    motion: LeafSpan
-    command: LeafSpan
-    seen: LeafSpan
 
     @property
     def size(self) -> int:
@@ -49,11 +44,17 @@ def leaf_offset(value: Any, *path: str) -> LeafSpan:
 
 def delayed_spans(flying: Any) -> DelayedSpans:
     """The delayed parts of flights like this one."""
-    paths = (("readings", "unit"), ("readings", "motion"), ("rotors", "arriving"), ("partner", "seen"))
-    if isinstance(flying.delays, Nothing):
-        return DelayedSpans(NONE, NONE, NONE, NONE)
-    spans = [
-        NONE if isinstance(delay, Nothing) else leaf_offset(flying, "moving", *path)
-        for delay, path in zip(flying.delays, paths, strict=True)
+    late = flying.delays
+    if isinstance(late, Nothing):
+        return DelayedSpans()
+    ends: list[tuple[str, ...]] = [
+        ("readings", "imu"),
+        ("readings", "motion"),
+        ("rotors", "arriving"),
+        ("partner", "seen"),
     ]
-    return DelayedSpans._make(spans)
+    ends += [("readings", "additional", name) for name in getattr(late.additional, "_fields", ())]
+    return DelayedSpans(
+        NONE if isinstance(mark, Nothing) else leaf_offset(flying, "moving", *end)
+        for mark, end in zip((*late[:-1], *late.additional), ends, strict=True)
+    )

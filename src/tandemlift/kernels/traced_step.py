@@ -18,14 +18,14 @@ from tandemlift.engines.compiled_contact import without_contact
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, SPAN, draw_count, is_active
 from tandemlift.kernels.templates import COMMAND, Templates
 from tandemlift.laws.estimation.rotor_loss_detection import left_of, with_trials
-from tandemlift.laws.mechanics.clearance import clearance, may_press
+from tandemlift.laws.mechanics.clearance import clearance, may_touch_wall
 from tandemlift.laws.mechanics.contact import may_touch
-from tandemlift.laws.mechanics.push import moment_of, push_of
+from tandemlift.laws.mechanics.push import push_at, push_moment
 from tandemlift.laws.mechanics.rectangle import WALL
-from tandemlift.laws.mechanics.walls import consider
+from tandemlift.laws.mechanics.walls import nearest_with
 from tandemlift.laws.mechanics.wind import gust_velocity
-from tandemlift.laws.rotors.allocation import AllocationState, beyond, commanded, limits_at
-from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, begun, searched
+from tandemlift.laws.rotors.allocation import AllocationState, limits_at, outside_limits, rotor_commands
+from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, search_step, start_search
 from tandemlift.laws.signals.random_numbers import normals
 from tandemlift.loop.step import (
     PilotOutput,
@@ -58,8 +58,8 @@ class TracedSolver:
         self.rotors, self.problem_size = len(rotors), leaves(like)
         problem = self.graph.inputs("problem", like)
         search = self.graph.inputs("search", Search(AllocationState(rotors, rotors), 0.0, 0.0, 0.0))
-        self.begun = symbols(self.graph, self._unless_ended(search, begun(problem.limits, search.found)))
-        self.after = symbols(self.graph, self._unless_ended(search, searched(problem, search)))
+        self.begun = symbols(self.graph, self._unless_ended(search, start_search(problem.limits, search.found)))
+        self.after = symbols(self.graph, self._unless_ended(search, search_step(problem, search)))
 
     def _unless_ended(self, s: Search, after: Search) -> Search:
         """A search that has ended stays as it is."""
@@ -196,12 +196,12 @@ class TracedStep:
         args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
         rate = traced(first_motion)(free, *args)
         room = traced(clearance)(plant.walls, before.near, plant.frame, before.state)
-        return traced(may_press)(plant.walls, room, before.state, rate, dt)
+        return traced(may_touch_wall)(plant.walls, room, before.state, rate, dt)
 
     def _mean_push(self) -> Symbols:
         hand, attitude = self.given.hand, self.flying.moving.state.attitude
         mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
-        return [*self.numbers(mean.force), *self.numbers(traced(moment_of)(mean, attitude))]
+        return [*self.numbers(mean.force), *self.numbers(traced(push_moment)(mean, attitude))]
 
     # what is formed ahead of the step, or beside it
 
@@ -214,7 +214,7 @@ class TracedStep:
     def push(self) -> Symbols:
         """A row of the table of pushes at the time `when`."""
         return self.numbers(
-            traced(push_of)(self.templates.given.hand.start, self.input_of("push", GAUSSIAN), self.when)
+            traced(push_at)(self.templates.given.hand.start, self.input_of("push", GAUSSIAN), self.when)
         )
 
     @cached_property
@@ -237,7 +237,7 @@ class TracedStep:
     def nearest(self) -> Symbols:
         """The nearest walls once a row of the table of walls was looked at."""
         f, wall = self.flying, self.input_of("wall", WALL)
-        return self.numbers(traced(consider)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))
+        return self.numbers(traced(nearest_with)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))
 
     @cached_property
     def may_touch_floor(self) -> Symbol:
@@ -258,7 +258,7 @@ def limit_thrusts(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> An
     how, decision = pilot.allocation, thought.decision
     wished = decision.thrusts
     limits = traced(limits_at)(how, traced(left_of)(pilot.detection, held.detection), t)
-    outside = total(traced(beyond)(wished, limits)) > 0.0
+    outside = total(traced(outside_limits)(wished, limits)) > 0.0
     problem, plain, before = (
         BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits),
         AllocationState(wished * 0.0, wished),
@@ -269,5 +269,5 @@ def limit_thrusts(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> An
     solver = TracedSolver(written_out(problem), owner.graph.rolls_from)
     needs = LimitProblem(outside, owner.numbers(problem), owner.numbers(plain), owner.numbers(search), solver)
     solved = owner.input_of("solved", written_out(plain))
-    commands = traced(with_trials)(pilot.detection, held.detection, traced(commanded)(how, solved.thrusts, t), t)
+    commands = traced(with_trials)(pilot.detection, held.detection, traced(rotor_commands)(how, solved.thrusts, t), t)
     return needs, traced(with_thrusts)(decision, commands), traced(with_allocation)(thought.memory, solved)

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.algebra.vector import Nothing
+
 
 class Delayed(NamedTuple):
     """Marks what is delayed; by how many steps is data of the loop."""
 
 
 class DelayLines(NamedTuple):
-    """Of the readings of the unit on board, of those of the motion, of the rotors' commands, of what a person sees.
+    """Of the readings of the IMU and of the motion measurement, of the rotors' commands, of what a person sees.
 
-    `Delayed` or `Nothing` each.
+    Each is `Delayed` or `Nothing`; those of additional sensors' readings by name.
     """
 
-    unit: Any
+    imu: Any
     motion: Any
     command: Any
     seen: Any
+    additional: Any = Nothing()

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import Quat, Vec3
-from tandemlift.laws.sensors.readings import Readings
+from tandemlift.laws.sensors.readings import Readings, by_name
 from tandemlift.loop.perception import Estimates
 
 
@@ -20,6 +20,7 @@ class MeasuredChannels(NamedTuple):
     measured_specific_force: Vec3
     measured_joint_force: Vec3
     measured_joint_torque: Vec3
+    additional: Any
 
 
 class EstimatedChannels(NamedTuple):
@@ -38,14 +39,20 @@ class EstimatedChannels(NamedTuple):
     push_usable: Any
 
 
+def channels_of_additional(readings: Any) -> Any:
+    """The type of the channels of additional sensors: `measured_NAME` for each."""
+    return by_name(tuple(f"measured_{name}" for name in readings._fields))
+
+
 @choice(absent="readings")
 def shown_readings(readings: Any) -> Any:
     """The channels of readings."""
 
 
 @shown_readings.register(Readings)
-def _readings(readings):
-    m, u = readings.motion, readings.unit
+def _readings(readings: Readings) -> Any:
+    m, u = readings.motion, readings.imu
+    more = [reading.value for reading in readings.additional]
     return MeasuredChannels(
         measured_position=m.position,
         measured_velocity=m.velocity,
@@ -54,6 +61,7 @@ def _readings(readings):
         measured_specific_force=u.specific_force,
         measured_joint_force=u.joint_force,
         measured_joint_torque=u.joint_torque,
+        additional=channels_of_additional(readings.additional)(*more),
     )
 
 
@@ -63,7 +71,7 @@ def shown_estimate(known: Any) -> Any:
 
 
 @shown_estimate.register(Estimates)
-def _estimate(known):
+def _estimate(known: Estimates) -> Any:
     s, p = known.state, known.push
     return EstimatedChannels(
         estimated_position=s.position,

@@ -6,13 +6,14 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum, where
-from tandemlift.algebra.vector import Vec3
+from tandemlift.algebra.selection import chosen
+from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.laws.estimation.navigation import centre_of_mass
 from tandemlift.laws.estimation.push_estimate import PushEstimate
 from tandemlift.laws.guidance.supervision import SensorStatus, sensor_status
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.sensors.readings import Readings, Sensors, SensorState, sense
-from tandemlift.laws.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults, chosen, chosen_attitude
+from tandemlift.laws.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults
 from tandemlift.laws.sensors.watchdog import PredictedReadings, Watchdog, WatchdogReport, WatchdogState, watchdog_step
 from tandemlift.loop.estimate_channels import shown_estimate
 from tandemlift.loop.perception import (
@@ -40,7 +41,7 @@ class FaultySensorsState(NamedTuple):
     """Memory of both."""
 
     sensing: SensorState
-    spoiling: SensorFaultState
+    faults: SensorFaultState
 
 
 class WatchedEstimators(NamedTuple):
@@ -68,10 +69,12 @@ class CheckedEstimates(NamedTuple):
 
 
 @measure.register(FaultySensors)
-def _sensed_and_spoiled(sensors, memory, state, felt, believed, noise):
+def _sensed_and_spoiled(
+    sensors: FaultySensors, memory: Any, state: State, felt: Any, believed: Quat, noise: Any
+) -> Any:
     readings, sensing = sense(sensors.sensors, memory.sensing, state, felt, believed, noise)
-    given, spoiling = apply_faults(sensors.faults, memory.spoiling, readings)
-    return given, FaultySensorsState(sensing, spoiling)
+    given, faults = apply_faults(sensors.faults, memory.faults, readings)
+    return given, FaultySensorsState(sensing, faults)
 
 
 @law
@@ -84,18 +87,7 @@ def predicted(k: Estimators, m: EstimatorState) -> PredictedReadings:
 def trusted_push(p: PushEstimate, r: WatchdogReport) -> PushEstimate:
     """The push, trusted only where joints and accelerometer can be."""
     well = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0)
-    return PushEstimate(
-        p.measured,
-        p.measured_moment,
-        p.force,
-        p.moment,
-        p.point,
-        p.payload_mass,
-        p.disagreement,
-        p.trusted * well,
-        p.armed,
-        p.usable * well,
-    )
+    return p._replace(trusted=p.trusted * well, usable=p.usable * well)
 
 
 @law
@@ -106,18 +98,18 @@ def at_best(s: State, readings: Readings, r: WatchdogReport, rates: Vec3) -> Sta
     return State(
         chosen(no_force, v.position, s.position),
         chosen(no_force, v.velocity, s.velocity),
-        chosen_attitude(no_turn, v.attitude, s.attitude),
+        chosen(no_turn, v.attitude, s.attitude),
         chosen(no_turn, rates, s.rates),
     )
 
 
 @tare_time.register(WatchedEstimators)
-def _tare_watched(estimators, guidance, t):
+def _tare_watched(estimators: WatchedEstimators, guidance: Any, t: Any) -> Any:
     return tare_begun(estimators.estimators.tare, guidance, t)
 
 
 @estimate_all.register(WatchedEstimators)
-def _watched(k, m, readings, t, dt):
+def _watched(k: WatchedEstimators, m: Any, readings: Any, t: Any, dt: Any) -> Any:
     clean, report, watching = watchdog_step(k.watchdog, m.watching, readings, predicted(k.estimators, m.remembered), dt)
     known, remembered = estimate_all(k.estimators, m.remembered, clean, t, dt)
     push, state = trusted_push(known.push, report), at_best(known.state, clean, report, watching.rates)
@@ -125,12 +117,12 @@ def _watched(k, m, readings, t, dt):
 
 
 @usable.register(CheckedEstimates)
-def _checked_readings(known, readings):
+def _checked_readings(known: CheckedEstimates, readings: Any) -> Any:
     return known.readings
 
 
 @shown_estimate.register(CheckedEstimates)
-def _shown_checked(known):
+def _shown_checked(known: CheckedEstimates) -> Any:
     return shown_estimate(Estimates(known.push, known.state, known.vehicle))
 
 
@@ -140,12 +132,12 @@ def reported_by(known: Any) -> Any:
 
 
 @reported_by.register(CheckedEstimates)
-def _reported(known):
+def _reported(known: CheckedEstimates) -> Any:
     p, r = known.push, known.report
     apart = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0 - p.trusted)
     return SensorStatus(r, apart, p.armed, p.payload_mass)
 
 
 @sensor_status.register(PerceptionData)
-def _senses(what, payload):
+def _senses(what: PerceptionData, payload: Any) -> Any:
     return reported_by(what.known)

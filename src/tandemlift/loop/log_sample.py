@@ -17,14 +17,13 @@ from tandemlift.laws.guidance.guidance import HandGuidanceChannels, thrust_fract
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.mechanics.clearance import clearance
 from tandemlift.laws.mechanics.contact import Floor
-from tandemlift.laws.mechanics.loads import PartLoads, PerfectReadings, total_of_each
-from tandemlift.laws.mechanics.push import PushSamples, moment_of
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, turned_least
+from tandemlift.laws.mechanics.loads import PartLoads, PerfectReadings, sum_over_set
+from tandemlift.laws.mechanics.push import PushSamples, push_moment
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, wrap_angle
 from tandemlift.laws.person.person import PersonState
 from tandemlift.laws.person.virtual_hand import VirtualHandState
-from tandemlift.laws.rotors.allocation import wrench
-from tandemlift.laws.rotors.dynamics import IdealRotors, Rotors
-from tandemlift.laws.rotors.thrust_limits import given_share
+from tandemlift.laws.rotors.allocation import achieved_fraction, wrench
+from tandemlift.laws.rotors.rotors import IdealRotors, Rotors
 from tandemlift.loop.estimate_channels import shown_estimate, shown_readings
 from tandemlift.loop.running_metrics import StepErrors, effort_of
 
@@ -139,7 +138,7 @@ def _within_limits(rotors, effect, command, commands):
     thrusts = clip(commands, 0.0, rotors.max_thrust)
     given = wrench(effect, thrusts)
     return ActuatorChannels(
-        commands, given.thrust, given.moment, given_share(effect, rotors.per_reach, command, thrusts)
+        commands, given.thrust, given.moment, achieved_fraction(effect, rotors.wrench_scale, command, thrusts)
     )
 
 
@@ -171,7 +170,7 @@ def air_of(loads: Any, velocity: Any) -> Any:
 
 @air_of.register(PartLoads)
 def _some_air(loads, velocity):
-    return WindChannels(velocity, loads.payload.force + total_of_each(loads.quadrotors.force))
+    return WindChannels(velocity, loads.payload.force + sum_over_set(loads.quadrotors.force))
 
 
 @choice(absent="floor")
@@ -206,7 +205,7 @@ def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSam
         admittance_acceleration=guidance.admittance.acceleration,
         admittance_force=guidance.force,
         push_force=hand.start.force,
-        push_moment=moment_of(hand.start, state.attitude),
+        push_moment=push_moment(hand.start, state.attitude),
         thrust=command.wrench.thrust,
         moment=command.wrench.moment,
         rotor_thrusts=acting.thrusts,
@@ -254,7 +253,7 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
     return StepErrors(
         position=x.reference_position - x.position,
         velocity=x.reference_velocity - x.velocity,
-        attitude=turned_least(x.reference_euler - x.euler),
+        attitude=wrap_angle(x.reference_euler - x.euler),
         tilt=x.euler,
         thrust=x.thrust,
         moment=x.moment,

@@ -9,7 +9,7 @@ from tandemlift.algebra.vector import Quat, Vec3, apply_transposed, cross
 from tandemlift.laws.estimation.navigation import Navigator, navigate
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.push import moment_of
+from tandemlift.laws.mechanics.push import push_moment
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import Readings, Sensors, sense
 
@@ -97,7 +97,7 @@ def measure(sensors: Any, memory: Any, state: State, felt: Any, believed: Quat, 
 
 
 @measure.register(Sensors)
-def _sensed(sensors, memory, state, felt, believed, noise):
+def _sensed(sensors: Sensors, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
     return sense(sensors, memory, state, felt, believed, noise)
 
 
@@ -107,12 +107,12 @@ def tare_begun(tare: Any, guidance: Any, t: Any) -> Any:
 
 
 @tare_begun.register(TareAtTime)
-def _by_clock(tare, guidance, t):
+def _by_clock(tare: TareAtTime, guidance: Any, t: Any) -> Any:
     return t
 
 
 @tare_begun.register(TareInHover)
-def _in_hover(tare, guidance, t):
+def _in_hover(tare: TareInHover, guidance: Any, t: Any) -> Any:
     return guidance.phase.hovered
 
 
@@ -122,7 +122,7 @@ def tare_time(estimators: Any, guidance: Any, t: Any) -> Any:
 
 
 @tare_time.register(Estimators)
-def _tare(estimators, guidance, t):
+def _tare(estimators: Estimators, guidance: Any, t: Any) -> Any:
     return tare_begun(estimators.tare, guidance, t)
 
 
@@ -132,8 +132,8 @@ def estimate_all(estimators: Any, memory: Any, readings: Any, t: Any, dt: Any) -
 
 
 @estimate_all.register(Estimators)
-def _estimated(estimators, memory, readings, t, dt):
-    push, push_memory = estimate(estimators.push, memory.push, readings.unit, t)
+def _estimated(estimators: Estimators, memory: Any, readings: Any, t: Any, dt: Any) -> Any:
+    push, push_memory = estimate(estimators.push, memory.push, readings.imu, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
     return Estimates(push, state, estimators.vehicle), EstimatorState(push_memory, state_memory)
 
@@ -144,7 +144,7 @@ def usable(known: Any, readings: Any) -> Any:
 
 
 @usable.register(Estimates)
-def _as_given(known, readings):
+def _as_given(known: Estimates, readings: Any) -> Any:
     return readings
 
 
@@ -154,18 +154,18 @@ def read_state(reads: Any, true: State, readings: Any, known: Any) -> Any:
 
 
 @read_state.register(TruthSource)
-def _true_state(reads, true, readings, known):
+def _true_state(reads: TruthSource, true: State, readings: Any, known: Any) -> Any:
     return true
 
 
 @read_state.register(MeasurementSource)
-def _measured_state(reads, true, readings, known):
+def _measured_state(reads: MeasurementSource, true: State, readings: Any, known: Any) -> Any:
     motion = readings.motion
-    return State(motion.position, motion.velocity, motion.attitude, readings.unit.rates)
+    return State(motion.position, motion.velocity, motion.attitude, readings.imu.rates)
 
 
 @read_state.register(EstimateSource)
-def _estimated_state(reads, true, readings, known):
+def _estimated_state(reads: EstimateSource, true: State, readings: Any, known: Any) -> Any:
     return known.state
 
 
@@ -175,18 +175,18 @@ def read_push(reads: Any, true: Any, state: State, known: Any) -> Any:
 
 
 @read_push.register(TruthSource)
-def _true_push(reads, true, state, known):
-    return PushWrench(true.force, moment_of(true, state.attitude))
+def _true_push(reads: TruthSource, true: Any, state: State, known: Any) -> Any:
+    return PushWrench(true.force, push_moment(true, state.attitude))
 
 
 @read_push.register(MeasurementSource)
-def _measured_push(reads, true, state, known):
+def _measured_push(reads: MeasurementSource, true: Any, state: State, known: Any) -> Any:
     p = known.push
     return true_push(known.vehicle, state, p.measured, p.measured_moment, p.trusted * p.armed)
 
 
 @read_push.register(EstimateSource)
-def _estimated_push(reads, true, state, known):
+def _estimated_push(reads: EstimateSource, true: Any, state: State, known: Any) -> Any:
     p = known.push
     return true_push(known.vehicle, state, p.force, p.moment, p.trusted * p.armed)
 
@@ -208,7 +208,7 @@ def all_sensed(readings: Any, known: Any) -> Any:
 
 
 @all_sensed.register(Readings)
-def _some_sensed(readings, known):
+def _some_sensed(readings: Readings, known: Any) -> Any:
     return PerceptionData(readings, known)
 
 

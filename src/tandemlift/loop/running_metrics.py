@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
-from tandemlift.laws.mechanics.clearance import nearer_of
+from tandemlift.laws.mechanics.clearance import smaller_clearance
 
 
 class StepErrors(NamedTuple):
@@ -96,7 +96,7 @@ def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
         c.push_sum + x.push,
         c.power_sum + x.power,
         c.saturated + x.saturated,
-        nearer_of(c.clearance, x.clearance),
+        smaller_clearance(c.clearance, x.clearance),
         added(c.effort, x.effort),
         c.triggers + x.hearing * (1.0 - c.hearing),
         x.hearing,

@@ -21,7 +21,7 @@ from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.laws.person.caller_inputs import pushed, thrusts_of
 from tandemlift.laws.person.person import asks_to_land, person_step
-from tandemlift.laws.rotors.dynamics import drive
+from tandemlift.laws.rotors.rotors import rotors_step
 from tandemlift.loop.log_sample import errors_of, log_sample
 from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
 from tandemlift.loop.running_metrics import RunningMetrics, count
@@ -144,7 +144,7 @@ def with_caller_thrusts(thought: PilotOutput, external: Any) -> PilotOutput:
 def actuate(flying: FlightModel, thrusts: Any, given: StepInputs, t: Any) -> Actuation:
     """What the rotors make of commanded thrusts [N] over the step from time t [s], and the wind over it."""
     before = flying.moving
-    driven, rotors = drive(flying.rotors, before.rotors, thrusts, before.state, t)
+    driven, rotors = rotors_step(flying.rotors, before.rotors, thrusts, before.state, t)
     blowing = wind_loads(flying.weather, before.wind, flying.plant.frame, before.state, given.gust, given.noise.wind)
     return Actuation(driven, rotors, blowing)
 

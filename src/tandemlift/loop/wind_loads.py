@@ -6,8 +6,9 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import Nothing
+from tandemlift.laws.mechanics.air_drag import AirDrag, air_loads
 from tandemlift.laws.mechanics.loads import PartsLayout
-from tandemlift.laws.mechanics.wind import AirDrag, air_loads, wind_step
+from tandemlift.laws.mechanics.wind import wind_step
 
 
 class WindModel(NamedTuple):

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.common.sensors import ADDITIONAL
 from tandemlift.missions.hardware_checks import check_hardware, hardware_warnings
 from tandemlift.missions.person_checks import check_person, person_warnings
 from tandemlift.missions.supervision_checks import check_supervision
@@ -47,6 +48,7 @@ def sample_size(m: Mission) -> int:
         "wind": 6 * (m.wind.model == "air"),
         "contact": 3 * (m.ground.model == "floor"),
         "readings and estimates": (42 + 6 * count) * (m.sensors.model == "simulated"),
+        "additional sensors": sum(ADDITIONAL[s.name].width for s in m.sensors.additional if s.name in ADDITIONAL),
         "observer": 12 * (m.observer.model != "none"),
         "guidance by hand": 9 * (m.pilot.guidance == "hand"),
         "supervision": 2 * (m.supervision.model == "watch"),

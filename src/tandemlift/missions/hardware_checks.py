@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.algebra.constants import GRAVITY
-from tandemlift.common.errors import InputError
+from tandemlift.common.errors import InputError, suggestion
+from tandemlift.common.sensors import ADDITIONAL
+from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
@@ -25,6 +27,7 @@ def check_hardware(m: Mission) -> None:
     _check_faults(m)
     _check_lift(m)
     _check_delays(m)
+    _check_additional(m)
     _check_readings(m)
     _check_tare(m)
     _check_windage(m)
@@ -67,6 +70,19 @@ def _check_lift(m: Mission) -> None:
         )
 
 
+def _check_additional(m: Mission) -> None:
+    """Refuse additional sensors that are not registered, that there are twice, or that cannot be simulated."""
+    for i, s in enumerate(m.sensors.additional):
+        key = f"sensors.additional.{i}.name = {shown(s.name)}"
+        if s.name not in ADDITIONAL:
+            known = sorted(ADDITIONAL)
+            raise InputError(f"{key}: must be one of {', '.join(known)}.{suggestion(s.name, known)}")
+        if s.name in [other.name for other in m.sensors.additional[:i]]:
+            raise InputError(f"{key}: must be different from the sensors above it")
+    if m.sensors.additional and m.sensors.model == "none":
+        raise InputError('sensors.model = "none": must be "simulated" where there are additional sensors')
+
+
 def _check_delays(m: Mission) -> None:
     delays = {
         "actuators.delay": m.actuators.delay,
@@ -74,6 +90,7 @@ def _check_delays(m: Mission) -> None:
         "sensors.motion.delay": m.sensors.motion.delay,
         "person.delay": m.person.delay,
     }
+    delays |= {f"sensors.additional.{i}.delay": s.delay for i, s in enumerate(m.sensors.additional)}
     for key, delay in delays.items():
         if delay / m.mission.step > MAX_DELAY:
             raise InputError(f"{key} = {delay}: must be at most {MAX_DELAY} steps of mission.step = {m.mission.step}")

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tandemlift.common.errors import InputError
+from tandemlift.common.errors import InputError, suggestion
+from tandemlift.common.sensors import DEVICES, SENSORS, sensors_named
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
-
-DEVICES = ("imu", "motion")
 
 
 def check_supervision(m: Mission) -> None:
@@ -61,8 +60,7 @@ def _check_sensor_faults(m: Mission) -> None:
     for i, f in enumerate(m.sensor_faults):
         for sentence in _odd(m, i):
             raise InputError(sentence)
-        parts = {"imu": ("joints", "accelerometer", "gyroscope"), "motion": ("position", "velocity", "attitude")}
-        names = (f.sensor,) if f.kind == "stale" else parts.get(f.sensor, (f.sensor,))
+        names = (f.sensor,) if f.kind == "stale" else sensors_named(f.sensor)
         fleet = range(1, len(m.vehicle.quadrotors) + 1)
         for name in names:
             numbers = (f.quadrotor,) if f.quadrotor else tuple(fleet) if name == "joints" else (None,)
@@ -74,8 +72,12 @@ def _check_sensor_faults(m: Mission) -> None:
 
 def _odd(m: Mission, i: int) -> Iterator[str]:
     f, key = m.sensor_faults[i], f"sensor_faults.{i}"
-    if (f.kind == "stale") and f.sensor not in DEVICES:
-        yield f'{key}.kind = "stale": must be of a device, with sensor "imu" or "motion"'
+    additional = [s.name for s in m.sensors.additional]
+    known = [*DEVICES, *SENSORS, *additional]
+    if f.sensor not in known:
+        yield f"{key}.sensor = {shown(f.sensor)}: must be one of {', '.join(known)}.{suggestion(f.sensor, known)}"
+    if f.kind == "stale" and f.sensor not in (*DEVICES, *additional):
+        yield f'{key}.kind = "stale": must be of a device, with sensor "imu" or "motion" or an additional one'
     if f.kind in ("bias", "range") and f.sensor in DEVICES:
         yield f'{key}.kind = "{f.kind}": must be of a sensor, not of the device "{f.sensor}"'
     if f.quadrotor is not None and f.sensor != "joints":

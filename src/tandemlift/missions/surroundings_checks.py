@@ -11,10 +11,10 @@ import numpy as np
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
 from tandemlift.common.errors import InputError
-from tandemlift.laws.mechanics.contact import Floor, floor, sinkage_of, soles_below, standing_height
+from tandemlift.laws.mechanics.contact import Floor, floor, sinkage_of, sole_positions, standing_height
 from tandemlift.laws.mechanics.rectangle import offset, wall
 from tandemlift.laws.mechanics.rotation import rotation_from_euler
-from tandemlift.laws.mechanics.wind import FOOT, HIGHEST, LOWEST
+from tandemlift.laws.mechanics.turbulence import FOOT, HIGHEST, LOWEST
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.settings.corridor import SHORTEST
@@ -81,7 +81,7 @@ def standing_of(m: Mission) -> Standing:
     """How the vehicle stands on the floor of a mission."""
     vehicle, fleet = Vehicle.from_settings(m.vehicle), m.vehicle.quadrotors
     mass, z = vehicle.mass * m.plant.mass_scale, m.initial.position[2]
-    soles = soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
     g = m.ground
     built = floor(soles, mass, vehicle.inertia, m.mission.step, friction=g.friction, sinkage=g.sinkage)
     stands, sinkage = standing_height(built, mass * GRAVITY), sinkage_of(built, mass * GRAVITY)

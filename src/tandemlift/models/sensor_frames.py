@@ -13,7 +13,7 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.settings import Mission
-from tandemlift.vehicle import Vehicle, shift
+from tandemlift.vehicle import Vehicle, parallel_axis_term
 
 ROUNDING = 1e-9  # of a flat body's largest moment, by which the other two may together be less
 
@@ -61,7 +61,13 @@ def _payload(mission: Mission, vehicle: Vehicle) -> Link:
     if mass <= 0.0:
         raise _no_body(mission, f"a mass of {mass:g} kg")
     center = own.mass / mass * place  # from the system's, where the difference is
-    inertia = known.inertia + shift(own.mass, place - center) + scale @ J @ scale - J + shift(more, center)
+    inertia = (
+        known.inertia
+        + parallel_axis_term(own.mass, place - center)
+        + scale @ J @ scale
+        - J
+        + parallel_axis_term(more, center)
+    )
     least, middle, most = np.linalg.eigvalsh(inertia)
     if least <= 0.0 or least + middle < most * (1.0 - ROUNDING):
         raise _no_body(mission, f"principal moments of {least:g}, {middle:g} and {most:g} kg m2")

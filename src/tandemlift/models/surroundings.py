@@ -6,7 +6,7 @@ from typing import Any
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Nothing
-from tandemlift.laws.mechanics.contact import Floor, floor, soles_below, standing_height
+from tandemlift.laws.mechanics.contact import Floor, floor, sole_positions, standing_height
 from tandemlift.laws.mechanics.walls import Walls, walls
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
@@ -21,7 +21,7 @@ def feet_and_floor_from(mission: Mission, vehicle: Vehicle) -> Floor:
     """The floor that a mission has or would have, and how the feet press on it."""
     g = mission.ground
     fleet, mass, step = vehicle.quadrotors, vehicle.mass * mission.plant.mass_scale, mission.mission.step
-    soles = soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
     at_zero = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage)
     if g.height is not None:
         return at_zero._replace(height=g.height)

@@ -11,9 +11,15 @@ from tandemlift.controllers import controller
 from tandemlift.laws.guidance.admittance import Admittance, AdmittanceState, HardGate, SoftGate
 from tandemlift.laws.guidance.guidance import AlwaysRunning, RunningInFlight, ScheduledGuidance
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, mixer_from
-from tandemlift.laws.rotors.dynamics import rotor_faults
-from tandemlift.laws.rotors.thrust_limits import weighted_rows, weights_of
+from tandemlift.laws.rotors.allocation import (
+    AllocationState,
+    ConstrainedAllocation,
+    Mixer,
+    mixer_from,
+    weighted_rows,
+    weights_of,
+)
+from tandemlift.laws.rotors.rotor_faults import rotor_faults
 from tandemlift.laws.signals.trajectories import ScheduledPhases
 from tandemlift.pilot.disturbance_observer import start_observer
 from tandemlift.pilot.guidance import NEVER, start_hand_guidance

@@ -29,10 +29,11 @@ from tandemlift.settings.mission import Mission, MissionTable
 from tandemlift.settings.parts import Drag, Payload, Quadrotor, VehicleTable
 from tandemlift.settings.person import PersonTable
 from tandemlift.settings.pilot import AdmittanceTable, ControllerTable, PhasesTable
-from tandemlift.settings.sensors import InertialSensor, SensorFaultTable
+from tandemlift.settings.sensors import AdditionalSensorTable, InertialSensor, JointSensors, SensorFaultTable
 from tandemlift.settings.supervision import SupervisionTable
 
 __all__ = [
+    "AdditionalSensorTable",
     "AdmittanceTable",
     "AtLeastOne",
     "AtLeastOne6",
@@ -46,6 +47,7 @@ __all__ = [
     "Exactly3",
     "Facts",
     "InertialSensor",
+    "JointSensors",
     "Mission",
     "MissionTable",
     "NonNegative",

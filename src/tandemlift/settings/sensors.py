@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
+from tandemlift.common.sensors import DEVICES, SENSORS, sensors_on
 from tandemlift.settings.facts import key
 from tandemlift.settings.leaves import Axes3, Delay, NonNegative, Positive, Size, Table, must
 
@@ -30,6 +31,7 @@ DRIFT = "growth of the error, a random walk"
 STEP = "step of quantisation"
 RANGE = "largest reading, either way"
 FINE = f"0 for none, or at least {FINEST:g}"
+THE_SENSORS = "the sensor's"
 STEPS = "at most 10,000 steps"
 
 
@@ -87,6 +89,27 @@ class MotionSensor(Table):
     )
 
 
+class AdditionalSensorTable(Table):
+    """`[[sensors.additional]]`: sensors beyond those that the pilot needs, one table each, with a clock of their own.
+
+    Their samples are recorded in channel `measured_NAME`. CONTRIBUTING.md tells how to add a sensor.
+    """
+
+    name: str = key(..., None, 'name of the sensor, such as "altimeter"', example="altimeter")
+    noise: Size = key(0.0, THE_SENSORS, NOISE)
+    bias: Size = key(0.0, THE_SENSORS, BIAS)
+    drift: Size = key(0.0, f"{THE_SENSORS}/√s", DRIFT)
+    resolution: Resolution = key(0.0, THE_SENSORS, STEP, rule=FINE)
+    range: Positive = key(1e6, THE_SENSORS, RANGE, source=BOUNDLESS)
+    interval: Interval = key(0.0, "s", "time between samples, rounded to whole steps; 0 samples at every step")
+    delay: Delay = key(
+        0.0,
+        "s",
+        "delay of a sample beyond the one step after which any sample is known, rounded to whole steps",
+        rule=STEPS,
+    )
+
+
 class SensorsTable(Table):
     """`[sensors]`: simulated sensors; errors are independent along each axis.
 
@@ -115,9 +138,14 @@ class SensorsTable(Table):
     accelerometer: Accelerometer = Accelerometer()
     gyroscope: Gyroscope = Gyroscope()
     motion: MotionSensor = MotionSensor()
+    additional: tuple[AdditionalSensorTable, ...] = ()
 
 
-Sensor = Literal["imu", "motion", "joints", "accelerometer", "gyroscope", "position", "velocity", "attitude"]
+SensorName = Literal[(*DEVICES, *SENSORS)] | str  # type: ignore[valid-type]
+SENSOR_CHOICES = {
+    **{device: f"the device with {', '.join(s.name for s in sensors_on(device))}" for device in DEVICES},
+    **{sensor.name: sensor.meaning for sensor in SENSORS.values()},
+}
 
 
 class SensorFaultTable(Table):
@@ -126,21 +154,13 @@ class SensorFaultTable(Table):
     A sensor, or one joint of it, fails once. The devices "imu" and "motion" stand for all sensors on them.
     """
 
-    sensor: Sensor = key(
+    sensor: SensorName = key(
         ...,
         None,
         "the sensor or device that fails",
+        rule="or the name of an additional sensor",
         example="joints",
-        choices={
-            "imu": "the device with joints, accelerometer and gyroscope",
-            "motion": "the device with position, velocity and attitude",
-            "joints": "force and torque at the joints",
-            "accelerometer": "the accelerometer",
-            "gyroscope": "the gyroscope",
-            "position": "the measured position",
-            "velocity": "the measured velocity",
-            "attitude": "the measured attitude",
-        },
+        choices=SENSOR_CHOICES,
     )
     quadrotor: Annotated[int, Field(ge=1, le=64)] | None = key(
         None, "1", "number of the quadrotor whose joint fails, from 1", unset="all joints fail", example=1
@@ -164,6 +184,6 @@ class SensorFaultTable(Table):
     )
     size: Axes3 = key(
         (0.0, 0.0, 0.0),
-        "the sensor's",
+        THE_SENSORS,
         "offset, or the reading in its place; a force for joints, a rotation about body axes [rad] for the attitude",
     )

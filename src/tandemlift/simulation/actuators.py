@@ -6,18 +6,11 @@ from typing import Any
 
 from tandemlift.algebra.vector import Nothing, each, spread
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.dynamics import (
-    FreeAir,
-    GroundEffect,
-    IdealRotors,
-    NoFaults,
-    RotorFaults,
-    Rotors,
-    RotorState,
-    lag,
-    rotor_faults,
-)
-from tandemlift.laws.rotors.thrust_limits import share_scale
+from tandemlift.laws.rotors.allocation import wrench_scale
+from tandemlift.laws.rotors.ground_effect import FreeAir, GroundEffect
+from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, rotor_faults
+from tandemlift.laws.rotors.rotor_lag import lag
+from tandemlift.laws.rotors.rotors import IdealRotors, Rotors, RotorState
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
@@ -43,10 +36,10 @@ def rotors_from(
     vehicle: Vehicle,
     step: float,
     *,
-    late: bool,
+    delayed: bool,
     faults: NoFaults | RotorFaults,
     surface: FreeAir | GroundEffect,
-    per_reach: Wrench,
+    wrench_scale: Wrench,
 ) -> Rotors:
     """The real rotors of a vehicle, for steps of `step` [s]."""
     each_rotor = [q for q in vehicle.quadrotors for _ in range(4)]
@@ -59,12 +52,12 @@ def rotors_from(
         down=lag([q.lag_down for q in each_rotor], step),
         faults=faults,
         surface=surface,
-        late=float(late),
-        per_reach=per_reach,
+        delayed=float(delayed),
+        wrench_scale=wrench_scale,
     )
 
 
-def start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, late: bool) -> tuple[Any, Any, Any]:
+def start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, delayed: bool) -> tuple[Any, Any, Any]:
     """The rotors of a mission, their memory at t = 0, and their thrusts [N] then."""
     hover = hover_thrusts(vehicle, mission.allocation.weights)
     if mission.actuators.model == "ideal":
@@ -74,10 +67,10 @@ def start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, late: bool) 
     rotors = rotors_from(
         vehicle,
         mission.mission.step,
-        late=late,
+        delayed=delayed,
         faults=rotor_faults(vehicle.rotor_count, failures),
         surface=surface,
-        per_reach=share_scale(vehicle.effect),
+        wrench_scale=wrench_scale(vehicle.effect),
     )
     cls, share = type(hover), 1.0 if mission.actuators.start == "hover" else 0.0
     start = cls(*[share * min(max(f, 0.0), most) for f, most in zip(hover, rotors.max_thrust, strict=True)])

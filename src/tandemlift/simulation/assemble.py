@@ -17,8 +17,8 @@ from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.mechanics.clearance import clearance
 from tandemlift.laws.mechanics.contact import start_foot_grip
 from tandemlift.laws.mechanics.push import PushSamples
-from tandemlift.laws.sensors.readings import start_sensing
-from tandemlift.laws.signals.random_numbers import keys_of
+from tandemlift.laws.sensors.readings import by_name, readings_of, start_sensing
+from tandemlift.laws.signals.random_numbers import key_from_seed
 from tandemlift.loop.delays import Delayed, DelayLines
 from tandemlift.loop.perception import READS, PilotSources
 from tandemlift.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
@@ -51,7 +51,7 @@ class AssembledFlight(NamedTuple):
 
 
 def delays_from(mission: Mission) -> NDArray[np.int64]:
-    """Delays of the unit on board, the motion measurement, the rotors' commands and a person's sight, in steps."""
+    """Delays in steps, in the order of `DelayLines`: of IMU, motion, commands, sight, and additional sensors."""
     simulated, real = mission.sensors.model == "simulated", mission.actuators.model == "rotors"
     seconds = [
         mission.sensors.delay * simulated,
@@ -61,7 +61,17 @@ def delays_from(mission: Mission) -> NDArray[np.int64]:
     steps = [round(s / mission.mission.step) for s in seconds]
     sight = round(mission.person.delay / mission.mission.step) - 1  # what is seen is known a step later anyway
     accompanied = mission.person.model not in ("none", "grab")
-    return np.array([*steps, max(sight, 0) * accompanied], dtype=np.int64)
+    more = [round(s.delay / mission.mission.step) * simulated for s in mission.sensors.additional]
+    return np.array([*steps, max(sight, 0) * accompanied, *more], dtype=np.int64)
+
+
+def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> Any:
+    """Which delay lines a mission has; `Nothing` if it has none."""
+    if not delays.any():
+        return Nothing()
+    imu, motion, command, seen, *more = [Delayed() if d else Nothing() for d in delays]
+    names = tuple(s.name for s in mission.sensors.additional)
+    return DelayLines(imu, motion, command, seen, by_name(names)(*more))
 
 
 def start_metrics(far: Any, company: Any) -> RunningMetrics:
@@ -82,7 +92,7 @@ def assemble(mission: Mission) -> AssembledFlight:
     plant = start_plant(mission, vehicle, floor, walls)
     grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
     delays = delays_from(mission)
-    rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, late=bool(delays[2]))
+    rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, delayed=bool(delays[2]))
     weather, eddies = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
     near, hand = near_walls_from(walls), PushSamples(push, push, push)
@@ -91,14 +101,14 @@ def assemble(mission: Mission) -> AssembledFlight:
     if not isinstance(devices, Nothing):
         felt = readings_at_rest(plant, state, grip, near, thrusts, hand)
         sensing = start_sensing(devices, state, felt, state.attitude)
-    readings = Nothing() if isinstance(devices, Nothing) else sensing.readings
+    readings = Nothing() if isinstance(devices, Nothing) else readings_of(sensing)
     estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
     partner, company, twitch = start_person(mission, vehicle, state)
     tally = start_metrics(clearance(walls, near, plant.frame, state), company)
     moving = FlightState(state, memory, eddies, grip, near, sensing, known, spinning, readings, company, tally, 0.0)
     reads = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
-    late = DelayLines(*[Delayed() if d else Nothing() for d in delays]) if delays.any() else Nothing()
+    late = delay_lines_from(mission, delays)
     flying = FlightModel(moving, pilot, plant, rotors, weather, devices, estimators, reads, partner, late)
     given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(weather), hiss, twitch), company)
     return AssembledFlight(
@@ -106,5 +116,5 @@ def assemble(mission: Mission) -> AssembledFlight:
         given,
         input_tables_from(mission, path_legs_from(mission, partner, state)),
         delays,
-        np.array(keys_of(mission.mission.seed)),
+        np.array(key_from_seed(mission.mission.seed)),
     )

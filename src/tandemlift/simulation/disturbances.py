@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing, mat3, spread, vec3
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
+from tandemlift.laws.mechanics.air_drag import AirDrag
 from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush
 from tandemlift.laws.mechanics.rectangle import WALL, wall
-from tandemlift.laws.mechanics.walls import nowhere
-from tandemlift.laws.mechanics.wind import AirDrag, Gust, NoTurbulence, Wind, WindNoise, dryden, start_turbulence
+from tandemlift.laws.mechanics.turbulence import WindNoise, dryden, start_turbulence
+from tandemlift.laws.mechanics.walls import no_walls_near
+from tandemlift.laws.mechanics.wind import Gust, Wind
 from tandemlift.laws.person.person import PATH_LEG, PathLeg
 from tandemlift.loop.wind_loads import WindModel
 from tandemlift.settings import Mission
@@ -57,7 +59,7 @@ def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generato
     w = mission.wind
     if w.model == "none":
         return Nothing(), Nothing()
-    turbulence: Any = NoTurbulence()
+    turbulence: Any = Nothing()
     if w.turbulence > 0.0:
         airspeed = w.airspeed or max(math.dist(w.velocity, ZERO), LEAST_AIRSPEED)
         turbulence = dryden(w.turbulence, w.height, airspeed, w.velocity, mission.mission.step)
@@ -69,10 +71,10 @@ def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generato
 
 def wind_noise_from(weather: Any) -> Any:
     """The layout of the wind's standard normals."""
-    still = isinstance(weather, Nothing) or isinstance(weather.wind.turbulence, NoTurbulence)
+    still = isinstance(weather, Nothing) or isinstance(weather.wind.turbulence, Nothing)
     return Nothing() if still else NO_WHIFFS
 
 
 def near_walls_from(settings: Any) -> Any:
     """The walls nearest to the parts, before any was looked at; or `Nothing`."""
-    return settings if isinstance(settings, Nothing) else nowhere(settings)
+    return settings if isinstance(settings, Nothing) else no_walls_near(settings)

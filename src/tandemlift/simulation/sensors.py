@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
+from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.common.sensors import additional_sensor
+from tandemlift.common.types import Array
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
 from tandemlift.laws.estimation.push_estimate import push_estimator, start_push
-from tandemlift.laws.mechanics.air_drag import PayloadDrag
+from tandemlift.laws.estimation.wind_compensation import PayloadDrag
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.sensors.readings import SensorNoise, sensors
-from tandemlift.laws.sensors.sensor_errors import SensorGrade
+from tandemlift.laws.sensors.noise_bias_drift import SensorGrade, scalar_sensor_model, sensor_model
+from tandemlift.laws.sensors.readings import AdditionalChannels, by_name, sensors, zero_noise
+from tandemlift.laws.sensors.sensor_registry import PARAMETERS
 from tandemlift.laws.signals.low_pass import low_pass
 from tandemlift.loop.perception import Estimators, EstimatorState, NominalVehicle, TareAtTime, TareInHover
-from tandemlift.settings import InertialSensor, Mission
+from tandemlift.settings import AdditionalSensorTable, InertialSensor, JointSensors, Mission
 from tandemlift.vehicle import Vehicle
 
 
@@ -30,43 +34,54 @@ def sensors_from(mission: Mission, vehicle: Vehicle, chance: np.random.Generator
     s, N, step = mission.sensors, vehicle.count, mission.mission.step
     if s.model == "none":
         return Nothing(), Nothing()
-    j, turns = s.joints, chance.standard_normal((N, 3)) * s.joints.misalignment
-    force = SensorGrade(
-        j.force_noise,
-        chance.standard_normal((N, 3)) * j.force_bias,
-        j.force_drift,
-        j.force_resolution,
-        j.force_range,
-        turns,
-    )
-    torque = SensorGrade(
-        j.torque_noise,
-        chance.standard_normal((N, 3)) * j.torque_bias,
-        j.torque_drift,
-        j.torque_resolution,
-        j.torque_range,
-        turns,
-    )
+    turns = chance.standard_normal((N, 3)) * s.joints.misalignment
     devices = sensors(
-        N,
-        step,
-        force,
-        torque,
-        _inertial(s.accelerometer, chance),
-        _inertial(s.gyroscope, chance),
-        s.motion.position_noise,
-        s.motion.velocity_noise,
-        s.motion.attitude_noise,
-        steps_of(s.interval, step),
-        steps_of(s.motion.interval, step),
+        count=N,
+        step=step,
+        force=_joint_grade(s.joints, "force", turns, chance),
+        torque=_joint_grade(s.joints, "torque", turns, chance),
+        accelerometer=_inertial_grade(s.accelerometer, chance),
+        gyroscope=_inertial_grade(s.gyroscope, chance),
+        position_noise=s.motion.position_noise,
+        velocity_noise=s.motion.velocity_noise,
+        attitude_noise=s.motion.attitude_noise,
+        imu_period=steps_of(s.interval, step),
+        motion_period=steps_of(s.motion.interval, step),
+        additional=_additional_sensors(s.additional, step, chance),
     )
-    none = each(N)(*(0.0,) * N)
-    sets = Vec3(none, none, none)
-    return devices, SensorNoise(ZERO, ZERO, sets, sets, ZERO, ZERO, ZERO)
+    return devices, zero_noise(devices)
 
 
-def _inertial(s: InertialSensor, chance: np.random.Generator) -> SensorGrade:
-    return SensorGrade(s.noise, chance.standard_normal((1, 3)) * s.bias, s.drift, 0.0, s.range)
+def _joint_grade(s: JointSensors, kind: str, turns: Array, chance: np.random.Generator) -> SensorGrade:
+    """The sensors at the joints, of kind "force" or "torque"; `turns` (N × 3) of their axes [rad]."""
+    noise, bias, drift, resolution, limit = (
+        getattr(s, f"{kind}_{error}") for error in ("noise", "bias", "drift", "resolution", "range")
+    )
+    return SensorGrade(
+        noise=noise,
+        bias=chance.standard_normal(turns.shape) * bias,
+        drift=drift,
+        resolution=resolution,
+        limit=limit,
+        misalignment=turns,
+    )
+
+
+def _inertial_grade(s: InertialSensor, chance: np.random.Generator) -> SensorGrade:
+    return SensorGrade(noise=s.noise, bias=chance.standard_normal((1, 3)) * s.bias, drift=s.drift, limit=s.range)
+
+
+def _additional_sensors(tables: Sequence[AdditionalSensorTable], step: float, chance: np.random.Generator) -> Any:
+    """The parameters of additional sensors by name; `Nothing` for none."""
+    return by_name(tuple(s.name for s in tables))(*[_additional(s, step, chance) for s in tables])
+
+
+def _additional(s: AdditionalSensorTable, step: float, chance: np.random.Generator) -> Any:
+    is_vector, period = additional_sensor(s.name).width == 3, steps_of(s.interval, step)
+    bias = chance.standard_normal(3 if is_vector else None) * s.bias
+    grade = SensorGrade(noise=s.noise, bias=bias, drift=s.drift, resolution=s.resolution, limit=s.range)
+    model = (sensor_model if is_vector else scalar_sensor_model)(grade, step * period)
+    return PARAMETERS[s.name](AdditionalChannels(model), float(period))
 
 
 def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
@@ -90,7 +105,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         quadrotors=[q.position for q in quadrotors],
         quadrotor_masses=[q.mass for q in quadrotors],
         step=step,
-        unit_period=period,
+        imu_period=period,
         length=payload.length or math.inf,
         bandwidth=e.push_bandwidth,
         min_force=e.min_force,
@@ -113,4 +128,4 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
     believed = NominalVehicle(vec3(-vehicle.center_of_mass), vec3(drag.force), vec3(drag.moment))
     tare = TareInHover() if e.tare == "hover" else TareAtTime()
     known = Estimators(push, observer, believed, tare)
-    return known, EstimatorState(start_push(push, readings.unit), start_navigation(observer, state))
+    return known, EstimatorState(start_push(push, readings.imu), start_navigation(observer, state))

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.types import Array
-from tandemlift.flight.channels import CHANNELS, DERIVED, TIME, Channel
+from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
@@ -221,7 +221,7 @@ class Simulation:
         """Unit, frame and meaning of a channel."""
         if name not in self and name != "time":
             self[name]
-        return DERIVED[name][2] if name in DERIVED else CHANNELS.get(name, TIME)
+        return DERIVED[name][2] if name in DERIVED else channel_of(name)
 
     # the record
 

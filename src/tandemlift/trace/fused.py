@@ -136,7 +136,7 @@ def _run(law: Callable[..., Any], *args: Any) -> Any:
             raise
         trace = traceback.extract_tb(error.__traceback__)
         lines = [f.lineno for f in trace if f.filename == law.__code__.co_filename and f.lineno]
-        what = f"fails on symbols, {type(error).__name__}: {error}: use vectors and functions of tandemlift.algebra.ops"
+        what = f"fails on symbols, {type(error).__name__}: {error}: use vectors and functions of tandemlift.algebra"
         raise refused(what, law.__code__, lines[-1] if lines else law.__code__.co_firstlineno) from error
 
 

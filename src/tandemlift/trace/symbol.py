@@ -123,17 +123,17 @@ class Symbol:
         return _bitwise("ashr", self, count)
 
     def __pow__(self, power: Any) -> Any:
-        raise refused_here("takes a power by **: write a product, or power(x, p) of tandemlift.algebra.ops")
+        raise refused_here("takes a power by **: write a product, or power(x, p) of tandemlift.algebra")
 
     __rpow__ = __pow__
 
     def __bool__(self) -> bool:
         raise refused_here(
-            "branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra.ops"
+            "branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra"
         )
 
     def __float__(self) -> float:
-        raise refused_here("takes a plain number out of its data: use the functions of tandemlift.algebra.ops")
+        raise refused_here("takes a plain number out of its data: use the functions of tandemlift.algebra")
 
     __int__ = __index__ = __float__
 

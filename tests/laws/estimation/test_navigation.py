@@ -14,9 +14,9 @@ from scipy.spatial.transform import Rotation
 from tandemlift.algebra.vector import Vec3, vec3
 from tandemlift.laws.estimation.navigation import Navigator, navigator
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.mechanics.rotation import rotated_by
+from tandemlift.laws.sensors.noise_bias_drift import SensorGrade
 from tandemlift.laws.sensors.readings import Sensors, sensors
-from tandemlift.laws.sensors.sensor_errors import SensorGrade
 
 CENTRE = np.array([0.02, -0.03, 0.0642857])
 LEVEL = np.array([0.0, 0.0, 9.81])
@@ -82,12 +82,12 @@ def errors(seen: Any, truth: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-@pytest.mark.parametrize(("unit_period", "motion_period"), [(1, 1), (1, 10), (4, 8)])
-def test_constant_rates_and_an_acceleration_that_grows_evenly_are_carried_exactly(unit_period, motion_period):
-    periods = {"unit_period": unit_period, "motion_period": motion_period}
+@pytest.mark.parametrize(("imu_period", "motion_period"), [(1, 1), (1, 10), (4, 8)])
+def test_constant_rates_and_an_acceleration_that_grows_evenly_are_carried_exactly(imu_period, motion_period):
+    periods = {"imu_period": imu_period, "motion_period": motion_period}
     truth = steady(3.0, (0.3, -0.4, 1.2), (1.0, -2.0, 0.5), (0.5, 0.2, -0.4))
     off = errors(estimated(truth, navigator(CENTRE, STEP, **periods), sensors(2, STEP, **periods)), truth)
-    assert max(np.abs(e[::unit_period]).max() for e in off.values()) < 1e-11
+    assert max(np.abs(e[::imu_period]).max() for e in off.values()) < 1e-11
 
 
 def test_perfect_sensors_leave_what_the_sampling_does():
@@ -105,7 +105,7 @@ def test_an_error_at_the_start_dies_as_two_equal_poles_and_one_say():
     wrong = estimated(truth, k, sensors(2, STEP), lambda s: s._replace(position=s.position + Vec3(0.0, 0.1, 0.0)))
     assert errors(wrong, truth)["position"][:, 1] == pytest.approx(0.1 * np.exp(-3.0 * t), abs=5e-4)
     turn = Vec3(0.0, 0.0, 0.1)
-    wrong = estimated(truth, k, sensors(2, STEP), lambda s: s._replace(attitude=turned(s.attitude, turn)))
+    wrong = estimated(truth, k, sensors(2, STEP), lambda s: s._replace(attitude=rotated_by(s.attitude, turn)))
     assert errors(wrong, truth)["turn"][:, 2] == pytest.approx(0.1 * (1 - 1.5 * t) * np.exp(-1.5 * t), abs=5e-4)
 
 
@@ -155,7 +155,7 @@ def test_it_finds_its_way_from_far_off():
 
     def lost(s: State) -> State:
         return State(s.position + vec3([1.0, -1.0, 1.0]), s.velocity - vec3([1.0, 1.0, 1.0]),
-                     turned(s.attitude, vec3([0.5, -0.5, 0.5])), s.rates)  # fmt: skip
+                     rotated_by(s.attitude, vec3([0.5, -0.5, 0.5])), s.rates)  # fmt: skip
 
     seen = estimated(truth, navigator(CENTRE, STEP, motion_period=10), devices, lost)
     off = errors(seen, truth)

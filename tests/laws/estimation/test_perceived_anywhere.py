@@ -14,16 +14,16 @@ from tandemlift.algebra.vector import ZERO, spread
 from tandemlift.laws.estimation.navigation import navigator
 from tandemlift.laws.estimation.push_estimate import push_estimator
 from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.sensors.noise_bias_drift import SensorGrade
 from tandemlift.laws.sensors.readings import sensors
-from tandemlift.laws.sensors.sensor_errors import SensorGrade
 from tandemlift.trace import flat as floats
 
 BATCH = 6
 P = paper_parts()
 COARSE = SensorGrade(noise=0.05, bias=0.1, drift=0.2, resolution=0.02, limit=30.0, misalignment=0.02)
-DEVICES = sensors(2, STEP, COARSE, COARSE, COARSE, COARSE, 0.003, 0.01, 0.002, unit_period=2, motion_period=3)
+DEVICES = sensors(2, STEP, COARSE, COARSE, COARSE, COARSE, 0.003, 0.01, 0.002, imu_period=2, motion_period=3)
 PUSHES = push_estimator(
-    P.mass, P.inertia, P.joints, P.quadrotors, P.masses, STEP, unit_period=2, length=2.0,
+    P.mass, P.inertia, P.joints, P.quadrotors, P.masses, STEP, imu_period=2, length=2.0,
     tare_start=0.005, tare_duration=0.01, identify_mass=True,
 )  # fmt: skip
 OBSERVER = navigator(P.centre, STEP, 2, 3, rates_bandwidth=300.0, age=0.004)

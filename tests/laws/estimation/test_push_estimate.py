@@ -25,8 +25,8 @@ from tandemlift.laws.estimation.push_estimate import (
     sides,
     start_push,
 )
+from tandemlift.laws.sensors.noise_bias_drift import SensorGrade
 from tandemlift.laws.sensors.readings import sensors
-from tandemlift.laws.sensors.sensor_errors import SensorGrade
 
 NOISE = {
     "force": SensorGrade(noise=0.05),
@@ -261,8 +261,8 @@ def test_a_sensor_that_sticks_is_found_and_a_push_is_not():
 
 @pytest.mark.parametrize("period", [2, 4])
 def test_a_slower_unit_gives_the_same_push_in_steps(period):
-    flight, k = excited(), estimator(paper_parts(), unit_period=period, length=2.0)
-    push = seen(flight, k, unit_period=period).push
+    flight, k = excited(), estimator(paper_parts(), imu_period=period, length=2.0)
+    push = seen(flight, k, imu_period=period).push
     held = rows(push.measured)
     assert np.all(held.reshape(-1, period, 3) == held[::period, None, :])
     assert held[::period] == pytest.approx(flight.pushes[::period], abs=1e-9)

@@ -11,7 +11,7 @@ from tandemlift.laws.guidance.compliance import DeadBand, DeadBandState, complia
 from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.laws.guidance.phases import PhaseOutput
 from tandemlift.laws.guidance.yaw_compliance import yaw_step
-from tandemlift.laws.rotors.dynamics import NoFaults
+from tandemlift.laws.rotors.rotor_faults import NoFaults
 from tandemlift.laws.signals.trajectories import SmoothStep
 from tandemlift.pilot.assemble import admittance_from
 from tandemlift.pilot.guidance import start_hand_guidance

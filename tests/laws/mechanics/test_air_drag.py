@@ -14,9 +14,9 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.laws.mechanics.air_drag import AirDrag, air_loads
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import resultant
-from tandemlift.laws.mechanics.wind import AirDrag, air_loads
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.settings import Payload
 from tandemlift.simulation.disturbances import air_drag_from

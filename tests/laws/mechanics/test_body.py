@@ -12,8 +12,8 @@ from scipy.spatial.transform import Rotation
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, mat3, vec3
 from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, motion, rk4
-from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
-from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush, PushSamples, push_of
+from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
+from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush, PushSamples, push_at
 
 STILL = PushSamples(*[CentralPush(ZERO)] * 3)
 FREE = Wrench(0.0, ZERO)
@@ -146,9 +146,9 @@ def test_inertia_values_are_diagonal_only_if_the_tensor_is():
     assert isinstance(inertia_value(FULL), Mat3)
     assert isinstance(inertia_value(DIAGONAL + 1e-15 * FULL), Vec3)
     v = Vec3(1.0, -2.0, 3.0)
-    assert array(turn_by(inertia_value(np.linalg.inv(FULL)), turn_by(inertia_value(FULL), v))) == pytest.approx(
-        array(v), abs=1e-14
-    )
+    assert array(
+        apply_inertia(inertia_value(np.linalg.inv(FULL)), apply_inertia(inertia_value(FULL), v))
+    ) == pytest.approx(array(v), abs=1e-14)
 
 
 @pytest.mark.parametrize("J", [DIAGONAL, FULL], ids=["diagonal", "full"])
@@ -160,7 +160,7 @@ def test_the_runge_kutta_step_is_of_order_four_under_a_continuous_push(J):
     for n in counts:
         x, h = s, 1.0 / n
         for k in range(n):
-            hand = PushSamples(*[push_of(NO_PUSH, PUSH, (k + part) * h) for part in (0.0, 0.5, 1.0)])
+            hand = PushSamples(*[push_at(NO_PUSH, PUSH, (k + part) * h) for part in (0.0, 0.5, 1.0)])
             x = rk4(body, x, motion(body, x, u, hand.start), u, hand, h)
         errors.append(np.abs(numbers_of(x) - exact).max())
     assert order_of(1.0 / counts, errors) == pytest.approx(4.0, abs=0.15)

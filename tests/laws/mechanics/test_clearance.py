@@ -7,9 +7,9 @@ from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import Nothing
-from tandemlift.laws.mechanics.clearance import clearance, nearer_of
+from tandemlift.laws.mechanics.clearance import clearance, smaller_clearance
 from tandemlift.laws.mechanics.rectangle import wall
-from tandemlift.laws.mechanics.walls import consider, nowhere, walls
+from tandemlift.laws.mechanics.walls import nearest_with, no_walls_near, walls
 from tandemlift.models.parts_layout import parts_layout_from
 
 PAIR = paper_vehicle()
@@ -31,9 +31,9 @@ def test_clearance_is_that_of_bounded_least_squares(seed):
         PAIR.lever_arms, GUARD, PAIR.mass, PAIR.inertia, 0.001, friction=0.5, beam=(LENGTH, RADIUS),
         payload=-PAIR.center_of_mass,
     )  # fmt: skip
-    frame, near = parts_layout_from(PAIR), nowhere(w)
+    frame, near = parts_layout_from(PAIR), no_walls_near(w)
     for one in table:
-        near = consider(w, one, near, frame, state)
+        near = nearest_with(w, one, near, frame, state)
     R, p = Rotation.from_quat(array(state.attitude), scalar_first=True).as_matrix(), array(state.position)
     far = clearance(w, near, frame, state)
     guards, beams = [], []
@@ -57,10 +57,12 @@ def test_the_lesser_of_two_clearances_is_taken_part_by_part():
     for _ in range(2):
         state = random_state(rng)
         found.append(
-            clearance(w, consider(w, wall((3.0, -9.0), (3.0, 9.0), 9.0), nowhere(w), frame, state), frame, state)
+            clearance(
+                w, nearest_with(w, wall((3.0, -9.0), (3.0, 9.0), 9.0), no_walls_near(w), frame, state), frame, state
+            )
         )
-    both = nearer_of(*found)
+    both = smaller_clearance(*found)
     assert tuple(both.guards) == tuple(map(min, found[0].guards, found[1].guards))
     assert tuple(both.beam.ends) == tuple(map(min, found[0].beam.ends, found[1].beam.ends))
     assert both.beam.length == min(found[0].beam.length, found[1].beam.length)
-    assert nearer_of(Nothing(), Nothing()) == Nothing()
+    assert smaller_clearance(Nothing(), Nothing()) == Nothing()

@@ -19,15 +19,15 @@ from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, rigid_body_motion
 from tandemlift.laws.mechanics.contact import (
     Floor,
+    feet_load,
     floor,
+    grips_after_step,
     may_touch,
     sinkage_of,
-    slip,
-    soles_below,
+    sole_positions,
     spring_damper,
     standing_height,
     start_foot_grip,
-    touch,
 )
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, resultant
 from tandemlift.laws.mechanics.push import CentralPush
@@ -42,7 +42,7 @@ STEP = 0.001
 
 
 def floor_of(vehicle: Vehicle, step: float = STEP, friction: float = 0.6, **more: float) -> Floor:
-    soles = soles_below(vehicle.lever_arms, 0.12, DEPTH)
+    soles = sole_positions(vehicle.lever_arms, 0.12, DEPTH)
     return floor(soles, vehicle.mass, vehicle.inertia, step, friction=friction, **more)
 
 
@@ -68,7 +68,7 @@ class Moving(NamedTuple):
 
 @law
 def motion(world, grip, s):
-    load = resultant(world.frame, s.attitude, PartLoads(UNTOUCHED, touch(world.floor, grip, world.frame, s)))
+    load = resultant(world.frame, s.attitude, PartLoads(UNTOUCHED, feet_load(world.floor, grip, world.frame, s)))
     return rigid_body_motion(world.body, s, Wrench(0.0, load.moment), CentralPush(load.force + world.force))
 
 
@@ -82,7 +82,7 @@ def advanced(world, x, dt):
     s = s + k1 * (dt / 6.0) + k2 * (dt / 3.0) + k3 * (dt / 3.0) + k4 * (dt / 6.0)
     q = s.attitude * (1.0 / sqrt(dot(s.attitude, s.attitude)))
     s = State(s.position, s.velocity, q, s.rates)
-    return Moving(s, slip(world.floor, grip, s))
+    return Moving(s, grips_after_step(world.floor, grip, s))
 
 
 class Given(NamedTuple):
@@ -213,14 +213,14 @@ def near_floor(rng: np.random.Generator, count: int) -> tuple[Floor, PartsLayout
     s = random_state(rng)
     s = s._replace(position=s.position._replace(z=ground.height + rng.uniform(-0.1, 0.5)))
     before = s._replace(position=s.position + vec3(1e-3 * rng.standard_normal(3)))
-    return ground, parts_layout_from(vehicle), slip(ground, start_foot_grip(ground, before), before), s
+    return ground, parts_layout_from(vehicle), grips_after_step(ground, start_foot_grip(ground, before), before), s
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 @given(seed=seeds)
 def test_the_floor_never_pulls_and_friction_keeps_within_its_cone(count, seed):
     ground, frame, grip, s = near_floor(np.random.default_rng(seed), count)
-    x, y, z = np.array(touch(ground, grip, frame, s).force)
+    x, y, z = np.array(feet_load(ground, grip, frame, s).force)
     assert z.min() >= 0.0
     assert (np.hypot(x, y) <= ground.friction * z * (1.0 + 1e-12)).all()
 
@@ -240,10 +240,12 @@ def test_in_the_air_nothing_acts_and_the_grip_follows_the_foot(seed):
     rng = np.random.default_rng(seed)
     s = random_state(rng)
     s = s._replace(position=s.position._replace(z=FLOOR.reach + 1e-9))
-    load = touch(FLOOR, start_foot_grip(FLOOR, random_state(rng)), parts_layout_from(VEHICLE), s)
+    load = feet_load(FLOOR, start_foot_grip(FLOOR, random_state(rng)), parts_layout_from(VEHICLE), s)
     assert all(x == 0.0 for x in flat(load))
     R = Rotation.from_quat(array(s.attitude), scalar_first=True).as_matrix()
-    for grip, feet in zip(slip(FLOOR, start_foot_grip(FLOOR, random_state(rng)), s), FLOOR.feet, strict=True):
+    for grip, feet in zip(
+        grips_after_step(FLOOR, start_foot_grip(FLOOR, random_state(rng)), s), FLOOR.feet, strict=True
+    ):
         places = array(s.position)[:, None] + R @ np.array(feet)
         assert np.array(grip[:2]) == pytest.approx(places[:2], abs=1e-12)
 
@@ -264,7 +266,7 @@ def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(count, see
         held = np.where(depth > 0.0, ((places[:, :2] - anchors) ** 2).sum(1), 0.0)
         return 0.5 * float((ground.stiffness * depth**2 + ground.tangential_stiffness * held).sum())
 
-    load = resultant(frame, s.attitude, PartLoads(UNTOUCHED, touch(ground, grip, frame, s)))
+    load = resultant(frame, s.attitude, PartLoads(UNTOUCHED, feet_load(ground, grip, frame, s)))
     h = 1e-6
     slope = [(energy(h * e) - energy(-h * e)) / (2.0 * h) for e in np.eye(6)]
     assert np.array(flat(load)) == pytest.approx(-np.array(slope), abs=1e-4, rel=1e-5)
@@ -328,7 +330,7 @@ class Answer(NamedTuple):
 
 
 def both(ground, grip, frame, s):
-    return Answer(touch(ground, grip, frame, s), slip(ground, grip, s))
+    return Answer(feet_load(ground, grip, frame, s), grips_after_step(ground, grip, s))
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])

@@ -16,11 +16,11 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import sqrt, where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, rigid_body_motion
-from tandemlift.laws.mechanics.clearance import clearance, may_press
+from tandemlift.laws.mechanics.clearance import clearance, may_touch_wall
 from tandemlift.laws.mechanics.loads import PartsLayout, resultant
 from tandemlift.laws.mechanics.push import CentralPush
 from tandemlift.laws.mechanics.rectangle import WALL, wall
-from tandemlift.laws.mechanics.walls import Walls, consider, nowhere, press
+from tandemlift.laws.mechanics.walls import Walls, near_wall_loads, nearest_with, no_walls_near
 from tandemlift.models.parts_layout import parts_layout_from
 
 
@@ -35,7 +35,7 @@ class World(NamedTuple):
 
 @law
 def motion(world, near, s):
-    wrench = resultant(world.frame, s.attitude, press(world.walls, near, world.frame, s))
+    wrench = resultant(world.frame, s.attitude, near_wall_loads(world.walls, near, world.frame, s))
     push = CentralPush(wrench.force + world.force)
     return rigid_body_motion(world.body, s, Wrench(0.0, wrench.moment), push), dot(wrench.force, wrench.force)
 
@@ -63,18 +63,18 @@ class Given(NamedTuple):
 
 
 class Surroundings(NamedTuple):
-    """A world, and its walls; `nowhere`, whose numbers count."""
+    """A world, and its walls; `no_walls_near`, whose numbers count."""
 
     world: World
     table: Any
-    nowhere: Any
+    no_walls_near: Any
 
 
 @law
 def look(fixed, state):
-    near = fixed.nowhere
+    near = fixed.no_walls_near
     for one in fixed.table:
-        near = consider(fixed.world.walls, one, near, fixed.world.frame, state)
+        near = nearest_with(fixed.world.walls, one, near, fixed.world.frame, state)
     return near
 
 
@@ -90,8 +90,8 @@ def loop_among(count):
     """A flight's steps among so many walls."""
     w = walls_of(FLAT)
     world = World(w, parts_layout_from(FLAT), free_body(FLAT.mass, FLAT.inertia), ZERO)
-    fixed = Surroundings(world, record("Table", [WALL] * count), nowhere(w))
-    return Loop(step_of, fixed, Moving(at(ZERO), nowhere(w)), Given(STEP, 1.0))
+    fixed = Surroundings(world, record("Table", [WALL] * count), no_walls_near(w))
+    return Loop(step_of, fixed, Moving(at(ZERO), no_walls_near(w)), Given(STEP, 1.0))
 
 
 @pytest.fixture(scope="module")
@@ -103,8 +103,8 @@ def flown():
         world = World(w, frame, body, vec3(force + np.array([0.0, 0.0, FLAT.weight])))
         count = round(duration / step) + 1
         given = np.stack([np.full(count, step), np.arange(count) % every == 0], axis=1)
-        fixed = Surroundings(world, record("Table", table), nowhere(w))
-        return loop_among(len(table))(fixed, Moving(start, nowhere(w)), given)
+        fixed = Surroundings(world, record("Table", table), no_walls_near(w))
+        return loop_among(len(table))(fixed, Moving(start, no_walls_near(w)), given)
 
     return fly
 
@@ -181,7 +181,7 @@ def test_no_wall_presses_in_a_step_in_which_it_is_said_that_none_may(flown):
         s = State(*[kind(*part) for kind, part in zip(PARTS, np.split(rows[k, :13], [3, 6, 10]), strict=True)])
         room = clearance(w, found(w, ROOM, frame, s), frame, s)
         freely = rigid_body_motion(body, s, Wrench(FLAT.weight, ZERO), CentralPush(ZERO))
-        said.append(bool(may_press(w, room, s, freely, STEP)))
+        said.append(bool(may_touch_wall(w, room, s, freely, STEP)))
     assert np.all(said | ~touches[chosen])
     assert touches.any()
     assert np.mean(said) < 0.9

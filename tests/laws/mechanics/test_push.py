@@ -21,8 +21,8 @@ from tandemlift.laws.mechanics.push import (
     GaussianPush,
     PointPush,
     gaussian_force,
-    moment_of,
-    push_of,
+    push_at,
+    push_moment,
 )
 
 NO_POINT_PUSH = PointPush(ZERO, mat3(np.zeros((3, 3))))
@@ -49,7 +49,7 @@ def several(seed: int) -> tuple[list[GaussianPush], PointPush, np.ndarray, np.nd
     pushes = [GaussianPush(random_vec3(rng), 0.1 * i, 1.0 / (1.0 + i), random_vec3(rng)) for i in range(4)]
     state = State(ZERO, ZERO, random_attitude(rng), ZERO)
     R = Rotation.from_quat(array(state.attitude), scalar_first=True).as_matrix()
-    total = functools.reduce(operator.add, (push_of(NO_POINT_PUSH, p, 0.7) for p in pushes), NO_POINT_PUSH)
+    total = functools.reduce(operator.add, (push_at(NO_POINT_PUSH, p, 0.7) for p in pushes), NO_POINT_PUSH)
     forces = [array(p.force) * np.exp(-0.5 * ((0.7 - p.time) * p.per_sigma) ** 2) for p in pushes]
     moment = np.sum([np.cross(array(p.point), R.T @ F) for p, F in zip(pushes, forces, strict=True)], axis=0)
     return pushes, total, np.sum(forces, axis=0), moment, state
@@ -59,7 +59,7 @@ def several(seed: int) -> tuple[list[GaussianPush], PointPush, np.ndarray, np.nd
 def test_several_pushes_act_as_one_force_and_one_moment(seed):
     _, total, force, moment, state = several(seed)
     assert array(total.force) == pytest.approx(force, abs=1e-14)
-    assert array(moment_of(total, state.attitude)) == pytest.approx(moment, abs=1e-13)
+    assert array(push_moment(total, state.attitude)) == pytest.approx(moment, abs=1e-13)
 
 
 @given(seeds)
@@ -75,8 +75,8 @@ def test_pushes_turn_and_move_the_body(seed):
 def test_a_push_at_the_center_of_mass_does_not_turn_the_body(seed):
     rng = np.random.default_rng(seed)
     p, q = GaussianPush(random_vec3(rng), 0.0, 1.0, ZERO), random_attitude(rng)
-    central, at_point = push_of(CentralPush(ZERO), p, 0.3), push_of(NO_POINT_PUSH, p, 0.3)
-    assert moment_of(central, q) == moment_of(at_point, q) == ZERO
+    central, at_point = push_at(CentralPush(ZERO), p, 0.3), push_at(NO_POINT_PUSH, p, 0.3)
+    assert push_moment(central, q) == push_moment(at_point, q) == ZERO
     assert central.force == at_point.force
 
 
@@ -84,4 +84,4 @@ def test_a_push_at_the_payloads_center_pitches_the_papers_vehicle():
     """0.064 N·m of pitch for each newton along x, because the centre of mass is above the beam."""
     p = GaussianPush(Vec3(1.0, 0.0, 0.0), 0.0, 1.0, Vec3(0.0, 0.0, -0.0642857))
     level = State(ZERO, ZERO, random_attitude(np.random.default_rng(0))._make((1.0, 0.0, 0.0, 0.0)), ZERO)
-    assert array(moment_of(push_of(NO_POINT_PUSH, p, 0.0), level.attitude)) == pytest.approx([0.0, -0.0642857, 0.0])
+    assert array(push_moment(push_at(NO_POINT_PUSH, p, 0.0), level.attitude)) == pytest.approx([0.0, -0.0642857, 0.0])

@@ -18,7 +18,7 @@ from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartLoads, resultant
 from tandemlift.laws.mechanics.rectangle import Wall, offset, wall
-from tandemlift.laws.mechanics.walls import consider, press
+from tandemlift.laws.mechanics.walls import near_wall_loads, nearest_with
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle
 
@@ -202,8 +202,8 @@ class Answer(NamedTuple):
 
 
 def both(w, one, near, frame, s):
-    near = consider(w, one, near, frame, s)
-    return Answer(near, press(w, near, frame, s))
+    near = nearest_with(w, one, near, frame, s)
+    return Answer(near, near_wall_loads(w, near, frame, s))
 
 
 @EACH_COUNT

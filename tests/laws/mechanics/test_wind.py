@@ -21,30 +21,24 @@ from scipy.signal import welch
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3
+from tandemlift.laws.mechanics.air_drag import AirDrag, air_loads
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.wind import (
-    AirDrag,
+from tandemlift.laws.mechanics.turbulence import (
     Dryden,
-    Gust,
-    NoTurbulence,
-    StillAir,
     TurbulenceState,
-    Wind,
     WindNoise,
-    air_loads,
     dryden,
-    gust_velocity,
-    pass_by,
     start_turbulence,
-    swirl,
-    wind_step,
+    turbulence_step,
+    turbulence_velocity,
 )
-from tandemlift.laws.signals.random_numbers import keys_of, normals
+from tandemlift.laws.mechanics.wind import Gust, Wind, gust_velocity, wind_step
+from tandemlift.laws.signals.random_numbers import key_from_seed, normals
 from tandemlift.models.parts_layout import parts_layout_from
 
 FOOT = 0.3048
 NO_EDDIES, NO_WHIFFS = TurbulenceState(*[0.0] * 5), WindNoise(*[0.0] * 5)
-STEADY = Wind(Vec3(4.0, -2.0, 0.5), NoTurbulence())
+STEADY = Wind(Vec3(4.0, -2.0, 0.5), Nothing())
 X = (1.0, 0.0, 0.0)
 
 
@@ -79,9 +73,9 @@ class Linear(NamedTuple):
 
 def linear(d: Dryden) -> Linear:
     unit = np.eye(5).tolist()
-    F = np.transpose([pass_by(d, TurbulenceState(*e), NO_WHIFFS) for e in unit])
-    L = np.transpose([pass_by(d, NO_EDDIES, WindNoise(*e)) for e in unit])
-    return Linear(F, L, np.transpose([swirl(d, TurbulenceState(*e)) for e in unit]))
+    F = np.transpose([turbulence_step(d, TurbulenceState(*e), NO_WHIFFS) for e in unit])
+    L = np.transpose([turbulence_step(d, NO_EDDIES, WindNoise(*e)) for e in unit])
+    return Linear(F, L, np.transpose([turbulence_velocity(d, TurbulenceState(*e)) for e in unit]))
 
 
 STEPS = pytest.mark.parametrize("step", [1e-4, 1e-3, 1e-2, 0.1, 3.0])
@@ -194,7 +188,7 @@ def flown() -> tuple[np.ndarray, float, float]:
     """A day of compiled turbulence (3 × samples), its step [s] and airspeed [m/s]."""
     step, V, count = 0.05, 10.0, 2**21
     wind = Wind(ZERO, dryden(8.0, 6.0, V, X, step))
-    fixed, (x, y) = Blowing(wind, *keys_of(1)), (normals(0, draw, *keys_of(1)) for draw in (2, 3))
+    fixed, (x, y) = Blowing(wind, *key_from_seed(1)), (normals(0, draw, *key_from_seed(1)) for draw in (2, 3))
     loop = Loop(blown, fixed, NO_EDDIES, Step(0.0))
     return loop(fixed, TurbulenceState(*x, y.first), np.arange(count)[:, None]).T, step, V
 
@@ -224,14 +218,13 @@ def test_the_variance_of_a_long_flight_is_that_of_the_standard(flown):
     assert np.abs(np.corrcoef(out) - np.eye(3)).max() < 5.0 * error.max()
 
 
-def test_calm_wind_is_steady_and_still_air_does_not_move():
+def test_wind_without_turbulence_is_steady():
     gust = Vec3(1.0, 2.0, 3.0)
     assert wind_step(STEADY, Nothing(), gust, Nothing()) == (Vec3(5.0, 0.0, 3.5), Nothing())
-    assert wind_step(StillAir(), Nothing(), gust, Nothing()) == (ZERO, Nothing())
-    assert start_turbulence(NoTurbulence(), [0.0] * 5) == Nothing()
+    assert start_turbulence(Nothing(), [0.0] * 5) == Nothing()
 
 
-def test_the_air_moves_by_the_eddies_of_now_and_whiffs_move_those_of_the_next_step():
+def test_noise_moves_the_turbulence_of_the_next_step_and_not_that_of_now():
     wind = Wind(Vec3(4.0, 0.0, 0.0), dryden(8.0, 6.0, 4.0, X, 1e-3))
     whiffs = WindNoise(1.0, -1.0, 1.0, -1.0, 1.0)
     air, eddies = wind_step(wind, NO_EDDIES, ZERO, whiffs)
@@ -283,9 +276,8 @@ class Given(NamedTuple):
 def everything(x: Given, frame: Any) -> Any:
     gust = gust_velocity(x.gust, x.time)
     air, eddies = wind_step(x.dryden, x.eddies, gust, x.whiffs)
-    steady, none = wind_step(Wind(gust, NoTurbulence()), Nothing(), gust, Nothing())
-    still, _ = wind_step(StillAir(), Nothing(), gust, Nothing())
-    return air, eddies, steady, none, still, air_loads(x.drag, frame, x.state, air)
+    steady, none = wind_step(Wind(gust, Nothing()), Nothing(), gust, Nothing())
+    return air, eddies, steady, none, air_loads(x.drag, frame, x.state, air)
 
 
 def random_given(rng: np.random.Generator) -> Given:

@@ -5,7 +5,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, mat3, vec3
-from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, moment_of
+from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
 from tandemlift.laws.person.caller_inputs import CallerInput, pushed, thrusts_of
 from tandemlift.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan
@@ -26,16 +26,16 @@ def external(force=ZERO, point=ZERO, thrusts=None):
 @pytest.mark.parametrize("own", [CENTRAL, AT_POINTS])
 def test_an_added_push_adds_its_force_and_its_moment_at_start_middle_and_end(own):
     hand = pushed(external(FORCE, POINT), PushSamples(own, own, own))
-    alone = moment_of(PointPush(FORCE, mat3(np.outer(FORCE, POINT))), TILTED)
+    alone = push_moment(PointPush(FORCE, mat3(np.outer(FORCE, POINT))), TILTED)
     for push in hand:
         assert push.force == own.force + FORCE
-        assert tuple(moment_of(push, TILTED) - moment_of(own, TILTED)) == pytest.approx(tuple(alone), abs=1e-14)
+        assert tuple(push_moment(push, TILTED) - push_moment(own, TILTED)) == pytest.approx(tuple(alone), abs=1e-14)
 
 
 @pytest.mark.parametrize("attitude", [TILTED, Quat(-0.5, 0.5, -0.5, 0.5)])
 def test_without_a_force_the_moment_of_a_central_push_is_zero_and_never_minus_zero(attitude):
     hand = pushed(external(point=Vec3(-0.3, 0.8, -0.1)), PushSamples(CENTRAL, CENTRAL, CENTRAL))
-    moment = moment_of(hand.start, attitude)
+    moment = push_moment(hand.start, attitude)
     assert moment == ZERO
     assert not any(np.signbit(v) for v in moment)
 

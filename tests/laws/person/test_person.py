@@ -15,7 +15,7 @@ import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, mat3, vec3
 from tandemlift.engines.compiled import start_state
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.push import PointPush, PushSamples, moment_of
+from tandemlift.laws.mechanics.push import PointPush, PushSamples, push_moment
 from tandemlift.laws.person.person import PathLeg, PersonState, asks_to_land, person_step, person_view
 from tandemlift.laws.person.tremor import STILL, TremorNoise, tremor, tremor_step
 from tandemlift.laws.signals.low_pass import LowPassState
@@ -63,7 +63,7 @@ def test_force_and_couple_never_exceed_their_bounds(model, seed):
         assert np.linalg.norm(array(push.force)) <= 3.0 * (1.0 + 1e-12)
         R = Rotation.from_quat(array(state.attitude), scalar_first=True).as_matrix()
         alone = np.cross(array(partner.grip), R.T @ array(push.force))
-        couple = array(moment_of(push, state.attitude)) - alone
+        couple = array(push_moment(push, state.attitude)) - alone
         assert np.abs(couple).max() <= 0.5 * (1.0 + 1e-9)
         assert model == "two-hands" or np.abs(couple).max() < 1e-9
         assert lent.hand.start == lent.hand.middle == lent.hand.end
@@ -156,7 +156,7 @@ def test_two_hands_turn_the_vehicle_towards_its_heading_and_hold_it_at_the_centr
     for k in range(2000):
         lent = person_step(partner, memory, NO_PUSH, at((0.0, 0.0, memory.leg.end.z)), CALM, k * DT, DT)
         memory = lent.memory
-    assert moment_of(lent.hand.start, LEVEL).z == pytest.approx(0.3 * partner.manner.yaw_gain, abs=0.01)
+    assert push_moment(lent.hand.start, LEVEL).z == pytest.approx(0.3 * partner.manner.yaw_gain, abs=0.01)
 
 
 def test_what_is_seen_late_is_reckoned_ahead():

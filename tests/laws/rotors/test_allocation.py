@@ -16,13 +16,13 @@ from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.rotors.allocation import (
     ConstrainedAllocation,
     allocate,
-    beyond,
-    commanded,
     limits_at,
     mixer_from,
+    outside_limits,
+    rotor_commands,
     wrench,
 )
-from tandemlift.laws.rotors.dynamics import RotorFaults
+from tandemlift.laws.rotors.rotor_faults import RotorFaults
 from tandemlift.missions import load_mission
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.vehicle import Vehicle
@@ -140,14 +140,14 @@ def test_commands_to_weak_rotors_make_them_give_the_thrusts(seed):
     most = np.array(limits_at(how, 1.0, t))
     assert most == pytest.approx(limits * share)
     thrusts = most * rng.uniform(0.0, 1.0, 8)
-    commands = np.array(commanded(how, each(8)(*map(float, thrusts)), t))
+    commands = np.array(rotor_commands(how, each(8)(*map(float, thrusts)), t))
     assert commands * share == pytest.approx(thrusts)
     assert np.all(commands <= limits * (1.0 + 1e-12))
     assert np.all(commands[share == 0.0] == 0.0)
 
 
 def test_a_thrust_is_beyond_its_limits_below_zero_and_above_the_most_only():
-    assert [beyond(f, 7.0) for f in (-1e-12, 0.0, 3.0, 7.0, 7.0 + 1e-12)] == [1.0, 0.0, 0.0, 0.0, 1.0]
+    assert [outside_limits(f, 7.0) for f in (-1e-12, 0.0, 3.0, 7.0, 7.0 + 1e-12)] == [1.0, 0.0, 0.0, 0.0, 1.0]
 
 
 @pytest.mark.parametrize("method", ["pseudo-inverse", "constrained"])

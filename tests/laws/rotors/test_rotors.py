@@ -8,8 +8,10 @@ from scipy.integrate import quad
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.rotors.dynamics import FreeAir, IdealRotors, NoFaults, RotorFaults, RotorState, drive, near_ground
-from tandemlift.laws.rotors.thrust_limits import share_scale
+from tandemlift.laws.rotors.allocation import wrench_scale
+from tandemlift.laws.rotors.ground_effect import FreeAir, ground_effect_ratio
+from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults
+from tandemlift.laws.rotors.rotors import IdealRotors, RotorState, rotors_step
 from tandemlift.missions import load_mission
 from tandemlift.simulation.actuators import ground_effect_from, rotors_from
 from tandemlift.vehicle import Vehicle
@@ -21,9 +23,9 @@ EIGHT = each(8)
 
 
 def rotors(step=0.001, *, late=False, faults=None, surface=None):
-    scale = share_scale(VEHICLE.effect)
+    scale = wrench_scale(VEHICLE.effect)
     return rotors_from(
-        VEHICLE, step, late=late, faults=faults or NoFaults(), surface=surface or FreeAir(), per_reach=scale
+        VEHICLE, step, delayed=late, faults=faults or NoFaults(), surface=surface or FreeAir(), wrench_scale=scale
     )
 
 
@@ -32,7 +34,7 @@ def spun(command, speed, steps, step=0.001):
     r, memory = rotors(step), RotorState(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
     thrusts, speeds = [], []
     for k in range(steps):
-        thrust, memory = drive(r, memory, EIGHT(*(command,) * 8), LEVEL, k * step)
+        thrust, memory = rotors_step(r, memory, EIGHT(*(command,) * 8), LEVEL, k * step)
         thrusts.append(thrust[3])
         speeds.append(memory.speed[3])
     return np.array(thrusts), np.array(speeds)
@@ -75,8 +77,8 @@ def test_a_stopped_rotor_ends_at_rest_and_not_in_denormal_numbers():
 def test_a_late_command_is_the_one_that_arrives():
     r = rotors(late=True)
     arriving, given = EIGHT(*(5.0,) * 8), EIGHT(*(1.0,) * 8)
-    late, after = drive(r, RotorState(EIGHT(*(800.0,) * 8), arriving), given, LEVEL, 0.0)
-    at_once, _ = drive(rotors(), RotorState(EIGHT(*(800.0,) * 8), given), arriving, LEVEL, 0.0)
+    late, after = rotors_step(r, RotorState(EIGHT(*(800.0,) * 8), arriving), given, LEVEL, 0.0)
+    at_once, _ = rotors_step(rotors(), RotorState(EIGHT(*(800.0,) * 8), given), arriving, LEVEL, 0.0)
     assert late == at_once
     assert after.arriving == given
 
@@ -88,8 +90,8 @@ def test_a_rotor_fails_at_its_time_and_keeps_its_share():
     )
     speed = math.sqrt(4.0 / CONSTANT)
     r, memory = rotors(faults=RotorFaults(times, left)), RotorState(EIGHT(*(speed,) * 8), EIGHT(*(0.0,) * 8))
-    before, _ = drive(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 1.999)
-    after, _ = drive(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 2.0)
+    before, _ = rotors_step(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 1.999)
+    after, _ = rotors_step(r, memory, EIGHT(*(4.0,) * 8), LEVEL, 2.0)
     assert list(before) == pytest.approx([4.0] * 8, rel=1e-12)
     assert list(after) == pytest.approx([4.0] * 4 + [1.2] + [4.0] * 3, rel=1e-12)
 
@@ -98,18 +100,18 @@ def test_a_rotor_fails_at_its_time_and_keeps_its_share():
 def test_thrust_near_the_floor_is_that_of_cheeseman_and_bennett(height):
     surface, radius = ground_effect_from(VEHICLE, -1.0), 0.128
     low = LEVEL._replace(position=Vec3(0.0, 0.0, height - 1.0 - float(VEHICLE.lever_arms[0, 2])))
-    assert list(near_ground(surface, low)) == pytest.approx(
+    assert list(ground_effect_ratio(surface, low)) == pytest.approx(
         [1.0 / (1.0 - (radius / (4.0 * height)) ** 2)] * 8, rel=1e-12
     )
 
 
 def test_ground_effect_is_bounded_on_the_floor_and_gone_high_up():
     surface = ground_effect_from(VEHICLE, 0.0)
-    on_it = near_ground(surface, LEVEL._replace(position=ZERO))
+    on_it = ground_effect_ratio(surface, LEVEL._replace(position=ZERO))
     assert max(on_it) == pytest.approx(4.0 / 3.0, rel=1e-12)
-    assert max(near_ground(surface, LEVEL)) < 1.0001
+    assert max(ground_effect_ratio(surface, LEVEL)) < 1.0001
 
 
 def test_ideal_rotors_give_any_thrust_at_once():
     command = EIGHT(-3.0, 0.0, 100.0, *(1.0,) * 5)
-    assert drive(IdealRotors(), Nothing(), command, LEVEL, 0.0) == (command, Nothing())
+    assert rotors_step(IdealRotors(), Nothing(), command, LEVEL, 0.0) == (command, Nothing())

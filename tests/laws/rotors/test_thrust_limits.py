@@ -29,8 +29,8 @@ from law_values import random_vehicle
 from scipy.optimize import linprog
 
 from tandemlift.kernels.context import aligned
-from tandemlift.laws.rotors.allocation import AllocationState
-from tandemlift.laws.rotors.thrust_limits import limited, weighted_rows, weights_of
+from tandemlift.laws.rotors.allocation import AllocationState, weighted_rows, weights_of
+from tandemlift.laws.rotors.thrust_limits import limited_thrusts
 
 
 @EVERY
@@ -212,7 +212,7 @@ def test_whatever_is_asked_the_thrusts_are_numbers_within_the_limits(count, layo
 def test_machine_code_and_plain_python_find_the_same(count, layout):
     c = craft(count, layout)
     for p in problems(c, 40, seed=9):
-        found, plain = solve(c, p), solve(c, p, run=limited)
+        found, plain = solve(c, p), solve(c, p, run=limited_thrusts)
         assert found.steps == plain.steps
         assert np.array_equal(found.f, plain.f)
         assert np.array_equal(found.active, plain.active)

@@ -1,4 +1,4 @@
-"""The on-board unit and the motion measurement: what they hold, when they sample, and that zeros leave every bit."""
+"""The IMU and the motion measurement: what they hold, when they sample, and that zeros leave every bit."""
 
 from __future__ import annotations
 
@@ -14,12 +14,21 @@ from scipy.spatial.transform import Rotation
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, spread, vec3
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
-from tandemlift.laws.sensors.readings import Readings, SensorNoise, Sensors, sense, sensors, start_sensing
-from tandemlift.laws.sensors.sensor_errors import SensorGrade
+from tandemlift.laws.sensors.noise_bias_drift import SensorGrade
+from tandemlift.laws.sensors.readings import (
+    Readings,
+    SensorNoise,
+    Sensors,
+    readings_of,
+    sense,
+    sensors,
+    start_sensing,
+    zero_noise,
+)
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
-HISS = SensorNoise(ZERO, ZERO, SETS, SETS, ZERO, ZERO, ZERO)
+HISS = zero_noise(sensors(2, STEP))
 AT_REST = State(Vec3(1.0, 2.0, 3.0), ZERO, Quat(1.0, 0.0, 0.0, 0.0), Vec3(0.1, 0.2, -0.3))
 FELT = PerfectReadings(Vec3(0.1, -0.2, 9.8), spread([[0.1, 0.2, 2.4], [0.3, -0.1, 2.5]]), spread(np.eye(3)[:2]), ZERO)
 NOISY = sensors(
@@ -32,7 +41,7 @@ NOISY = sensors(
     position_noise=0.003,
     velocity_noise=0.01,
     attitude_noise=0.02,
-    unit_period=2,
+    imu_period=2,
     motion_period=5,
 )
 
@@ -63,23 +72,23 @@ def test_perfect_sensors_read_every_bit_of_what_is_felt(seed):
     k, s, felt, believed = sensors(2, STEP), random_state(rng), random_felt(rng), random_attitude(rng)
     memory = start_sensing(k, AT_REST, FELT, AT_REST.attitude)
     readings, _ = sense(k, memory, s, felt, believed, hiss(rng))
-    assert readings.unit == (felt.specific_force, s.rates, felt.joint_force, felt.joint_torque, believed, 1.0)
+    assert readings.imu == (felt.specific_force, s.rates, felt.joint_force, felt.joint_torque, believed, 1.0)
     assert readings.motion == (s.position, s.velocity, s.attitude, 1.0)
 
 
-@pytest.mark.parametrize(("unit_period", "motion_period"), [(1, 1), (1, 10), (4, 10), (3, 7)])
-def test_samples_come_once_a_period_from_the_first_step_on_and_stand_between(unit_period, motion_period):
-    k = sensors(2, STEP, unit_period=unit_period, motion_period=motion_period)
+@pytest.mark.parametrize(("imu_period", "motion_period"), [(1, 1), (1, 10), (4, 10), (3, 7)])
+def test_samples_come_once_a_period_from_the_first_step_on_and_stand_between(imu_period, motion_period):
+    k = sensors(2, STEP, imu_period=imu_period, motion_period=motion_period)
     rng, memory = np.random.default_rng(0), start_sensing(k, AT_REST, FELT, AT_REST.attitude)
-    last: Any = memory.readings
+    last: Any = readings_of(memory)
     for step in range(40):
         s, felt, believed = random_state(rng), random_felt(rng), random_attitude(rng)
         readings, memory = sense(k, memory, s, felt, believed, HISS)
-        if step % unit_period == 0:
-            assert readings.unit.joint_force == felt.joint_force
-            assert readings.unit[4:] == (believed, 1.0)
+        if step % imu_period == 0:
+            assert readings.imu.joint_force == felt.joint_force
+            assert readings.imu[4:] == (believed, 1.0)
         else:
-            assert readings.unit == last.unit._replace(fresh=0.0)
+            assert readings.imu == last.imu._replace(fresh=0.0)
         if step % motion_period == 0:
             assert readings.motion == (s.position, s.velocity, s.attitude, 1.0)
         else:
@@ -88,17 +97,17 @@ def test_samples_come_once_a_period_from_the_first_step_on_and_stand_between(uni
 
 
 def test_before_the_first_step_stands_a_reading_with_bias_and_without_noise():
-    readings = start_sensing(NOISY, AT_REST, FELT, AT_REST.attitude).readings
-    assert (readings.unit.fresh, readings.motion.fresh) == (0.0, 0.0)
-    off = np.array(readings.unit.joint_force) - np.array(FELT.joint_force)
+    readings = readings_of(start_sensing(NOISY, AT_REST, FELT, AT_REST.attitude))
+    assert (readings.imu.fresh, readings.motion.fresh) == (0.0, 0.0)
+    off = np.array(readings.imu.joint_force) - np.array(FELT.joint_force)
     assert off == pytest.approx(np.transpose([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]]), abs=1e-15)
-    assert readings.unit.rates == AT_REST.rates
+    assert readings.imu.rates == AT_REST.rates
     assert readings.motion == (AT_REST.position, AT_REST.velocity, AT_REST.attitude, 0.0)
 
 
 def every_meter(readings: Readings) -> list[Any]:
-    """Component y of everything that the unit reads; of quadrotors, the second's."""
-    u = readings.unit
+    """Component y of everything that the IMU reads; of quadrotors, the second's."""
+    u = readings.imu
     return [u.joint_force.y[1], u.joint_torque.y[1], u.specific_force.y, u.rates.y]
 
 
@@ -106,9 +115,9 @@ def test_the_drift_grows_as_a_random_walk_of_the_time():
     """Var = σ² t at every sample, on top of what one sample's noise has."""
     flights, samples = 3000, 200
     found = np.array(flown(NOISY, 2 * samples, 1, flights, every_meter))[::2]
-    for i, (drift, k) in enumerate(
-        zip((0.2, 0.1, 0.3, 0.05), (NOISY.force, NOISY.torque, NOISY.accelerometer, NOISY.gyroscope), strict=True)
-    ):
+    imu = NOISY.imu.channels
+    meters = (imu.joint_force, imu.joint_torque, imu.specific_force, imu.rates)
+    for i, (drift, k) in enumerate(zip((0.2, 0.1, 0.3, 0.05), meters, strict=True)):
         for sample in (1, 50, samples - 1):
             variance = drift**2 * (sample * 2 * STEP) + k.noise**2
             square = np.sum((found[sample, i] - np.mean(found[sample, i])) ** 2) / variance
@@ -118,12 +127,11 @@ def test_the_drift_grows_as_a_random_walk_of_the_time():
 
 def test_the_same_normals_serve_no_two_readings():
     """Each of the 27 normals moves one reading alone."""
-    k = NOISY._replace(unit_period=1.0, motion_period=1.0)
-    memory = start_sensing(k, AT_REST, FELT, AT_REST.attitude)
+    memory = start_sensing(NOISY, AT_REST, FELT, AT_REST.attitude)
 
     def read(normals: Any) -> np.ndarray:
-        r, _ = sense(k, memory, AT_REST, FELT, AT_REST.attitude, rebuilt(normals, HISS))
-        return np.array(flat(r.unit)[:18] + flat(r.motion)[:6] + flat(r.motion)[7:10])
+        r, _ = sense(NOISY, memory, AT_REST, FELT, AT_REST.attitude, rebuilt(normals, HISS))
+        return np.array(flat(r.imu)[:18] + flat(r.motion)[:6] + flat(r.motion)[7:10])
 
     moved = np.array([np.abs(read(row) - read(np.zeros(27))) for row in 1e-3 * np.eye(27)])
     assert np.all(np.sum(moved > 1e-9, axis=0) == 1)
@@ -149,7 +157,7 @@ def test_attitude_noise_turns_about_the_bodys_axes():
     lying = random_attitude(np.random.default_rng(8))
     s = AT_REST._replace(attitude=lying)
     k = sensors(2, STEP, attitude_noise=0.3)
-    normals = HISS._replace(attitude=vec3([0.0, 0.0, 1.0]))
+    normals = HISS._replace(motion=HISS.motion._replace(attitude=vec3([0.0, 0.0, 1.0])))
     readings, _ = sense(k, start_sensing(k, s, FELT, lying), s, FELT, lying, normals)
     found, true = (Rotation.from_quat(array(q), scalar_first=True) for q in (readings.motion.attitude, lying))
     assert (true.inv() * found).as_rotvec() == pytest.approx([0.0, 0.0, 0.3], abs=1e-14)

@@ -13,7 +13,7 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Vec3, spread, vec3
-from tandemlift.laws.sensors.sensor_errors import SensorGrade, displayed, no_drift, read, sensor_model
+from tandemlift.laws.sensors.noise_bias_drift import SensorGrade, displayed, no_drift, read, sensor_model
 
 
 def samples(grade: SensorGrade, truth: Vec3, normals: np.ndarray) -> np.ndarray:

@@ -6,48 +6,53 @@ import numpy as np
 import pytest
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.common.sensors import SENSORS
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.rotation_vectors import turned
+from tandemlift.laws.mechanics.rotation import rotated_by
 from tandemlift.laws.sensors.health import (
     FROZEN,
     NO_NUMBER,
     OUT_OF_RANGE,
-    FrozenLimits,
-    ReadingRanges,
+    AttitudeLimits,
+    JointLimits,
+    PerSensor,
+    SampleChecks,
     SensorHealth,
-    judged,
+    VectorLimits,
+    health_after,
 )
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
 from tandemlift.laws.sensors.sensor_faults import (
     SOUND,
-    DeviceSilence,
-    SensorFaults,
     SensorFaultState,
+    all_faults,
     apply_faults,
     sensor_fault,
-    together,
 )
 from tandemlift.laws.sensors.watchdog import PredictedReadings, Watchdog, start_watchdog, watchdog_step
 
 DT, NEVER = 0.005, 1e18
 LEVEL, TWO = Quat(1.0, 0.0, 0.0, 0.0), each(2)
 DOG = Watchdog(
-    stale=0.1,
-    invalid=0.05,
-    ranges=ReadingRanges(100.0, 20.0, 80.0, 15.0, 100.0, 20.0),
-    alike=FrozenLimits(25.0, 25.0, 25.0, 25.0, 25.0, 25.0),
-    forgets=DT / 0.5,
-    attitude=0.1,
-    way=0.1,
-    speed=0.3,
-    turn_share=1.0 - math.exp(-60.0 * DT),
-    way_share=1.0 - math.exp(-10.0 * DT),
-    per_interval=1.0 / DT,
+    stale_time=0.1,
+    invalid_time=0.05,
+    sensors=PerSensor(
+        joints=JointLimits(100.0, 20.0, 25.0),
+        accelerometer=VectorLimits(80.0, 25.0),
+        gyroscope=VectorLimits(15.0, 25.0),
+        position=VectorLimits(100.0, 25.0),
+        velocity=VectorLimits(20.0, 25.0),
+        attitude=AttitudeLimits(25.0),
+    ),
+    forgetting=DT / 0.5,
+    attitude_gap=0.1,
+    position_gap=0.1,
+    velocity_gap=0.3,
+    rates_gain=1.0 - math.exp(-60.0 * DT),
+    velocity_gain=1.0 - math.exp(-10.0 * DT),
+    motion_rate=1.0 / DT,
 )
-NO_FAULTS = SensorFaults(
-    DeviceSilence(NEVER, NEVER), DeviceSilence(NEVER, NEVER), together([SOUND, SOUND]), *[SOUND] * 5
-)
-SENSORS = ("joints", "accelerometer", "gyroscope", "position", "velocity", "attitude")
+NO_FAULTS = all_faults([SOUND, SOUND])
 SIZES = {
     "joints": 200.0,
     "accelerometer": 100.0,
@@ -69,12 +74,13 @@ def stream(seconds, rates=ZERO, velocity=ZERO, seed=1):
         return Vec3(*[TWO(*row) for row in chance.normal(0.0, size, (3, 2)).tolist()])
 
     for _ in range(round(seconds / DT)):
-        attitude, position = turned(attitude, rates * DT), position + velocity * DT
+        attitude, position = rotated_by(attitude, rates * DT), position + velocity * DT
         unit = ImuReading(
             Vec3(0.0, 0.0, 9.81) + noise(0.03), rates + noise(0.0025), joints(0.05), joints(0.005), LEVEL, 1.0
         )
         yield Readings(
-            unit, MotionReading(position + noise(0.003), velocity + noise(0.01), turned(attitude, noise(0.002)), 1.0)
+            unit,
+            MotionReading(position + noise(0.003), velocity + noise(0.01), rotated_by(attitude, noise(0.002)), 1.0),
         )
 
 
@@ -84,7 +90,7 @@ def watched(samples, faults=NO_FAULTS, predicted=None):
     memory = spoiling = None
     for sample in samples:
         if memory is None:
-            still = Readings(sample.unit._replace(fresh=0.0), sample.motion._replace(fresh=0.0))
+            still = Readings(sample.imu._replace(fresh=0.0), sample.motion._replace(fresh=0.0))
             memory, spoiling = start_watchdog(still), SensorFaultState(still, 0.0)
         given, spoiling = apply_faults(faults, spoiling, sample)
         clean, report, memory = watchdog_step(DOG, memory, given, expected, DT)
@@ -97,7 +103,7 @@ def numbers(value):
 
 def failing(sensor, kind, size=0.0, start=200.0):
     fault = sensor_fault(kind, start, NEVER, Vec3(size, size, size))
-    return NO_FAULTS._replace(**{sensor: together([SOUND, fault]) if sensor == "joints" else fault})
+    return all_faults([SOUND, fault]) if sensor == "joints" else all_faults([SOUND, SOUND], {sensor: fault})
 
 
 def found_at(reports, name):
@@ -130,7 +136,7 @@ def test_each_fault_of_each_sensor_is_found_in_time_and_no_other_and_never_gets_
 
 @pytest.mark.parametrize("device", ["imu", "motion"])
 def test_a_device_that_sends_nothing_is_stale_after_its_time(device):
-    faults = NO_FAULTS._replace(**{device: DeviceSilence(200.0, 300.0)})
+    faults = all_faults([SOUND, SOUND], stale={device: (200.0, 300.0)})
     reports = [r for _, r in watched(stream(2.0), faults)]
     assert found_at(reports, device)[0] == pytest.approx(1.1, abs=2 * DT)
     assert getattr(reports[-1], device) == 0.0  # it has come back
@@ -140,9 +146,9 @@ def test_the_count_of_samples_alike_is_that_of_numpy():
     values = np.random.default_rng(0).integers(0, 3, 500)
     health, counted, run = SensorHealth(0.0, 0.0, 0.0), [], 0
     for i, value in enumerate(values):
-        alike = float(i > 0 and value == values[i - 1])
-        health = judged(health, 1.0, 0.0, 0.0, alike, DT)
-        counted.append(health.same)
+        identical = float(i > 0 and value == values[i - 1])
+        health = health_after(health, SampleChecks(0.0, 0.0, identical), 1.0, DT)
+        counted.append(health.identical)
     changes = np.flatnonzero(np.diff(values, prepend=-1))
     run = np.arange(500) - np.repeat(changes, np.diff([*changes, 500]))
     assert counted == run.tolist()
@@ -177,7 +183,7 @@ def test_measurements_agree_while_the_vehicle_turns_and_moves():
 def test_the_attitude_stands_in_for_a_lost_gyroscope():
     rates = Vec3(0.0, 0.0, 0.5)
     clean = [c for c, _ in watched(stream(3.0, rates=rates), failing("gyroscope", "nan"))]
-    late = np.array([c.unit.rates for c in clean[-300:]])
+    late = np.array([c.imu.rates for c in clean[-300:]])
     assert late.mean(axis=0) == pytest.approx(rates, abs=0.01)
     assert late.std(axis=0).max() < 0.15  # noise of 2 mrad at 200 Hz through 60 rad/s
 
@@ -192,16 +198,16 @@ def test_what_is_predicted_stands_in_for_a_lost_motion_measurement():
     expected = PredictedReadings(
         State(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), Quat(0.0, 0.0, 0.0, 1.0), ZERO), ZERO, ZERO
     )
-    faults = NO_FAULTS._replace(motion=DeviceSilence(200.0, NEVER))
+    faults = all_faults([SOUND, SOUND], stale={"motion": (200.0, NEVER)})
     clean, _ = list(watched(stream(2.0), faults, expected))[-1]
     assert clean.motion == (*expected.state[:3], 0.0)
 
 
 def test_a_lost_accelerometer_reads_as_if_nothing_accelerated():
-    tilted = turned(LEVEL, Vec3(0.3, 0.0, 0.0))
+    tilted = rotated_by(LEVEL, Vec3(0.3, 0.0, 0.0))
     expected = PredictedReadings(State(ZERO, ZERO, tilted, ZERO), ZERO, Vec3(0.1, 0.0, 0.0))
     clean, _ = list(watched(stream(2.0), failing("accelerometer", "nan"), expected))[-1]
-    assert clean.unit.specific_force == pytest.approx((0.1, 9.81 * math.sin(0.3), 9.81 * math.cos(0.3)))
+    assert clean.imu.specific_force == pytest.approx((0.1, 9.81 * math.sin(0.3), 9.81 * math.cos(0.3)))
 
 
 def test_sensors_that_are_sound_give_what_they_read_to_the_last_bit():
@@ -217,7 +223,7 @@ def test_a_fault_ends_when_it_is_over():
     samples = list(stream(0.2))
     spoiling, off = SensorFaultState(samples[0], 0.0), []
     for sample in samples:
-        given, spoiling = apply_faults(NO_FAULTS._replace(position=fault), spoiling, sample)
+        given, spoiling = apply_faults(all_faults([SOUND, SOUND], {"position": fault}), spoiling, sample)
         off.append(given.motion.position - sample.motion.position)
     assert [i for i, o in enumerate(off) if any(o)] == list(range(10, 20))
     assert off[10] == pytest.approx((1.0, 2.0, 3.0))

@@ -7,13 +7,13 @@ import pytest
 from scipy import signal
 
 from tandemlift.algebra.vector import ZERO, Vec3, each
-from tandemlift.laws.signals.low_pass import LowPassState, low_pass, smooth
+from tandemlift.laws.signals.low_pass import LowPassState, low_pass, low_pass_step
 
 
 def response(bandwidth: float, step: float, inputs: np.ndarray) -> np.ndarray:
     k, memory, out = low_pass(bandwidth, step), LowPassState(0.0, 0.0), []
     for u in inputs:
-        memory = smooth(k, memory, u)
+        memory = low_pass_step(k, memory, u)
         out.append(memory.value)
     return np.array(out)
 
@@ -43,9 +43,9 @@ def test_white_noise_comes_down_as_the_bandwidth_says():
 
 def test_vectors_and_sets_are_smoothed_component_by_component():
     k = low_pass(10.0, 1e-2)
-    alone = smooth(k, LowPassState(0.0, 0.0), 2.0)
-    three = smooth(k, LowPassState(ZERO, ZERO), Vec3(0.0, 2.0, 4.0))
+    alone = low_pass_step(k, LowPassState(0.0, 0.0), 2.0)
+    three = low_pass_step(k, LowPassState(ZERO, ZERO), Vec3(0.0, 2.0, 4.0))
     pair = each(2)
-    two = smooth(k, LowPassState(pair(0.0, 0.0), pair(0.0, 0.0)), pair(2.0, -2.0))
+    two = low_pass_step(k, LowPassState(pair(0.0, 0.0), pair(0.0, 0.0)), pair(2.0, -2.0))
     assert three.value == (0.0, alone.value, 2.0 * alone.value)
     assert two.rate == (alone.rate, -alone.rate)

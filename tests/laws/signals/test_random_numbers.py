@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from machine_code import answers
 from scipy import stats
 
-from tandemlift.laws.signals.random_numbers import MASK, Words, keys_of, normals, philox, radius
+from tandemlift.laws.signals.random_numbers import MASK, Words, key_from_seed, normal_radius, normals, philox
 from tandemlift.trace.functions import compiled, written
 
 LANES, STEPS, DRAWS, SEEDS = 8, 20_000, 3, 5
@@ -46,7 +46,7 @@ def sample() -> np.ndarray:
     """Numbers (seeds × draws × four × steps) of the first steps."""
     steps = np.arange(STEPS)
     rows = [
-        np.stack([steps, *(np.full(STEPS, x) for x in (draw, *keys_of(seed)))], axis=1)
+        np.stack([steps, *(np.full(STEPS, x) for x in (draw, *key_from_seed(seed)))], axis=1)
         for seed in range(SEEDS)
         for draw in range(DRAWS)
     ]
@@ -86,13 +86,13 @@ def test_two_words_are_the_length_and_the_angle_of_two_numbers(step, key0, key1)
 
 
 def test_the_largest_and_the_smallest_number_are_finite():
-    assert radius(0) == pytest.approx(np.sqrt(66.0 * np.log(2.0)), rel=1e-15)
-    assert 0.0 < radius(MASK) < 2e-5
+    assert normal_radius(0) == pytest.approx(np.sqrt(66.0 * np.log(2.0)), rel=1e-15)
+    assert 0.0 < normal_radius(MASK) < 2e-5
 
 
 @given(st.integers(0, 10**9), st.integers(0, 100))
 def test_a_flight_in_a_block_gets_the_bits_of_a_flight_alone(step, draw):
-    rows = np.array([[step, draw, *keys_of(seed)] for seed in range(LANES)])
+    rows = np.array([[step, draw, *key_from_seed(seed)] for seed in range(LANES)])
     assert code(LANES)(rows).tobytes() == code(1)(rows).tobytes()
 
 
@@ -107,7 +107,7 @@ def test_a_block_goes_through_vector_instructions():
 
 def test_the_numbers_do_not_depend_on_the_order_in_which_they_are_asked_for(sample):
     for step in (STEPS - 1, 0, 137):
-        assert np.array_equal(alone(step, 1, *keys_of(2)), sample[2, 1, :, step])
+        assert np.array_equal(alone(step, 1, *key_from_seed(2)), sample[2, 1, :, step])
 
 
 def test_the_numbers_are_normal(sample):
@@ -145,10 +145,10 @@ def test_draws_and_the_four_of_a_draw_do_not_depend_on_one_another(sample):
 
 
 def test_a_key_is_two_words_that_floats_hold_and_seeds_do_not_share():
-    keys = [keys_of(seed) for seed in range(2000)]
+    keys = [key_from_seed(seed) for seed in range(2000)]
     assert len(set(keys)) == len({key for key, _ in keys}) == len({key for _, key in keys}) == 2000
     assert all(isinstance(word, float) and word == int(word) and 0 <= word <= MASK for key in keys for word in key)
-    assert [int(word) for word in keys_of(7)] == list(np.random.SeedSequence(7).generate_state(2))
+    assert [int(word) for word in key_from_seed(7)] == list(np.random.SeedSequence(7).generate_state(2))
 
 
 def test_neighbouring_steps_draws_and_keys_differ():

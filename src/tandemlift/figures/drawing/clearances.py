@@ -12,7 +12,7 @@ from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rectangle import edges_of, offset, offset_from_top, wall
-from tandemlift.laws.mechanics.walls import beam_axis, on_beam, point_by_edge, point_by_top
+from tandemlift.laws.mechanics.walls import beam_axis, beam_point, point_by_edge, point_by_top
 from tandemlift.settings import wall_tables
 from tandemlift.vehicle import Vehicle
 
@@ -50,9 +50,9 @@ def clearances(flight: Flight) -> Clearances:
     axis, half = beam_axis(vec3(-vehicle.center_of_mass), s), 0.5 * payload.length
     beam = np.full(len(flight.time), np.inf)
     for one in upright:
-        ways = [offset(one, on_beam(axis, end)) for end in (-half, half)]
-        ways += [offset(edge, on_beam(axis, point_by_edge(axis, half, edge))) for edge in edges_of(one)]
-        ways.append(offset_from_top(one, on_beam(axis, point_by_top(axis, half, one))))
+        ways = [offset(one, beam_point(axis, end)) for end in (-half, half)]
+        ways += [offset(edge, beam_point(axis, point_by_edge(axis, half, edge))) for edge in edges_of(one)]
+        ways.append(offset_from_top(one, beam_point(axis, point_by_top(axis, half, one))))
         for way in ways:
             beam = np.minimum(beam, _length(way) - payload.radius)
     return Clearances(guards, beam)

@@ -7,7 +7,7 @@ from tandemlift.common.types import Array
 from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.vehicle import mass_of
 from tandemlift.flight.record import Flight
-from tandemlift.laws.mechanics.contact import floor, soles_below, standing_height
+from tandemlift.laws.mechanics.contact import floor, sole_positions, standing_height
 from tandemlift.settings.surroundings import GroundTable
 from tandemlift.vehicle import Vehicle
 
@@ -15,7 +15,7 @@ from tandemlift.vehicle import Vehicle
 def _soles(vehicle: Vehicle) -> Array:
     """The soles (N, 4, 3) from the vehicle's centre of mass [m, body axes]."""
     fleet = vehicle.quadrotors
-    return soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    return sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
 
 
 def floor_height(flight: Flight) -> float | None:

@@ -22,10 +22,10 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, clip, sqrt
 from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.laws.mechanics.body import UP, Wrench
-from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
+from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic
 from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.laws.rotors.allocation import Mixer, wrench
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 
 class DisturbanceFilter(NamedTuple):
@@ -84,7 +84,7 @@ NONE = DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO)
 
 
 @elementwise
-def correction(e, bandwidth, slope):
+def correction(e: Any, bandwidth: Any, slope: Any) -> Any:
     """How fast the copy is drawn to the vehicle: 2 λ e, or 2 √(L |e|) sgn e where that is less."""
     near = 2.0 * bandwidth * e
     far = 2.0 * sqrt(slope * absolute(e))
@@ -92,7 +92,7 @@ def correction(e, bandwidth, slope):
 
 
 @elementwise
-def growth(e, bandwidth, slope):
+def growth(e: Any, bandwidth: Any, slope: Any) -> Any:
     """How fast the estimate of the disturbance changes: λ² e, or L sgn e where that is less."""
     return clip(bandwidth * bandwidth * e, -slope, slope)
 
@@ -116,7 +116,7 @@ def observer_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, le
 def expected(k: DisturbanceObserver, memory: ObserverState, thrusts: Any) -> Any:
     """(the modelled rotors' thrust, moment) after a step under these commands, each with its rate."""
     u = wrench(k.effect, thrusts)
-    return smooth(k.thrust, memory.thrust, u.thrust), smooth(k.moment, memory.moment, u.moment)
+    return low_pass_step(k.thrust, memory.thrust, u.thrust), low_pass_step(k.moment, memory.moment, u.moment)
 
 
 @law
@@ -125,11 +125,13 @@ def rates_of_change(k: DisturbanceObserver, heard: Any, u: Wrench) -> Any:
     s = heard.state
     force = body_z_axis(s.attitude) * u.thrust + heard.push - k.drag_force * s.velocity
     moment = u.moment + heard.moment + gyroscopic(k.inertia, s.rates) - k.drag_moment * s.rates
-    return force * (1.0 / k.mass) - UP * GRAVITY, turn_by(k.inverse_inertia, moment)
+    return force * (1.0 / k.mass) - UP * GRAVITY, apply_inertia(k.inverse_inertia, moment)
 
 
 @observer_step.register(DisturbanceObserver)
-def _observed(k, memory, heard, thrusts, active, learning, dt):
+def _observed(
+    k: DisturbanceObserver, memory: Any, heard: Any, thrusts: Any, active: Any, learning: Any, dt: Any
+) -> Any:
     thrust, moment = expected(k, memory, thrusts)
     linear, angular = rates_of_change(k, heard, Wrench(thrust.value, moment.value))
     f, m = k.force_follower, k.moment_follower
@@ -146,7 +148,9 @@ def _observed(k, memory, heard, thrusts, active, learning, dt):
 @law
 def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
     """What is known from the memory."""
-    return DisturbanceEstimate(m.acceleration * k.mass, turn_by(k.inertia, m.turning), m.residual, m.turning_residual)
+    return DisturbanceEstimate(
+        m.acceleration * k.mass, apply_inertia(k.inertia, m.turning), m.residual, m.turning_residual
+    )
 
 
 @choice(absent=NONE)
@@ -155,5 +159,5 @@ def last_known(k: Any, memory: Any) -> Any:
 
 
 @last_known.register(DisturbanceObserver)
-def _known(k, memory):
+def _known(k: DisturbanceObserver, memory: Any) -> Any:
     return unmodelled(k, memory)

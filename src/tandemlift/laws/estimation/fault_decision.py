@@ -40,31 +40,31 @@ class DecisionState(NamedTuple):
 
 
 @elementwise
-def share_gone(fit, size, per_spread):
+def share_gone(fit: Any, size: Any, per_spread: Any) -> Any:
     """The share of its thrust that a rotor has most likely lost."""
     return clip((fit + per_spread) / (size + per_spread), LEAST, MOST)
 
 
 @elementwise
-def support(share, fit, size, per_spread):
+def support(share: Any, fit: Any, size: Any, per_spread: Any) -> Any:
     """The evidence for a rotor with this share of its thrust gone."""
     return share * (2.0 * fit - share * size) - (1.0 - share) * (1.0 - share) * per_spread
 
 
 @elementwise
-def but(value, best):
+def but(value: Any, best: Any) -> Any:
     """A value, or far less than any if it is the best."""
     return where(value < best, value, -1e18)
 
 
 @elementwise
-def counted(timer, evidence, best, sure, dt):
+def counted(timer: Any, evidence: Any, best: Any, sure: Any, dt: Any) -> Any:
     """For how long [s] a rotor has been the one to name."""
     return where(evidence < best, 0.0, (timer + dt) * sure)
 
 
 @elementwise
-def is_named(lost, above, dwell, renamed):
+def is_named(lost: Any, above: Any, dwell: Any, renamed: Any) -> Any:
     """1 for the rotor that is lost, given that one is `renamed` (1) or not (0)."""
     return where(renamed > 0.0, where(above < dwell, 0.0, 1.0), lost)
 

@@ -7,9 +7,9 @@ obeys e₊ = (1 − ℓ)(e + T b), b₊ = b − (1 − z)²/T (e + T b) from one
 z = exp(−ω T) for ℓ = 1 − z². Position has one.
 
 The attitude is exact for constant rates, velocity and position for an acceleration that changes linearly. Constant
-biases leave no error. What is estimated is the state at the time of the unit's last sample; a motion measurement that
-comes `age` later than the unit's, by a longer delay, is compared with the state of so long ago. Delays that are not
-told of leave the errors ω δ, v δ and a δ for a relative delay δ, and the state as late as the unit is.
+biases leave no error. What is estimated is the state at the time of the IMU's last sample; a motion measurement that
+comes `age` later than the IMU's, by a longer delay, is compared with the state of so long ago. Delays that are not
+told of leave the errors ω δ, v δ and a δ for a relative delay δ, and the state as late as the IMU is.
 
 Method: P. D. Groves, Principles of GNSS, inertial, and multisensor integrated navigation systems, 2nd ed., chapter 5;
 bias by integral action on the attitude: R. Mahony, T. Hamel and J.-M. Pflimlin, IEEE Trans. Automatic Control 53, 2008.
@@ -23,16 +23,15 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, cross, vec3
 from tandemlift.laws.mechanics.body import UP, State
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.rotation_vectors import normalised, turn_left, turned
+from tandemlift.laws.mechanics.rotation import normalised, rotated_by, rotation_between, rotation_from_quaternion
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
 
 
 class Navigator(NamedTuple):
     """Gains of the observer.
 
-    `interval` of the unit's samples [s]; `centre`: the system's centre of mass from the unit [m, body axes]; `age`: how
-    much older a motion sample is than the unit's sample in the same readings [s]. Gains on a motion sample's turn,
+    `interval` of the IMU's samples [s]; `centre`: the system's centre of mass from the IMU [m, body axes]; `age`: how
+    much older a motion sample is than the IMU's sample in the same readings [s]. Gains on a motion sample's turn,
     velocity and position (0 to 1), and of the biases on its turn and velocity [1/s]. `rates`: share of a new sample in
     the smoothed rates.
     """
@@ -49,7 +48,7 @@ class Navigator(NamedTuple):
 
 
 class NavigationState(NamedTuple):
-    """Memory: the estimate, of the unit's point, and what its next step needs.
+    """Memory: the estimate, of the IMU's point, and what its next step needs.
 
     Position [m], velocity [m/s] and acceleration [m/s²] in world axes, attitude, rates as last measured and smoothed
     [rad/s]; bias of gyroscope [rad/s] and accelerometer [m/s²], body axes; `started` is 1 after the first sample.
@@ -75,24 +74,24 @@ class Innovation(NamedTuple):
 
 
 @law
-def carried(k: Navigator, m: NavigationState, unit: ImuReading) -> NavigationState:
-    """The estimate carried on to the unit's sample, if that is fresh."""
-    T = k.interval * unit.fresh * m.started
-    rates = (m.measured_rates + unit.rates) * 0.5 - m.gyroscope_bias
-    attitude = turned(m.attitude, rates * T)
-    new = apply(rotation_from_quaternion(attitude), unit.specific_force - m.accelerometer_bias) - UP * GRAVITY
+def carried(k: Navigator, m: NavigationState, imu: ImuReading) -> NavigationState:
+    """The estimate carried on to the IMU's sample, if that is fresh."""
+    T = k.interval * imu.fresh * m.started
+    rates = (m.measured_rates + imu.rates) * 0.5 - m.gyroscope_bias
+    attitude = rotated_by(m.attitude, rates * T)
+    new = apply(rotation_from_quaternion(attitude), imu.specific_force - m.accelerometer_bias) - UP * GRAVITY
     acceleration = (m.acceleration + new) * 0.5
-    smoothed = m.rates + (unit.rates - m.gyroscope_bias - m.rates) * (k.rates * unit.fresh)
+    smoothed = m.rates + (imu.rates - m.gyroscope_bias - m.rates) * (k.rates * imu.fresh)
     return NavigationState(
         m.position + m.velocity * T + (m.acceleration * 2.0 + new) * (T * T * (1.0 / 6.0)),
         m.velocity + acceleration * T,
-        where(unit.fresh > 0.0, new, m.acceleration),
+        where(imu.fresh > 0.0, new, m.acceleration),
         attitude,
-        unit.rates,
+        imu.rates,
         smoothed,
         m.gyroscope_bias,
         m.accelerometer_bias,
-        maximum(m.started, unit.fresh),
+        maximum(m.started, imu.fresh),
     )
 
 
@@ -108,7 +107,7 @@ def innovation(k: Navigator, m: NavigationState, motion: MotionReading) -> Innov
     """What a motion sample says less what the estimate was `age` before."""
     s, ago = centre_of_mass(k, m), k.age
     return Innovation(
-        turn_left(s.attitude, motion.attitude) + s.rates * ago,
+        rotation_between(s.attitude, motion.attitude) + s.rates * ago,
         motion.velocity - (s.velocity - m.acceleration * ago),
         motion.position - (s.position - s.velocity * ago + m.acceleration * (0.5 * ago * ago)),
     )
@@ -123,7 +122,7 @@ def corrected(k: Navigator, m: NavigationState, motion: MotionReading) -> Naviga
         m.position + off.position * (k.position * fresh),
         m.velocity + off.velocity * (k.velocity * fresh),
         m.acceleration,
-        normalised(turned(m.attitude, off.turn * (k.attitude * fresh))),
+        normalised(rotated_by(m.attitude, off.turn * (k.attitude * fresh))),
         m.measured_rates,
         m.rates,
         m.gyroscope_bias - off.turn * (k.gyroscope * fresh),
@@ -134,15 +133,15 @@ def corrected(k: Navigator, m: NavigationState, motion: MotionReading) -> Naviga
 
 @law
 def navigate(k: Navigator, memory: NavigationState, readings: Readings) -> Any:
-    """(State of the system's centre of mass at the unit's last sample, the new memory)."""
-    after = corrected(k, carried(k, memory, readings.unit), readings.motion)
+    """(State of the system's centre of mass at the IMU's last sample, the new memory)."""
+    after = corrected(k, carried(k, memory, readings.imu), readings.motion)
     return centre_of_mass(k, after), after
 
 
 def navigator(
     centre: Any,
     step: float,
-    unit_period: int = 1,
+    imu_period: int = 1,
     motion_period: int = 1,
     position_bandwidth: float = 6.0,
     velocity_bandwidth: float | None = None,
@@ -155,15 +154,15 @@ def navigator(
     Args:
         centre: the system's centre of mass from the payload's [m], body axes.
         step: at which the observer runs [s].
-        unit_period: of the on-board unit, in steps.
-        motion_period: of the motion measurement, in steps; best a multiple of the unit's.
+        imu_period: of the IMU, in steps.
+        motion_period: of the motion measurement, in steps; best a multiple of the IMU's.
         position_bandwidth: of the correction of position [rad/s].
         velocity_bandwidth: of velocity and the accelerometer's bias [rad/s]; position's if not given.
         attitude_bandwidth: of attitude and the gyroscope's bias [rad/s].
         rates_bandwidth: of a first-order low-pass on the rates that are given out [rad/s]; none if infinite.
-        age: by how much the motion measurement's delay exceeds the unit's [s].
+        age: by how much the motion measurement's delay exceeds the IMU's [s].
     """
-    T, interval = step * motion_period, step * unit_period
+    T, interval = step * motion_period, step * imu_period
     pole_of_velocity = math.exp(-(position_bandwidth if velocity_bandwidth is None else velocity_bandwidth) * T)
     pole_of_attitude = math.exp(-attitude_bandwidth * T)
     return Navigator(

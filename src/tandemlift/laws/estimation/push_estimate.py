@@ -6,7 +6,7 @@ a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_
 Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
 
 In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
-identified (`laws.estimation.tare`). What wind puts on the payload may be taken off (`laws.mechanics.air_drag`).
+identified (`laws.estimation.tare`). What wind puts on the payload may be taken off (`wind_compensation`).
 
 Of what acts on quadrotor i from outside, f_i + m_i s_i with s_i its specific force, thrust is only in z. So its x and y
 are wind, or an error of the sensors; where they differ from quadrotor to quadrotor, the push is not trusted. Errors in
@@ -25,12 +25,12 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total
 from tandemlift.laws.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
-from tandemlift.laws.mechanics.air_drag import blown, start_payload_drag
-from tandemlift.laws.mechanics.inertia import gyroscopic, inertia_value, turn_by
-from tandemlift.laws.mechanics.loads import raised, total_of_each
+from tandemlift.laws.estimation.wind_compensation import start_payload_drag, wind_on_payload
+from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
+from tandemlift.laws.mechanics.loads import add_to_each, sum_over_set
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import ImuReading
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 
 NOTHING = Nothing()
 
@@ -39,7 +39,7 @@ class PushEstimator(NamedTuple):
     """What the estimator knows of the vehicle, and its numbers; body axes.
 
     Payload: `mass` [kg] and `inertia` [kg·m²]. From its centre of mass [m]: `joints` and the `quadrotors`' centres of
-    mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length. `per_interval`: samples of the unit
+    mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length. `per_interval`: samples of the IMU
     per second. `least`: square of the least force [N²] that has a point of application. Tare from `tare_start` [s]
     until before `tare_end`; `identify` is 1 to identify the payload's mass, else 0. `limit`: disagreement [N] from
     which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N = 1. `windage`: how wind is
@@ -100,19 +100,19 @@ class PushEstimate(NamedTuple):
 
 
 @law
-def moment_on_payload(k: PushEstimator, unit: ImuReading, angular: Vec3) -> Vec3:
+def moment_on_payload(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
     """What the joints do not explain of the payload's turning: M [N·m, body axes], about its centre of mass."""
-    joints = unit.joint_torque + cross(k.joints, unit.joint_force)
-    return turn_by(k.inertia, angular) - gyroscopic(k.inertia, unit.rates) - total_of_each(joints)
+    joints = imu.joint_torque + cross(k.joints, imu.joint_force)
+    return apply_inertia(k.inertia, angular) - gyroscopic(k.inertia, imu.rates) - sum_over_set(joints)
 
 
 @law
-def from_outside(k: PushEstimator, unit: ImuReading, angular: Vec3) -> SideForces:
+def from_outside(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
     """What acts on every quadrotor from outside, horizontally in body axes [N]."""
-    a, w = unit.specific_force, unit.rates
+    a, w = imu.specific_force, imu.rates
     turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
-    x = unit.joint_force.x + raised(turn.x, a.x) * k.quadrotor_mass
-    y = unit.joint_force.y + raised(turn.y, a.y) * k.quadrotor_mass
+    x = imu.joint_force.x + add_to_each(turn.x, a.x) * k.quadrotor_mass
+    y = imu.joint_force.y + add_to_each(turn.y, a.y) * k.quadrotor_mass
     return SideForces(x, y)
 
 
@@ -120,13 +120,13 @@ def from_outside(k: PushEstimator, unit: ImuReading, angular: Vec3) -> SideForce
 def less_mean(k: PushEstimator, outside: SideForces) -> SideForces:
     """By how much that differs from its mean over the quadrotors [N]."""
     x, y = outside
-    return SideForces(raised(x, -total(x) * k.share), raised(y, -total(y) * k.share))
+    return SideForces(add_to_each(x, -total(x) * k.share), add_to_each(y, -total(y) * k.share))
 
 
 @law
-def sides(k: PushEstimator, unit: ImuReading, angular: Vec3) -> SideForces:
+def sides(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
     """What acts on every quadrotor from outside, horizontally in body axes, less its mean [N]."""
-    return less_mean(k, from_outside(k, unit, angular))
+    return less_mean(k, from_outside(k, imu, angular))
 
 
 @law
@@ -144,38 +144,38 @@ def disagreement(k: PushEstimator, x: Any, y: Any) -> Any:
 
 
 @law
-def estimate(k: PushEstimator, memory: PushEstimatorState, unit: ImuReading, t: Any) -> Any:
-    """(Push, the new memory) from what the unit says at time t [s]."""
-    a, f = unit.specific_force, total_of_each(unit.joint_force)
-    angular = where(unit.fresh > 0.0, (unit.rates - memory.rates) * k.per_interval, memory.angular)
-    moment, outside = moment_on_payload(k, unit, angular), from_outside(k, unit, angular)
+def estimate(k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: Any) -> Any:
+    """(Push, the new memory) from a reading of the IMU at time t [s]."""
+    a, f = imu.specific_force, sum_over_set(imu.joint_force)
+    angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
+    moment, outside = moment_on_payload(k, imu, angular), from_outside(k, imu, angular)
     unequal = less_mean(k, outside)
     begun = where(t < k.tare_start, 0.0, 1.0)
-    taken = begun * where(t < k.tare_end, unit.fresh, 0.0)
+    taken = begun * where(t < k.tare_end, imu.fresh, 0.0)
     sums = summed(memory.sums, begun, taken, f, a, moment, unequal)
     armed = where(t < k.tare_end, 0.0, 1.0)
     tare = tare_of(k.mass, k.identify, sums, armed)
-    wind, gone = blown(k.windage, memory.blown, outside.x, outside.y, begun, taken, armed)
+    wind, gone = wind_on_payload(k.windage, memory.blown, outside.x, outside.y, begun, taken, armed)
     force = a * tare.mass - f - tare.force - wind
     after = PushEstimatorState(
-        unit.rates,
+        imu.rates,
         angular,
         sums,
-        smooth(k.low_pass, memory.force, force * armed),
-        smooth(k.low_pass, memory.moment, (moment - tare.moment) * armed),
-        smooth(k.low_pass, memory.x, (unequal.x - tare.sides.x) * armed),
-        smooth(k.low_pass, memory.y, (unequal.y - tare.sides.y) * armed),
+        low_pass_step(k.low_pass, memory.force, force * armed),
+        low_pass_step(k.low_pass, memory.moment, (moment - tare.moment) * armed),
+        low_pass_step(k.low_pass, memory.x, (unequal.x - tare.sides.x) * armed),
+        low_pass_step(k.low_pass, memory.y, (unequal.y - tare.sides.y) * armed),
         gone,
     )
-    return concluded(k, unit, force, moment - tare.moment, after, tare.mass, armed), after
+    return concluded(k, imu, force, moment - tare.moment, after, tare.mass, armed), after
 
 
 @law
 def concluded(
-    k: PushEstimator, unit: ImuReading, force: Vec3, turning: Vec3, after: PushEstimatorState, mass: Any, armed: Any
+    k: PushEstimator, imu: ImuReading, force: Vec3, turning: Vec3, after: PushEstimatorState, mass: Any, armed: Any
 ) -> PushEstimate:
     """The push from the sample's `force` [N] and `turning` moment [N·m], body axes, and what is low-passed."""
-    R = rotation_from_quaternion(unit.frame)
+    R = rotation_from_quaternion(imu.frame)
     smoothed, moment = apply(R, after.force.value), after.moment.value
     wrong = disagreement(k, after.x.value, after.y.value)
     trusted = where(wrong < k.limit, 1.0, 0.0)
@@ -200,7 +200,7 @@ def push_estimator(
     quadrotors: Any,
     quadrotor_masses: Any,
     step: float,
-    unit_period: int = 1,
+    imu_period: int = 1,
     length: float = math.inf,
     bandwidth: float = 36.0,
     min_force: float = 0.5,
@@ -219,7 +219,7 @@ def push_estimator(
         quadrotors: the quadrotors' centres of mass, likewise (N × 3).
         quadrotor_masses: [kg] (N).
         step: at which the estimator runs [s].
-        unit_period: of the on-board unit, in steps.
+        imu_period: of the IMU, in steps.
         length: of the beam along body y [m]; no point of application lies beyond its ends.
         bandwidth: of the low-pass [rad/s].
         min_force: across the beam [N], below which no point of application is given.
@@ -234,8 +234,8 @@ def push_estimator(
     """
     if identify_mass and tare_start is None:
         raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
-    if tare_start is not None and tare_duration < step * unit_period:
-        raise ValueError(f"a tare of {tare_duration:g} s holds no sample: they come every {step * unit_period:g} s")
+    if tare_start is not None and tare_duration < step * imu_period:
+        raise ValueError(f"a tare of {tare_duration:g} s holds no sample: they come every {step * imu_period:g} s")
     J, N = np.array(inertia, dtype=float), len(joints)
     return PushEstimator(
         mass=float(mass),
@@ -244,7 +244,7 @@ def push_estimator(
         quadrotors=spread(quadrotors),
         quadrotor_mass=each(N)(*map(float, quadrotor_masses)),
         reach=0.5 * length,
-        per_interval=1.0 / (step * unit_period),
+        per_interval=1.0 / (step * imu_period),
         low_pass=low_pass(bandwidth, step),
         least=min_force**2,
         tare_start=0.0 if tare_start is None else float(tare_start),
@@ -257,9 +257,9 @@ def push_estimator(
     )
 
 
-def start_push(estimator: PushEstimator, unit: ImuReading) -> PushEstimatorState:
-    """The memory before the first step, in which the unit says `unit`."""
+def start_push(estimator: PushEstimator, imu: ImuReading) -> PushEstimatorState:
+    """The memory before the first step, in which the IMU reads `imu`."""
     none = estimator.quadrotor_mass * 0.0
     sums = TareSums(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, SideForces(none, none))
     still, level = LowPassState(ZERO, ZERO), LowPassState(none, none)
-    return PushEstimatorState(unit.rates, ZERO, sums, still, still, level, level, start_payload_drag(estimator.windage))
+    return PushEstimatorState(imu.rates, ZERO, sums, still, still, level, level, start_payload_drag(estimator.windage))

@@ -24,10 +24,10 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import maximum, minimum, where
 from tandemlift.algebra.vector import each, total
 from tandemlift.laws.estimation.fault_decision import DecisionRules, DecisionState, decision_step, share_gone, support
-from tandemlift.laws.mechanics.inertia import gyroscopic, turn_by
+from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic
 from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.laws.rotors.allocation import Mixer, wrench
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 FOUR = each(4)
 UPRIGHT = 0.3  # least cosine of the tilt
@@ -86,7 +86,7 @@ def detection_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, t
 
 
 @elementwise
-def tried(lost, trial, for_long):
+def tried(lost: Any, trial: Any, for_long: Any) -> Any:
     """The command [N] that a rotor gets beyond its allocated thrust: only one lost, and not `for_long`."""
     return where(for_long > 0.0, 0.0, lost * trial)
 
@@ -120,15 +120,15 @@ def residual(k: RotorLossDetection, m: DetectionState, heard: Any) -> Any:
 def followed(k: RotorLossDetection, m: DetectionState, heard: Any, thrusts: Any, t: Any) -> DetectionState:
     """The memory with the low-passes of a sample."""
     s = heard.state
-    rotors = smooth(k.rotors, m.rotors, thrusts + trials(k, m.verdict, t))
-    turning, about = turn_by(k.inertia, s.rates), heard.moment + gyroscopic(k.inertia, s.rates)
+    rotors = low_pass_step(k.rotors, m.rotors, thrusts + trials(k, m.verdict, t))
+    turning, about = apply_inertia(k.inertia, s.rates), heard.moment + gyroscopic(k.inertia, s.rates)
     momentum = FOUR(s.velocity.z * k.mass, turning.x, turning.y, turning.z)
     others = FOUR(heard.push.z - k.mass * GRAVITY, about.x, about.y, about.z)
     return DetectionState(
         rotors,
-        smooth(k.quick, m.thrusts, rotors.value),
-        smooth(k.quick, m.momentum, momentum),
-        smooth(k.quick, m.others, others),
+        low_pass_step(k.quick, m.thrusts, rotors.value),
+        low_pass_step(k.quick, m.momentum, momentum),
+        low_pass_step(k.quick, m.others, others),
         m.mean,
         m.scatter,
         m.verdict,
@@ -154,13 +154,13 @@ def evidence_for(k: RotorLossDetection, thrusts: Any, off: Any, weights: Any) ->
 
 
 @elementwise
-def variance(scatter, habit):
+def variance(scatter: Any, habit: Any) -> Any:
     """σ² of a component: of a well modelled vehicle, and of what it has been seen to scatter."""
     return scatter + maximum(habit, 0.0)
 
 
 @elementwise
-def kept_or(value, other, active):
+def kept_or(value: Any, other: Any, active: Any) -> Any:
     """A value in flight, another on the ground."""
     return where(active > 0.0, value, other)
 
@@ -179,7 +179,7 @@ def explained_by(k: RotorLossDetection, verdict: DecisionState, thrusts: Any) ->
 
 
 @detection_step.register(RotorLossDetection)
-def _watched(k, memory, heard, thrusts, active, t, dt):
+def _watched(k: RotorLossDetection, memory: Any, heard: Any, thrusts: Any, active: Any, t: Any, dt: Any) -> Any:
     m = followed(k, memory, heard, thrusts, t)
     r, f = residual(k, m, heard), m.thrusts.value
     off = r - m.mean.value
@@ -192,8 +192,8 @@ def _watched(k, memory, heard, thrusts, active, t, dt):
     )
     rest = r - explained_by(k, m.verdict, f)
     left = rest - m.mean.value
-    mean = smooth(k.bias_filter, m.mean, rest)
-    scatter = smooth(k.scatter_filter, m.scatter, minimum(left * left, k.bound))
+    mean = low_pass_step(k.bias_filter, m.mean, rest)
+    scatter = low_pass_step(k.scatter_filter, m.scatter, minimum(left * left, k.bound))
     still = kept_or(scatter.value, k.bound * FRESH, free)
     return DetectionState(
         m.rotors,
@@ -212,12 +212,12 @@ def failed_rotors(k: Any, memory: Any, t: Any) -> Any:
 
 
 @failed_rotors.register(RotorLossDetection)
-def _lost(k, memory, t):
+def _lost(k: RotorLossDetection, memory: Any, t: Any) -> Any:
     return confirmed(k, memory.verdict, t)
 
 
 @elementwise
-def allotted(lost):
+def allotted(lost: Any) -> Any:
     """The share of its thrust that a rotor is allotted."""
     return 1.0 - lost
 
@@ -228,7 +228,7 @@ def left_of(k: Any, memory: Any) -> Any:
 
 
 @left_of.register(RotorLossDetection)
-def _alive(k, memory):
+def _alive(k: RotorLossDetection, memory: Any) -> Any:
     return allotted(memory.verdict.lost)
 
 
@@ -238,5 +238,5 @@ def with_trials(k: Any, memory: Any, commands: Any, t: Any) -> Any:
 
 
 @with_trials.register(RotorLossDetection)
-def _with_a_trial(k, memory, commands, t):
+def _with_a_trial(k: RotorLossDetection, memory: Any, commands: Any, t: Any) -> Any:
     return commands + trials(k, memory.verdict, t)

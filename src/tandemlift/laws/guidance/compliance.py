@@ -16,7 +16,7 @@ from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Vec3, dot
 from tandemlift.laws.guidance.admittance import Admittance, anchored, soft
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 QUIET = 2.0  # s
 FAINT = 0.3  # of the threshold: what is louder counts no more for the bias
@@ -173,9 +173,9 @@ def compliance_step(
         across: the greatest horizontal acceleration that the rotors can still give [m/s²].
         dt: of the step [s].
     """
-    heard = smooth(k.input_filter, m.heard, push)
+    heard = low_pass_step(k.input_filter, m.heard, push)
     beyond, hearing = dead_band(k.band, m.hearing, heard.value, listening, dt)
-    eased = smooth(k.output_filter, m.eased, beyond)
+    eased = low_pass_step(k.output_filter, m.eased, beyond)
     asked = wanted(k, m, eased.value, damping, across)
     acceleration = approached(m.acceleration, asked, k.limits.jerk * dt)
     jerk = (acceleration - m.acceleration) * (1.0 / dt)

@@ -31,7 +31,7 @@ from tandemlift.laws.guidance.supervisor import concluded, given_up, kept_inside
 from tandemlift.laws.guidance.yaw_compliance import HeadingReference, yaw_step
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.laws.signals.trajectories import Reference, ScheduledPhases, Trajectory, reference
 
 
@@ -296,7 +296,7 @@ def _guided(g, m, heard, unknown, lost, t, dt):
     about = apply(rotation_from_quaternion(state.attitude), heard.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
     course, heading = yaw_step(g.heading, m.heading, about, yaw, orders, lost, dt)
-    moment = smooth(g.moment, m.moment, heard.moment)
+    moment = low_pass_step(g.moment, m.moment, heard.moment)
     motion = Trajectory(now.position, now.velocity, after.acceleration)
     target = given_up(
         g.supervision, lifted(g, motion, orders), state, supervised.blind, is_in(phase, LAND), orders.land.value

@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, where
+from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, total
 from tandemlift.common.phases import HOLD, IDLE, STOPPED
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, with_speed
@@ -25,10 +26,9 @@ from tandemlift.laws.guidance.supervision import (
     timed,
 )
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.rotors.dynamics import efficiency_at
-from tandemlift.laws.sensors.health import any_of, no_number
-from tandemlift.laws.sensors.sensor_faults import chosen, chosen_attitude
-from tandemlift.laws.sensors.watchdog import unsound
+from tandemlift.laws.rotors.rotor_faults import efficiency_at
+from tandemlift.laws.sensors.health import any_component, not_finite
+from tandemlift.laws.sensors.watchdog import state_not_finite
 from tandemlift.laws.signals.trajectories import Trajectory
 
 PRESSING = 8.0
@@ -136,14 +136,14 @@ def _as_it_is(k, m, heard, thrust, rotor_lost):
 
 @usable_input.register(Supervision)
 def _with_numbers(k, m, heard, thrust, rotor_lost):
-    s, blank = heard.state, unsound(heard.state)
+    s, blank = heard.state, state_not_finite(heard.state)
     state = State(
         chosen(blank, m.state.position, s.position),
         chosen(blank, m.state.velocity, s.velocity),
-        chosen_attitude(blank, m.state.attitude, s.attitude),
+        chosen(blank, m.state.attitude, s.attitude),
         chosen(blank, m.state.rates, s.rates),
     )
-    dumb = maximum(any_of(no_number(heard.push)), any_of(no_number(heard.moment)))
+    dumb = maximum(any_component(not_finite(heard.push)), any_component(not_finite(heard.moment)))
     push, moment = chosen(dumb, ZERO, heard.push), chosen(dumb, ZERO, heard.moment)
     return UsableInput(state, push, moment, VehicleStatus(rotor_lost, thrust, blank))
 

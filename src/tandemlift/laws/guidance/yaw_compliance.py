@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.ops import clip, where
 from tandemlift.laws.guidance.compliance import DeadBand, DeadBandState, dead_band
-from tandemlift.laws.mechanics.rotation import turned_least
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.mechanics.rotation import wrap_angle
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 
 class YawCompliance(NamedTuple):
@@ -67,18 +67,18 @@ def yaw_step(k: Any, m: Any, moment: Any, yaw: Any, orders: Any, lost: Any, dt: 
 
 @yaw_step.register(FixedHeading)
 def _held(k, m, moment, yaw, orders, lost, dt):
-    near = turned_least(yaw + clip(turned_least(k.angle - yaw), -k.max_lead_angle, k.max_lead_angle))
+    near = wrap_angle(yaw + clip(wrap_angle(k.angle - yaw), -k.max_lead_angle, k.max_lead_angle))
     return HeadingReference(where(lost > 0.0, near, k.angle), 0.0, 0.0), m
 
 
 @yaw_step.register(YawCompliance)
 def _turning(k, m, moment, yaw, orders, lost, dt):
-    heard = smooth(k.input_filter, m.heard, moment)
+    heard = low_pass_step(k.input_filter, m.heard, moment)
     beyond, hearing = dead_band(k.band, m.hearing, heard.value, orders.listening, dt)
-    eased = smooth(k.output_filter, m.eased, beyond)
+    eased = low_pass_step(k.output_filter, m.eased, beyond)
     acceleration = (eased.value - clip(k.damping * m.rate, -k.most, k.most)) * k.inverse_inertia
-    ahead = turned_least(m.angle + m.rate * dt + acceleration * (0.5 * dt * dt) - yaw)
+    ahead = wrap_angle(m.angle + m.rate * dt + acceleration * (0.5 * dt * dt) - yaw)
     most, off = k.max_lead_angle * (1.0 - orders.grounded), 1.0 - orders.grounded
-    angle = turned_least(yaw + clip(ahead, -most, most))
+    angle = wrap_angle(yaw + clip(ahead, -most, most))
     after = YawState(heard, hearing, eased, angle, (m.rate + acceleration * dt) * off, acceleration)
     return HeadingReference(m.angle, m.rate, acceleration), after

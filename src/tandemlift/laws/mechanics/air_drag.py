@@ -1,84 +1,46 @@
-"""The wind on the payload, from what it puts on the quadrotors, so that it is not taken for a person's push.
+"""The drag of the air on the payload and on every quadrotor, quadratic in their velocity through it."""
 
-What acts on quadrotor i from outside, f_i + m_i s_i with s_i its specific force (`push_estimate`), is horizontally
-drag alone: its rotors push along z. Drag is ½ ρ C A |v| v by body axis, with the same velocity v through the air for
-payload and quadrotors, as long as the vehicle hardly turns. So along x and y the payload's is the mean over the
-quadrotors times the ratio of their C A, whatever the wind. Along z nothing is known.
+from typing import NamedTuple
 
-The ratio also multiplies what the sensors err by. A low-pass of bandwidth ω keeps of σ a sample, every T, in the mean
-of N joints, ratio σ √(ω T/4N); it is as much too late for gusts, 2/ω.
-"""
+from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.ops import maximum, sqrt
+from tandemlift.algebra.types import Number
+from tandemlift.algebra.vector import ZERO, Vec3, apply, apply_transposed, cross, dot
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
-from typing import Any, NamedTuple
-
-from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.ops import maximum
-from tandemlift.algebra.types import Condition, Number, PerQuadrotor
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, total
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+TINY = 1e-200  # m²/s², lost in the square of any speed; keeps the derivative of its root finite
 
 
-class PayloadDrag(NamedTuple):
-    """Drag of the payload over that of all quadrotors together, along body x and y; and the low-pass."""
+class AirDrag(NamedTuple):
+    """½ ρ C_d A along each body axis [N/(m/s)²], of the payload and of every quadrotor (a vector of sets)."""
 
-    ratio_x: Number
-    ratio_y: Number
-    low_pass: LowPass
-
-
-class PayloadDragState(NamedTuple):
-    """Memory: sum over the tare's samples of what is to be taken off, their count, and the low-pass [N, body axes]."""
-
-    sum: Vec3
-    count: Number
-    force: LowPassState
+    payload: Vec3
+    quadrotors: Vec3
 
 
-@choice(absent=(ZERO, "memory"))
-def blown(
-    k: PayloadDrag | Nothing,
-    memory: PayloadDragState | Nothing,
-    x: PerQuadrotor,
-    y: PerQuadrotor,
-    begun: Condition,
-    taken: Condition,
-    armed: Condition,
-) -> Any:
-    """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
-
-    Args:
-        k: `PayloadDrag`, or `Nothing`.
-        memory: its memory.
-        x: force from outside along body x on every quadrotor [N], a set.
-        y: likewise along y.
-        begun: 1 once the tare has begun, else 0.
-        taken: 1 if this sample is one of the tare, else 0.
-        armed: 1 once the tare is over, else 0.
-    """
+@elementwise
+def zero_like(x: Number) -> Number:
+    """0, for a number or for every value of a set."""
+    return 0.0
 
 
 @law
-def bias_of(memory: PayloadDragState) -> Vec3:
-    """The mean over the tare [N]."""
-    return memory.sum * (1.0 / maximum(memory.count, 1.0))
+def quadratic_drag(k: Vec3, v: Vec3) -> Vec3:
+    """−k |v| v by component [N], v [m/s] through the air; vectors of numbers or of sets."""
+    speed = sqrt(maximum(dot(v, v), TINY))
+    return Vec3(-(k.x * v.x * speed), -(k.y * v.y * speed), -(k.z * v.z * speed))
 
 
-@blown.register(PayloadDrag)
-def _scaled(
-    k: PayloadDrag,
-    memory: PayloadDragState,
-    x: PerQuadrotor,
-    y: PerQuadrotor,
-    begun: Condition,
-    taken: Condition,
-    armed: Condition,
-) -> tuple[Vec3, PayloadDragState]:
-    force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
-    summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
-    after = smooth(k.low_pass, memory.force, (force - bias_of(summed)) * armed)
-    return after.value, PayloadDragState(summed.sum, summed.count, after)
-
-
-def start_payload_drag(windage: PayloadDrag | Nothing) -> PayloadDragState | Nothing:
-    """The memory before the first step."""
-    return windage if isinstance(windage, Nothing) else PayloadDragState(ZERO, 0.0, LowPassState(ZERO, ZERO))
+@law
+def air_loads(drag: AirDrag, frame: PartsLayout, s: State, air: Vec3) -> PartLoads:
+    """Drag of every part, quadratic in the velocity of its centre of mass through the air; no moments about it."""
+    # sets are the left factors of products: a CasADi number on the left would take them for its own
+    R = rotation_from_quaternion(s.attitude)
+    v, turn = apply_transposed(R, s.velocity - air), -cross(frame.quadrotors, s.rates)
+    payload = apply(R, quadratic_drag(drag.payload, v + cross(s.rates, frame.payload)))
+    around = Vec3(add_to_each(turn.x, v.x), add_to_each(turn.y, v.y), add_to_each(turn.z, v.z))
+    each = quadratic_drag(drag.quadrotors, around)
+    moments = Vec3(zero_like(each.x), zero_like(each.y), zero_like(each.z))
+    return PartLoads(PartLoad(payload, ZERO), PartLoad(Vec3(dot(each, R.x), dot(each, R.y), dot(each, R.z)), moments))

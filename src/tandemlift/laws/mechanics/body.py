@@ -11,8 +11,8 @@ from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import sqrt
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Quat, Vec3, dot, linear, plus, times
-from tandemlift.laws.mechanics.inertia import Inertia, gyroscopic, turn_by
-from tandemlift.laws.mechanics.push import Push, PushSamples, moment_of
+from tandemlift.laws.mechanics.inertia import Inertia, apply_inertia, gyroscopic
+from tandemlift.laws.mechanics.push import Push, PushSamples, push_moment
 from tandemlift.laws.mechanics.rotation import body_z_axis, quaternion_rate
 
 UP = Vec3(0.0, 0.0, 1.0)
@@ -35,14 +35,14 @@ class State(NamedTuple):
 
 
 class Wrench(NamedTuple):
-    """What the rotors give: thrust [N] along body z and moments [N·m] in body axes; (F_t, U_t) or U₁…U₄."""
+    """Wrench of the rotors: thrust [N] along body z and moments [N·m] in body axes; (F_t, U_t) or U₁…U₄."""
 
     thrust: Number
     moment: Vec3
 
 
 class RigidBody(NamedTuple):
-    """What the equations of motion need to know of a body.
+    """Parameters of the equations of motion of one rigid body.
 
     `inverse_mass` [1/kg]; `inertia` [kg·m²] and `inverse_inertia`, both a Vec3 or both a Mat3; drag coefficients on
     world velocity [N·s/m] and on body rates [N·m·s]; a constant disturbing force [N, world] and moment [N·m, body].
@@ -72,7 +72,7 @@ def rigid_body_motion(body: RigidBody, s: State, u: Wrench, push: Push) -> State
         s.velocity,
         force * body.inverse_mass - UP * GRAVITY,
         quaternion_rate(s.attitude, s.rates),
-        turn_by(body.inverse_inertia, moment + moment_of(push, s.attitude)),
+        apply_inertia(body.inverse_inertia, moment + push_moment(push, s.attitude)),
     )
 
 

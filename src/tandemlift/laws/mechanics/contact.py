@@ -1,16 +1,16 @@
-"""A vehicle's feet on a level floor: what holds it up, and what keeps it in place.
+"""Contact of a vehicle's feet with a level floor: normal force, and friction with stiction.
 
-Every quadrotor has four feet. A foot is a pad on a ball joint, so what it passes on acts at the joint's centre, ρ above
-the pad. With the depth δ of the pad in the floor and the way e of the joint from where it gripped, in world axes,
+Every quadrotor has four feet. A foot is a pad on a ball joint, so its force acts at the joint's centre, ρ above the
+pad. With the penetration δ of the pad and the displacement e of the joint from its anchor, in world axes,
 
     N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −(k_t e + c_t ė), shortened to the length μ N if it is longer.
 
-Neither makes energy. In N, k δ is a spring and the rest takes the power c δ̇², or −k δ δ̇ where N is cut, which is only
-where δ̇ < −k δ/c. In F, k_t e is a spring and the rest takes power as long as |k_t e| ≤ μ N: `slip` sees to that at the
-end of every step, with N the smaller of its values at both ends, so that a foot that has just landed stores nothing.
-Below μ N the grip does not move at all: a vehicle that stands, stays.
+Both forces are passive. In N, k δ is a spring and the rest dissipates c δ̇², or −k δ δ̇ where N is cut to 0, which
+happens only for δ̇ < −k δ/c. In F, k_t e is a spring and the rest dissipates power as long as |k_t e| ≤ μ N.
+`grips_after_step` enforces that at the end of every step, with the smaller N of its start and its end, so that a foot
+that has just landed stores no energy. Below μ N the anchor does not move: a vehicle at rest stays where it is.
 
-A step is `touch` in every stage with the memory held, then `slip`. Nothing but the feet touches the floor.
+A step evaluates `feet_load` at every stage with the anchors held, then `grips_after_step`. Only feet touch the floor.
 """
 
 from typing import NamedTuple
@@ -25,10 +25,10 @@ from tandemlift.algebra.types import Condition, Number, PerQuadrotor
 from tandemlift.algebra.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
 from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, raised
+from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, add_to_each
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
-FASTEST_TURN = 1000.0  # rad/s², more than rotors make
+MAX_ANGULAR_ACCELERATION = 1000.0  # rad/s², more than rotors give
 
 TINY = 1e-300  # N²: keeps 0/0 out of the friction of a foot in the air
 OSCILLATION = 0.5  # rad a step: the fastest oscillation on springs that a Runge-Kutta step resolves well
@@ -57,7 +57,7 @@ class Floor(NamedTuple):
 
 
 class FootGrip(NamedTuple):
-    """Memory of one foot of every quadrotor, as sets: where it grips [m, world axes], and N [N] at the time.
+    """Memory of one foot of every quadrotor, as sets: its anchor [m, world axes], and N [N] at the last step.
 
     The memory of a vehicle is `Quarters` of it.
     """
@@ -68,7 +68,7 @@ class FootGrip(NamedTuple):
 
 
 class Foot(NamedTuple):
-    """One foot of every quadrotor, world axes: its centre from the system's, its place, its velocity, and N."""
+    """One foot of every quadrotor, world axes: lever arm from the centre of mass, position, velocity, and N."""
 
     arm: Vec3
     x: PerQuadrotor
@@ -80,19 +80,19 @@ class Foot(NamedTuple):
 
 @elementwise
 def spring_damper(depth: Number, rate: Number, stiffness: Number, damping: Number) -> Number:
-    """Normal force [N] at a depth [m] that grows at a rate [m/s]: never pulls, never makes energy."""
+    """Normal force [N] at a penetration [m] that grows at a rate [m/s]; it never pulls and is passive."""
     return where(depth > 0.0, maximum(stiffness * depth + damping * rate, 0.0), 0.0)
 
 
 @elementwise
-def shortening(square: Number, longest: Number) -> Number:
-    """The factor that cuts a vector whose length squared is `square` to the length `longest`; at most 1."""
+def friction_factor(square: Number, longest: Number) -> Number:
+    """The factor, at most 1, that shortens a vector of squared length `square` to the length `longest`."""
     return longest / sqrt(maximum(maximum(square, longest * longest), TINY))
 
 
 @elementwise
-def moved(anchor: Number, place: Number, factor: Number) -> Number:
-    """The anchor drawn towards a place, to `factor` of the distance; untouched at a factor of 1."""
+def drawn_towards(anchor: Number, place: Number, factor: Number) -> Number:
+    """The anchor drawn towards a place, to `factor` times its distance; unchanged at a factor of 1."""
     return where(factor < 1.0, place + (anchor - place) * factor, anchor)
 
 
@@ -101,14 +101,14 @@ def foot_at(floor: Floor, s: State, R: Mat3, spin: Vec3, f: Vec3) -> Foot:
     """The feet at f [m, body axes] of a vehicle that turns at `spin` [rad/s, world axes]."""
     arm = apply(R, f)
     turn = cross(spin, arm)
-    depth = raised(-arm.z, floor.radius + floor.height - s.position.z)
+    depth = add_to_each(-arm.z, floor.radius + floor.height - s.position.z)
     return Foot(
         arm,
-        raised(arm.x, s.position.x),
-        raised(arm.y, s.position.y),
-        raised(turn.x, s.velocity.x),
-        raised(turn.y, s.velocity.y),
-        spring_damper(depth, raised(-turn.z, -s.velocity.z), floor.stiffness, floor.damping),
+        add_to_each(arm.x, s.position.x),
+        add_to_each(arm.y, s.position.y),
+        add_to_each(turn.x, s.velocity.x),
+        add_to_each(turn.y, s.velocity.y),
+        spring_damper(depth, add_to_each(-turn.z, -s.velocity.z), floor.stiffness, floor.damping),
     )
 
 
@@ -125,32 +125,32 @@ def feet_at(floor: Floor, s: State, R: Mat3) -> Quarters:
 
 
 @law
-def foot_contact(floor: Floor, foot: Foot, grip: FootGrip) -> Vec3:
+def foot_force(floor: Floor, foot: Foot, grip: FootGrip) -> Vec3:
     """Force of the floor [N, world axes] on a foot of every quadrotor."""
     pull_x = (foot.x - grip.x) * floor.tangential_stiffness + foot.velocity_x * floor.tangential_damping
     pull_y = (foot.y - grip.y) * floor.tangential_stiffness + foot.velocity_y * floor.tangential_damping
-    factor = shortening(pull_x * pull_x + pull_y * pull_y, foot.normal * floor.friction)
+    factor = friction_factor(pull_x * pull_x + pull_y * pull_y, foot.normal * floor.friction)
     return Vec3(-(pull_x * factor), -(pull_y * factor), foot.normal)
 
 
 @law
-def regrip(floor: Floor, foot: Foot, grip: FootGrip) -> FootGrip:
-    """The grip drawn after the foot until friction holds the spring, under the smaller N of now and before."""
+def slide_grip(floor: Floor, foot: Foot, grip: FootGrip) -> FootGrip:
+    """The anchor drawn after the foot until friction holds the spring, under the smaller N of now and before."""
     x, y = (foot.x - grip.x) * floor.tangential_stiffness, (foot.y - grip.y) * floor.tangential_stiffness
-    factor = shortening(x * x + y * y, minimum(foot.normal, grip.normal) * floor.friction)
-    return FootGrip(moved(grip.x, foot.x, factor), moved(grip.y, foot.y, factor), foot.normal)
+    factor = friction_factor(x * x + y * y, minimum(foot.normal, grip.normal) * floor.friction)
+    return FootGrip(drawn_towards(grip.x, foot.x, factor), drawn_towards(grip.y, foot.y, factor), foot.normal)
 
 
 @law
-def touch(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> PartLoad:
-    """What the floor puts on every quadrotor, as sets: force, and moment about each quadrotor's centre of mass."""
+def feet_load(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> PartLoad:
+    """Load of the floor on every quadrotor, as sets: force, and moment about each quadrotor's centre of mass."""
     R = rotation_from_quaternion(s.attitude)
     a, b, c, d = feet_at(floor, s, R)
     f, g, h, i = (
-        foot_contact(floor, a, grip[0]),
-        foot_contact(floor, b, grip[1]),
-        foot_contact(floor, c, grip[2]),
-        foot_contact(floor, d, grip[3]),
+        foot_force(floor, a, grip[0]),
+        foot_force(floor, b, grip[1]),
+        foot_force(floor, c, grip[2]),
+        foot_force(floor, d, grip[3]),
     )
     force = f + g + h + i
     moment = cross(a.arm, f) + cross(b.arm, g) + cross(c.arm, h) + cross(d.arm, i)
@@ -158,11 +158,14 @@ def touch(floor: Floor, grip: Quarters, frame: PartsLayout, s: State) -> PartLoa
 
 
 @law
-def slip(floor: Floor, grip: Quarters, s: State) -> Quarters:
-    """The memory after a step that ends in state `s`: feet in the air, and feet that slide, grip anew."""
+def grips_after_step(floor: Floor, grip: Quarters, s: State) -> Quarters:
+    """The memory after a step that ends in state `s`: feet in the air and sliding feet get new anchors."""
     a, b, c, d = feet_at(floor, s, rotation_from_quaternion(s.attitude))
     return Quarters(
-        regrip(floor, a, grip[0]), regrip(floor, b, grip[1]), regrip(floor, c, grip[2]), regrip(floor, d, grip[3])
+        slide_grip(floor, a, grip[0]),
+        slide_grip(floor, b, grip[1]),
+        slide_grip(floor, c, grip[2]),
+        slide_grip(floor, d, grip[3]),
     )
 
 
@@ -172,13 +175,13 @@ def may_touch(floor: Floor, s: State, time: Number) -> Condition:
     q, size = s.attitude, floor.extent
     tilt = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
     hangs = dot(absolute(tilt), size) + floor.radius
-    swings = floor.reach * (sqrt(dot(s.rates, s.rates)) + FASTEST_TURN * time) * time
+    swings = floor.reach * (sqrt(dot(s.rates, s.rates)) + MAX_ANGULAR_ACCELERATION * time) * time
     fall = (minimum(s.velocity.z, 0.0) - 2.0 * GRAVITY * time) * time  # four g, as thrust may add to weight
     return s.position.z + fall - minimum(hangs + swings, floor.reach) < floor.height
 
 
 def mobility(points: Array, mass: float, inertia: Array) -> float:
-    """How a free body gives way at some of its points [1/kg]: ω² of its fastest oscillation on springs of 1 N/m.
+    """Mobility of a free body at some of its points [1/kg]: ω² of its fastest oscillation on springs of 1 N/m.
 
     Args:
         points: n × 3, from its centre of mass [m]; each is sprung in all three directions, so no attitude is faster.
@@ -193,18 +196,24 @@ def mobility(points: Array, mass: float, inertia: Array) -> float:
     return float(np.linalg.eigvals(np.linalg.solve(inertias, stiffness)).real.max())
 
 
-def steady(stiffness: float, damping: float, give: float, step: float) -> tuple[float, float]:
-    """Stiffness [N/m] and damping [N·s/m] of springs, softened, if need be, to what a step [s] can follow.
+def surface_mobility(center: Array, radius: float, mass: float, inertia: Array) -> float:
+    """The largest `mobility` [1/kg] of the points where the principal axes leave a sphere."""
+    axes = np.linalg.eigh(inertia)[1].T * radius
+    return max(mobility(center + side[None], mass, inertia) for side in (*axes, *-axes))
 
-    Both soften so that the damping ratio stays. `give` [1/kg]: the `mobility` of what stands on such springs.
+
+def softened_for_step(stiffness: float, damping: float, body_mobility: float, step: float) -> tuple[float, float]:
+    """Stiffness [N/m] and damping [N·s/m] of springs, reduced, if need be, to what a step [s] can resolve.
+
+    The damping ratio stays. `body_mobility` [1/kg]: the `mobility` of the body that stands on such springs.
     """
-    frequency, rate = np.sqrt(stiffness * give), 0.5 * damping * give
+    frequency, rate = np.sqrt(stiffness * body_mobility), 0.5 * damping * body_mobility
     decay = rate + np.sqrt(max(rate**2 - frequency**2, 0.0))
     factor = 1.0 / max(1.0, frequency * step / OSCILLATION, decay * step / DECAY)
     return float(stiffness * factor**2), float(damping * factor)
 
 
-def soles_below(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> Array:
+def sole_positions(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> Array:
     """Four soles under each quadrotor, N × 4 × 3 [m, body axes], from the same point as the centres.
 
     Args:
@@ -229,7 +238,7 @@ def floor(
     sinkage: float = 5e-4,
     damping_ratio: float = 1.0,
 ) -> Floor:
-    """A floor for a vehicle: feet so stiff that it sinks by `sinkage` where it stands, softer if the step demands it.
+    """A floor for a vehicle: feet so stiff that it sinks by `sinkage` at rest, softer if the step demands it.
 
     Args:
         soles: N × 4 × 3, of the level vehicle, from its centre of mass [m, body axes].
@@ -239,15 +248,15 @@ def floor(
         friction: μ of the pads on the floor.
         height: of the floor, z [m].
         radius: ρ, of the ball joint above the sole [m].
-        sinkage: of the vehicle that stands on all its feet [m]; `sinkage_of` tells what a long step made of it.
-        damping_ratio: of the vehicle that bobs up and down on all its feet.
+        sinkage: of the vehicle at rest on all its feet [m]; `sinkage_of` gives the actual one after softening.
+        damping_ratio: of the heave oscillation on all its feet.
     """
     places = np.add(soles, [0.0, 0.0, radius])
     points = places.reshape(-1, 3)
     share = mass / len(points)
     wanted = share * GRAVITY / sinkage
-    give = mobility(points, mass, np.asarray(inertia, dtype=float))
-    k, c = steady(wanted, 2.0 * damping_ratio * np.sqrt(wanted * share), give, step)
+    body_mobility = mobility(points, mass, np.asarray(inertia, dtype=float))
+    k, c = softened_for_step(wanted, 2.0 * damping_ratio * np.sqrt(wanted * share), body_mobility, step)
     reach = float(np.linalg.norm(points, axis=1).max()) + radius
     feet = Quarters(*[spread(places[:, j]) for j in range(4)])
     extent = vec3(np.abs(points).max(axis=0))
@@ -262,11 +271,11 @@ def standing_height(floor: Floor, weight: float) -> float:
 
 
 def sinkage_of(floor: Floor, weight: float) -> float:
-    """How deep a vehicle of this weight [N] sinks where it stands on all its feet [m]."""
+    """How deep a vehicle of this weight [N] sinks at rest on all its feet [m]."""
     return weight / (floor.stiffness * 4 * len(floor.feet.first.x))
 
 
 def start_foot_grip(floor: Floor, s: State) -> Quarters:
-    """The memory of feet that grip where they are in state `s`."""
+    """The memory of feet whose anchors are where the feet are in state `s`."""
     none = floor.feet.first.x * 0.0
-    return slip(floor, Quarters(*[FootGrip(none, none, none)] * 4), s)
+    return grips_after_step(floor, Quarters(*[FootGrip(none, none, none)] * 4), s)

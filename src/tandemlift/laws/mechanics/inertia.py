@@ -12,16 +12,16 @@ Inertia: TypeAlias = Vec3 | Mat3
 
 
 @choice
-def turn_by(J: Inertia, v: Vec3) -> Any:
-    """J v for a tensor J, or J⁻¹ v for an inverse one."""
+def apply_inertia(J: Inertia, v: Vec3) -> Any:
+    """J v for an inertia tensor J; J⁻¹ v for an inverse one."""
 
 
-@turn_by.register(Vec3)
+@apply_inertia.register(Vec3)
 def _diagonal(J: Vec3, v: Vec3) -> Vec3:
     return J * v
 
 
-@turn_by.register(Mat3)
+@apply_inertia.register(Mat3)
 def _full(J: Mat3, v: Vec3) -> Vec3:
     return apply(J, v)
 
@@ -29,7 +29,7 @@ def _full(J: Mat3, v: Vec3) -> Vec3:
 @law
 def gyroscopic(J: Inertia, rates: Vec3) -> Vec3:
     """−ω × J ω: for a diagonal J the terms (J_y − J_z) q r, (J_z − J_x) p r, (J_x − J_y) p q."""
-    return -cross(rates, turn_by(J, rates))
+    return -cross(rates, apply_inertia(J, rates))
 
 
 def inertia_value(J: NDArray[np.floating]) -> Inertia:

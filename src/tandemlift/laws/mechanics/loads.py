@@ -1,6 +1,6 @@
-"""What acts on the parts of the vehicle, and what the sensors at its joints and in its payload feel of it.
+"""Loads on the parts of the vehicle, and what perfect sensors at its joints and in its payload read of them.
 
-A vector of every quadrotor is a `Vec3` of sets. Joints transmit what a quadrotor puts on the payload.
+A vector for every quadrotor is a `Vec3` of sets. A joint transmits the load of its quadrotor on the payload.
 """
 
 from typing import Any, NamedTuple
@@ -43,7 +43,7 @@ class PartLoad(NamedTuple):
 
 @linear
 class PartLoads(NamedTuple):
-    """What the surroundings put on the payload, and on every quadrotor (vectors of sets)."""
+    """Loads of the surroundings on the payload, and on every quadrotor (vectors of sets)."""
 
     payload: PartLoad
     quadrotors: PartLoad
@@ -56,7 +56,7 @@ class PartLoads(NamedTuple):
 
 
 class PartsLayout(NamedTuple):
-    """Where the parts are and what they weigh: what joints transmit follows from it. Body axes.
+    """Where the parts are and what they weigh, from which follows what joints transmit. Body axes.
 
     `payload` and `quadrotors`: centres of mass from the system's [m]; `joints`: from each quadrotor's centre of mass to
     its joint [m]; `mass` [kg] and `inertia` [kg·m², diagonal] of each quadrotor; of rotor j of every quadrotor, from
@@ -76,9 +76,9 @@ class PartsLayout(NamedTuple):
 class PerfectReadings(NamedTuple):
     """What perfect sensors fixed to the parts would read; body axes.
 
-    Specific force at the payload's centre of mass [m/s²] (acceleration less gravity), and what each quadrotor puts on
-    the payload at its joint: force [N] and torque [N·m], vectors of sets. No sensor, but known to an engine: the force
-    of floor and walls on the whole vehicle [N, world axes].
+    Specific force at the payload's centre of mass [m/s²] (acceleration less gravity), and the load of each quadrotor on
+    the payload at its joint: force [N] and torque [N·m], vectors of sets. `contact_force`: that of floor and walls on
+    the whole vehicle [N, world axes], which an engine knows and no sensor reads.
     """
 
     specific_force: Vec3
@@ -88,17 +88,17 @@ class PerfectReadings(NamedTuple):
 
 
 @law
-def total_of_each(v: Vec3) -> Vec3:
-    """The sum of a vector of sets."""
+def sum_over_set(v: Vec3) -> Vec3:
+    """The sum over a vector of sets."""
     return Vec3(total(v.x), total(v.y), total(v.z))
 
 
 @law
-def of_quadrotors(frame: PartsLayout, attitude: Quat, load: PartLoad) -> PartLoad:
+def resultant_of_quadrotors(frame: PartsLayout, attitude: Quat, load: PartLoad) -> PartLoad:
     """Force [N, world axes] and moment about the system's centre of mass [N·m, body axes] of loads on quadrotors."""
     R = rotation_from_quaternion(attitude)
     moments = load.moment + cross(frame.quadrotors, apply_transposed(R, load.force))
-    return PartLoad(total_of_each(load.force), total_of_each(moments))
+    return PartLoad(sum_over_set(load.force), sum_over_set(moments))
 
 
 @law
@@ -107,11 +107,11 @@ def resultant(frame: PartsLayout, attitude: Quat, loads: PartLoads) -> PartLoad:
     R = rotation_from_quaternion(attitude)
     beam = loads.payload
     about_center = PartLoad(beam.force, beam.moment + cross(frame.payload, apply_transposed(R, beam.force)))
-    return about_center + of_quadrotors(frame, attitude, loads.quadrotors)
+    return about_center + resultant_of_quadrotors(frame, attitude, loads.quadrotors)
 
 
 @law
-def thrust_of_each(frame: PartsLayout, thrusts: PerRotor) -> Wrench:
+def quadrotor_wrenches(frame: PartsLayout, thrusts: PerRotor) -> Wrench:
     """Thrust [N] of every quadrotor and its rotors' moment about its centre of mass [N·m], as sets."""
     # paper: total_i_thrust_moments_equ
     f, x, y, torque = quarters(thrusts), frame.x, frame.y, frame.torque
@@ -122,9 +122,21 @@ def thrust_of_each(frame: PartsLayout, thrusts: PerRotor) -> Wrench:
 
 
 @elementwise
-def raised(x: Number, k: Number) -> Number:
+def add_to_each(x: Number, k: Number) -> Number:
     """x + k, where k serves every value of a set."""
     return x + k
+
+
+@law
+def scaled(v: Vec3, k: Number) -> Vec3:
+    """v k, where either may be of sets."""
+    return Vec3(k * v.x, k * v.y, k * v.z)
+
+
+@law
+def translated(origin: Vec3, v: Vec3) -> Vec3:
+    """origin + v, where v may be of sets."""
+    return Vec3(add_to_each(v.x, origin.x), add_to_each(v.y, origin.y), add_to_each(v.z, origin.z))
 
 
 @law
@@ -133,36 +145,36 @@ def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
     # paper: kinematic_equ
     g = apply_transposed(rotation_from_quaternion(s.attitude), a.linear + UP * GRAVITY)
     turn = cross(cross(r, s.rates), s.rates) - cross(r, a.angular)
-    return Vec3(raised(turn.x, g.x), raised(turn.y, g.y), raised(turn.z, g.z))
+    return Vec3(add_to_each(turn.x, g.x), add_to_each(turn.y, g.y), add_to_each(turn.z, g.z))
 
 
 @law
 def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: PerRotor) -> PerfectReadings:
-    """What the sensors feel in state `s` under an acceleration and thrusts [N], but for loads on the quadrotors."""
+    """The readings in state `s` under an acceleration and thrusts [N], without loads on the quadrotors."""
     # paper: trans_rot_quad_equ, solved for the joint
-    made = thrust_of_each(frame, thrusts)
+    rotors = quadrotor_wrenches(frame, thrusts)
     inertial = specific_force_at(s, a, frame.quadrotors) * Vec3(frame.mass, frame.mass, frame.mass)
-    force = Vec3(-inertial.x, -inertial.y, made.thrust - inertial.z)
+    force = Vec3(-inertial.x, -inertial.y, rotors.thrust - inertial.z)
     J, w = frame.inertia, s.rates
     turning = Vec3(J.x * a.angular.x, J.y * a.angular.y, J.z * a.angular.z)
     spinning = cross(w, Vec3(J.x * w.x, J.y * w.y, J.z * w.z))
-    couple = made.moment - turning - spinning
+    couple = rotors.moment - turning - spinning
     return PerfectReadings(specific_force_at(s, a, frame.payload), force, couple - cross(frame.joints, force), ZERO)
 
 
 @law
-def plus_zero(v: Vec3) -> Vec3:
+def without_negative_zero(v: Vec3) -> Vec3:
     """A vector of sets with no −0 in it."""
-    return Vec3(raised(v.x, 0.0), raised(v.y, 0.0), raised(v.z, 0.0))
+    return Vec3(add_to_each(v.x, 0.0), add_to_each(v.y, 0.0), add_to_each(v.z, 0.0))
 
 
-@choice(absent="felt")
-def under(load: PartLoad | Nothing, frame: PartsLayout, attitude: Quat, felt: PerfectReadings) -> Any:
-    """`felt`, with a load on the quadrotors, which their joints pass on to the payload."""
+@choice(absent="readings")
+def readings_with_load(load: PartLoad | Nothing, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> Any:
+    """The readings with a load on the quadrotors, which their joints transmit to the payload."""
 
 
-@under.register(PartLoad)
-def _loaded(load: PartLoad, frame: PartsLayout, attitude: Quat, felt: PerfectReadings) -> PerfectReadings:
-    force = plus_zero(apply_transposed(rotation_from_quaternion(attitude), load.force))
-    torque = felt.joint_torque + plus_zero(load.moment - cross(frame.joints, force))
-    return PerfectReadings(felt.specific_force, felt.joint_force + force, torque, felt.contact_force)
+@readings_with_load.register(PartLoad)
+def _loaded(load: PartLoad, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> PerfectReadings:
+    force = without_negative_zero(apply_transposed(rotation_from_quaternion(attitude), load.force))
+    torque = readings.joint_torque + without_negative_zero(load.moment - cross(frame.joints, force))
+    return PerfectReadings(readings.specific_force, readings.joint_force + force, torque, readings.contact_force)

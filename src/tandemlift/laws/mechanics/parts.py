@@ -1,6 +1,6 @@
 """The parts of the vehicle: one quadrotor, the payload, the joints between them, and where the quadrotors are.
 
-Forces F_i and couples τ_i are what quadrotor i puts on the payload, reduced to the quadrotor's centre of mass; F_i in
+Forces F_i and couples τ_i are the load of quadrotor i on the payload, reduced to the quadrotor's centre of mass; F_i in
 world axes, τ_i, rates and lever arms d_i (payload centre to quadrotor) in body axes, which all parts share.
 """
 
@@ -11,7 +11,7 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Mat3, Vec3, apply, apply_transposed, cross
 from tandemlift.laws.mechanics.body import UP
-from tandemlift.laws.mechanics.inertia import Inertia, gyroscopic, turn_by
+from tandemlift.laws.mechanics.inertia import Inertia, apply_inertia, gyroscopic
 
 
 class Point(NamedTuple):
@@ -30,7 +30,7 @@ class Acceleration(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """What a quadrotor puts on the payload: force [N, world axes] and couple [N·m, body axes]."""
+    """Load of a quadrotor on the payload: force [N, world axes] and couple [N·m, body axes]."""
 
     force: Vec3
     couple: Vec3
@@ -54,7 +54,7 @@ def point_on_body(origin: Point, R: Mat3, rates: Vec3, angular: Vec3, d: Vec3) -
 def quadrotor_acceleration(
     mass: Number, J: Vec3, z_axis: Vec3, thrust: Number, torque: Vec3, rates: Vec3, joint: Joint
 ) -> Acceleration:
-    """Acceleration of one quadrotor that bears the reaction of its joint. `z_axis`: R (0, 0, 1)."""
+    """Acceleration of one quadrotor under the reaction of its joint. `z_axis`: R (0, 0, 1)."""
     # paper: trans_rot_quad_equ
     linear = (z_axis * thrust - joint.force) / mass - UP * GRAVITY
     angular = torque + gyroscopic(J, rates) - joint.couple
@@ -67,7 +67,7 @@ def joint_wrench(
 ) -> Joint:
     """trans_rot_quad_equ solved for F_i and τ_i, given the quadrotor's acceleration."""
     force = z_axis * thrust - (a.linear + UP * GRAVITY) * mass
-    couple = torque + gyroscopic(J, rates) - turn_by(J, a.angular)
+    couple = torque + gyroscopic(J, rates) - apply_inertia(J, a.angular)
     return Joint(force, couple)
 
 

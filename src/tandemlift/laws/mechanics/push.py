@@ -65,32 +65,32 @@ def gaussian_force(p: GaussianPush, t: Number) -> Vec3:
 
 
 @choice
-def push_of(kind: Push, p: GaussianPush, t: Number) -> Any:
+def push_at(kind: Push, p: GaussianPush, t: Number) -> Any:
     """One push at time t, as a value of the same type as `kind`."""
 
 
-@push_of.register(CentralPush)
+@push_at.register(CentralPush)
 def _central(kind: CentralPush, p: GaussianPush, t: Number) -> CentralPush:
     return CentralPush(gaussian_force(p, t))
 
 
-@push_of.register(PointPush)
+@push_at.register(PointPush)
 def _at_point(kind: PointPush, p: GaussianPush, t: Number) -> PointPush:
     F = gaussian_force(p, t)
     return PointPush(F, outer(F, p.point))
 
 
 @choice
-def moment_of(push: Push, attitude: Quat) -> Any:
+def push_moment(push: Push, attitude: Quat) -> Any:
     """Moment of a push about the centre of mass, body axes [N·m]."""
 
 
-@moment_of.register(CentralPush)
+@push_moment.register(CentralPush)
 def _no_moment(push: CentralPush, attitude: Quat) -> Vec3:
     return ZERO
 
 
-@moment_of.register(PointPush)
+@push_moment.register(PointPush)
 def _moment(push: PointPush, attitude: Quat) -> Vec3:
     # Σ r × RᵀF, with G = Rᵀ (Σ F rᵀ) = Σ (RᵀF) rᵀ
     R = rotation_from_quaternion(attitude)

@@ -1,6 +1,7 @@
-"""Attitude: rotation matrix, quaternion, Z-X-Y Euler angles and their rates.
+"""Attitude: rotation matrix, quaternion, Z-X-Y Euler angles and their rates, rotation vectors.
 
-R = Rz(ψ) Rx(φ) Ry(θ) maps body axes to world axes. The Euler rates are singular at roll φ = ±90°, not at pitch.
+R = Rz(ψ) Rx(φ) Ry(θ) maps body axes to world axes. The Euler rates are singular at roll φ = ±90°, not at pitch. A
+rotation vector is an axis times an angle [rad]. Source: Shuster, A survey of attitude representations, 1993.
 """
 
 from typing import NamedTuple
@@ -8,9 +9,10 @@ from typing import NamedTuple
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import atan2, atan_ratio, clip, cos, maximum, sin, sqrt, where
 from tandemlift.algebra.types import Number
-from tandemlift.algebra.vector import Mat3, Quat, Vec3, hamilton
+from tandemlift.algebra.vector import Mat3, Quat, Vec3, dot, hamilton
 
 PI = 3.141592653589793
+TINY = 1e-300  # keeps the derivative of a norm finite at 0, where it leaves every value as it is
 
 
 class Euler(NamedTuple):
@@ -27,8 +29,8 @@ class Euler(NamedTuple):
 
 
 @elementwise
-def turned_least(angle: Number) -> Number:
-    """The same angle within half a turn, for angles within one and a half turns [rad]."""
+def wrap_angle(angle: Number) -> Number:
+    """The same angle within [−π, π], for angles within [−3π, 3π] [rad]."""
     return angle - where(angle > PI, 2.0 * PI, where(angle < -PI, -2.0 * PI, 0.0))
 
 
@@ -126,3 +128,35 @@ def quaternion_rate(q: Quat, rates_body: Vec3) -> Quat:
         )
         * 0.5
     )
+
+
+@law
+def quaternion_from_rotation_vector(turn: Vec3) -> Quat:
+    """The unit quaternion of a rotation vector [rad]; exactly 1 for the zero vector."""
+    half = turn * 0.5
+    angle = sqrt(maximum(dot(half, half), TINY))
+    axis = half * (sin(angle) / angle)
+    return Quat(cos(angle), axis.x, axis.y, axis.z)
+
+
+@law
+def rotated_by(attitude: Quat, turn: Vec3) -> Quat:
+    """An attitude rotated by a rotation vector [rad] in its own body axes."""
+    return hamilton(attitude, quaternion_from_rotation_vector(turn))
+
+
+@law
+def rotation_between(start: Quat, end: Quat) -> Vec3:
+    """The rotation from one attitude to another, in the body axes of `start`: its axis times 2 sin(angle/2) [rad].
+
+    For small angles it is the rotation vector, to the third order. It grows with the angle up to half a turn, and
+    always takes the shorter way.
+    """
+    d = hamilton(Quat(start.w, -start.x, -start.y, -start.z), end)
+    return Vec3(d.x, d.y, d.z) * where(d.w < 0.0, -2.0, 2.0)
+
+
+@law
+def normalised(q: Quat) -> Quat:
+    """q scaled to unit norm."""
+    return q * (1.0 / sqrt(maximum(dot(q, q), TINY)))

@@ -1,4 +1,4 @@
-"""Virtual inputs: the force that the position law wants, and the thrust and tilt that give it."""
+"""Virtual inputs: the force that the position law commands, and the thrust and tilt that produce it."""
 
 import math
 from typing import Any, NamedTuple
@@ -19,25 +19,25 @@ class TiltPrinted(NamedTuple):
 
 
 class TiltLimit(NamedTuple):
-    """The tangent of the greatest angle between the force and the vertical."""
+    """The tangent of the largest angle between the force and the vertical."""
 
     tangent: Number
 
 
 @choice(absent="u")
-def within_tilt(limit: TiltLimit | Nothing, u: Vec3) -> Any:
-    """The force (u_x, u_y, u_z) [N, world axes], its horizontal part shortened to keep within a tilt."""
+def limit_tilt(limit: TiltLimit | Nothing, u: Vec3) -> Any:
+    """The force (u_x, u_y, u_z) [N, world axes], its horizontal part shortened to stay within a tilt limit."""
 
 
-@within_tilt.register(TiltLimit)
+@limit_tilt.register(TiltLimit)
 def _tilted(limit: TiltLimit, u: Vec3) -> Vec3:
-    across = sqrt(maximum(u.x * u.x + u.y * u.y, 1e-24))
-    share = minimum(limit.tangent * maximum(u.z, 0.0) / across, 1.0)
-    return Vec3(u.x * share, u.y * share, u.z)
+    horizontal = sqrt(maximum(u.x * u.x + u.y * u.y, 1e-24))
+    fraction = minimum(limit.tangent * maximum(u.z, 0.0) / horizontal, 1.0)
+    return Vec3(u.x * fraction, u.y * fraction, u.z)
 
 
 def tilt_limit(angle: float | None) -> TiltLimit | Nothing:
-    """The limit of a tilt [rad], or of none."""
+    """The limit of a tilt [rad]; `Nothing` for no limit."""
     return Nothing() if angle is None else TiltLimit(math.tan(angle))
 
 

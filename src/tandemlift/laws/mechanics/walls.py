@@ -1,15 +1,15 @@
-"""What walls put on the quadrotors and on the beam.
+"""Contact of the quadrotors and of the beam with walls.
 
-A quadrotor touches as a sphere about its centre of mass, the beam as a capsule: with its ends like spheres, along its
-length where a wall ends and where it has its top. Each presses at the nearest point by how deep it is there, δ, with
+A quadrotor's shape is a sphere about its centre of mass. The beam is a capsule: its ends touch as spheres, its length
+touches a wall's edges and its top. Each contact acts at the nearest point, with its penetration δ there:
 
     N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −c_t v, shortened to the length μ N if it is longer,
 
-N along the line between the nearest points, F against the sliding velocity v of the surface there. The distance to a
-wall has no jumps, so k δ is a spring, and neither force makes energy.
+N acts along the line between the nearest points, F against the sliding velocity v of the surface there. The distance
+to a wall is continuous, so k δ is a spring, and both forces are passive.
 
-Which walls are near changes slowly: `consider` goes through all of them now and then, from `nowhere` on, and `press`
-measures the distance to the near ones exactly, wherever the vehicle has gone in between.
+Which walls are near changes slowly: `nearest_with` looks at all of them now and then, from `no_walls_near` on.
+`near_wall_loads` measures the distance to the near ones in every state, so it stays exact in between.
 """
 
 from typing import Any, NamedTuple
@@ -21,11 +21,32 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.types import Number, PerQuadrotor
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
-from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.contact import mobility, shortening, spring_damper, steady
-from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, raised, total_of_each
-from tandemlift.laws.mechanics.rectangle import WALL, Wall, edges_of, nearer, offset, offset_from_top, pick, runner_up
+from tandemlift.laws.mechanics.contact import (
+    friction_factor,
+    mobility,
+    softened_for_step,
+    spring_damper,
+    surface_mobility,
+)
+from tandemlift.laws.mechanics.loads import (
+    PartLoad,
+    PartLoads,
+    PartsLayout,
+    scaled,
+    sum_over_set,
+    translated,
+)
+from tandemlift.laws.mechanics.rectangle import (
+    WALL,
+    Wall,
+    edges_of,
+    nearer,
+    offset,
+    offset_from_top,
+    second_nearest,
+    selected_wall,
+)
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 SMALL = 1e-18  # m²: no direction is known at this distance
@@ -40,7 +61,7 @@ class Beam(NamedTuple):
 
 
 class Walls(NamedTuple):
-    """How walls press: k [N/m], c [N·s/m], μ and c_t [N·s/m] of a contact; radius of every quadrotor's sphere [m].
+    """Contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]; `guards`: radius of every quadrotor's sphere [m].
 
     `beam`: a `Beam`, or `Nothing` if the payload has no shape; `reach` [m]: of all these from the centre of mass.
     """
@@ -55,7 +76,7 @@ class Walls(NamedTuple):
 
 
 class NearBeam(NamedTuple):
-    """The wall nearest to each end of the beam (of sets), the two nearest edges, and the wall of the nearest top."""
+    """The wall nearest to each end of the beam (of sets), the two nearest edges, the wall with the nearest top."""
 
     ends: Wall
     edge: Wall
@@ -87,36 +108,24 @@ def inverse_root(square: Number) -> Number:
 
 
 @elementwise
-def depth_at(distance: Number, radius: Number) -> Number:
-    """How deep a sphere is [m] whose centre is at a distance."""
+def penetration(distance: Number, radius: Number) -> Number:
+    """Penetration [m] of a sphere whose centre is at a distance."""
     return radius - distance
 
 
 @law
-def scaled(v: Vec3, k: Number) -> Vec3:
-    """v k, where either may be of sets."""
-    return Vec3(k * v.x, k * v.y, k * v.z)
+def sphere_load(w: Walls, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> PartLoad:
+    """Load of a wall on a sphere that moves at a velocity [m/s] and turns at `spin` [rad/s], all in world axes.
 
-
-@law
-def moved_to(origin: Vec3, v: Vec3) -> Vec3:
-    """origin + v, where v may be of sets."""
-    return Vec3(raised(v.x, origin.x), raised(v.y, origin.y), raised(v.z, origin.z))
-
-
-@law
-def pressed(w: Walls, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> PartLoad:
-    """What a wall puts on a sphere that moves at a velocity [m/s] and turns at `spin` [rad/s], all in world axes.
-
-    o is the way from the wall to the sphere's centre [m]. Moment about that centre [N·m].
+    o is the offset of the sphere's centre from the wall [m]; the moment is about that centre [N·m].
     """
     square = dot(o, o)
     inverse = inverse_root(square)
     n = scaled(o, inverse)
     rate = -dot(n, velocity)
-    normal = spring_damper(depth_at(square * inverse, radius), rate, w.stiffness, w.damping)
+    normal = spring_damper(penetration(square * inverse, radius), rate, w.stiffness, w.damping)
     sliding = scaled(velocity - cross(spin, o) + scaled(n, rate), w.tangential_damping)
-    factor = shortening(dot(sliding, sliding), normal * w.friction)
+    factor = friction_factor(dot(sliding, sliding), normal * w.friction)
     force = scaled(n, normal) - scaled(sliding, factor)
     return PartLoad(force, cross(force, o))
 
@@ -153,93 +162,91 @@ def beam_axis(center: Vec3, s: State) -> BeamAxis:
 
 
 @law
-def on_beam(a: BeamAxis, along: Number) -> Vec3:
+def beam_point(a: BeamAxis, along: Number) -> Vec3:
     """Points of the beam's axis [m, world axes]."""
-    return moved_to(a.center, scaled(a.direction, along))
+    return translated(a.center, scaled(a.direction, along))
 
 
 @law
-def on_beam_pressed(w: Walls, a: BeamAxis, along: Number, o: Vec3) -> PartLoad:
-    """What a wall puts on the beam at a place along its axis [m], o from the wall: world axes, about its centre."""
+def load_at_beam_point(w: Walls, a: BeamAxis, along: Number, o: Vec3) -> PartLoad:
+    """Load of a wall on the beam at a point `along` its axis [m], at the offset o [m]: world axes, about its centre."""
     arm = scaled(a.direction, along)
-    load = pressed(w, o, w.beam.radius, moved_to(a.velocity, cross(a.spin, arm)), a.spin)
+    load = sphere_load(w, o, w.beam.radius, translated(a.velocity, cross(a.spin, arm)), a.spin)
     return PartLoad(load.force, load.moment + cross(arm, load.force))
 
 
 @choice(absent=PartLoad(ZERO, ZERO))
-def press_beam(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
-    """What the near walls put on the payload, as a Load."""
+def beam_load(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
+    """Load of the near walls on the payload."""
 
 
-@press_beam.register(Beam)
+@beam_load.register(Beam)
 def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> PartLoad:
     a, half = beam_axis(frame.payload, s), beam.ends[1]
-    ends = on_beam_pressed(w, a, beam.ends, offset(near.ends, on_beam(a, beam.ends)))
+    ends = load_at_beam_point(w, a, beam.ends, offset(near.ends, beam_point(a, beam.ends)))
     i, j = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
     k = point_by_top(a, half, near.topped)
-    edge = on_beam_pressed(w, a, i, offset(near.edge, on_beam(a, i)))
-    other = on_beam_pressed(w, a, j, offset(near.other_edge, on_beam(a, j)))
-    top = on_beam_pressed(w, a, k, offset_from_top(near.topped, on_beam(a, k)))
-    load = PartLoad(total_of_each(ends.force), total_of_each(ends.moment)) + edge + other + top
+    edge = load_at_beam_point(w, a, i, offset(near.edge, beam_point(a, i)))
+    other = load_at_beam_point(w, a, j, offset(near.other_edge, beam_point(a, j)))
+    top = load_at_beam_point(w, a, k, offset_from_top(near.topped, beam_point(a, k)))
+    load = PartLoad(sum_over_set(ends.force), sum_over_set(ends.moment)) + edge + other + top
     return PartLoad(load.force, apply_transposed(rotation_from_quaternion(s.attitude), load.moment))
 
 
 @law
-def press(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> PartLoads:
-    """What the near walls put on all parts."""
+def near_wall_loads(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> PartLoads:
+    """Loads of the near walls on all parts."""
     R = rotation_from_quaternion(s.attitude)
     spin, arm = apply(R, s.rates), apply(R, frame.quadrotors)
-    p, v = moved_to(s.position, arm), moved_to(s.velocity, cross(spin, arm))
+    p, v = translated(s.position, arm), translated(s.velocity, cross(spin, arm))
     first, second = offset(near.first, p), offset(near.second, p)
-    load = pressed(w, first, w.guards, v, spin) + pressed(w, second, w.guards, v, spin)
-    return PartLoads(press_beam(w.beam, w, near.beam, frame, s), PartLoad(load.force, apply_transposed(R, load.moment)))
+    load = sphere_load(w, first, w.guards, v, spin) + sphere_load(w, second, w.guards, v, spin)
+    return PartLoads(beam_load(w.beam, w, near.beam, frame, s), PartLoad(load.force, apply_transposed(R, load.moment)))
 
 
 @choice(absent="near")
-def consider_beam(beam: Beam | Nothing, wall: Wall, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
-    """The walls nearest to the beam, once `wall` is considered too."""
+def nearest_to_beam_with(
+    beam: Beam | Nothing, wall: Wall, near: NearBeam | Nothing, frame: PartsLayout, s: State
+) -> Any:
+    """The walls nearest to the beam, with `wall` taken into account."""
 
 
-@consider_beam.register(Beam)
+@nearest_to_beam_with.register(Beam)
 def _near_beam(beam: Beam, wall: Wall, near: NearBeam, frame: PartsLayout, s: State) -> NearBeam:
     a, half = beam_axis(frame.payload, s), beam.ends[1]
-    ends, (start, end) = on_beam(a, beam.ends), edges_of(wall)
-    edge, other = with_edge(a, half, start, near.edge, near.other_edge)
-    edge, other = with_edge(a, half, end, edge, other)
-    d = offset_from_top(wall, on_beam(a, point_by_top(a, half, wall)))
-    e = offset_from_top(near.topped, on_beam(a, point_by_top(a, half, near.topped)))
-    return NearBeam(nearer(wall, near.ends, ends, ends), edge, other, pick(dot(d, d), dot(e, e), wall, near.topped))
-
-
-@law
-def with_edge(a: BeamAxis, half: Number, edge: Wall, first: Wall, second: Wall) -> tuple[Wall, Wall]:
-    """The two of three edges that are nearest to the beam."""
-    p = on_beam(a, point_by_edge(a, half, edge))
-    p1, p2 = on_beam(a, point_by_edge(a, half, first)), on_beam(a, point_by_edge(a, half, second))
-    return nearer(edge, first, p, p1), runner_up(edge, first, second, p, p1, p2)
-
-
-@law
-def consider(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: State) -> NearWalls:
-    """The nearest walls, once `wall` (of numbers) is considered too."""
-    p = moved_to(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
-    return NearWalls(
-        nearer(wall, near.first, p, p),
-        runner_up(wall, near.first, near.second, p, p, p),
-        consider_beam(w.beam, wall, near.beam, frame, s),
+    ends, (start, end) = beam_point(a, beam.ends), edges_of(wall)
+    edge, other = two_nearest_edges(a, half, start, near.edge, near.other_edge)
+    edge, other = two_nearest_edges(a, half, end, edge, other)
+    d = offset_from_top(wall, beam_point(a, point_by_top(a, half, wall)))
+    e = offset_from_top(near.topped, beam_point(a, point_by_top(a, half, near.topped)))
+    return NearBeam(
+        nearer(wall, near.ends, ends, ends), edge, other, selected_wall(dot(d, d), dot(e, e), wall, near.topped)
     )
 
 
-def nowhere(w: Walls) -> NearWalls:
+@law
+def two_nearest_edges(a: BeamAxis, half: Number, edge: Wall, first: Wall, second: Wall) -> tuple[Wall, Wall]:
+    """The two of three edges that are nearest to the beam."""
+    p = beam_point(a, point_by_edge(a, half, edge))
+    p1, p2 = beam_point(a, point_by_edge(a, half, first)), beam_point(a, point_by_edge(a, half, second))
+    return nearer(edge, first, p, p1), second_nearest(edge, first, second, p, p1, p2)
+
+
+@law
+def nearest_with(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: State) -> NearWalls:
+    """The nearest walls, with `wall` (of numbers) taken into account."""
+    p = translated(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
+    return NearWalls(
+        nearer(wall, near.first, p, p),
+        second_nearest(wall, near.first, near.second, p, p, p),
+        nearest_to_beam_with(w.beam, wall, near.beam, frame, s),
+    )
+
+
+def no_walls_near(w: Walls) -> NearWalls:
     """No wall is near."""
     walls, ends = [Wall(*[each(n)(*[v] * n) for v in WALL]) for n in (len(w.guards), 2)]
     return NearWalls(walls, walls, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Nothing())
-
-
-def surface_mobility(center: Array, radius: float, mass: float, inertia: Array) -> float:
-    """The largest `mobility` [1/kg] of the points where the principal axes leave a sphere."""
-    axes = np.linalg.eigh(inertia)[1].T * radius
-    return max(mobility(center + side[None], mass, inertia) for side in (*axes, *-axes))
 
 
 def walls(
@@ -255,7 +262,7 @@ def walls(
     stiffness: float = 5000.0,
     damping_ratio: float = 0.5,
 ) -> Walls:
-    """How walls press on a vehicle: as stiff as told, softer if the step [s] of the Runge-Kutta method demands it.
+    """Contact of a vehicle with walls: as stiff as asked, softer if the step [s] of the Runge-Kutta method demands it.
 
     Args:
         quadrotors: N × 3, their centres of mass from the system's [m, body axes].
@@ -267,7 +274,7 @@ def walls(
         beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
         payload: its centre of mass from the system's [m, body axes].
         stiffness: of a contact [N/m].
-        damping_ratio: of the vehicle that swings against one contact, without turning.
+        damping_ratio: of the vehicle oscillating on one contact, without turning.
     """
     J, centers = np.asarray(inertia, dtype=float), np.asarray(quadrotors, dtype=float)
     radii = np.broadcast_to(guards, len(centers))
@@ -275,9 +282,19 @@ def walls(
     if beam:
         half = 0.5 * beam[0]
         spheres += [(np.add(payload, [0.0, end, 0.0]), beam[1]) for end in (-half, half)]
-    centers = np.array([center for center, _ in spheres])  # N acts on these: as if all touched at once
-    k, c = steady(stiffness, 2.0 * damping_ratio * np.sqrt(stiffness * mass), mobility(centers, mass, J), step)
-    give = sum(surface_mobility(center, radius, mass, J) for center, radius in spheres)
+    centers = np.array([center for center, _ in spheres])  # where N acts, were all in contact at once
+    k, c = softened_for_step(
+        stiffness, 2.0 * damping_ratio * np.sqrt(stiffness * mass), mobility(centers, mass, J), step
+    )
+    tangential_mobility = sum(surface_mobility(center, radius, mass, J) for center, radius in spheres)
     shape = Beam(float(beam[1]), each(2)(-half, half)) if beam else Nothing()
     reach = max(float(np.linalg.norm(center)) + float(radius) for center, radius in spheres)
-    return Walls(k, c, float(friction), min(c, 1.0 / (give * step)), each(len(radii))(*map(float, radii)), shape, reach)
+    return Walls(
+        k,
+        c,
+        float(friction),
+        min(c, 1.0 / (tangential_mobility * step)),
+        each(len(radii))(*map(float, radii)),
+        shape,
+        reach,
+    )

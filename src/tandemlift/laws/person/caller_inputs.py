@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, Mat3, Vec3, linear, outer, plus
-from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, moment_of
+from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
 
 
 class CallerInput(NamedTuple):
@@ -31,9 +31,9 @@ class AddedPush(NamedTuple):
         return plus(self, other)
 
 
-@moment_of.register(AddedPush)
+@push_moment.register(AddedPush)
 def _moment(push, attitude):
-    return moment_of(PointPush(push.force, push.spread), attitude) + ZERO
+    return push_moment(PointPush(push.force, push.spread), attitude) + ZERO
 
 
 @choice

@@ -21,9 +21,9 @@ from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, dot, ou
 from tandemlift.laws.guidance.requests import NOBODY, operator_of
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import PointPush, PushSamples
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, turned_least
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
 from tandemlift.laws.person.tremor import Tremor, TremorState, tremor_step
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 TINY = 1e-12  # m², N²: guards roots and divisions
 NEAR = 1.0  # m
@@ -206,7 +206,7 @@ def aim(k: Person, m: PersonState) -> HandTarget:
     p = p + v * ahead
     wanted = pursue(k.walk, m.leg, p, v)
     led = seen.grip + seen.grip_velocity * ahead + bounded(wanted + m.trim, k.arm.most) / k.arm.stiffness
-    off = turned_least(m.leg.heading - seen.yaw - seen.yaw_rate * ahead)
+    off = wrap_angle(m.leg.heading - seen.yaw - seen.yaw_rate * ahead)
     couple = clip(off * manner.yaw_gain - seen.yaw_rate * manner.yaw_damping, -k.arm.most_couple, k.arm.most_couple)
     place = m.leg.end * manner.stays + led * (1.0 - manner.stays)
     return HandTarget(place, couple, across(m.leg, m.leg.end - p, wanted))
@@ -257,8 +257,8 @@ def _somebody(partner, memory, hand, state, noise, t, dt):
     m, now = gone_on(partner, memory, t, dt), person_view(partner.grip, state)
     intent, holding, lag = aim(partner, m), m.begun * (1.0 - m.landing), partner.arm.lag
     idle = m.seen.grip + m.seen.grip_velocity * partner.arm.horizon
-    place = smooth(lag, m.place, intent.place * holding + idle * (1.0 - holding))
-    couple, grasp = smooth(lag, m.couple, intent.couple * holding), smooth(lag, m.grasp, holding)
+    place = low_pass_step(lag, m.place, intent.place * holding + idle * (1.0 - holding))
+    couple, grasp = low_pass_step(lag, m.couple, intent.couple * holding), low_pass_step(lag, m.grasp, holding)
     trim = bounded(m.trim + intent.across * (partner.walk.trim_rate * dt), partner.arm.most) * holding
     shaking = tremor_step(partner.arm.tremor, m.tremor, noise)
     after = PersonState(now, m.index, m.leg, place, couple, grasp, trim, m.waited, m.begun, m.landing, shaking)

@@ -18,7 +18,7 @@ from tandemlift.laws.guidance.requests import OperatorRequest, operator_of
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import PointPush, PushSamples
 from tandemlift.laws.person.person import PersonOutput, asks_to_land, bounded, person_step, person_view
-from tandemlift.laws.signals.low_pass import LowPass, LowPassState, smooth
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 
 class VirtualHandInput(NamedTuple):
@@ -81,8 +81,10 @@ def placed(h: VirtualHandInput, m: VirtualHandState, here: Vec3, velocity: Vec3)
 def pulled(k: VirtualHand, m: VirtualHandState, state: State) -> Any:
     """(push over a step, the memory after it) of a hand at a body in a state."""
     h, now = k.hand, person_view(k.hand.grip, state)
-    place = smooth(k.lag, placed(h, m, now.grip, now.grip_velocity), h.target * h.held + now.grip * (1.0 - h.held))
-    grasp, force = smooth(k.lag, m.grasp, h.held), smooth(k.lag, m.force, h.force)
+    place = low_pass_step(
+        k.lag, placed(h, m, now.grip, now.grip_velocity), h.target * h.held + now.grip * (1.0 - h.held)
+    )
+    grasp, force = low_pass_step(k.lag, m.grasp, h.held), low_pass_step(k.lag, m.force, h.force)
     reach, slip = place.value - now.grip, place.rate - now.grip_velocity
     spring = (reach * k.stiffness + slip * k.damping) * grasp.value
     push = bounded(spring + force.value, k.most)

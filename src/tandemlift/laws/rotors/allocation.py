@@ -1,15 +1,17 @@
-"""From a wrench to rotor thrusts and back: the constant matrices of a vehicle, row by row, as sets of rotors."""
+"""Control allocation: rotor thrusts from a wrench and back, by constant matrices, row by row, as sets of rotors."""
 
 from typing import Any, NamedTuple
 
-from numpy.typing import NDArray
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from tandemlift.algebra.law import choice, elementwise, law
-from tandemlift.algebra.ops import maximum, where
+from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Vec3, dot, each
+from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.dynamics import NoFaults, RotorFaults, efficiency_at
+from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
 
 
 class Mixer(NamedTuple):
@@ -22,9 +24,9 @@ class Mixer(NamedTuple):
 
 
 class ConstrainedAllocation(NamedTuple):
-    """Allocation within limits: the pseudo-inverse, and what `laws.rotors.thrust_limits` needs where it leaves them.
+    """Allocation within limits: the pseudo-inverse, and the problem that `thrust_limits` solves where it exceeds them.
 
-    `rows` and `weights` of the weighted problem, `limits` [N] of all rotors, and the faults that the pilot `known`s.
+    `rows` and `weights` of the weighted problem, `limits` [N] of all rotors, and the faults `known` to the pilot.
     """
 
     inverse: Mixer
@@ -35,7 +37,7 @@ class ConstrainedAllocation(NamedTuple):
 
 
 class AllocationState(NamedTuple):
-    """Memory: which rotors are held at a limit (−1 at 0, 1 at the most, 0 free), and the thrusts [N]; sets."""
+    """Memory: the working set (−1 at 0, 1 at the upper limit, 0 free), and the thrusts [N]; sets."""
 
     active: PerRotor
     thrusts: PerRotor
@@ -60,31 +62,31 @@ def _unlimited(how: ConstrainedAllocation, u: Wrench) -> PerRotor:
 
 @law
 def limits_at(how: ConstrainedAllocation, left: PerRotor, t: Number) -> PerRotor:
-    """The most that every rotor gives at time t [s], as far as the pilot knows [N]; `left`: see `detection.left_of`."""
+    """The largest thrust of every rotor at time t [s] that the pilot expects [N]; `left`: of a detected loss."""
     return how.limits * efficiency_at(how.known, t) * left
 
 
 @elementwise
-def restored(thrust: Number, efficiency: Number) -> Number:
-    """The command that makes a weakened rotor give a thrust; none to one that is lost."""
+def command_for(thrust: Number, efficiency: Number) -> Number:
+    """The command [N] that makes a rotor of reduced efficiency give a thrust [N]; 0 for a failed one."""
     return where(efficiency > 0.0, thrust / maximum(efficiency, 1e-9), 0.0)
 
 
 @law
-def commanded(how: ConstrainedAllocation, thrusts: PerRotor, t: Number) -> PerRotor:
-    """Commands [N] that make the rotors give these thrusts at time t [s], as far as the pilot knows."""
-    return restored(thrusts, efficiency_at(how.known, t))
+def rotor_commands(how: ConstrainedAllocation, thrusts: PerRotor, t: Number) -> PerRotor:
+    """Commands [N] for these thrusts [N] at time t [s], given the faults that the pilot knows."""
+    return command_for(thrusts, efficiency_at(how.known, t))
 
 
 @elementwise
-def beyond(thrust: Number, limit: Number) -> Number:
+def outside_limits(thrust: Number, limit: Number) -> Number:
     """1 where a thrust is outside its limits, else 0."""
     return where(thrust < 0.0, 1.0, where(thrust > limit, 1.0, 0.0))
 
 
 @law
 def wrench(effect: Mixer, thrusts: PerRotor) -> Wrench:
-    """The wrench that rotor thrusts [N] make: B u_q with u_i = A f_i."""
+    """The wrench of rotor thrusts [N]: B u_q with u_i = A f_i."""
     # paper: contro_input_equ
     return Wrench(
         dot(effect.thrust, thrusts),
@@ -92,8 +94,47 @@ def wrench(effect: Mixer, thrusts: PerRotor) -> Wrench:
     )
 
 
+@law
+def achieved_fraction(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: PerRotor) -> Number:
+    """Fraction of a wanted wrench that thrusts give: 1 − ‖B f − τ‖/‖τ‖ in units of `scale`, in [0, 1]; 1 for τ = 0.
+
+    Args:
+        effect: B, by rows.
+        scale: one over the size of each component, as of `wrench_scale`.
+        wanted: τ [N, N·m body axes].
+        thrusts: f [N], a set.
+    """
+    made = wrench(effect, thrusts)
+    short, moment = (made.thrust - wanted.thrust) * scale.thrust, (made.moment - wanted.moment) * scale.moment
+    whole, turning = wanted.thrust * scale.thrust, wanted.moment * scale.moment
+    size = whole * whole + dot(turning, turning)
+    lost = (short * short + dot(moment, moment)) / where(size > 0.0, size, 1.0)
+    return where(size > 0.0, clip(1.0 - sqrt(lost), 0.0, 1.0), 1.0)
+
+
 def mixer_from(rows: NDArray[Any]) -> Mixer:
     """A 4 × 4N matrix as a Mixer."""
     cls = each(rows.shape[1])
     thrust, roll, pitch, yaw = (cls(*map(float, row)) for row in rows)
     return Mixer(thrust, roll, pitch, yaw)
+
+
+def weights_of(effect: Array, priorities: ArrayLike) -> Array:
+    """The diagonal of W (4): priority over row rms of the effect B (4 × n), so that priorities compare rotor for rotor.
+
+    Args:
+        effect: B (4 × n), rows thrust, roll, pitch, yaw.
+        priorities: four numbers > 0, thrust, roll, pitch, yaw.
+    """
+    return np.asarray(priorities, dtype=float) / np.sqrt(np.mean(np.square(effect), axis=1))
+
+
+def weighted_rows(effect: Array, weights: Array) -> Array:
+    """W B (4 × n), C-contiguous, the rows of a `thrust_limits.BoundedProblem`."""
+    return np.ascontiguousarray(weights[:, None] * effect)
+
+
+def wrench_scale(effect: Array) -> Wrench:
+    """1 / row rms of the effect B (4 × n): makes the four components of a wrench comparable (`achieved_fraction`)."""
+    thrust, roll, pitch, yaw = (float(w) for w in weights_of(effect, np.ones(4)))
+    return Wrench(thrust, Vec3(roll, pitch, yaw))

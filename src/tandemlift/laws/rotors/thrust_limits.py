@@ -1,4 +1,4 @@
-"""Allocation within the rotors' limits: the thrusts that come closest to a wanted wrench, and how much of it they give.
+"""Solver of the rotors' thrust limits: the thrusts within them that come closest to a wanted wrench.
 
 minimise ‖W(B f − τ)‖² + γ‖f − f₀‖² over 0 ≤ f ≤ f_max
 
@@ -6,9 +6,9 @@ B (4 × n) is the effect of n rotors on thrust [N] and on the moments about x, y
 wrench, f₀ [N] the thrusts that the pseudo-inverse asks for, W = diag(priority / row rms of B). γ > 0 makes the optimum
 unique and f₀ itself the optimum if it is within the limits.
 
-`limited` is a primal active-set method with a warm start (Nocedal and Wright, Numerical Optimization, 16.5; Härkegård,
-CDC 2002, for control allocation). With the rotors of the working set held at a limit and C = W B of the others, free,
-the optimum is one Newton step away: by Woodbury, with r = W(τ − B f) and g = Cᵀr + γ(f₀ − f),
+`limited_thrusts` is a primal active-set method with a warm start (Nocedal and Wright, Numerical Optimization, 16.5;
+Härkegård, CDC 2002, for control allocation). With the rotors of the working set held at a limit and C = W B of the
+others, the free ones, the optimum is one Newton step away: by Woodbury, with r = W(τ − B f) and g = Cᵀr + γ(f₀ − f),
 
 f ← f + (g − Cᵀμ)/γ, μ = (γI + C Cᵀ)⁻¹ C g, r ← r − μ,
 
@@ -25,20 +25,23 @@ import functools
 import operator
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import ArrayLike
-
-from tandemlift.algebra.law import elementwise, law
-from tandemlift.algebra.ops import absolute, clip, sqrt, where
+from tandemlift.algebra.law import elementwise
+from tandemlift.algebra.ops import absolute, where
 from tandemlift.algebra.types import Condition, Number, PerRotor
-from tandemlift.algebra.vector import Vec3, dot, each
-from tandemlift.common.types import Array
+from tandemlift.algebra.vector import each
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import AllocationState, Mixer, wrench
+from tandemlift.laws.rotors.allocation import AllocationState, Mixer
+from tandemlift.laws.rotors.normal_equations import (
+    GAMMA,
+    WrenchVector,
+    factored,
+    free_rotors,
+    solved,
+    summed_from,
+)
 
 ACCURACY = 1e-9  # N, of every thrust, where the rounding of the given numbers allows it
 ROUNDING = 2.220446049250313e-16  # of a double
-GAMMA = 1e-3  # of thrusts away from the pseudo-inverse's, against the weighted wrench
 
 
 class BoundedProblem(NamedTuple):
@@ -64,81 +67,9 @@ class Search(NamedTuple):
     ended: Number
 
 
-class WrenchVector(NamedTuple):
-    """Four numbers, one for each component of a wrench."""
-
-    thrust: Number
-    roll: Number
-    pitch: Number
-    yaw: Number
-
-
-class Factor(NamedTuple):
-    """L D Lᵀ of a 4 × 4 matrix: L by columns, then 1/D."""
-
-    rt: Number
-    pt: Number
-    yt: Number
-    pr: Number
-    yr: Number
-    yp: Number
-    t: Number
-    r: Number
-    p: Number
-    y: Number
-
-
-def weights_of(effect: Array, priorities: ArrayLike) -> Array:
-    """The diagonal of W (4): priority over row rms of the effect B (4 × n), so that priorities compare rotor for rotor.
-
-    Args:
-        effect: B (4 × n), rows thrust, roll, pitch, yaw.
-        priorities: four numbers > 0, thrust, roll, pitch, yaw.
-    """
-    return np.asarray(priorities, dtype=float) / np.sqrt(np.mean(np.square(effect), axis=1))
-
-
-def weighted_rows(effect: Array, weights: Array) -> Array:
-    """W B (4 × n), C-contiguous, the rows of a `BoundedProblem` problem."""
-    return np.ascontiguousarray(weights[:, None] * effect)
-
-
-def share_scale(effect: Array) -> Wrench:
-    """1 / row rms of the effect B (4 × n): what makes the four components of a wrench comparable in `given_share`."""
-    thrust, roll, pitch, yaw = (float(w) for w in weights_of(effect, np.ones(4)))
-    return Wrench(thrust, Vec3(roll, pitch, yaw))
-
-
-@law
-def given_share(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: PerRotor) -> Number:
-    """Share of a wanted wrench that thrusts give: 1 − ‖B f − τ‖/‖τ‖ in the measure of `scale`, within [0, 1]; 1 at 0.
-
-    Args:
-        effect: B, by rows.
-        scale: one over the size of each component, as of `share_scale`.
-        wanted: τ [N, N·m body axes].
-        thrusts: f [N], a set.
-    """
-    made = wrench(effect, thrusts)
-    short, moment = (made.thrust - wanted.thrust) * scale.thrust, (made.moment - wanted.moment) * scale.moment
-    whole, turning = wanted.thrust * scale.thrust, wanted.moment * scale.moment
-    size = whole * whole + dot(turning, turning)
-    lost = (short * short + dot(moment, moment)) / where(size > 0.0, size, 1.0)
-    return where(size > 0.0, clip(1.0 - sqrt(lost), 0.0, 1.0), 1.0)
-
-
-def _summed(start: Number, parts: PerRotor) -> Number:
-    """start + the values of a set, one after the other."""
-    return functools.reduce(operator.add, parts, start)
-
-
 def _numbered(like: PerRotor) -> PerRotor:
     """0, 1, 2, … as a set."""
     return each(len(like))(*map(float, range(len(like))))
-
-
-def _at_least(x: Number, least: Number) -> Number:
-    return where(least > x, least, x)
 
 
 @elementwise
@@ -157,53 +88,14 @@ def _standing(thrust: Number, side: Number, top: Number) -> Number:
     return where(side == 0.0, where(x < top, x, top), where(side > 0.0, top, 0.0))
 
 
-def placed(limits: PerRotor, held: AllocationState) -> AllocationState:
-    """A working set and thrusts that are feasible to start from. A rotor without a limit > 0 stands."""
+def feasible(limits: PerRotor, held: AllocationState) -> AllocationState:
+    """A feasible working set and thrusts to start from. A rotor whose limit is not > 0 gets no thrust."""
     top = _top(limits)
     side = _side(held.active, top)
     return AllocationState(side, _standing(held.thrusts, side, top))
 
 
-@elementwise
-def _free(active: Number) -> Number:
-    return 1.0 - absolute(active)
-
-
-def _factored(rows: Mixer, active: PerRotor) -> Factor:
-    """L D Lᵀ = γI + C Cᵀ over the free rotors. No pivot is below γ but for rounding."""
-    free = _free(active)
-    thrust, roll, pitch, yaw = rows
-    fr, fp, fy = roll * free, pitch * free, yaw * free
-    tt, rr = _summed(GAMMA, thrust * free * thrust), _summed(GAMMA, fr * roll)
-    pp, yy = _summed(GAMMA, fp * pitch), _summed(GAMMA, fy * yaw)
-    rt, pt, yt = _summed(0.0, fr * thrust), _summed(0.0, fp * thrust), _summed(0.0, fy * thrust)
-    pr, yr, yp = _summed(0.0, fp * roll), _summed(0.0, fy * roll), _summed(0.0, fy * pitch)
-    t = 1.0 / tt
-    lrt, lpt, lyt = rt * t, pt * t, yt * t
-    r = 1.0 / _at_least(rr - lrt * rt, GAMMA)
-    pr, yr = pr - lpt * rt, yr - lyt * rt
-    lpr, lyr = pr * r, yr * r
-    p = 1.0 / _at_least(pp - lpt * pt - lpr * pr, GAMMA)
-    yp = yp - lyt * pt - lyr * pr
-    lyp = yp * p
-    y = 1.0 / _at_least(yy - lyt * yt - lyr * yr - lyp * yp, GAMMA)
-    return Factor(lrt, lpt, lyt, lpr, lyr, lyp, t, r, p, y)
-
-
-def _solved(k: Factor, b: WrenchVector) -> WrenchVector:
-    """(L D Lᵀ)⁻¹ b."""
-    u0 = b.thrust
-    u1 = b.roll - k.rt * u0
-    u2 = b.pitch - k.pt * u0 - k.pr * u1
-    u3 = b.yaw - k.yt * u0 - k.yr * u1 - k.yp * u2
-    x3 = u3 * k.y
-    x2 = u2 * k.p - k.yp * x3
-    x1 = u1 * k.r - k.pr * x2 - k.yr * x3
-    x0 = u0 * k.t - k.rt * x1 - k.pt * x2 - k.yt * x3
-    return WrenchVector(x0, x1, x2, x3)
-
-
-def _missing(p: BoundedProblem, thrusts: PerRotor) -> WrenchVector:
+def _residual(p: BoundedProblem, thrusts: PerRotor) -> WrenchVector:
     """r = W(τ − B f)."""
     weights, wanted = (WrenchVector(u.thrust, *u.moment) for u in (p.weights, p.wanted))
     made = [row * thrusts for row in p.rows]
@@ -212,7 +104,7 @@ def _missing(p: BoundedProblem, thrusts: PerRotor) -> WrenchVector:
     )
 
 
-def _mapped(rows: Mixer, four: WrenchVector) -> PerRotor:
+def _transposed_times(rows: Mixer, four: WrenchVector) -> PerRotor:
     """Cᵀ x of four numbers x, for every rotor."""
     return rows.thrust * four.thrust + rows.roll * four.roll + rows.pitch * four.pitch + rows.yaw * four.yaw
 
@@ -223,7 +115,7 @@ def _largest(values: PerRotor) -> Number:
 
 
 @elementwise
-def _met(active: Number, x: Number, top: Number) -> Number:
+def _side_reached(active: Number, x: Number, top: Number) -> Number:
     """−1 where a whole step of a free rotor ends below 0, 1 where it ends above the limit, 0 else; held ones as are."""
     return where(active == 0.0, where(x < 0.0, -1.0, where(x > top, 1.0, 0.0)), active)
 
@@ -240,16 +132,16 @@ def _within(x: Number, top: Number, before: Number) -> Number:
 
 
 @elementwise
-def _newly(active: Number, met: Number) -> Number:
+def _newly_held(active: Number, met: Number) -> Number:
     return absolute(met) * (1.0 - absolute(active))
 
 
 def _clipped(p: BoundedProblem, now: AllocationState, pull: PerRotor) -> tuple[AllocationState, Condition]:
     """(The whole step, every free rotor that would leave its limits held there; whether there is such a rotor)."""
     x = now.thrusts + pull * (1.0 / GAMMA)
-    met = _met(now.active, x, p.limits)
+    met = _side_reached(now.active, x, p.limits)
     kept = _if_free(now.active, _within(x, p.limits, now.thrusts), now.thrusts)
-    return AllocationState(met, kept), _summed(0.0, _newly(now.active, met)) > 0.0
+    return AllocationState(met, kept), summed_from(0.0, _newly_held(now.active, met)) > 0.0
 
 
 @elementwise
@@ -290,7 +182,7 @@ def _inward(active: Number, pull: Number, size: Number, limit: Number) -> Number
     return where(limit > 0.0, where(inward > 4.0 * ROUNDING * size, inward, 0.0), 0.0)
 
 
-def _held_in_vain(p: BoundedProblem, active: PerRotor, r: WrenchVector, pull: PerRotor) -> Number:
+def _to_release(p: BoundedProblem, active: PerRotor, r: WrenchVector, pull: PerRotor) -> Number:
     """The number of the held rotor that pulls hardest back into its limits; −1 if none does, beyond rounding."""
     sizes = [absolute(row * x) for row, x in zip(p.rows, r, strict=True)]
     inward = _inward(active, pull, sizes[0] + sizes[1] + sizes[2] + sizes[3], p.limits)
@@ -309,15 +201,15 @@ def _either(condition: Condition, a: AllocationState, b: AllocationState) -> All
     return AllocationState(where(condition, a.active, b.active), where(condition, a.thrusts, b.thrusts))
 
 
-def searched(p: BoundedProblem, s: Search) -> Search:
-    """One step of the active-set method."""
+def search_step(p: BoundedProblem, s: Search) -> Search:
+    """One iteration of the active-set method."""
     now, opening = s.found, s.opening > 0.0
-    factor = _factored(p.rows, now.active)
-    r = _missing(p, now.thrusts)
-    pull = _mapped(p.rows, r) + (p.unlimited - now.thrusts) * GAMMA
-    freely = pull * _free(now.active)
-    mu = _solved(factor, WrenchVector(*[_summed(0.0, row * freely) for row in p.rows]))
-    eased = pull - _mapped(p.rows, mu)
+    factor = factored(p.rows, now.active)
+    r = _residual(p, now.thrusts)
+    pull = _transposed_times(p.rows, r) + (p.unlimited - now.thrusts) * GAMMA
+    freely = pull * free_rotors(now.active)
+    mu = solved(factor, WrenchVector(*[summed_from(0.0, row * freely) for row in p.rows]))
+    eased = pull - _transposed_times(p.rows, mu)
     clipped, was_clipped = _clipped(p, now, eased)
     advanced, was_cut = _advanced(p, now, eased)
     after = _either(opening, clipped, advanced)
@@ -326,18 +218,18 @@ def searched(p: BoundedProblem, s: Search) -> Search:
     coarse = where(_largest(freely) * ROUNDING > GAMMA * ACCURACY, 1.0, 0.0)  # g loses its last digits in a long step
     again = still * coarse * (1.0 - s.repeated)  # once more, from close by
     quiet = still - again
-    free = _held_in_vain(p, after.active, r, eased)
+    free = _to_release(p, after.active, r, eased)
     active = _released(_numbered(eased), where(quiet > 0.0, free, -1.0), after.active)
     ended = where(free < 0.0, quiet, 0.0)
     return Search(AllocationState(active, after.thrusts), s.opening * (1.0 - still), again, ended)
 
 
-def begun(limits: PerRotor, held: AllocationState) -> Search:
-    """The search from a working set and thrusts, of any size, made feasible."""
-    return Search(placed(limits, held), 1.0, 0.0, 0.0)
+def start_search(limits: PerRotor, held: AllocationState) -> Search:
+    """The start of the search: a working set and thrusts of any size, made feasible."""
+    return Search(feasible(limits, held), 1.0, 0.0, 0.0)
 
 
-def limited(p: BoundedProblem, held: AllocationState, most: int) -> tuple[AllocationState, int]:
+def limited_thrusts(p: BoundedProblem, held: AllocationState, most: int) -> tuple[AllocationState, int]:
     """The thrusts within the limits that come closest to a wanted wrench.
 
     Whatever happens, it ends after `most` steps with 0 ≤ f ≤ limits exactly. Until the first step that no limit cuts
@@ -355,9 +247,9 @@ def limited(p: BoundedProblem, held: AllocationState, most: int) -> tuple[Alloca
     Returns:
         The working set and thrusts of the solution, and the number of steps taken; `most` if the bound cut it short.
     """
-    search = begun(p.limits, held)
+    search = start_search(p.limits, held)
     for step in range(1, most + 1):
-        search = searched(p, search)
+        search = search_step(p, search)
         if search.ended > 0.0:
             return search.found, step
     return search.found, most

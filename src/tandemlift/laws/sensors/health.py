@@ -1,30 +1,23 @@
-"""The health of every sensor: whether its samples are numbers, within their range, and not always the same."""
+"""The health of every sensor: whether its samples are finite numbers, within their range, and not frozen.
+
+The checks are mapped over the sensor table; the type of a sensor's limits picks its checks.
+"""
 
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Quat, Vec3, dot, total
 from tandemlift.common.faults import SYMPTOMS
-from tandemlift.laws.sensors.readings import ImuReading, Readings
+from tandemlift.common.sensors import SENSORS, Sensor
+from tandemlift.laws.sensors.readings import Readings
 
 FROZEN, NO_NUMBER, OUT_OF_RANGE = (1.0 + i for i in range(len(SYMPTOMS)))
 UNIT_NORM = 0.05  # by which an attitude's norm may differ from 1
 
 
-class ReadingRanges(NamedTuple):
-    """The largest readings that can be true, either way: N, N·m, m/s², rad/s, m, m/s."""
-
-    force: Any
-    torque: Any
-    specific_force: Any
-    rates: Any
-    position: Any
-    velocity: Any
-
-
-class FrozenLimits(NamedTuple):
-    """How many samples of each sensor in a row, exactly alike, make it frozen."""
+class PerSensor(NamedTuple):
+    """One value for each sensor of IMU and motion measurement, in the order of the sensor table."""
 
     joints: Any
     accelerometer: Any
@@ -34,127 +27,167 @@ class FrozenLimits(NamedTuple):
     attitude: Any
 
 
+class VectorLimits(NamedTuple):
+    """Largest plausible magnitude of a vector's components; `frozen_samples` identical in a row make it frozen."""
+
+    largest: Any
+    frozen_samples: Any
+
+
+class JointLimits(NamedTuple):
+    """As `VectorLimits`, of the force [N] and the torque [N·m] at every joint."""
+
+    force: Any
+    torque: Any
+    frozen_samples: Any
+
+
+class AttitudeLimits(NamedTuple):
+    """As `VectorLimits`, of the attitude, whose norm must be 1."""
+
+    frozen_samples: Any
+
+
 class SensorHealth(NamedTuple):
-    """Memory of one sensor: samples alike in a row, time without a good one [s], what was wrong with the last."""
+    """Memory of one sensor.
 
-    same: Any
-    silent: Any
-    wrong: Any
+    `identical`: samples in a row that equal the one before. `invalid_time` [s]: since the last valid sample. `failure`:
+    what is wrong with the last sample (`SYMPTOMS`, from 1), 0 for nothing.
+    """
+
+    identical: Any
+    invalid_time: Any
+    failure: Any
 
 
-class SensorHealths(NamedTuple):
-    """Memory of all sensors."""
+class SampleChecks(NamedTuple):
+    """Of a sample: 1 if a number in it is not finite, if one is out of range, if it is identical to the one before."""
 
-    joints: SensorHealth
-    accelerometer: SensorHealth
-    gyroscope: SensorHealth
-    position: SensorHealth
-    velocity: SensorHealth
-    attitude: SensorHealth
+    not_finite: Any
+    out_of_range: Any
+    identical: Any
 
 
 @elementwise
-def no_number(x):
+def not_finite(x: Any) -> Any:
     """1 where a value is not finite, else 0."""
     return where(x - x == 0.0, 0.0, 1.0)
 
 
 @elementwise
-def beyond_range(x, most):
-    """1 where a value is larger than a most, or no number, else 0."""
-    return where(absolute(x) <= most, 0.0, 1.0)
+def out_of_range(x: Any, largest: Any) -> Any:
+    """1 where the magnitude of a value is above the largest, or it is no number, else 0."""
+    return where(absolute(x) <= largest, 0.0, 1.0)
 
 
 @elementwise
-def unlike(x, last):
+def differs(x: Any, last: Any) -> Any:
     """1 where two values differ, else 0."""
     return where(x == last, 0.0, 1.0)
 
 
 @elementwise
-def none_of(x):
+def is_zero(x: Any) -> Any:
     """1 where a count is 0, else 0."""
     return where(x == 0.0, 1.0, 0.0)
 
 
 @law
-def any_of(v: Vec3) -> Any:
-    """1 if any component of a vector is above 0, else 0."""
+def any_component(v: Vec3) -> Any:
+    """1 if any component of a vector of flags is 1, else 0."""
     return minimum(v.x + v.y + v.z, 1.0)
 
 
 @law
 def any_of_sets(v: Vec3) -> Any:
-    """1 if any component of vectors of sets is above 0, else 0."""
+    """1 if any flag in a vector of sets is 1, else 0."""
     return minimum(total(v.x) + total(v.y) + total(v.z), 1.0)
 
 
 @law
-def judged(m: SensorHealth, fresh: Any, blank: Any, far: Any, alike: Any, dt: Any) -> SensorHealth:
-    """A sensor's health with a sample: `blank` 1 if it has no numbers, `far` 1 if out of range, `alike` the last."""
-    new = fresh > 0.0
-    wrong = where(blank > 0.0, NO_NUMBER, where(far > 0.0, OUT_OF_RANGE, 0.0))
-    bad = where(new, where(wrong > 0.0, 1.0, 0.0), 1.0)
-    return SensorHealth(where(new, (m.same + 1.0) * alike, m.same), (m.silent + dt) * bad, where(new, wrong, m.wrong))
+def not_finite_of_sets(v: Vec3) -> Any:
+    """1 if any number in a vector of sets is not finite, else 0."""
+    return any_of_sets(Vec3(not_finite(v.x), not_finite(v.y), not_finite(v.z)))
 
 
 @law
-def judge_vector(m: SensorHealth, x: Vec3, last: Vec3, most: Any, fresh: Any, dt: Any) -> SensorHealth:
-    """The health of a sensor that reads a vector."""
-    far = any_of(beyond_range(x, most))
-    return judged(m, fresh, any_of(no_number(x)), far, none_of(any_of(unlike(x, last))), dt)
+def out_of_range_of_sets(v: Vec3, largest: Any) -> Any:
+    """1 if any number in a vector of sets is out of range, else 0."""
+    return any_of_sets(Vec3(out_of_range(v.x, largest), out_of_range(v.y, largest), out_of_range(v.z, largest)))
 
 
 @law
-def joints_blank(u: ImuReading) -> Any:
-    """1 if any joint's reading has no number, else 0."""
-    f, t = u.joint_force, u.joint_torque
-    force = Vec3(no_number(f.x), no_number(f.y), no_number(f.z))
-    torque = Vec3(no_number(t.x), no_number(t.y), no_number(t.z))
-    return maximum(any_of_sets(force), any_of_sets(torque))
+def differing_components(v: Vec3, last: Vec3) -> Any:
+    """How many components of each vector differ, a set."""
+    return differs(v.x, last.x) + differs(v.y, last.y) + differs(v.z, last.z)
 
 
-@law
-def joints_far(k: ReadingRanges, u: ImuReading) -> Any:
-    """1 if any joint's reading is out of range, else 0."""
-    f, t = u.joint_force, u.joint_torque
-    force = Vec3(beyond_range(f.x, k.force), beyond_range(f.y, k.force), beyond_range(f.z, k.force))
-    torque = Vec3(beyond_range(t.x, k.torque), beyond_range(t.y, k.torque), beyond_range(t.z, k.torque))
-    return maximum(any_of_sets(force), any_of_sets(torque))
+@choice
+def check_sample(limits: Any, sample: Any, last: Any) -> Any:
+    """The `SampleChecks` of a sample; it and the one before it are tuples of the sensor's quantities."""
 
 
-@law
-def joints_alike(u: ImuReading, last: ImuReading) -> Any:
-    """1 if the sensor of any joint reads exactly what it read last, else 0."""
-    f, t, g, s = u.joint_force, u.joint_torque, last.joint_force, last.joint_torque
-    force = unlike(f.x, g.x) + unlike(f.y, g.y) + unlike(f.z, g.z)
-    return minimum(total(none_of(force + unlike(t.x, s.x) + unlike(t.y, s.y) + unlike(t.z, s.z))), 1.0)
-
-
-@law
-def judge_attitude(m: SensorHealth, q: Quat, last: Quat, fresh: Any, dt: Any) -> SensorHealth:
-    """The health of the measured attitude: of unit norm, or it is none."""
-    size = dot(q, q)
-    off = absolute(sqrt(maximum(size, 0.0)) - 1.0)
-    differs = unlike(q.w, last.w) + unlike(q.x, last.x) + unlike(q.y, last.y) + unlike(q.z, last.z)
-    return judged(m, fresh, no_number(size), beyond_range(off, UNIT_NORM), none_of(differs), dt)
-
-
-@law
-def judge(r: ReadingRanges, h: SensorHealths, last: Readings, readings: Readings, dt: Any) -> SensorHealths:
-    """The health of every sensor with these readings."""
-    u, v, was, then = readings.unit, readings.motion, last.unit, last.motion
-    return SensorHealths(
-        judged(h.joints, u.fresh, joints_blank(u), joints_far(r, u), joints_alike(u, was), dt),
-        judge_vector(h.accelerometer, u.specific_force, was.specific_force, r.specific_force, u.fresh, dt),
-        judge_vector(h.gyroscope, u.rates, was.rates, r.rates, u.fresh, dt),
-        judge_vector(h.position, v.position, then.position, r.position, v.fresh, dt),
-        judge_vector(h.velocity, v.velocity, then.velocity, r.velocity, v.fresh, dt),
-        judge_attitude(h.attitude, v.attitude, then.attitude, v.fresh, dt),
+@check_sample.register(VectorLimits)
+def _check_vector(k: VectorLimits, sample: tuple[Vec3], last: tuple[Vec3]) -> SampleChecks:
+    x, before = sample[0], last[0]
+    return SampleChecks(
+        not_finite=any_component(not_finite(x)),
+        out_of_range=any_component(out_of_range(x, k.largest)),
+        identical=is_zero(any_component(differs(x, before))),
     )
 
 
+@check_sample.register(JointLimits)
+def _check_joints(k: JointLimits, sample: tuple[Vec3, Vec3], last: tuple[Vec3, Vec3]) -> SampleChecks:
+    force, torque = sample
+    f, t, g, s = force, torque, last[0], last[1]
+    differing = differs(f.x, g.x) + differs(f.y, g.y) + differs(f.z, g.z)
+    return SampleChecks(
+        not_finite=maximum(not_finite_of_sets(force), not_finite_of_sets(torque)),
+        out_of_range=maximum(out_of_range_of_sets(force, k.force), out_of_range_of_sets(torque, k.torque)),
+        identical=minimum(total(is_zero(differing + differs(t.x, s.x) + differs(t.y, s.y) + differs(t.z, s.z))), 1.0),
+    )
+
+
+@check_sample.register(AttitudeLimits)
+def _check_attitude(k: AttitudeLimits, sample: tuple[Quat], last: tuple[Quat]) -> SampleChecks:
+    q, before = sample[0], last[0]
+    square = dot(q, q)
+    off = absolute(sqrt(maximum(square, 0.0)) - 1.0)
+    differing = differs(q.w, before.w) + differs(q.x, before.x) + differs(q.y, before.y) + differs(q.z, before.z)
+    return SampleChecks(not_finite(square), out_of_range(off, UNIT_NORM), is_zero(differing))
+
+
 @law
-def passing(h: SensorHealth) -> Any:
-    """1 if a sensor's last sample was good, else 0."""
-    return where(h.wrong > 0.0, 0.0, 1.0)
+def health_after(m: SensorHealth, checks: SampleChecks, fresh: Any, dt: Any) -> SensorHealth:
+    """The health of a sensor after a step of dt [s] with these checks of its sample; `fresh`: of its device."""
+    new = fresh > 0.0
+    failure = where(checks.not_finite > 0.0, NO_NUMBER, where(checks.out_of_range > 0.0, OUT_OF_RANGE, 0.0))
+    invalid = where(new, where(failure > 0.0, 1.0, 0.0), 1.0)
+    return SensorHealth(
+        identical=where(new, (m.identical + 1.0) * checks.identical, m.identical),
+        invalid_time=(m.invalid_time + dt) * invalid,
+        failure=where(new, failure, m.failure),
+    )
+
+
+def quantities(readings: Readings, sensor: Sensor) -> tuple[Any, ...]:
+    """What a sensor read."""
+    return tuple(getattr(getattr(readings, sensor.device), name) for name in sensor.quantities)
+
+
+@law
+def judge(limits: PerSensor, healths: PerSensor, last: Readings, readings: Readings, dt: Any) -> PerSensor:
+    """The health of every sensor after a step of dt [s] with these readings; `last`: those before them."""
+    checks = [
+        check_sample(k, quantities(readings, sensor), quantities(last, sensor))
+        for k, sensor in zip(limits, SENSORS.values(), strict=True)
+    ]
+    fresh = [getattr(readings, sensor.device).fresh for sensor in SENSORS.values()]
+    return PerSensor(*[health_after(*sensor, dt) for sensor in zip(healths, checks, fresh, strict=True)])
+
+
+@law
+def is_valid(h: SensorHealth) -> Any:
+    """1 if a sensor's last sample was valid, else 0."""
+    return where(h.failure > 0.0, 0.0, 1.0)

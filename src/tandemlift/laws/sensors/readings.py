@@ -1,28 +1,68 @@
-"""What the sensors on the vehicle and around it read.
+"""What the sensors on the vehicle and around it read: every device samples on its own clock and holds its last sample.
 
-The on-board unit holds a force-torque sensor at every joint, an accelerometer at the payload's centre of mass and a
-gyroscope, all on one clock, in body axes. The motion measurement sees the system's centre of mass in world axes, and
-the attitude, on a clock of its own. Between samples the last one stands, no longer fresh. Time on the way from the
-sensors to the pilot is not in here.
+The inertial measurement unit (IMU) holds an accelerometer at the payload's centre of mass and a gyroscope; the
+force-torque sensors at the joints run on its clock; all read in body axes. The motion measurement reads position and
+velocity of the system's centre of mass in world axes, and the attitude. An additional sensor is a device of its own
+(`additional_sensors`). Between samples the last one is held, no longer fresh. Delays from the sensors to the pilot are
+in the loop (`loop.delays`).
 """
 
+from functools import cache
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import where
-from tandemlift.algebra.vector import ZERO, Quat, Vec3
+from tandemlift.algebra.selection import selected
+from tandemlift.algebra.vector import Nothing, Quat, Vec3
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
-from tandemlift.laws.mechanics.rotation_vectors import turned
-from tandemlift.laws.sensors.sensor_errors import PERFECT, SensorGrade, SensorModel, no_drift, read, sensor_model
+from tandemlift.laws.sensors.noise_bias_drift import (
+    PERFECT,
+    AttitudeNoise,
+    NoError,
+    SensorGrade,
+    WhiteNoise,
+    next_drift,
+    no_noise,
+    read,
+    sensor_model,
+    start_drift,
+)
+from tandemlift.laws.sensors.sensor_registry import true_value
+
+NONE = Nothing()
+
+
+class ImuChannels(NamedTuple):
+    """One value for each quantity that is sampled with the IMU: a truth, a model, a drift, a noise, a fault.
+
+    Specific force at the payload's centre of mass [m/s²], rates [rad/s], and what each quadrotor puts on the payload at
+    its joint: force [N] and torque [N·m], vectors of sets. `frame` is the attitude estimate of the pilot at that time.
+    """
+
+    specific_force: Any
+    rates: Any
+    joint_force: Any
+    joint_torque: Any
+    frame: Any
+
+
+class MotionChannels(NamedTuple):
+    """One value for each quantity of the motion measurement: position [m], velocity [m/s] and attitude."""
+
+    position: Any
+    velocity: Any
+    attitude: Any
+
+
+class AdditionalChannels(NamedTuple):
+    """One value for the quantity of an additional sensor."""
+
+    value: Any
 
 
 class ImuReading(NamedTuple):
-    """A sample of the on-board unit, body axes; `fresh` is 1 in the step in which it was taken, else 0.
-
-    Specific force at the payload's centre of mass [m/s²], rates [rad/s], and what each quadrotor puts on the payload at
-    its joint: force [N] and torque [N·m], vectors of sets. `frame` is the attitude that the pilot then believed in.
-    """
+    """A sample of `ImuChannels`, body axes; `fresh` is 1 in the step in which it was taken, else 0."""
 
     specific_force: Vec3
     rates: Vec3
@@ -33,7 +73,7 @@ class ImuReading(NamedTuple):
 
 
 class MotionReading(NamedTuple):
-    """A sample of position [m] and velocity [m/s] of the centre of mass, world axes, and of the attitude."""
+    """A sample of `MotionChannels`, world axes; `fresh` is 1 in the step in which it was taken, else 0."""
 
     position: Vec3
     velocity: Vec3
@@ -41,149 +81,121 @@ class MotionReading(NamedTuple):
     fresh: Any
 
 
-class Readings(NamedTuple):
-    """What both devices say."""
+class AdditionalReading(NamedTuple):
+    """A sample of an additional sensor; `fresh` is 1 in the step in which it was taken, else 0."""
 
-    unit: ImuReading
+    value: Any
+    fresh: Any
+
+
+class Readings(NamedTuple):
+    """The last samples of all devices; of additional sensors, by name."""
+
+    imu: ImuReading
     motion: MotionReading
+    additional: Any = Nothing()
+
+
+class DeviceModel(NamedTuple):
+    """A device: the models of its channels, and the steps from one sample to the next."""
+
+    channels: Any
+    period: Any
+
+
+class DeviceState(NamedTuple):
+    """Memory of a device: its last sample, the drifts of its channels, and the steps to wait for the next sample."""
+
+    reading: Any
+    drift: Any
+    wait: Any
 
 
 class Sensors(NamedTuple):
-    """Meters of the unit; σ of the motion measurement: position [m], velocity [m/s], attitude [rad, about body axes].
+    """All devices; the additional ones by name."""
 
-    Periods are in steps from one sample to the next.
-    """
-
-    force: SensorModel
-    torque: SensorModel
-    accelerometer: SensorModel
-    gyroscope: SensorModel
-    position: Any
-    velocity: Any
-    attitude: Any
-    unit_period: Any
-    motion_period: Any
-
-
-class SensorDrift(NamedTuple):
-    """Random walks of the unit's meters."""
-
-    force: Vec3
-    torque: Vec3
-    accelerometer: Vec3
-    gyroscope: Vec3
+    imu: DeviceModel
+    motion: DeviceModel
+    additional: Any = Nothing()
 
 
 class SensorState(NamedTuple):
-    """Memory: the last readings, the drifts, and the steps to wait for the next samples."""
+    """Memory of all devices."""
 
-    readings: Readings
-    drift: SensorDrift
-    unit_wait: Any
-    motion_wait: Any
+    imu: DeviceState
+    motion: DeviceState
+    additional: Any = Nothing()
 
 
 class SensorNoise(NamedTuple):
-    """Independent standard normals for one step, on everything that is read (at joints, vectors of sets)."""
+    """Independent standard normals for one step, for every channel of every device."""
 
-    specific_force: Vec3
-    rates: Vec3
-    joint_force: Vec3
-    joint_torque: Vec3
-    position: Vec3
-    velocity: Vec3
-    attitude: Vec3
+    imu: ImuChannels
+    motion: MotionChannels
+    additional: Any = Nothing()
 
 
 @law
-def renewed(due: Any, new: Any, old: Any) -> Vec3:
-    """The new vector, or vector of sets, where it is due, else the old one."""
-    return Vec3(where(due, new.x, old.x), where(due, new.y, old.y), where(due, new.z, old.z))
+def sample_channels(models: Any, drift: Any, truth: Any, normals: Any) -> Any:
+    """A sample of every channel of a device."""
+    return type(truth)(*[read(*channel) for channel in zip(models, drift, truth, normals, strict=True)])
 
 
 @law
-def renewed_attitude(due: Any, new: Quat, old: Quat) -> Quat:
-    """The new attitude where it is due, else the old one."""
-    return Quat(where(due, new.w, old.w), where(due, new.x, old.x), where(due, new.y, old.y), where(due, new.z, old.z))
+def sample_device(k: Any, m: DeviceState, truth: Any, normals: Any) -> DeviceState:
+    """The memory of a device after a step: with a fresh sample if one is due, else with the last, no longer fresh."""
+    due = m.wait <= 0.0
+    fresh, samples = where(due, 1.0, 0.0), sample_channels(k.channels, m.drift, truth, normals)
+    held = [selected(due, new, old) for new, old in zip(samples, m.reading[:-1], strict=True)]
+    drift = [next_drift(*channel, fresh) for channel in zip(k.channels, m.drift, normals, strict=True)]
+    return DeviceState(type(m.reading)(*held, fresh), type(m.drift)(*drift), where(due, k.period, m.wait) - 1.0)
 
 
 @law
-def sample_unit(
-    k: Sensors, drift: SensorDrift, rates: Vec3, felt: PerfectReadings, frame: Quat, n: SensorNoise
-) -> ImuReading:
-    """A fresh sample of the on-board unit."""
-    return ImuReading(
-        read(k.accelerometer, drift.accelerometer, felt.specific_force, n.specific_force),
-        read(k.gyroscope, drift.gyroscope, rates, n.rates),
-        read(k.force, drift.force, felt.joint_force, n.joint_force),
-        read(k.torque, drift.torque, felt.joint_torque, n.joint_torque),
-        frame,
-        1.0,
-    )
+def true_imu(state: State, perfect: PerfectReadings, believed: Quat) -> ImuChannels:
+    """What the IMU and the joints' sensors measure, without errors."""
+    return ImuChannels(perfect.specific_force, state.rates, perfect.joint_force, perfect.joint_torque, believed)
 
 
 @law
-def sample_motion(k: Sensors, s: State, n: SensorNoise) -> MotionReading:
-    """A fresh sample of the motion measurement."""
-    return MotionReading(
-        s.position + n.position * k.position,
-        s.velocity + n.velocity * k.velocity,
-        turned(s.attitude, n.attitude * k.attitude),
-        1.0,
-    )
+def true_motion(state: State) -> MotionChannels:
+    """What the motion measurement measures, without errors."""
+    return MotionChannels(state.position, state.velocity, state.attitude)
 
 
 @law
-def latest_unit(due: Any, new: ImuReading, old: ImuReading) -> ImuReading:
-    """The new sample where it is due, else the old one, no longer fresh."""
-    return ImuReading(
-        renewed(due, new.specific_force, old.specific_force),
-        renewed(due, new.rates, old.rates),
-        renewed(due, new.joint_force, old.joint_force),
-        renewed(due, new.joint_torque, old.joint_torque),
-        renewed_attitude(due, new.frame, old.frame),
-        where(due, 1.0, 0.0),
-    )
-
-
-@law
-def latest_motion(due: Any, new: MotionReading, old: MotionReading) -> MotionReading:
-    """The new sample where it is due, else the old one, no longer fresh."""
-    return MotionReading(
-        renewed(due, new.position, old.position),
-        renewed(due, new.velocity, old.velocity),
-        renewed_attitude(due, new.attitude, old.attitude),
-        where(due, 1.0, 0.0),
-    )
-
-
-@law
-def wander(k: Sensors, drift: SensorDrift, n: SensorNoise, sampled: Any) -> SensorDrift:
-    """The drifts after a sample (`sampled` 1), or as they were (0)."""
-    return SensorDrift(
-        drift.force + n.joint_force * (k.force.walk * sampled),
-        drift.torque + n.joint_torque * (k.torque.walk * sampled),
-        drift.accelerometer + n.specific_force * (k.accelerometer.walk * sampled),
-        drift.gyroscope + n.rates * (k.gyroscope.walk * sampled),
-    )
+def true_additional(sensor: Any, state: State, perfect: PerfectReadings) -> AdditionalChannels:
+    """What an additional sensor measures, without errors."""
+    return AdditionalChannels(true_value(sensor, state, perfect))
 
 
 @law
 def sense(
-    sensors: Sensors, memory: SensorState, state: State, felt: PerfectReadings, believed: Quat, hiss: SensorNoise
+    k: Sensors, m: SensorState, state: State, perfect: PerfectReadings, believed: Quat, noise: SensorNoise
 ) -> Any:
-    """(Readings, the new memory) of a step in which the pilot believed in the attitude `believed`."""
-    unit_due, motion_due = memory.unit_wait <= 0.0, memory.motion_wait <= 0.0
-    old = memory.readings
-    unit = latest_unit(unit_due, sample_unit(sensors, memory.drift, state.rates, felt, believed, hiss), old.unit)
-    motion = latest_motion(motion_due, sample_motion(sensors, state, hiss), old.motion)
-    readings = Readings(unit, motion)
-    return readings, SensorState(
-        readings,
-        wander(sensors, memory.drift, hiss, unit.fresh),
-        where(unit_due, sensors.unit_period, memory.unit_wait) - 1.0,
-        where(motion_due, sensors.motion_period, memory.motion_wait) - 1.0,
+    """(Readings, the new memory) of a step in which the pilot's attitude estimate was `believed`."""
+    more = [
+        sample_device(sensor, memory, true_additional(sensor, state, perfect), normals)
+        for sensor, memory, normals in zip(k.additional, m.additional, noise.additional, strict=True)
+    ]
+    after = SensorState(
+        sample_device(k.imu, m.imu, true_imu(state, perfect, believed), noise.imu),
+        sample_device(k.motion, m.motion, true_motion(state), noise.motion),
+        type(m.additional)(*more),
     )
+    return readings_of(after), after
+
+
+@law
+def readings_of(m: SensorState) -> Readings:
+    """The last samples of all devices."""
+    return Readings(m.imu.reading, m.motion.reading, type(m.additional)(*[device.reading for device in m.additional]))
+
+
+@cache
+def by_name(names: tuple[str, ...]) -> Any:
+    """The type of values by name, one for each additional sensor; `Nothing` for none."""
+    return NamedTuple("_".join(("ByName", *names)), [(name, Any) for name in names]) if names else Nothing
 
 
 def sensors(
@@ -196,10 +208,11 @@ def sensors(
     position_noise: float = 0.0,
     velocity_noise: float = 0.0,
     attitude_noise: float = 0.0,
-    unit_period: int = 1,
+    imu_period: int = 1,
     motion_period: int = 1,
+    additional: Any = NONE,
 ) -> Sensors:
-    """The sensors of a vehicle of `count` quadrotors; as they stand, perfect and sampled every step.
+    """The sensors of a vehicle of `count` quadrotors; by default perfect and sampled every step.
 
     Args:
         count: number of quadrotors N.
@@ -211,30 +224,48 @@ def sensors(
         position_noise: σ of a motion sample's position [m].
         velocity_noise: σ of its velocity [m/s].
         attitude_noise: σ of its attitude, about each body axis [rad].
-        unit_period: of the on-board unit, in whole steps.
+        imu_period: of the IMU and the joints, in whole steps.
         motion_period: of the motion measurement, in whole steps.
+        additional: parameters of additional sensors by name (`by_name`).
     """
-    interval = step * unit_period
-    return Sensors(
-        sensor_model(force, interval, count),
-        sensor_model(torque, interval, count),
-        sensor_model(accelerometer, interval),
-        sensor_model(gyroscope, interval),
-        position_noise,
-        velocity_noise,
-        attitude_noise,
-        float(unit_period),
-        float(motion_period),
+    interval = step * imu_period
+    imu = ImuChannels(
+        specific_force=sensor_model(accelerometer, interval),
+        rates=sensor_model(gyroscope, interval),
+        joint_force=sensor_model(force, interval, count),
+        joint_torque=sensor_model(torque, interval, count),
+        frame=NoError(),
     )
+    motion = MotionChannels(WhiteNoise(position_noise), WhiteNoise(velocity_noise), AttitudeNoise(attitude_noise))
+    return Sensors(DeviceModel(imu, float(imu_period)), DeviceModel(motion, float(motion_period)), additional)
 
 
-def start_sensing(sensors: Sensors, state: State, felt: PerfectReadings, believed: Quat) -> SensorState:
-    """The memory before the first step: readings of a state, biased but without noise, and not fresh.
+def zero_noise(k: Sensors) -> SensorNoise:
+    """Standard normals of 0 for one step of these sensors."""
 
-    Both devices take their first sample in the first step.
+    def of(device: Any) -> Any:
+        return type(device.channels)(*map(no_noise, device.channels))
+
+    return SensorNoise(of(k.imu), of(k.motion), type(k.additional)(*map(of, k.additional)))
+
+
+def start_sensing(k: Sensors, state: State, perfect: PerfectReadings, believed: Quat) -> SensorState:
+    """The memory before the first step: readings of a state, with bias but without noise, and not fresh.
+
+    Every device takes its first sample in the first step.
     """
-    count = len(sensors.force.bias.x)
-    drift = SensorDrift(no_drift(count), no_drift(count), no_drift(), no_drift())
-    silence = SensorNoise(ZERO, ZERO, no_drift(count), no_drift(count), ZERO, ZERO, ZERO)
-    unit = sample_unit(sensors, drift, state.rates, felt, believed, silence)._replace(fresh=0.0)
-    return SensorState(Readings(unit, sample_motion(sensors, state, silence)._replace(fresh=0.0)), drift, 0.0, 0.0)
+    noise = zero_noise(k)
+
+    def start(device: Any, truth: Any, normals: Any, reading: Any) -> DeviceState:
+        drift = type(device.channels)(*map(start_drift, device.channels))
+        return DeviceState(reading(*sample_channels(device.channels, drift, truth, normals), 0.0), drift, 0.0)
+
+    more = [
+        start(device, true_additional(device, state, perfect), normals, AdditionalReading)
+        for device, normals in zip(k.additional, noise.additional, strict=True)
+    ]
+    return SensorState(
+        start(k.imu, true_imu(state, perfect, believed), noise.imu, ImuReading),
+        start(k.motion, true_motion(state), noise.motion, MotionReading),
+        by_name(getattr(k.additional, "_fields", ()))(*more),
+    )

@@ -1,26 +1,32 @@
-"""Sensors that fail: what becomes of their readings between the sensor and the pilot.
+"""Sensors that fail: what their readings become between the sensor and the pilot.
 
-From a step on, until another, a sensor repeats its last value, gives no numbers, has an offset, or gives one value
-whatever happens; a device (the unit on board, the motion measurement) sends nothing new.
+From one step until another, a sensor repeats its last value (frozen), gives no numbers (nan), has an offset (bias), or
+gives one value whatever happens (range); a device sends no new sample (stale). The laws are mapped over the channels of
+every device. The type of a fault picks its law; a channel without a fault of its own has `NoFault`.
 """
 
 import math
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import where
-from tandemlift.algebra.vector import ZERO, Quat, Vec3, each
-from tandemlift.laws.mechanics.rotation_vectors import turned
-from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
+from tandemlift.algebra.selection import chosen
+from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.common.sensors import SENSORS, additional_sensor, sensors_on
+from tandemlift.laws.mechanics.rotation import rotated_by
+from tandemlift.laws.sensors.readings import AdditionalChannels, ImuChannels, MotionChannels, Readings, by_name
 
 NEVER = 1e18  # steps
+EMPTY: Mapping[str, Any] = MappingProxyType({})
 
 
 class SensorFault(NamedTuple):
-    """Of one sensor, or sets, a value for each joint: from step `start` until before step `end`.
+    """Of a sensor of a vector, or sets, a value for each joint: from step `start` until before step `end`.
 
     `frozen` is 1 if it repeats its last value, else 0. Else a reading x becomes x `keep` + `size` + `poison`, with
-    `poison` 0 or NaN; an attitude that is kept is turned by `size` [rad, body axes].
+    `poison` 0 or NaN.
     """
 
     start: Any
@@ -31,28 +37,40 @@ class SensorFault(NamedTuple):
     poison: Any
 
 
-class DeviceSilence(NamedTuple):
-    """From step `start` until before step `end`, a device sends no new sample."""
+class AttitudeFault(NamedTuple):
+    """A fault of the attitude: while the reading is kept, it is turned by `size` [rad, body axes]."""
+
+    fault: SensorFault
+
+
+class ScalarFault(NamedTuple):
+    """A fault of a sensor of a number: the first component of `size` counts."""
+
+    fault: SensorFault
+
+
+class NoFault(NamedTuple):
+    """Of a channel that does not fail on its own."""
+
+
+class DeviceFaults(NamedTuple):
+    """Of a device: no new sample from step `start` until before step `end`; and the faults of its channels."""
 
     start: Any
     end: Any
+    channels: Any
 
 
 class SensorFaults(NamedTuple):
-    """Of both devices, and of every sensor on them."""
+    """Of all devices; of the additional ones by name."""
 
-    imu: DeviceSilence
-    motion: DeviceSilence
-    joints: SensorFault
-    accelerometer: SensorFault
-    gyroscope: SensorFault
-    position: SensorFault
-    velocity: SensorFault
-    attitude: SensorFault
+    imu: DeviceFaults
+    motion: DeviceFaults
+    additional: Any = Nothing()
 
 
 class SensorFaultState(NamedTuple):
-    """Memory: what was given last, and the number of the step."""
+    """Memory: the last readings that were passed on, and the number of the step."""
 
     given: Readings
     step: Any
@@ -65,114 +83,95 @@ def during(start: Any, end: Any, step: Any) -> Any:
 
 
 @elementwise
-def spoiled(x, given, size, start, end, frozen, keep, poison, step):
-    """A reading under a fault; `given`: the last one."""
+def faulty_number(
+    x: Any, given: Any, size: Any, start: Any, end: Any, frozen: Any, keep: Any, poison: Any, step: Any
+) -> Any:
+    """A number under a fault; `given`: the last one that was passed on."""
     wrong = where(frozen > 0.0, given, x * keep + size + poison)
     return where(step < start, x, where(step < end, wrong, x))
 
 
-@law
-def spoil_vector(f: SensorFault, x: Vec3, given: Vec3, step: Any) -> Vec3:
-    """A vector's reading under a fault."""
-    return spoiled(x, given, f.size, f.start, f.end, f.frozen, f.keep, f.poison, step)
+@choice
+def faulty(fault: Any, x: Any, given: Any, step: Any) -> Any:
+    """A reading x under a fault at a step; `given`: the last one that was passed on."""
 
 
-@law
-def spoil_joints(f: SensorFault, x: Vec3, given: Vec3, size: Vec3, step: Any) -> Vec3:
-    """The joints' readings, vectors of sets, under a fault of each."""
+@faulty.register(SensorFault)
+def _faulty_vector(f: SensorFault, x: Vec3, given: Vec3, step: Any) -> Vec3:
     return Vec3(
-        spoiled(x.x, given.x, size.x, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        spoiled(x.y, given.y, size.y, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        spoiled(x.z, given.z, size.z, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(x.x, given.x, f.size.x, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(x.y, given.y, f.size.y, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(x.z, given.z, f.size.z, f.start, f.end, f.frozen, f.keep, f.poison, step),
     )
 
 
-@law
-def spoil_attitude(f: SensorFault, x: Quat, given: Quat, step: Any) -> Quat:
-    """An attitude's reading under a fault."""
+@faulty.register(ScalarFault)
+def _faulty_scalar(k: ScalarFault, x: Any, given: Any, step: Any) -> Any:
+    f = k.fault
+    return faulty_number(x, given, f.size.x, f.start, f.end, f.frozen, f.keep, f.poison, step)
+
+
+@faulty.register(AttitudeFault)
+def _faulty_attitude(k: AttitudeFault, x: Quat, given: Quat, step: Any) -> Quat:
+    f = k.fault
     off = f.size.x * (1.0 - f.keep)
-    q = turned(x, f.size * (f.keep * during(f.start, f.end, step)))
+    q = rotated_by(x, f.size * (f.keep * during(f.start, f.end, step)))
     return Quat(
-        spoiled(q.w, given.w, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        spoiled(q.x, given.x, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        spoiled(q.y, given.y, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        spoiled(q.z, given.z, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(q.w, given.w, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(q.x, given.x, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(q.y, given.y, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        faulty_number(q.z, given.z, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
     )
 
 
-@law
-def held_unit(silent: Any, new: ImuReading, old: ImuReading) -> ImuReading:
-    """The new sample, or the old one, no longer fresh, while the unit is silent."""
-    return ImuReading(
-        chosen(silent, old.specific_force, new.specific_force),
-        chosen(silent, old.rates, new.rates),
-        chosen(silent, old.joint_force, new.joint_force),
-        chosen(silent, old.joint_torque, new.joint_torque),
-        chosen_attitude(silent, old.frame, new.frame),
-        where(silent > 0.0, 0.0, new.fresh),
-    )
+@faulty.register(NoFault)
+def _no_fault(f: NoFault, x: Any, given: Any, step: Any) -> Any:
+    return x
 
 
 @law
-def held_motion(silent: Any, new: MotionReading, old: MotionReading) -> MotionReading:
-    """The new sample, or the old one, no longer fresh, while the motion measurement is silent."""
-    return MotionReading(
-        chosen(silent, old.position, new.position),
-        chosen(silent, old.velocity, new.velocity),
-        chosen_attitude(silent, old.attitude, new.attitude),
-        where(silent > 0.0, 0.0, new.fresh),
-    )
-
-
-@law
-def chosen(flag: Any, a: Any, b: Any) -> Vec3:
-    """Vector a where a flag is 1, else b; or vectors of sets."""
-    on = flag > 0.0
-    return Vec3(where(on, a.x, b.x), where(on, a.y, b.y), where(on, a.z, b.z))
-
-
-@law
-def chosen_attitude(flag: Any, a: Quat, b: Quat) -> Quat:
-    """Attitude a where a flag is 1, else b."""
-    on = flag > 0.0
-    return Quat(where(on, a.w, b.w), where(on, a.x, b.x), where(on, a.y, b.y), where(on, a.z, b.z))
+def faulty_device(f: DeviceFaults, reading: Any, given: Any, step: Any) -> Any:
+    """The sample of a device under its faults; while it is stale, the last one that was passed on, not fresh."""
+    stale = during(f.start, f.end, step)
+    samples = [faulty(*channel, step) for channel in zip(f.channels, reading[:-1], given[:-1], strict=True)]
+    held = [chosen(stale, old, new) for old, new in zip(given[:-1], samples, strict=True)]
+    return type(reading)(*held, where(stale > 0.0, 0.0, reading.fresh))
 
 
 @law
 def apply_faults(k: SensorFaults, m: SensorFaultState, readings: Readings) -> Any:
-    """(Readings as they are given, the new memory) of a step."""
-    u, v, n = readings.unit, readings.motion, m.step
-    was, then = m.given.unit, m.given.motion
-    size, keep = k.joints.size, k.joints.keep
-    torque = Vec3(size.x - size.x * keep, size.y - size.y * keep, size.z - size.z * keep)  # an offset is of the force
-    unit = ImuReading(
-        spoil_vector(k.accelerometer, u.specific_force, was.specific_force, n),
-        spoil_vector(k.gyroscope, u.rates, was.rates, n),
-        spoil_joints(k.joints, u.joint_force, was.joint_force, size, n),
-        spoil_joints(k.joints, u.joint_torque, was.joint_torque, torque, n),
-        u.frame,
-        u.fresh,
+    """(Readings as they are passed on, the new memory) of a step."""
+    given, n = m.given, m.step
+    more = [
+        faulty_device(*device, n) for device in zip(k.additional, readings.additional, given.additional, strict=True)
+    ]
+    after = Readings(
+        faulty_device(k.imu, readings.imu, given.imu, n),
+        faulty_device(k.motion, readings.motion, given.motion, n),
+        type(readings.additional)(*more),
     )
-    motion = MotionReading(
-        spoil_vector(k.position, v.position, then.position, n),
-        spoil_vector(k.velocity, v.velocity, then.velocity, n),
-        spoil_attitude(k.attitude, v.attitude, then.attitude, n),
-        v.fresh,
-    )
-    silent = during(k.imu.start, k.imu.end, n), during(k.motion.start, k.motion.end, n)
-    given = Readings(held_unit(silent[0], unit, was), held_motion(silent[1], motion, then))
-    return given, SensorFaultState(given, n + 1.0)
+    return after, SensorFaultState(after, n + 1.0)
 
 
 def sensor_fault(kind: str, start: float, end: float, size: Vec3) -> SensorFault:
-    """The fault of one sensor: `kind` is "frozen", "nan", "bias" or "range"; steps, and the reading's unit."""
+    """The fault of one sensor.
+
+    Args:
+        kind: "frozen", "nan", "bias" or "range".
+        start: first step of the fault.
+        end: first step without it.
+        size: of a "bias" or a "range", in the unit of the reading; a rotation about body axes [rad] for the attitude.
+    """
     frozen, poison = float(kind == "frozen"), math.nan if kind == "nan" else 0.0
     sized = size if kind in ("bias", "range") else ZERO
     return SensorFault(start, end, frozen, 0.0 if kind == "range" else 1.0, sized, poison)
 
 
-def together(faults: list[SensorFault]) -> SensorFault:
-    """The faults of all joints as one, of sets."""
+SOUND = sensor_fault("bias", NEVER, NEVER, ZERO)
+
+
+def fault_of_joints(faults: Sequence[SensorFault]) -> SensorFault:
+    """The faults of the sensors at all joints as one, of sets."""
     cls = each(len(faults))
     size = Vec3(*[cls(*[f.size[i] for f in faults]) for i in range(3)])
     start, end, frozen, keep, poison = (
@@ -181,4 +180,39 @@ def together(faults: list[SensorFault]) -> SensorFault:
     return SensorFault(start, end, frozen, keep, size, poison)
 
 
-SOUND = sensor_fault("bias", NEVER, NEVER, ZERO)
+def all_faults(
+    joints: Sequence[SensorFault],
+    faults: Mapping[str, SensorFault] = EMPTY,
+    stale: Mapping[str, tuple[float, float]] = EMPTY,
+    additional: Sequence[str] = (),
+) -> SensorFaults:
+    """The faults of all sensors.
+
+    Args:
+        joints: of the sensors at each joint, `SOUND` for none.
+        faults: by the name of the sensor, of all others that fail.
+        stale: by the name of the device, of those that send no new sample: the first step, and the first that does.
+        additional: names of the additional sensors.
+    """
+    whole = fault_of_joints(joints)
+    by_quantity = {q: faults.get(row.name, SOUND) for row in SENSORS.values() for q in row.quantities}
+    by_quantity |= {"joint_force": whole, "joint_torque": _torque_fault(whole)}
+
+    def device(name: str, channels: Any) -> DeviceFaults:
+        return DeviceFaults(*stale.get(name, (NEVER, NEVER)), channels)
+
+    def alone(name: str) -> DeviceFaults:
+        fault = faults.get(name, SOUND)
+        return device(name, AdditionalChannels(fault if additional_sensor(name).width == 3 else ScalarFault(fault)))
+
+    imu = ImuChannels(**{q: by_quantity[q] for row in sensors_on("imu") for q in row.quantities}, frame=NoFault())
+    motion = MotionChannels(**{q: by_quantity[q] for row in sensors_on("motion") for q in row.quantities})
+    motion = motion._replace(attitude=AttitudeFault(motion.attitude))
+    return SensorFaults(
+        device("imu", imu), device("motion", motion), by_name(tuple(additional))(*map(alone, additional))
+    )
+
+
+def _torque_fault(force: SensorFault) -> SensorFault:
+    """The fault of the joints' torque that goes with that of their force: an offset is of the force alone."""
+    return force._replace(size=Vec3(*[size - size * force.keep for size in force.size]))

@@ -1,17 +1,17 @@
-"""Watchdogs on every measurement: what is stale, frozen, no number, out of range, or at odds with another.
+"""Watchdogs on every measurement: stale, frozen, not a number, out of range, or inconsistent with another one.
 
-A sensor's sample is good if it is fresh, finite and within its range. What is not good never gets further: the last
-good value stands in its place or, in the motion measurement, what the navigator predicts. A sensor is *lost* once its
-samples were not good for a time, or were exactly alike too often although noise is expected, or its device has sent
-nothing for a time. For a lost accelerometer stands that of a vehicle that does not accelerate; for a lost gyroscope,
-how fast the measured attitude turns, and for a lost velocity, how fast the position changes, low-passed. Where the
-navigator must go on without the motion measurement, it does so with the mean of the biases that it has found, which is
-quieter than their last value.
+A sample is valid if it is fresh, finite and within its range. An invalid one goes no further: the last valid value
+takes its place or, in the motion measurement, the prediction of the navigator. A sensor is *lost* once its samples have
+been invalid for a time, or identical too often although noise is expected, or once its device has been stale for a
+time. The substitute for a lost accelerometer is the reading of a vehicle that does not accelerate; for a lost gyroscope
+it is the low-passed derivative of the measured attitude, for a lost velocity that of the measured position. While the
+navigator runs without the motion measurement, it uses the mean of its bias estimates, which is less noisy than the last
+one.
 
-Measurements that should tell the same are compared over a window: the turn that gyroscope and attitude tell of, the way
-that velocity and position do, the speed that accelerometer and velocity do. With ε what they differ by from one motion
-sample to the next, d ← λ d + ε forgets over the window τ = T / (1 − λ): a jump shows as it is, a constant error b as
-b τ.
+Redundant measurements are compared over a window: the rotation by gyroscope and by attitude, the displacement by
+velocity and by position, the change of velocity by accelerometer and by velocity. With ε the difference between two of
+them from one motion sample to the next, d ← λ d + ε forgets over the window τ = T / (1 − λ): a jump shows in full, a
+constant error b as b τ.
 """
 
 from typing import Any, NamedTuple
@@ -19,60 +19,63 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, where
+from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, dot
 from tandemlift.laws.mechanics.body import UP, State
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.rotation_vectors import turn_left, turned
+from tandemlift.laws.mechanics.rotation import rotated_by, rotation_between, rotation_from_quaternion
 from tandemlift.laws.sensors.health import (
     FROZEN,
-    FrozenLimits,
-    ReadingRanges,
+    PerSensor,
     SensorHealth,
-    SensorHealths,
-    any_of,
+    any_component,
+    is_valid,
     judge,
-    no_number,
-    passing,
+    not_finite,
 )
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
-from tandemlift.laws.sensors.sensor_faults import chosen, chosen_attitude
 
-EARLY, LONG = 2.0, 5.0  # s: before biases are looked at, and over which their mean is taken
+SETTLING_TIME = 2.0  # s: before bias estimates are averaged
+AVERAGING_TIME = 5.0  # s: of their mean
 
 
 class Watchdog(NamedTuple):
-    """Limits: no fresh sample for `stale` [s], none good for `invalid` [s]; `forgets` is 1 − λ.
+    """Limits of the watchdogs.
 
-    `attitude` [rad], `way` [m] and `speed` [m/s]: by how much measurements may differ. `turn_share` of a new turn in
-    the rates from it, `way_share` of a new way in the velocity, and one over the time between motion samples [1/s].
+    A device is stale after `stale_time` [s] without a fresh sample, a sensor lost after `invalid_time` [s] without a
+    valid one; `sensors`: its limits in `health`. Largest differences of redundant measurements: `attitude_gap` [rad],
+    `position_gap` [m] and `velocity_gap` [m/s], over a window of which `forgetting` is 1 − λ. Low-pass gains of
+    substituted rates and velocity, and the rate of motion samples [1/s].
     """
 
-    stale: Any
-    invalid: Any
-    ranges: ReadingRanges
-    alike: FrozenLimits
-    forgets: Any
-    attitude: Any
-    way: Any
-    speed: Any
-    turn_share: Any
-    way_share: Any
-    per_interval: Any
+    stale_time: Any
+    invalid_time: Any
+    sensors: PerSensor
+    forgetting: Any
+    attitude_gap: Any
+    position_gap: Any
+    velocity_gap: Any
+    rates_gain: Any
+    velocity_gain: Any
+    motion_rate: Any
 
 
 class Inconsistency(NamedTuple):
-    """Memory of what measurements differ by: attitude [rad, body axes], way [m], speed [m/s]; what one tells since."""
+    """Memory of the differences of redundant measurements: attitude [rad, body axes], position [m], velocity [m/s].
+
+    And of what is compared with the next motion sample: the integrals of the rates, the velocity and the acceleration
+    since the last one.
+    """
 
     attitude: Vec3
-    way: Vec3
-    speed: Vec3
-    turned: Quat
-    reached: Vec3
-    gained: Vec3
+    position: Vec3
+    velocity: Vec3
+    integrated_attitude: Quat
+    integrated_position: Vec3
+    integrated_velocity: Vec3
 
 
-class Biases(NamedTuple):
-    """Mean of the biases [rad/s, m/s²], and how long they have been looked at, less `EARLY` [s]."""
+class MeanBiases(NamedTuple):
+    """Means of the bias estimates [rad/s, m/s²], and for how long they were averaged, less `SETTLING_TIME` [s]."""
 
     gyroscope: Vec3
     accelerometer: Vec3
@@ -80,28 +83,29 @@ class Biases(NamedTuple):
 
 
 class WatchdogState(NamedTuple):
-    """Memory: readings as last given and as last found good, ages of both devices [s], 1 once each was heard.
+    """Memory: the last readings, the last valid ones, the health of the sensors, and of each device its age.
 
-    The rates as they are believed, the velocity as the position tells it, and means of the navigator's biases.
+    An age [s] is the time since the last fresh sample; `imu_seen` and `motion_seen` are 1 after the first. `rates` and
+    `velocity`: substitutes for those of a lost sensor.
     """
 
     last: Readings
-    good: Readings
-    health: SensorHealths
-    unit_age: Any
+    valid: Readings
+    health: PerSensor
+    imu_age: Any
     motion_age: Any
-    unit_seen: Any
+    imu_seen: Any
     motion_seen: Any
     rates: Vec3
     velocity: Vec3
-    mean: Biases
-    apart: Inconsistency
+    mean: MeanBiases
+    inconsistency: Inconsistency
 
 
 class WatchdogReport(NamedTuple):
     """What is wrong: 1 or 0, or what is wrong with a sensor (`SYMPTOMS`, from 1; 0 for nothing).
 
-    `imu` and `motion`: stale. `seen`: 1 once both devices have been heard.
+    `imu` and `motion`: stale. `seen`: 1 once both devices have sent a sample.
     """
 
     imu: Any
@@ -118,11 +122,11 @@ class WatchdogReport(NamedTuple):
     seen: Any
 
 
-WELL = WatchdogReport(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+WELL = WatchdogReport._make([*[0.0] * 11, 1.0])
 
 
 class PredictedReadings(NamedTuple):
-    """What the navigator expects: the state, and both sensors' bias [rad/s, m/s²]."""
+    """The prediction of the navigator: the state, and the bias of both inertial sensors [rad/s, m/s²]."""
 
     state: State
     gyroscope_bias: Vec3
@@ -130,178 +134,201 @@ class PredictedReadings(NamedTuple):
 
 
 @law
-def wrong_with(k: Watchdog, h: SensorHealth, alike: Any) -> Any:
-    """What is wrong with a sensor for too long (`SYMPTOMS`), or 0."""
-    bad = where(h.silent >= k.invalid, h.wrong, 0.0)
-    return where(h.wrong > 0.0, bad, where(h.same >= alike, FROZEN, 0.0))
+def lost(k: Watchdog, h: SensorHealth, limits: Any) -> Any:
+    """What is wrong with a sensor that is lost (`SYMPTOMS`, from 1), or 0."""
+    invalid = where(h.invalid_time >= k.invalid_time, h.failure, 0.0)
+    return where(h.failure > 0.0, invalid, where(h.identical >= limits.frozen_samples, FROZEN, 0.0))
 
 
 @law
-def kept_unit(good: ImuReading, u: ImuReading, h: SensorHealths) -> ImuReading:
-    """A unit's sample in which the last good values stand for what is not good."""
-    joints, accelerometer, gyroscope = passing(h.joints), passing(h.accelerometer), passing(h.gyroscope)
-    return ImuReading(
-        chosen(accelerometer, u.specific_force, good.specific_force),
-        chosen(gyroscope, u.rates, good.rates),
-        chosen(joints, u.joint_force, good.joint_force),
-        chosen(joints, u.joint_torque, good.joint_torque),
-        u.frame,
-        u.fresh,
+def valid_imu(last: ImuReading, imu: ImuReading, h: PerSensor) -> ImuReading:
+    """The IMU's sample with the last valid value in place of each that is invalid."""
+    joints = is_valid(h.joints)
+    return imu._replace(
+        specific_force=chosen(is_valid(h.accelerometer), imu.specific_force, last.specific_force),
+        rates=chosen(is_valid(h.gyroscope), imu.rates, last.rates),
+        joint_force=chosen(joints, imu.joint_force, last.joint_force),
+        joint_torque=chosen(joints, imu.joint_torque, last.joint_torque),
     )
 
 
 @law
-def replaced_unit(u: ImuReading, r: WatchdogReport, rates: Vec3, p: PredictedReadings, mean: Biases) -> ImuReading:
-    """A unit's sample in which something stands for lost sensors, and for biases that are no longer corrected."""
-    still = apply_transposed(rotation_from_quaternion(p.state.attitude), UP * GRAVITY) + p.accelerometer_bias
-    turns, moves = maximum(r.motion, r.attitude), maximum(r.motion, maximum(r.position, r.velocity))
-    force = u.specific_force + chosen(moves, p.accelerometer_bias - mean.accelerometer, ZERO)
-    turning = u.rates + chosen(turns, p.gyroscope_bias - mean.gyroscope, ZERO)
-    return ImuReading(
-        chosen(maximum(r.accelerometer, r.imu), still, force),
-        chosen(maximum(r.gyroscope, r.imu), rates + p.gyroscope_bias, turning),
-        u.joint_force,
-        u.joint_torque,
-        u.frame,
-        u.fresh,
+def substituted_imu(
+    imu: ImuReading, r: WatchdogReport, rates: Vec3, p: PredictedReadings, mean: MeanBiases
+) -> ImuReading:
+    """The IMU's sample with substitutes for lost sensors.
+
+    While the navigator cannot estimate a bias, its sensor's reading is moved so that the mean bias is taken off.
+    """
+    at_rest = apply_transposed(rotation_from_quaternion(p.state.attitude), UP * GRAVITY) + p.accelerometer_bias
+    no_attitude = maximum(r.motion, r.attitude)
+    no_motion = maximum(r.motion, maximum(r.position, r.velocity))
+    specific_force = imu.specific_force + chosen(no_motion, p.accelerometer_bias - mean.accelerometer, ZERO)
+    measured_rates = imu.rates + chosen(no_attitude, p.gyroscope_bias - mean.gyroscope, ZERO)
+    return imu._replace(
+        specific_force=chosen(maximum(r.accelerometer, r.imu), at_rest, specific_force),
+        rates=chosen(maximum(r.gyroscope, r.imu), rates + p.gyroscope_bias, measured_rates),
     )
 
 
 @law
-def replaced_motion(
-    v: MotionReading, h: SensorHealths, r: WatchdogReport, velocity: Vec3, p: PredictedReadings
+def substituted_motion(
+    v: MotionReading, h: PerSensor, r: WatchdogReport, velocity: Vec3, p: PredictedReadings
 ) -> MotionReading:
-    """A motion sample in which what is predicted stands for what is not good or lost; `velocity`: from the position."""
-    position = maximum(maximum(r.position, h.position.wrong), r.motion)
-    blurred = maximum(maximum(r.velocity, h.velocity.wrong), r.motion)
-    attitude = maximum(maximum(r.attitude, h.attitude.wrong), r.motion)
-    left = where(position > 0.0, where(blurred > 0.0, where(attitude > 0.0, 0.0, 1.0), 1.0), 1.0)
+    """A motion sample with the prediction in place of what is invalid or lost; `velocity`: from the position."""
+    position = maximum(maximum(r.position, h.position.failure), r.motion)
+    no_velocity = maximum(maximum(r.velocity, h.velocity.failure), r.motion)
+    attitude = maximum(maximum(r.attitude, h.attitude.failure), r.motion)
+    any_left = where(position > 0.0, where(no_velocity > 0.0, where(attitude > 0.0, 0.0, 1.0), 1.0), 1.0)
     return MotionReading(
         chosen(position, p.state.position, v.position),
-        chosen(blurred, chosen(position, p.state.velocity, velocity), v.velocity),
-        chosen_attitude(attitude, p.state.attitude, v.attitude),
-        v.fresh * left,
+        chosen(no_velocity, chosen(position, p.state.velocity, velocity), v.velocity),
+        chosen(attitude, p.state.attitude, v.attitude),
+        v.fresh * any_left,
     )
 
 
 @law
 def inconsistency_after(
-    k: Watchdog, m: Inconsistency, u: ImuReading, v: MotionReading, lost: Any, dt: Any
+    k: Watchdog, m: Inconsistency, imu: ImuReading, v: MotionReading, invalid: Any, dt: Any
 ) -> Inconsistency:
-    """What measurements differ by, with a sample; `lost` is 1 if one of them is, and nothing is compared."""
-    so_far, reached = turned(m.turned, u.rates * dt), m.reached + v.velocity * dt
-    pull = apply(rotation_from_quaternion(v.attitude), u.specific_force) - UP * GRAVITY
-    gained = m.gained + pull * dt
-    new, none = v.fresh, maximum(v.fresh, lost)
-    keep = (1.0 - k.forgets * new) * (1.0 - lost)
-    taken = new * (1.0 - lost)
+    """The differences after a step of dt [s]; while a measurement is `invalid` (1), nothing is compared."""
+    attitude, position = rotated_by(m.integrated_attitude, imu.rates * dt), m.integrated_position + v.velocity * dt
+    acceleration = apply(rotation_from_quaternion(v.attitude), imu.specific_force) - UP * GRAVITY
+    velocity = m.integrated_velocity + acceleration * dt
+    restart = maximum(v.fresh, invalid)
+    keep = (1.0 - k.forgetting * v.fresh) * (1.0 - invalid)
+    compared = v.fresh * (1.0 - invalid)
     return Inconsistency(
-        m.attitude * keep + turn_left(so_far, v.attitude) * taken,
-        m.way * keep + (v.position - reached) * taken,
-        m.speed * keep + (v.velocity - gained) * taken,
-        chosen_attitude(none, v.attitude, so_far),
-        chosen(none, v.position, reached),
-        chosen(none, v.velocity, gained),
+        attitude=m.attitude * keep + rotation_between(attitude, v.attitude) * compared,
+        position=m.position * keep + (v.position - position) * compared,
+        velocity=m.velocity * keep + (v.velocity - velocity) * compared,
+        integrated_attitude=chosen(restart, v.attitude, attitude),
+        integrated_position=chosen(restart, v.position, position),
+        integrated_velocity=chosen(restart, v.velocity, velocity),
     )
 
 
 @law
-def reported(
-    k: Watchdog, h: SensorHealths, unit_age: Any, motion_age: Any, seen: Any, apart: Inconsistency
-) -> WatchdogReport:
-    """What is wrong, with devices of these ages [s]; `seen` is 1 once both were heard."""
+def exceeds(difference: Vec3, gap: Any) -> Any:
+    """1 if a difference is larger than the gap that is allowed, else 0."""
+    return where(dot(difference, difference) > gap * gap, 1.0, 0.0)
+
+
+@law
+def report_of(k: Watchdog, h: PerSensor, imu_age: Any, motion_age: Any, seen: Any, d: Inconsistency) -> WatchdogReport:
+    """What is wrong, with devices of these ages [s]; `seen` is 1 once both have sent a sample."""
+    failures = PerSensor(*[lost(k, *sensor) for sensor in zip(h, k.sensors, strict=True)])
     return WatchdogReport(
-        where(unit_age >= k.stale, 1.0, 0.0),
-        where(motion_age >= k.stale, 1.0, 0.0),
-        wrong_with(k, h.joints, k.alike.joints),
-        wrong_with(k, h.accelerometer, k.alike.accelerometer),
-        wrong_with(k, h.gyroscope, k.alike.gyroscope),
-        wrong_with(k, h.position, k.alike.position),
-        wrong_with(k, h.velocity, k.alike.velocity),
-        wrong_with(k, h.attitude, k.alike.attitude),
-        where(dot(apart.attitude, apart.attitude) > k.attitude * k.attitude, 1.0, 0.0),
-        where(dot(apart.way, apart.way) > k.way * k.way, 1.0, 0.0),
-        where(dot(apart.speed, apart.speed) > k.speed * k.speed, 1.0, 0.0),
-        seen,
+        imu=where(imu_age >= k.stale_time, 1.0, 0.0),
+        motion=where(motion_age >= k.stale_time, 1.0, 0.0),
+        **failures._asdict(),
+        attitude_inconsistent=exceeds(d.attitude, k.attitude_gap),
+        velocity_inconsistent=exceeds(d.position, k.position_gap),
+        speed_inconsistent=exceeds(d.velocity, k.velocity_gap),
+        seen=seen,
     )
 
 
 @law
-def turning_of(
-    k: Watchdog, m: WatchdogState, u: ImuReading, attitude: Quat, fresh: Any, heard: Any, p: PredictedReadings
+def substitute_rates(
+    k: Watchdog, m: WatchdogState, imu: ImuReading, attitude: Quat, fresh: Any, measured: Any, p: PredictedReadings
 ) -> Vec3:
-    """The rates [rad/s]: of the gyroscope while it is `heard` (1), else as the measured attitude turns."""
-    seen = turn_left(m.good.motion.attitude, attitude) * k.per_interval
-    return chosen(heard, u.rates - p.gyroscope_bias, m.rates + (seen - m.rates) * (k.turn_share * fresh))
+    """The rates [rad/s]: of the gyroscope while they are `measured` (1), else the derivative of the attitude."""
+    derivative = rotation_between(m.valid.motion.attitude, attitude) * k.motion_rate
+    return chosen(measured, imu.rates - p.gyroscope_bias, m.rates + (derivative - m.rates) * (k.rates_gain * fresh))
 
 
 @law
-def velocity_of(k: Watchdog, m: WatchdogState, v: MotionReading, h: SensorHealths, r: WatchdogReport) -> Vec3:
-    """The velocity [m/s]: as measured while that is well, else as the position changes."""
-    well = passing(h.velocity) * where(r.velocity > 0.0, 0.0, 1.0)
-    position = chosen(passing(h.position), v.position, m.good.motion.position)
-    seen = (position - m.good.motion.position) * k.per_interval
-    return chosen(well, v.velocity, m.velocity + (seen - m.velocity) * (k.way_share * v.fresh * passing(h.position)))
+def substitute_velocity(k: Watchdog, m: WatchdogState, v: MotionReading, h: PerSensor, r: WatchdogReport) -> Vec3:
+    """The velocity [m/s]: as measured while that is valid, else the derivative of the position."""
+    measured = is_valid(h.velocity) * where(r.velocity > 0.0, 0.0, 1.0)
+    position = chosen(is_valid(h.position), v.position, m.valid.motion.position)
+    derivative = (position - m.valid.motion.position) * k.motion_rate
+    gain = k.velocity_gain * v.fresh * is_valid(h.position)
+    return chosen(measured, v.velocity, m.velocity + (derivative - m.velocity) * gain)
 
 
 @law
-def mean_of(m: Biases, p: PredictedReadings, wrong: Any, dt: Any) -> Biases:
-    """The mean of the biases, with what the navigator has found now unless something is wrong (1)."""
+def mean_after(m: MeanBiases, p: PredictedReadings, wrong: Any, dt: Any) -> MeanBiases:
+    """The means with the present bias estimates, unless something is `wrong` (1)."""
     time = m.time + dt * (1.0 - wrong)
-    share = dt / clip(time, dt, LONG) * (1.0 - wrong)
-    return Biases(
-        m.gyroscope + (p.gyroscope_bias - m.gyroscope) * share,
-        m.accelerometer + (p.accelerometer_bias - m.accelerometer) * share,
+    gain = dt / clip(time, dt, AVERAGING_TIME) * (1.0 - wrong)
+    return MeanBiases(
+        m.gyroscope + (p.gyroscope_bias - m.gyroscope) * gain,
+        m.accelerometer + (p.accelerometer_bias - m.accelerometer) * gain,
         time,
     )
 
 
 @law
-def any_wrong(h: SensorHealths) -> Any:
-    """1 if any of what is compared was not good in its last sample, else 0."""
-    motion = passing(h.attitude) * passing(h.position) * passing(h.velocity)
-    return 1.0 - passing(h.gyroscope) * passing(h.accelerometer) * motion
+def any_invalid(h: PerSensor) -> Any:
+    """1 if the last sample of any sensor that is compared was invalid, else 0."""
+    motion = is_valid(h.attitude) * is_valid(h.position) * is_valid(h.velocity)
+    return 1.0 - is_valid(h.gyroscope) * is_valid(h.accelerometer) * motion
 
 
 @law
 def any_lost(r: WatchdogReport) -> Any:
-    """1 if any of what is compared is lost, else 0."""
-    unit = r.imu + r.gyroscope + r.accelerometer
-    return where(unit + r.motion + r.attitude + r.position + r.velocity > 0.0, 1.0, 0.0)
+    """1 if any sensor that is compared is lost, else 0."""
+    imu = r.imu + r.gyroscope + r.accelerometer
+    return where(imu + r.motion + r.attitude + r.position + r.velocity > 0.0, 1.0, 0.0)
 
 
 @law
 def watchdog_step(k: Watchdog, m: WatchdogState, readings: Readings, p: PredictedReadings, dt: Any) -> Any:
-    """(usable readings, `WatchdogReport`, the new memory) of a step of dt [s], with what the navigator expects."""
-    u, v, health = readings.unit, readings.motion, judge(k.ranges, m.health, m.last, readings, dt)
-    unit_age, motion_age = (m.unit_age + dt) * (1.0 - u.fresh), (m.motion_age + dt) * (1.0 - v.fresh)
-    seen = maximum(m.unit_seen, u.fresh), maximum(m.motion_seen, v.fresh)
-    before = reported(k, health, unit_age, motion_age, seen[0] * seen[1], m.apart)
-    kept, attitude = kept_unit(m.good.unit, u, health), passing(health.attitude)
-    seen_attitude = chosen_attitude(attitude, v.attitude, m.good.motion.attitude)
-    heard = where(before.gyroscope + before.imu > 0.0, 0.0, 1.0)
-    rates = turning_of(k, m, kept, seen_attitude, v.fresh * attitude, heard, p)
-    wrong, velocity = maximum(any_wrong(health), any_lost(before)), velocity_of(k, m, v, health, before)
-    mean = mean_of(m.mean, p, wrong, dt)
-    unit, motion = replaced_unit(kept, before, rates, p, mean), replaced_motion(v, health, before, velocity, p)
-    apart = inconsistency_after(k, m.apart, unit, motion, wrong, dt)
-    position = chosen(passing(health.position), v.position, m.good.motion.position)
-    good = Readings(kept, MotionReading(position, motion.velocity, seen_attitude, motion.fresh))
-    after = WatchdogState(readings, good, health, unit_age, motion_age, seen[0], seen[1], rates, velocity, mean, apart)
-    report = reported(k, health, unit_age, motion_age, seen[0] * seen[1], apart)
-    return Readings(unit, motion), report, after
+    """(usable readings, `WatchdogReport`, the new memory) after a step of dt [s] with the navigator's prediction."""
+    v, health = readings.motion, judge(k.sensors, m.health, m.last, readings, dt)
+    m = m._replace(
+        imu_age=(m.imu_age + dt) * (1.0 - readings.imu.fresh),
+        motion_age=(m.motion_age + dt) * (1.0 - v.fresh),
+        imu_seen=maximum(m.imu_seen, readings.imu.fresh),
+        motion_seen=maximum(m.motion_seen, v.fresh),
+    )
+    seen = m.imu_seen * m.motion_seen
+    before = report_of(k, health, m.imu_age, m.motion_age, seen, m.inconsistency)
+    kept, attitude_valid = valid_imu(m.valid.imu, readings.imu, health), is_valid(health.attitude)
+    attitude = chosen(attitude_valid, v.attitude, m.valid.motion.attitude)
+    measured = where(before.gyroscope + before.imu > 0.0, 0.0, 1.0)
+    rates = substitute_rates(k, m, kept, attitude, v.fresh * attitude_valid, measured, p)
+    wrong, velocity = maximum(any_invalid(health), any_lost(before)), substitute_velocity(k, m, v, health, before)
+    mean = mean_after(m.mean, p, wrong, dt)
+    imu, motion = substituted_imu(kept, before, rates, p, mean), substituted_motion(v, health, before, velocity, p)
+    difference = inconsistency_after(k, m.inconsistency, imu, motion, wrong, dt)
+    position = chosen(is_valid(health.position), v.position, m.valid.motion.position)
+    after = m._replace(
+        last=readings,
+        valid=readings._replace(imu=kept, motion=motion._replace(position=position, attitude=attitude)),
+        health=health,
+        rates=rates,
+        velocity=velocity,
+        mean=mean,
+        inconsistency=difference,
+    )
+    report = report_of(k, health, m.imu_age, m.motion_age, seen, difference)
+    return readings._replace(imu=imu, motion=motion), report, after
 
 
 def start_watchdog(readings: Readings) -> WatchdogState:
-    """The memory before the first step, in which both devices say `readings`, not fresh."""
-    none, v = SensorHealth(0.0, 0.0, 0.0), readings.motion
-    health = SensorHealths(none, none, none, none, none, none)
-    apart, mean = Inconsistency(ZERO, ZERO, ZERO, v.attitude, v.position, v.velocity), Biases(ZERO, ZERO, -EARLY)
-    return WatchdogState(readings, readings, health, 0.0, 0.0, 0.0, 0.0, ZERO, v.velocity, mean, apart)
+    """The memory before the first step, in which both devices have read `readings`, not fresh."""
+    v = readings.motion
+    return WatchdogState(
+        last=readings,
+        valid=readings,
+        health=PerSensor(*[SensorHealth(0.0, 0.0, 0.0)] * len(PerSensor._fields)),
+        imu_age=0.0,
+        motion_age=0.0,
+        imu_seen=0.0,
+        motion_seen=0.0,
+        rates=ZERO,
+        velocity=v.velocity,
+        mean=MeanBiases(ZERO, ZERO, -SETTLING_TIME),
+        inconsistency=Inconsistency(ZERO, ZERO, ZERO, v.attitude, v.position, v.velocity),
+    )
 
 
 @law
-def unsound(s: State) -> Any:
+def state_not_finite(s: State) -> Any:
     """1 if any number of a state is not finite, else 0."""
-    where_and_how_fast = maximum(any_of(no_number(s.position)), any_of(no_number(s.velocity)))
-    return maximum(where_and_how_fast, maximum(any_of(no_number(s.rates)), no_number(dot(s.attitude, s.attitude))))
+    motion = maximum(any_component(not_finite(s.position)), any_component(not_finite(s.velocity)))
+    return maximum(motion, maximum(any_component(not_finite(s.rates)), not_finite(dot(s.attitude, s.attitude))))

@@ -18,13 +18,13 @@ from tandemlift.algebra.types import Number
 
 MASK = 0xFFFFFFFF
 MULTIPLIER = (0xD2511F53, 0xCD9E8D57)
-WEYL = (0x9E3779B9, 0xBB67AE85)  # what the key grows by from round to round: golden ratio, √3 − 1
+WEYL = (0x9E3779B9, 0xBB67AE85)  # increment of the key from round to round: golden ratio, √3 − 1
 WORD = 2.0**-32
 TURN = 6.283185307179586  # 2π
 
 
 class Words(NamedTuple):
-    """Four 32-bit words: a counter, or what Philox makes of it."""
+    """Four 32-bit words: a counter, or the output of Philox."""
 
     first: Number
     second: Number
@@ -49,8 +49,8 @@ class Normals(NamedTuple):
     fourth: Number
 
 
-def keys_of(seed: int) -> tuple[float, float]:
-    """The key of a seed: two words, as floats (exact), so that a flight can carry them among its numbers.
+def key_from_seed(seed: int) -> tuple[float, float]:
+    """The key of a seed: two words, as floats (exact), so that they can be stored among a flight's numbers.
 
     Args:
         seed: any integer from 0. Two seeds share a key with a chance of 2⁻⁶⁴.
@@ -60,7 +60,7 @@ def keys_of(seed: int) -> tuple[float, float]:
 
 
 @law
-def scrambled(s: Scramble) -> Scramble:
+def philox_round(s: Scramble) -> Scramble:
     """One round of Philox4x32."""
     x = s.words
     p, q = MULTIPLIER[0] * x.first, MULTIPLIER[1] * x.third
@@ -72,7 +72,7 @@ def scrambled(s: Scramble) -> Scramble:
 @law
 def five_rounds(s: Scramble) -> Scramble:
     """Half of Philox4x32-10."""
-    return scrambled(scrambled(scrambled(scrambled(scrambled(s)))))
+    return philox_round(philox_round(philox_round(philox_round(philox_round(s)))))
 
 
 @law
@@ -82,27 +82,27 @@ def philox(counter: Words, key0: Number, key1: Number) -> Words:
 
 
 @law
-def radius(word: Number) -> Number:
+def normal_radius(word: Number) -> Number:
     """√(−2 ln u), u the middle of one of 2³² equal parts of (0, 1), so never 0: at most 6.77."""
     return sqrt(-2.0 * log((word + 0.5) * WORD))
 
 
 @law
-def angle(word: Number) -> Number:
+def normal_angle(word: Number) -> Number:
     """2π u [rad], u as above."""
     return (word + 0.5) * (TURN * WORD)
 
 
 @law
 def normals(step: Number, draw: Number, key0: Number, key1: Number) -> Normals:
-    """Four standard normal numbers, the same whenever and wherever they are asked for.
+    """Four standard normal numbers, the same for the same arguments on every machine.
 
     Args:
         step: number of the step, a whole number from 0, below 2³².
         draw: which four of that step, a whole number from 0, below 2³².
-        key0: first word of the key, as a float or an integer (see `keys_of`).
+        key0: first word of the key, as a float or an integer (see `key_from_seed`).
         key1: second word.
     """
     x = philox(Words(int(step), int(draw), 0, 0), int(key0), int(key1))
-    r, a, s, b = radius(x.first), angle(x.second), radius(x.third), angle(x.fourth)
+    r, a, s, b = normal_radius(x.first), normal_angle(x.second), normal_radius(x.third), normal_angle(x.fourth)
     return Normals(r * cos(a), r * sin(a), s * cos(b), s * sin(b))

@@ -1,4 +1,4 @@
-"""The reference that the position controller tracks: the admittance's trajectory, lifted and landed.
+"""The reference of the position controller: the admittance's trajectory, with lift and landing.
 
 x_d, y_d = T_r; z_d = (T_r,z + height · q(lift)) (1 − q(land)), with exact derivatives, where q is the quintic
 smoothstep 10 s³ − 15 s⁴ + 6 s⁵ on [0, 1].
@@ -21,10 +21,10 @@ class Trajectory(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """What is to be tracked.
+    """The reference to be tracked.
 
-    The centre of mass's trajectory in world axes; the yaw ψ_d [rad], its rate [rad/s] and acceleration [rad/s²]; and by
-    how much the trajectory's acceleration will have changed [m/s²] when the vehicle answers, zero if that is not known.
+    The centre of mass's trajectory in world axes; the yaw ψ_d [rad], its rate [rad/s] and acceleration [rad/s²]; and
+    `lead`: the predicted change of the trajectory's acceleration [m/s²] until the vehicle responds, zero if unknown.
     """
 
     trajectory: Trajectory

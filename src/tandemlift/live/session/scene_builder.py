@@ -13,7 +13,7 @@ from tandemlift.algebra.vector import Nothing
 from tandemlift.common.faults import ALARM_TEXTS
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.contact import soles_below
+from tandemlift.laws.mechanics.contact import sole_positions
 from tandemlift.live.wire.frames import RATE, layout_for
 from tandemlift.live.wire.scene import (
     FlightScene,
@@ -85,7 +85,7 @@ def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, fl
 def _lowest(mission: Mission, vehicle: Vehicle) -> float:
     """Height of the soles at the start of a level flight [m]."""
     fleet = vehicle.quadrotors
-    soles = soles_below(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
+    soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
     return float(mission.initial.position[2] + np.min(soles[:, 2]))
 
 

@@ -12,15 +12,14 @@ from machine_code import answers
 
 from tandemlift.algebra.vector import each, vec3
 from tandemlift.laws.mechanics.body import Wrench
-from tandemlift.laws.rotors.allocation import Mixer
-from tandemlift.laws.rotors.thrust_limits import given_share, share_scale
+from tandemlift.laws.rotors.allocation import Mixer, achieved_fraction, wrench_scale
 
 
 def share(c: Craft, wanted: Any, f: Any) -> float:
     n = c.B.shape[1]
     effect = Mixer(*[each(n)(*map(float, row)) for row in c.B])
     tau = Wrench(float(wanted[0]), vec3(wanted[1:]))
-    return float(given_share(effect, share_scale(c.B), tau, each(n)(*map(float, f))))
+    return float(achieved_fraction(effect, wrench_scale(c.B), tau, each(n)(*map(float, f))))
 
 
 @EVERY
@@ -48,7 +47,7 @@ def test_nothing_wanted_is_wholly_given():
 
 
 class Shared(NamedTuple):
-    """Arguments of `given_share`."""
+    """Arguments of `achieved_fraction`."""
 
     effect: Mixer
     scale: Wrench
@@ -57,11 +56,11 @@ class Shared(NamedTuple):
 
 
 def shared(numbers: Any) -> Any:
-    return given_share(*rebuilt(numbers, SHARED))
+    return achieved_fraction(*rebuilt(numbers, SHARED))
 
 
 ROW = each(4)(0.0, 0.0, 0.0, 0.0)
-SHARED = Shared(Mixer(ROW, ROW, ROW, ROW), share_scale(np.eye(4)), share_scale(np.eye(4)), ROW)
+SHARED = Shared(Mixer(ROW, ROW, ROW, ROW), wrench_scale(np.eye(4)), wrench_scale(np.eye(4)), ROW)
 
 
 def test_the_share_is_the_same_in_every_library(jax, casadi):
@@ -75,4 +74,4 @@ def test_the_share_is_the_same_in_every_library(jax, casadi):
     assert np.asarray(shared(list(jax.numpy.asarray(table)))) == pytest.approx(wanted, abs=1e-12)
     assert np.array(by_casadi(table)).ravel() == pytest.approx(wanted, abs=1e-12)
     for lanes in (1, 8):
-        assert answers(given_share, tuple(SHARED), table.T, lanes).ravel() == pytest.approx(wanted, abs=1e-12)
+        assert answers(achieved_fraction, tuple(SHARED), table.T, lanes).ravel() == pytest.approx(wanted, abs=1e-12)

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Nothing, each
 from tandemlift.laws.estimation.push_estimate import estimate, push_estimator, start_push
-from tandemlift.laws.mechanics.air_drag import bias_of, blown, start_payload_drag
+from tandemlift.laws.estimation.wind_compensation import start_payload_drag, tare_mean, wind_on_payload
 from tandemlift.missions import load_mission
 from tandemlift.simulation.sensors import payload_drag_from
 from tandemlift.vehicle import Vehicle
@@ -85,11 +85,14 @@ def test_noise_of_the_joints_comes_through_times_the_ratio_of_drags_as_told():
     assert 2.0 * k.ratio_x == pytest.approx(11.0)
     memory, found, pair = start_payload_drag(k), np.zeros(n), each(2)
     for i, (a, b) in enumerate(rng.standard_normal((n, 2)) * sigma):
-        force, memory = blown(k, memory, pair(float(a), float(b)), pair(0.0, 0.0), 1.0, 0.0, 1.0)
+        force, memory = wind_on_payload(k, memory, pair(float(a), float(b)), pair(0.0, 0.0), 1.0, 0.0, 1.0)
         found[i] = force.x
     assert found[1000:].std() == pytest.approx(11.0 * sigma * np.sqrt(12.0 * STEP / 8.0), rel=0.1)
 
 
 def test_without_a_tare_and_without_compensation_nothing_is_taken_off():
-    assert array(bias_of(start_payload_drag(payload_drag_from(VEHICLE, 12.0, STEP)))) == pytest.approx(np.zeros(3))
-    assert blown(Nothing(), Nothing(), each(2)(1.0, 1.0), each(2)(1.0, 1.0), 1.0, 0.0, 1.0) == (ZERO, Nothing())
+    assert array(tare_mean(start_payload_drag(payload_drag_from(VEHICLE, 12.0, STEP)))) == pytest.approx(np.zeros(3))
+    assert wind_on_payload(Nothing(), Nothing(), each(2)(1.0, 1.0), each(2)(1.0, 1.0), 1.0, 0.0, 1.0) == (
+        ZERO,
+        Nothing(),
+    )

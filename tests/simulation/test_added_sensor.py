@@ -1,0 +1,211 @@
+"""The recipe "Add a sensor" of CONTRIBUTING.md: a row and a law, here a barometer's, and missions fly with it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy import stats
+from scipy.spatial.transform import Rotation
+
+import tandemlift as tl
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.law import law
+from tandemlift.algebra.vector import Nothing, Vec3
+from tandemlift.common.errors import InputError
+from tandemlift.common.sensors import DEVICES, SENSORS, additional, sensors_on
+from tandemlift.flight.channels import CHANNELS
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.sensors.health import PerSensor
+from tandemlift.laws.sensors.readings import ImuChannels, ImuReading, MotionChannels, MotionReading, Readings
+from tandemlift.laws.sensors.sensor_registry import register_sensor
+
+SEA_LEVEL, DENSITY = 101325.0, 1.225  # Pa, kg/m³
+STEP = 1e-3
+BAROMETER = additional("barometer", "Pa", "static air pressure at the centre of mass")
+
+
+@register_sensor(BAROMETER)
+@law
+def air_pressure(sensor: Any, state: State, perfect: PerfectReadings) -> Any:
+    """The static pressure at the height of the centre of mass [Pa], in air of constant density."""
+    return SEA_LEVEL - state.position.z * (DENSITY * GRAVITY)
+
+
+def changes(seed: int = 0, duration: float = 0.5, name: str = "barometer", **settings: Any) -> dict[str, Any]:
+    """Of mission `paper`: it sinks from 0.5 m with simulated sensors and an additional one, logged at every step."""
+    return {
+        "mission.duration": duration,
+        "mission.log_interval": STEP,
+        "mission.step": STEP,
+        "mission.seed": seed,
+        "initial.position": [0.0, 0.0, 0.5],
+        "sensors.model": "simulated",
+        "sensors.additional": [{"name": name, **settings}],
+    }
+
+
+def mission(*args: Any, **settings: Any) -> tl.Mission:
+    """The mission with these changes."""
+    return tl.load_mission("paper", changes(*args, **settings))
+
+
+def pressure(flight: tl.Flight) -> np.ndarray:
+    """The true pressure at every step [Pa]."""
+    return SEA_LEVEL - DENSITY * GRAVITY * flight["position"][:, 2]
+
+
+def errors(flight: tl.Flight) -> np.ndarray:
+    """What the barometer read too much [Pa]; a sample is known one step later."""
+    return flight["measured_barometer"][1:] - pressure(flight)[:-1]
+
+
+def deviation_is(values: Any, sigma: float) -> bool:
+    """Whether values around 0 have that standard deviation, but for 1 in 5,000."""
+    low, high = stats.chi2.ppf([1e-4, 1.0 - 1e-4], np.size(values))
+    return bool(low < np.sum(np.square(values)) / sigma**2 < high)
+
+
+def test_a_perfect_sensor_reads_what_its_law_gives_one_step_later():
+    flight = tl.fly(mission())
+    assert np.ptp(pressure(flight)) > 0.1  # Pa
+    assert errors(flight) == pytest.approx(0.0, abs=1e-10)
+
+
+def test_its_channel_has_the_unit_frame_and_meaning_of_its_row(tmp_path):
+    flight = tl.fly(mission(duration=0.01))
+    info = flight.info("measured_barometer")
+    assert (info.unit, info.frame) == ("Pa", "")
+    assert BAROMETER.meaning in info.meaning
+    assert tl.Flight.load(flight.save(tmp_path / "flight.npz"))["measured_barometer"].shape == (11,)
+
+
+def test_the_noise_has_the_deviation_that_is_set_and_no_bias():
+    off = errors(tl.fly(mission(duration=4.0, noise=2.0)))
+    assert deviation_is(off, 2.0)
+    assert abs(np.mean(off)) < 4.0 * 2.0 / np.sqrt(len(off))
+
+
+def test_the_bias_is_constant_and_drawn_with_the_deviation_that_is_set():
+    flights = tl.fly_many([mission(seed, duration=0.02, bias=30.0) for seed in range(200)])
+    off = np.array([errors(flight) for flight in flights])
+    assert np.ptp(off, axis=1) == pytest.approx(0.0, abs=1e-9)
+    assert deviation_is(off[:, 0], 30.0)
+
+
+def test_the_drift_grows_as_a_random_walk():
+    flights = tl.fly_many([mission(seed, duration=0.5, drift=5.0) for seed in range(200)])
+    off = np.array([errors(flight) for flight in flights])
+    for k in (50, 499):
+        assert deviation_is(off[:, k] - off[:, 0], 5.0 * np.sqrt(k * STEP))
+
+
+@pytest.mark.parametrize(("delay", "steps"), [(0.004, 4), (0.05, 50)])
+def test_the_delay_is_the_one_that_is_set_and_another_sensors_is_not_changed(delay, steps):
+    flight = tl.fly(mission(delay=delay))
+    read, true = flight["measured_barometer"], pressure(flight)
+    assert read[1 + steps :] == pytest.approx(true[: -1 - steps], abs=1e-10)
+    assert read[: 1 + steps] == pytest.approx(true[0], abs=1e-10)
+    assert np.array_equal(flight["measured_position"][1:], flight["position"][:-1])
+
+
+def test_it_samples_on_a_clock_of_its_own():
+    flight = tl.fly(mission(interval=0.02))
+    changes = np.flatnonzero(np.diff(flight["measured_barometer"])) + 1
+    assert set(np.diff(changes)) == {20}
+    assert flight["measured_barometer"][changes] == pytest.approx(pressure(flight)[changes - 1], abs=1e-10)
+
+
+def test_it_reads_whole_steps_and_no_more_than_its_range():
+    assert np.unique(tl.fly(mission(resolution=2.5, noise=3.0))["measured_barometer"] / 2.5 % 1.0) == [0.0]
+    assert np.unique(tl.fly(mission(range=90000.0))["measured_barometer"]) == [90000.0]
+
+
+@pytest.mark.parametrize("kind", ["frozen", "bias", "range", "nan", "stale"])
+def test_it_fails_as_any_sensor_does(kind):
+    fault = {"sensor": "barometer", "kind": kind, "time": 0.2, "until": 0.3, "size": 7.0}
+    flight = tl.fly(tl.load_mission("paper", {**changes(), "sensor_faults": [fault]}))
+    read, true = flight["measured_barometer"], np.concatenate([[pressure(flight)[0]], pressure(flight)[:-1]])
+    failed = slice(201, 301)
+    expected = {
+        "frozen": np.full(100, true[200]),
+        "stale": np.full(100, true[200]),
+        "bias": true[failed] + 7.0,
+        "range": np.full(100, 7.0),
+        "nan": np.full(100, np.nan),
+    }[kind]
+    assert read[failed] == pytest.approx(expected, abs=1e-10, nan_ok=True)
+    for sound in (slice(1, 201), slice(301, None)):
+        assert read[sound] == pytest.approx(true[sound], abs=1e-10)
+
+
+def test_a_vector_is_read_in_its_frame_with_noise_on_each_axis():
+    flight = tl.fly(mission(name="magnetometer", noise=0.01, duration=2.0))
+    north = Rotation.from_quat(flight["attitude"], scalar_first=True).inv().apply([1.0, 0.0, 0.0])
+    off = flight["measured_magnetometer"][1:] - north[:-1]
+    assert all(deviation_is(axis, 0.01) for axis in off.T)
+    assert flight.info("measured_magnetometer").frame == "body"
+
+
+def test_alone_and_in_a_block_it_reads_the_same_to_the_last_bit():
+    missions = [mission(seed, noise=1.0, bias=3.0, drift=2.0, delay=0.01, interval=0.003) for seed in range(8)]
+    for alone, together in zip(map(tl.fly, missions), tl.fly_many(missions), strict=True):
+        assert all(np.array_equal(alone[name], together[name]) for name in alone)
+
+
+def test_it_changes_no_bit_of_any_other_channel():
+    with_it = tl.fly(mission(noise=1.0, bias=3.0))
+    without = tl.fly(tl.load_mission("paper", {**changes(), "sensors.additional": []}))
+    assert set(with_it) - set(without) == {"measured_barometer"}
+    assert all(np.array_equal(without[name], with_it[name]) for name in without)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (
+            {"sensors.additional": [{"name": "barometr"}]},
+            r'additional\.0\.name = "barometr": must be one of .*barometer',
+        ),
+        ({"sensors.additional": [{"name": "barometer"}] * 2}, "must be different from the sensors above"),
+        ({"sensors.model": "none"}, r'sensors\.model = "none": must be "simulated"'),
+        ({"sensor_faults": [{"sensor": "altimeter", "kind": "nan", "time": 0.1}]}, 'sensor = "altimeter": must be one'),
+        ({"sensor_faults": [{"sensor": "barometer", "kind": "nan", "time": 0.1, "quadrotor": 1}]}, "must be left out"),
+    ],
+)
+def test_a_mission_that_cannot_have_it_is_refused(wrong, words):
+    with pytest.raises(InputError, match=words):
+        tl.load_mission("paper", {**changes(), **wrong})
+
+
+@pytest.mark.parametrize("name", ["gyroscope", "imu", "specific_force", "Baro Meter", ""])
+def test_a_name_that_is_taken_or_unfit_is_refused(name):
+    with pytest.raises(InputError, match="cannot be named"):
+        register_sensor(additional(name, "1", "nothing"))(air_pressure)
+
+
+def test_a_law_of_another_width_than_its_row_is_refused():
+    with pytest.raises(InputError, match="a number for width 1, a Vec3 for 3, not float"):
+        register_sensor(additional("wide", "Pa", "pressure", width=3))(air_pressure)
+
+
+def test_the_table_names_every_sensor_once_and_its_units_are_those_of_the_channels():
+    assert PerSensor._fields == tuple(SENSORS)
+    assert Readings._fields[:2] == DEVICES
+    for device, channels, reading in zip(
+        DEVICES, (ImuChannels, MotionChannels), (ImuReading, MotionReading), strict=True
+    ):
+        quantities = {name for sensor in sensors_on(device) for name in sensor.quantities}
+        assert quantities == set(channels._fields) - {"frame"}
+        assert reading._fields == (*channels._fields, "fresh")
+    for sensor in SENSORS.values():
+        channel = CHANNELS[f"measured_{sensor.quantities[0]}"]
+        assert (sensor.unit, sensor.frame) == (channel.unit, channel.frame)
+
+
+def test_the_law_is_plain_python():
+    """So it can be called by itself."""
+    state = State(Vec3(0.0, 0.0, 100.0), Vec3(0.0, 0.0, 0.0), Nothing(), Vec3(0.0, 0.0, 0.0))
+    assert air_pressure(None, state, None) == pytest.approx(101325.0 - 1.225 * 9.81 * 100.0)
