@@ -70,70 +70,73 @@ def test_the_paper_mission_leaves_out_only_what_it_has_no_part_of():
     assert all(q["spins"] == [1, -1, 1, -1] for q in rest["vehicle"]["quadrotors"])
 
 
+PAPER_QUADROTOR = {
+    "mass": 1.5,
+    "inertia": [0.029125, 0.029125, 0.055225],
+    "layout": "+",
+    "arm": 0.25,
+    "thrust_constant": 5.84e-6,
+    "max_speed": 1100.0,
+    "torque_per_thrust": 0.06,
+    "lag_up": 0.0125,
+    "lag_down": 0.025,
+}
+PAPER_BEAM = {"mass": 0.5, "length": 2.0, "radius": 0.05}
+PAPER_PUSHES = [
+    ("z", 14, 1.5, 0.5),
+    ("x", 22, 3, 0.6),
+    ("y", 28, 2, 0.6),
+    ("x", 34, 3, 0.6),
+    ("y", 40, -3, 0.8),
+    ("x", 46, 3, 0.6),
+    ("y", 52, 2, 0.6),
+    ("x", 58, 3, 0.6),
+]  # axis, time [s], size [N], standard deviation [s]
+PAPER = {
+    "mission": {"name": "paper", "duration": 90.0, "step": 0.001, "log_interval": 0.01, "seed": 0},
+    "vehicle": {
+        "payload": PAPER_BEAM,
+        "quadrotors": [PAPER_QUADROTOR | {"position": [0.0, y, 0.075]} for y in (1.0, -1.0)],
+        "drag": {"force": [0.006] * 3, "moment": [0.006] * 3},
+    },
+    "controller": {
+        "name": "nftsmc",
+        "gains": {
+            "xi": [4.0, 2.0, 11.0, 25.0, 80.0, 25.0],
+            "eta": [0.2, 0.1, 0.2, 0.2, 0.2, 0.2],
+            "lambda_1": [0.2, 0.1, 200.0, 40.0, 40.0, 40.0],
+            "lambda_2": [2.0, 1.0, 100.0, 30.0, 30.0, 30.0],
+            "a": [3.0] * 6,
+        },
+        "switching": "tanh",
+        "boundary_layer": [0.1] * 6,
+        "attitude_reference_derivatives": "zero",
+        "euler_rates": "exact",
+        "tilt_inverse": "zxy",
+        "human_force_feedforward": False,
+    },
+    "admittance": {
+        "mass": [1.0] * 3,
+        "damping": [1.6] * 3,
+        "stiffness": [0.0] * 3,
+        "threshold": [0.3] * 3,
+        "gate": "hard",
+        "reanchor": False,
+    },
+    "allocation": {"method": "pseudo-inverse", "weights": [[1.0] * 4]},
+    "initial": {"position": [0.3, -0.3, 0.0], "euler": [0.15, -0.15, 0.2]},
+    "phases": {"lift_start": 2.0, "lift_duration": 6.0, "height": 1.0, "land_start": 70.0, "land_duration": 12.0},
+    "pushes": [
+        {"force": [A * (axis == other) for other in "xyz"], "time": t, "sigma": sigma}
+        for axis, t, A, sigma in PAPER_PUSHES
+    ],
+    "actuators": {"model": "ideal"},
+}
+
+
 def test_the_paper_mission_has_the_paper_s_numbers():
-    quadrotor = {
-        "mass": 1.5,
-        "inertia": [0.029125, 0.029125, 0.055225],
-        "layout": "+",
-        "arm": 0.25,
-        "thrust_constant": 5.84e-6,
-        "max_speed": 1100.0,
-        "torque_per_thrust": 0.06,
-        "lag_up": 0.0125,
-        "lag_down": 0.025,
-    }
-    beam = {"mass": 0.5, "length": 2.0, "radius": 0.05}
-    pushes = [
-        ("z", 14, 1.5, 0.5),
-        ("x", 22, 3, 0.6),
-        ("y", 28, 2, 0.6),
-        ("x", 34, 3, 0.6),
-        ("y", 40, -3, 0.8),
-        ("x", 46, 3, 0.6),
-        ("y", 52, 2, 0.6),
-        ("x", 58, 3, 0.6),
-    ]
     said = tomllib.loads((DATA / "missions" / "paper.toml").read_text("utf-8"))
-    assert common(tables_of(load_mission("paper")), said) == {
-        "mission": {"name": "paper", "duration": 90.0, "step": 0.001, "log_interval": 0.01, "seed": 0},
-        "vehicle": {
-            "payload": beam,
-            "quadrotors": [quadrotor | {"position": [0.0, y, 0.075]} for y in (1.0, -1.0)],
-            "drag": {"force": [0.006] * 3, "moment": [0.006] * 3},
-        },
-        "controller": {
-            "name": "nftsmc",
-            "gains": {
-                "xi": [4.0, 2.0, 11.0, 25.0, 80.0, 25.0],
-                "eta": [0.2, 0.1, 0.2, 0.2, 0.2, 0.2],
-                "lambda_1": [0.2, 0.1, 200.0, 40.0, 40.0, 40.0],
-                "lambda_2": [2.0, 1.0, 100.0, 30.0, 30.0, 30.0],
-                "a": [3.0] * 6,
-            },
-            "switching": "tanh",
-            "boundary_layer": [0.1] * 6,
-            "attitude_reference_derivatives": "zero",
-            "euler_rates": "exact",
-            "tilt_inverse": "zxy",
-            "human_force_feedforward": False,
-        },
-        "admittance": {
-            "mass": [1.0] * 3,
-            "damping": [1.6] * 3,
-            "stiffness": [0.0] * 3,
-            "threshold": [0.3] * 3,
-            "gate": "hard",
-            "reanchor": False,
-        },
-        "allocation": {"method": "pseudo-inverse", "weights": [[1.0] * 4]},
-        "initial": {"position": [0.3, -0.3, 0.0], "euler": [0.15, -0.15, 0.2]},
-        "phases": {"lift_start": 2.0, "lift_duration": 6.0, "height": 1.0, "land_start": 70.0, "land_duration": 12.0},
-        "pushes": [
-            {"force": [A * (axis == other) for other in "xyz"], "time": t, "sigma": sigma}
-            for axis, t, A, sigma in pushes
-        ],
-        "actuators": {"model": "ideal"},
-    }
+    assert common(tables_of(load_mission("paper")), said) == PAPER
 
 
 AXES = {

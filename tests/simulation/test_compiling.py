@@ -1,5 +1,6 @@
 """Compiled loops: what is loaded when, what decides their key, what the machine code is made of."""
 
+import functools
 import inspect
 import os
 import re
@@ -81,9 +82,9 @@ def test_the_key_is_of_the_sources_that_run_even_if_they_are_edited_meanwhile(tm
     code = """
 import sys, tandemlift as tl
 from pathlib import Path
-from tandemlift.simulation.plan import Prepared
+from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace.key import key_of
-flying = Prepared(tl.load_mission("one-push")).flying
+flying = FlightPlan(tl.load_mission("one-push")).flying
 print(key_of(flying))
 with (Path(tl.__file__).parent / "laws" / "mechanics" / "rotation.py").open("a") as law:
     law.write("# an edit")
@@ -111,6 +112,7 @@ def test_two_variants_whose_parameters_are_equal_tuples_fly_differently():
     assert not np.array_equal(tanh["thrust"], saturation["thrust"])
 
 
+@functools.cache
 def text_of(name, lanes):
     """The module of a built-in mission's loop."""
     return FlightPlan(tl.load_mission(name)).kernels._written("loop", lanes).text
@@ -129,7 +131,7 @@ def test_a_loop_calls_no_function_of_the_c_library(name):
         assert {word.split(".")[1] for word in declared} <= own
 
 
-@pytest.mark.parametrize("name", ["one-push", "iris"])
+@pytest.mark.parametrize("name", built_in())
 def test_the_loop_of_a_block_works_on_all_lanes_at_once(name):
     text = text_of(name, LANES)
     assert f"call <{LANES} x double> @llvm.fma.v{LANES}f64(" in text
