@@ -60,13 +60,13 @@ def in_a_row(like: BoundedProblem, warm: bool) -> Callable[[np.ndarray, np.ndarr
     write_solver(module, solver, 1)
     f = Function(module, solver.graph, 1, "i64 @all(ptr noalias %problems, i64 %count, ptr noalias %s) #0")
     with f.repeat("%count") as k:
-        problem = f.at("%problems", f.whole("mul", k, size - fixed))
+        problem = f.at("%problems", f.integer("mul", k, size - fixed))
         with f.repeat(size - fixed) as m:
-            f.store(f.load(problem, m), "%s", f.whole("add", m, fixed))
+            f.store(f.load(problem, m), "%s", f.integer("add", m, fixed))
         if not warm:
             with f.repeat(n) as i:
-                f.store(f.zero, "%s", f.whole("add", i, search))
-                f.store(f.load(problem, f.whole("add", i, 4)), "%s", f.whole("add", i, search + n))
+                f.store(f.zero, "%s", f.integer("add", i, search))
+                f.store(f.load(problem, f.integer("add", i, 4)), "%s", f.integer("add", i, search + n))
         f.store(double(0.0), "%s", search + 2 * n + 2)
         f.do("call void @solve(ptr %s)")
     f.end("i64 0")

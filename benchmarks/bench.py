@@ -59,7 +59,7 @@ def other_rows(results: dict[str, Any]) -> list[list[str]]:
             number(results["mujoco"]["real_time"]),
         ],
         ["the same, µs a step", number(results["mujoco"]["step_us"])],
-        ["share of bare `mj_step` in it", number(results["mujoco"]["bare_share"])],
+        ["fraction of it in `mj_step`", number(results["mujoco"]["bare_share"])],
         ["`import tandemlift`, s", number(starts["import_s"])],
         ["first `load_mission`, s", number(starts["load_mission_s"])],
         ["llvmlite loaded after import / after `load_mission`", _loaded(starts)],

@@ -165,7 +165,7 @@ def all_rows(engine: str) -> Iterator[Row]:
     """The whole table of an engine."""
     free = FREE[engine]
     for count in (1, 2, 4):
-        yield from rows_of(f"bodies alone, N = {count}, thrusts that vary", open_loop(engine, count), free)
+        yield from rows_of(f"bodies alone, N = {count}, varying thrusts", open_loop(engine, count), free)
     flown: dict[str, tuple[str, dict[str, Any]]] = {
         "`paper`, 30 s": ("paper", {}),
         "`paper`, 30 s, mass + 10 %, inertia + 20, + 30, + 20 %": ("paper", SCALED),

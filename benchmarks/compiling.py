@@ -110,7 +110,7 @@ class Checkout(NamedTuple):
 
 
 class Job(NamedTuple):
-    """A row of the table: what a checkout does in an environment, and how many times less than the base is aimed at.
+    """A row of the table: what a checkout does in an environment, and the targeted ratio to the base.
 
     `before`: what is done first, untimed, that leaves a warm cache; without it the cache is empty. `alone`: the base is
     spared it.
@@ -273,7 +273,7 @@ def measure_all(chosen: list[Job], checkouts: list[Checkout], rounds: int) -> di
 
 
 def row(job: Job, turns: Any) -> list[str]:
-    """Cells of a row: medians, and the median over the pairs of how many times less than the base."""
+    """Cells of a row: medians, and the median over the pairs of the ratio of the base to it."""
     if not isinstance(turns, list):
         return [f"{job.what}. **Not measured: {turns}**", *[NO_RESULT] * 6, job.aim]
     columns = list(zip(*turns, strict=True))
@@ -284,7 +284,7 @@ def row(job: Job, turns: Any) -> list[str]:
     return [job.what, *map(number, [*times[0], *base, *less]), f"≥ {job.aim}" if job.aim else ""]
 
 
-HEADER = ("", "wall, s", "processor, s", "base: wall", "processor", "times less: wall", "processor", "to reach")
+HEADER = ("", "wall, s", "processor, s", "base: wall", "processor", "times faster: wall", "processor", "target")
 
 
 def main() -> None:

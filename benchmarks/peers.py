@@ -137,12 +137,12 @@ def _cells(result: dict[str, Any]) -> list[str]:
 
 
 HEADER = (
-    "what",
+    "simulator",
     "what a step is",
     "one flight, ns/step",
     "many, M steps/s, 1 core",
     "2 cores",
-    "ours is faster by (one / 1 core / 2 cores)",
+    "tandemlift is faster by (one / 1 core / 2 cores)",
 )
 
 

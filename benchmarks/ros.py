@@ -86,7 +86,7 @@ def listen(version: str, *, everything: bool) -> Listener:
 
 def topics() -> dict[str, str]:
     """Every topic that has a message for each sample, but odometry."""
-    from tandemlift.export.topics import recipes_of
+    from tandemlift.export.topics import recipes_for
     from tandemlift.live.session.session import Session
     from tandemlift.missions import load_mission
     from tandemlift.ros.sample_queue import SampleQueue, as_flight
@@ -100,7 +100,7 @@ def topics() -> dict[str, str]:
     flight = as_flight(taken, session.flight, {})
     vehicle = Vehicle.from_settings(session.flight.now.vehicle)
     session.stop()
-    return {r.name: r.kind for r in recipes_of(flight, vehicle) if r.name != TOPIC} | {"/tf": "tf2_msgs/TFMessage"}
+    return {r.name: r.kind for r in recipes_for(flight, vehicle) if r.name != TOPIC} | {"/tf": "tf2_msgs/TFMessage"}
 
 
 def listening(version: str, everything: bool, seconds: float) -> dict[str, float]:

@@ -7,7 +7,7 @@ import pytest
 
 from tandemlift.cli import console
 from tandemlift.cli.console import CompileNotices
-from tandemlift.trace.compile_events import Compiled, compiling, watching
+from tandemlift.trace.compile_events import Compiled, publish, watching
 
 LOOP = Compiled("flight loop", 0.5, is_made=True)
 
@@ -26,9 +26,9 @@ def check_lines(capsys):
 
 
 def compile_for(clock, seconds, what=LOOP):
-    compiling(None)
+    publish(None)
     clock[0] += seconds
-    compiling(what)
+    publish(what)
 
 
 def test_a_loop_is_told_of_with_its_time_and_what_took_no_time_is_not(clock, capsys):
@@ -50,10 +50,10 @@ def test_several_are_told_of_in_one_line_at_the_end(clock, capsys):
 def test_what_is_compiled_at_the_same_time_counts_once(clock, capsys):
     teller = CompileNotices()
     with watching(teller), teller.together():
-        compiling(None)
+        publish(None)
         clock[0] += 1.0
         compile_for(clock, 1.0, LOOP._replace(what="drawing loop"))
-        compiling(LOOP)
+        publish(LOOP)
     assert check_lines(capsys) == ["Compiled 2 loops in 2.0 s; they are kept for next time."]
 
 
@@ -75,13 +75,13 @@ def test_what_takes_long_is_told_of_before_its_end(monkeypatch, capsys):
     said, say = threading.Event(), console._print_line
     monkeypatch.setattr(console, "_print_line", lambda line: (say(line), said.set()))
     with watching(CompileNotices()):
-        compiling(None)
+        publish(None)
         assert said.wait(30.0)
         assert check_lines(capsys) == ["Compiling for this machine …"]
-        compiling(LOOP)
+        publish(LOOP)
 
 
 def test_nobody_is_told_who_does_not_watch(capsys):
-    compiling(None)
-    compiling(LOOP)
+    publish(None)
+    publish(LOOP)
     assert not re.search("ompil", "".join(check_lines(capsys)))

@@ -9,7 +9,7 @@ import pytest
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS, REACTION_MEANINGS, REACTIONS, Reaction
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
-from tandemlift.laws.guidance.supervision import first_failed
+from tandemlift.laws.guidance.preflight_checks import first_failed
 from tandemlift.settings import SupervisionTable
 
 NONE = ActiveFaults(*[0.0] * len(FAULTS))
@@ -81,9 +81,6 @@ from tandemlift.common import faults
 new = faults.Fault(21, "battery", "battery low", "the battery is low", "stop", "below a voltage")
 faults.FAULTS = (*faults.FAULTS, new)
 faults.ALARM_TEXTS = faults._alarm_texts()
-
-from tandemlift.laws.guidance import supervision
-detected = supervision.active_faults
 
 import tandemlift as tl
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction

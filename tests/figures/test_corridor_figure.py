@@ -8,7 +8,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.figures.corridor import NEWTON, arrows, instants
 from tandemlift.figures.drawing.clearances import clearances, grips
-from tandemlift.figures.registry import figures, figures_of
+from tandemlift.figures.registry import figures, figures_for
 from tandemlift.flight.record import Divergence
 from tandemlift.missions import tables_of
 from tandemlift.settings import wall_tables
@@ -71,9 +71,9 @@ def test_walls_vehicle_path_and_pushes_are_drawn_where_they_were():
 
 
 def test_it_is_a_figure_of_flights_among_walls_only():
-    assert "corridor" in figures_of(moved())
-    assert "corridor" not in figures_of(moved(**{"corridor.centreline": [], "person.model": "none"}))
-    assert "corridor" in figures_of(moved(**{"walls": [{"start": [0, 9], "end": [9, 9]}]}))
+    assert "corridor" in figures_for(moved())
+    assert "corridor" not in figures_for(moved(**{"corridor.centreline": [], "person.model": "none"}))
+    assert "corridor" in figures_for(moved(**{"walls": [{"start": [0, 9], "end": [9, 9]}]}))
     assert moved().mission["corridor"]["centreline"]
 
 

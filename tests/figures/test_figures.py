@@ -18,8 +18,8 @@ import tandemlift as tl
 from tandemlift.figures.drawing import style as figure_style
 from tandemlift.figures.drawing.series import decimate, intervals, normalised
 from tandemlift.figures.drawing.skeleton import skeleton
-from tandemlift.figures.drawing.vehicle import weight_of
-from tandemlift.figures.registry import VIEWS, captions, figures, figures_of, save_figures
+from tandemlift.figures.drawing.vehicle import true_weight
+from tandemlift.figures.registry import VIEWS, captions, figures, figures_for, save_figures
 from tandemlift.flight.record import Divergence
 from tandemlift.vehicle import Vehicle
 
@@ -71,7 +71,7 @@ def flights(paper):
 @pytest.fixture(scope="module")
 def drawn(paper):
     """The figures of the paper's flight."""
-    return {name: figure.draw(paper) for name, figure in figures_of(paper).items()}
+    return {name: figure.draw(paper) for name, figure in figures_for(paper).items()}
 
 
 @pytest.fixture(scope="module")
@@ -215,7 +215,7 @@ def test_the_thrust_is_compared_with_the_weight(paper, drawn):
     assert panel.get_lines()[-1].get_ydata() == pytest.approx([3.5 * 9.81] * 2)
     assert panel.get_legend().get_texts()[0].get_text() == "weight, 34.34 N"
     heavier = dataclasses.replace(paper, mission=paper.mission | {"plant": {"mass_scale": 1.1}})
-    assert weight_of(heavier) == pytest.approx(1.1 * 3.5 * 9.81)
+    assert true_weight(heavier) == pytest.approx(1.1 * 3.5 * 9.81)
 
 
 @given(st.integers(1, 40_000), st.integers(0, 2**32 - 1))
@@ -257,7 +257,7 @@ NAMES = [
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_figure_of_every_flight_is_drawn_whole_without_a_warning(flights, name):
-    for figure_name, kind in figures_of(flights[name]).items():
+    for figure_name, kind in figures_for(flights[name]).items():
         figure = kind.draw(flights[name])
         width, height = figure.get_size_inches()
         assert 3.5 <= round(width, 3) <= 7.16
@@ -284,7 +284,7 @@ def test_saving_writes_every_figure_as_png_and_pdf_and_tells_how_far_it_is(paper
     told = []
     files = save_figures(paper, tmp_path / "new" / "figures", lambda done, total: told.append((done, total)))
     assert told == [(i, 6) for i in range(1, 7)]
-    assert [f.name for f in files] == [f"{name}.{kind}" for name in figures_of(paper) for kind in ("png", "pdf")]
+    assert [f.name for f in files] == [f"{name}.{kind}" for name in figures_for(paper) for kind in ("png", "pdf")]
     assert sorted(files) == sorted((tmp_path / "new" / "figures").iterdir())
     for file in files:
         data = file.read_bytes()

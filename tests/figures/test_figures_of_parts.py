@@ -12,8 +12,8 @@ import tandemlift as tl
 from tandemlift.figures.drawing.ground import clearance, floor_height
 from tandemlift.figures.drawing.scene import NEAR, on_paper
 from tandemlift.figures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
-from tandemlift.figures.drawing.vehicle import payload_mass_of
-from tandemlift.figures.registry import figures, figures_of, save_figures
+from tandemlift.figures.drawing.vehicle import true_payload_mass
+from tandemlift.figures.registry import figures, figures_for, save_figures
 from tandemlift.flight.record import Divergence
 from tandemlift.models.surroundings import floor_from
 from tandemlift.vehicle import Vehicle
@@ -93,14 +93,14 @@ def drawn(windy):
 
 def test_a_flight_has_the_figures_of_its_parts_and_no_others(windy, paper):
     always = ["reference", "path", "tracking", "inputs", "interaction", "joints"]
-    assert list(figures_of(paper)) == always
-    assert list(figures_of(windy)) == [name for name in figures() if name != "corridor"]  # it has no walls
-    assert "push" not in figures_of(without(windy, *KNOWN))
-    assert "disturbance" not in figures_of(without(windy, *OBSERVED))
-    assert "rotors" not in figures_of(without(windy, "rotor_commands"))
-    assert "surroundings" in figures_of(without(windy, *AIR))
-    assert "surroundings" in figures_of(without(windy, "contact_force"))
-    assert "surroundings" not in figures_of(without(windy, *AIR, "contact_force"))
+    assert list(figures_for(paper)) == always
+    assert list(figures_for(windy)) == [name for name in figures() if name != "corridor"]  # it has no walls
+    assert "push" not in figures_for(without(windy, *KNOWN))
+    assert "disturbance" not in figures_for(without(windy, *OBSERVED))
+    assert "rotors" not in figures_for(without(windy, "rotor_commands"))
+    assert "surroundings" in figures_for(without(windy, *AIR))
+    assert "surroundings" in figures_for(without(windy, "contact_force"))
+    assert "surroundings" not in figures_for(without(windy, *AIR, "contact_force"))
 
 
 def test_saving_leaves_out_what_the_flight_does_not_have(windy, tmp_path):
@@ -131,7 +131,7 @@ def test_every_figure_of_flights_that_end_early_is_drawn_whole_without_a_warning
     for values in huge.channels.values():
         values[-1], values[-2], values[-3], values[-4] = np.nan, np.inf, -np.inf, 1e300
     flight = {"one sample": cut(windy, 1), "no sample": cut(windy, 0), "diverged to infinity": huge}[name]
-    for figure_name, kind in figures_of(flight).items():
+    for figure_name, kind in figures_for(flight).items():
         figure = kind.draw(flight)
         width, height = figure.get_size_inches()
         if name == "no sample":
@@ -189,7 +189,7 @@ def test_where_a_push_acts_is_told_from_the_payload_and_only_while_it_is_large_e
 
 def test_the_payload_that_flew_has_what_the_vehicle_weighs_more(windy):
     heavier = with_mission(windy, plant=windy.mission["plant"] | {"mass_scale": 3.8 / 3.5})
-    assert payload_mass_of(heavier) == pytest.approx(0.8)
+    assert true_payload_mass(heavier) == pytest.approx(0.8)
     panel = figures()["push"].draw(heavier).axes[4]
     assert panel.get_lines()[0].get_ydata() == pytest.approx([0.8, 0.8])
     assert_drawn(lines(panel)[0], windy.time, windy["payload_mass_estimate"])

@@ -1,9 +1,8 @@
 """The channels of a flight: those of the parts that its mission has, each of its width, all of them in the table."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.algebra.vector import Nothing
@@ -27,16 +26,16 @@ from tandemlift.simulation.results import RawResult, flight_of
 from tandemlift.trace import leaves
 
 GROUPS = {
-    "actuated": ActuatorChannels,
-    "air": WindChannels,
+    "actuators": ActuatorChannels,
+    "wind": WindChannels,
     "contact": ContactChannels,
     "measured": MeasuredChannels,
     "additional": Nothing,
     "estimated": EstimatedChannels,
-    "disturbed": DisturbanceChannels,
-    "guided": HandGuidanceChannels,
+    "disturbance": DisturbanceChannels,
+    "guidance": HandGuidanceChannels,
     "supervised": SupervisionChannels,
-    "watched": DetectionChannels,
+    "detection": DetectionChannels,
 }
 
 
@@ -61,7 +60,7 @@ def test_a_channel_says_its_unit_its_meaning_and_in_which_frame_a_vector_is():
 
 
 def test_the_tables_of_the_documents_are_made_from_the_record():
-    page = (Path(__file__).parent.parent / "docs" / "flights.md").read_text("utf-8")
+    page = (ROOT / "docs" / "flights.md").read_text("utf-8")
     assert page == with_tables(page), "run: python -m tandemlift.flight.channel_tables docs/flights.md"
     assert all(f"| `{name}` |" in page for name in CHANNELS)
 
@@ -78,14 +77,14 @@ def unflown(changes, count=2):
 BARE = {"pilot": {"state": "truth", "push": "truth"}, "phases.rotors": "always"}
 WHOLE = BARE | {"wind.model": "air", "supervision.model": "watch", "detection.model": "residual"}
 PARTS = {  # a part that a mission may have, what takes it out, and the group of channels that goes with it
-    "actuated": {"actuators.model": "ideal", "ground.effect": False},
+    "actuators": {"actuators.model": "ideal", "ground.effect": False},
     "contact": {"ground": {"model": "none", "effect": False}},
     "measured, estimated": {"sensors.model": "none"},
-    "air": {"wind.model": "none"},
-    "disturbed": {"observer.model": "none"},
-    "guided": {"pilot.guidance": "clock", "supervision.model": "none"},
+    "wind": {"wind.model": "none"},
+    "disturbance": {"observer.model": "none"},
+    "guidance": {"pilot.guidance": "clock", "supervision.model": "none"},
     "supervised": {"supervision.model": "none"},
-    "watched": {"detection.model": "none"},
+    "detection": {"detection.model": "none"},
 }
 
 

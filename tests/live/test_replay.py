@@ -284,9 +284,9 @@ def test_replay_writes_a_page_of_a_saved_flight_or_its_folder(flight, run, tmp_p
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("replay", "nowhere"), "nowhere: no flight.npz there"),
+        (("replay", "nowhere"), "nowhere: there is no flight.npz"),
         (("replay", "nowhere.npz"), "nowhere.npz: No such file"),
-        (("replay", "flight.npz", "--html", "page.txt"), "--html page.txt: a page's name ends in .html"),
+        (("replay", "flight.npz", "--html", "page.txt"), "--html page.txt: the name of a page must end in .html"),
         (("live", "nowhere"), "unknown mission 'nowhere'"),
         (("live", "--engine", "steam"), "unknown engine 'steam'"),
     ],

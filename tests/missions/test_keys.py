@@ -9,12 +9,12 @@ from typing import Literal, get_args, get_origin
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from mission_schema import EVERYTHING, SCHEMA
+from mission_schema import BEYOND, EVERYTHING, SCHEMA
 from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.cli.main import cli
-from tandemlift.missions import built_in, check, load_mission, tables_of
+from tandemlift.missions import built_in, check, load_mission, merge, tables_of
 from tandemlift.missions.bounds import plain
 from tandemlift.missions.reference.explaining import explained, index, plain_name
 from tandemlift.missions.reference.markdown import keys_page
@@ -174,7 +174,7 @@ def resolved(key, value):
     place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
     if place[0] == "controller":
         return value_at(tables_of(load_mission("paper", {key: value})), place)
-    tables = tables_of(load_mission("iris", EVERYTHING)) | {"controller": {"name": "nftsmc"}}
+    tables = merge(tables_of(load_mission("iris", EVERYTHING)), BEYOND) | {"controller": {"name": "nftsmc"}}
     value_at(tables, place[:-1])[place[-1]] = value
     return value_at(Mission.model_validate(tables).model_dump(mode="json"), place)
 

@@ -13,7 +13,7 @@ from html_page import check_page
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.figures.registry import captions, figures_of, save_figures
+from tandemlift.figures.registry import captions, figures_for, save_figures
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.missions import tables_of
 from tandemlift.report.flight_files import write_flight_files
@@ -84,7 +84,7 @@ def test_the_page_says_its_language_its_title_and_fits_a_phone(page):
 
 
 def test_every_figure_is_there_with_its_size_a_description_and_a_caption(page, paper):
-    images, names = page.all("img"), list(figures_of(paper))
+    images, names = page.all("img"), list(figures_for(paper))
     assert [figure["id"] for figure in page.all("figure")] == names
     assert [image["alt"] for image in images] == [captions()[name].alt for name in names]
     assert all(300 < int(image["width"]) < 1100 and 200 < int(image["height"]) < 1100 for image in images)
@@ -140,7 +140,7 @@ def test_figures_that_an_earlier_flight_left_are_not_shown(paper, figures, tmp_p
     folder = tmp_path / "figures"
     shutil.copytree(figures, folder)
     shutil.copy(folder / "joints.png", folder / "push.png")
-    assert [figure["id"] for figure in write(paper, folder).all("figure")] == list(figures_of(paper))
+    assert [figure["id"] for figure in write(paper, folder).all("figure")] == list(figures_for(paper))
 
 
 def test_a_run_removes_the_figures_that_its_flight_does_not_have(paper, tmp_path):

@@ -20,15 +20,9 @@ KNOWN_HELPERS = ["tests/live/test_fuzzed_flight.py: _follows", "tests/live/wire/
 KNOWN_HIDDEN = ["src/tandemlift/algebra/ops.py"]  # the functions of traced numbers, of a room above
 KNOWN_COPIES = [
     "src/tandemlift/laws/estimation/rotor_loss_detection.py: DetectionState",
-    "src/tandemlift/laws/guidance/compliance.py: Compliance",
-    "src/tandemlift/laws/guidance/guidance.py: PilotInput",
-    "src/tandemlift/laws/guidance/supervisor.py: SupervisionState",
-    "src/tandemlift/laws/person/person.py: PersonState",
     "src/tandemlift/laws/person/virtual_hand.py: VirtualHandState",
     "src/tandemlift/laws/sensors/watchdog.py: Inconsistency",
     "src/tandemlift/pilot/rotor_loss_detection.py: DecisionRules",
-    "src/tandemlift/pilot/supervision.py: PreflightChecks",
-    "src/tandemlift/simulation/simulation.py: RawResult",
 ]
 
 

@@ -10,7 +10,7 @@ from repository import ROOT
 import tandemlift as tl
 from tandemlift.cli.main import cli
 
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCUMENTS = [path for folder in (".", "docs") for path in sorted((ROOT / folder).glob("*.md"))]
 CODE = [
     ROOT / "README.md",
     *[ROOT / "docs" / name for name in ("flights.md", "simulation.md")],
@@ -57,10 +57,34 @@ def test_the_makefile_has_the_targets_of_the_readme():
         assert re.search(rf"^{target}:", makefile, flags=re.M)
 
 
+def anchors(path):
+    """The anchors of a document's headings, as GitHub makes them."""
+    text, found = re.sub(r"^```.*?^```", "", path.read_text("utf-8"), flags=re.M | re.S), []
+    for heading in re.findall(r"^#+ (.*)", text, flags=re.M):
+        plain = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower()
+        anchor = re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
+        found.append(anchor)
+    return {anchor + (f"-{before}" if (before := found[:i].count(anchor)) else "") for i, anchor in enumerate(found)}
+
+
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda p: p.name)
 def test_links_within_the_project_lead_somewhere(path):
-    for target in re.findall(r"\]\((?!https?:)([^)#]+)", path.read_text("utf-8")):
-        assert (path.parent / target).exists(), target
+    for file, _, anchor in (
+        target.partition("#") for target in re.findall(r"\]\((?!https?:)([^)]+)", path.read_text("utf-8"))
+    ):
+        target = path.parent / file if file else path
+        assert target.exists(), file
+        assert not anchor or anchor in anchors(target), f"{file}#{anchor}"
+
+
+def test_documents_that_the_code_names_are_there_with_their_anchors():
+    """In docstrings, help and messages, such as docs/gazebo.md#over-ros."""
+    wrong = []
+    for file in (ROOT / "src" / "tandemlift").rglob("*.py"):
+        for name, anchor in re.findall(r"\b(docs/\w+\.md)(?:#([\w-]+))?", file.read_text("utf-8")):
+            if not (ROOT / name).exists() or (anchor and anchor not in anchors(ROOT / name)):
+                wrong.append(f"{file.name}: {name}#{anchor}")
+    assert wrong == []
 
 
 def test_the_table_of_metrics_names_every_metric():

@@ -20,9 +20,7 @@ KNOWN_MEASURES = ["arrows"]
 KNOWN_FOLDERS = ["src/tandemlift/trace"]
 KNOWN_FILES = [
     "src/tandemlift/laws/guidance/guidance.py",
-    "src/tandemlift/laws/guidance/supervision.py",
     "src/tandemlift/laws/sensors/watchdog.py",
-    "src/tandemlift/models/sdf.py",
 ]
 KNOWN_FUNCTIONS = [
     "src/tandemlift/laws/estimation/push_estimate.py: push_estimator",

@@ -17,8 +17,8 @@ from tandemlift.flight.record import Flight
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed")
 
-from tandemlift.export.messages import MessageTypes, maker_of, modern
-from tandemlift.export.topics import topics_of
+from tandemlift.export.messages import MessageTypes, message_maker, modern
+from tandemlift.export.topics import topics_from
 from tandemlift.ros.dds_types import DdsTypes
 from tandemlift.ros.ros2 import _domain, _value
 from tandemlift.vehicle import Vehicle
@@ -78,9 +78,9 @@ def test_what_is_on_the_wire_is_what_another_reader_of_cdr_reads(types, kind):
 def test_every_topic_of_a_flight_can_be_put_on_the_wire(types):
     flight, store = flight_of("iris"), get_typestore(Stores.ROS2_HUMBLE)
     bag = MessageTypes(lambda name: store.types[modern(name)], numbered=False, numbers=np.array)
-    for topic in topics_of(flight, Vehicle.from_mission(flight.mission)):
+    for topic in topics_from(flight, Vehicle.from_mission(flight.mission)):
         row = topic.rows[7].tolist()
-        message, other = (maker_of(one, topic)(5, row) for one in (types, bag))
+        message, other = (message_maker(one, topic)(5, row) for one in (types, bag))
         wire = message.serialize(use_version_2=False)
         assert bytes(wire) == bytes(store.serialize_cdr(other, modern(topic.kind))), topic.name
 

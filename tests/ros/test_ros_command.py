@@ -27,11 +27,11 @@ from tandemlift.ros.sample_queue import Clock
     ("arguments", "words"),
     [
         (["papr"], "unknown mission 'papr'"),
-        (["zigzag", "iris"], "zigzag iris: one mission is flown at a time"),
+        (["zigzag", "iris"], "zigzag iris: give one mission only"),
         (["hover", "--rate", "0"], "--rate 0: must be from 0.1 to 1000 Hz"),
         (["hover", "--rate", "2000"], "--rate 2000: must be from 0.1 to 1000 Hz"),
         (["hover", "--engine", "compild"], "unknown engine 'compild'"),
-        (["hover", "--version", "2", "--rviz"], "--rviz: its file is for ROS 1"),
+        (["hover", "--version", "2", "--rviz"], "--rviz: needs ROS 1, not --version 2"),
         (["hover", "--set", "admittance.mass"], "must be KEY=VALUE"),
     ],
 )
@@ -65,7 +65,7 @@ def test_the_document_names_every_topic_request_and_parameter(trial):
         name = re.sub(r"joint_\d", "joint_N", topic.removeprefix("/tandemlift/"))
         assert f"`{topic}`" in text or f"`{name}`" in bags, topic
     assert all(service in text for service in trial.middleware.services)
-    trial.front._parameters.turn()
+    trial.front._parameters.exchange()
     for key in trial.middleware.kept:
         assert f"`{key}`" in text or f"`….{key.rpartition('.')[2]}`" in text, key
 

@@ -31,7 +31,7 @@ def trial(one_trial):
 def up(trial):
     """In the air, and nobody has pushed for a moment."""
     trial.heed(wrench("world"))
-    trial.front.telling._said.clear()
+    trial.front.diagnostics._said.clear()
     trial.sent("/diagnostics").clear()
     trial.fly(0.6)
     return trial

@@ -63,7 +63,7 @@ def test_a_mission_that_is_guided_by_the_clock_says_that_it_asks_nobody(trial, a
 
 def turn(trial, **values):
     trial.middleware.set = {key.replace("__", "."): value for key, value in values.items()}
-    trial.front._parameters.turn()
+    trial.front._parameters.exchange()
     return trial.middleware.kept
 
 

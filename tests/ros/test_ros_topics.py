@@ -32,7 +32,7 @@ def stamps(messages):
 
 def test_topics_are_those_of_bags_and_a_few_besides(flown):
     vehicle = Vehicle.from_settings(flown.session.flight.now.vehicle)
-    bags = {t.name: t.kind for t in topics.topics_of(flown.flight, vehicle)}
+    bags = {t.name: t.kind for t in topics.topics_from(flown.flight, vehicle)}
     bags |= {"/tf": "tf2_msgs/TFMessage", "/tf_static": "tf2_msgs/TFMessage"}
     bags |= {"/diagnostics": "diagnostic_msgs/DiagnosticArray", "/tandemlift/mission": "std_msgs/String"}
     more = {

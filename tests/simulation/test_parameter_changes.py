@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
+from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.missions.recording import WIDTH, Recording, read_recording, write_recording
 from tandemlift.trace import flat
 
@@ -150,7 +150,7 @@ def test_a_hand_off_the_centre_makes_the_moment_of_its_force(tmp_path):
 
 
 def test_a_row_of_a_recording_is_a_hand():
-    assert len(flat(NOBODY_HOLDS)) == WIDTH
+    assert len(flat(HAND_RELEASED)) == WIDTH
 
 
 def test_a_recording_comes_back_as_it_was_written(tmp_path):

@@ -79,7 +79,7 @@ def given_at(k: int, like: StepInputs, tables: Any, seeds: Any) -> StepInputs:
         PushSamples(push(k * DT), push((k + 0.5) * DT), push((k + 1) * DT)),
         gust,
         unflat(chance, like.noise),
-        like.partner,
+        like.person,
     )
 
 
@@ -116,8 +116,8 @@ def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
 
 def shown(sample: Any, name: str) -> np.ndarray:
     """A channel's row of a sample."""
-    measured = sample.measured, sample.estimated, sample.disturbed, sample.guided
-    for group in (sample, sample.actuated, sample.air, sample.contact, *measured):
+    measured = sample.measured, sample.estimated, sample.disturbance, sample.guidance
+    for group in (sample, sample.actuators, sample.wind, sample.contact, *measured):
         if name in group._fields:
             return np.array(getattr(group, name), dtype=float).T.ravel()
     raise KeyError(name)

@@ -13,7 +13,7 @@ from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS, SYMPTOMS
 from tandemlift.common.phases import PHASE_NAMES, PHASES
 from tandemlift.laws.estimation.disturbance_observer import NONE
 from tandemlift.laws.guidance.guidance import PilotInput, checked_input, guide
-from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
+from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.settings.supervision import SupervisionTable
 from tandemlift.simulation.assemble import assemble
 
@@ -157,11 +157,11 @@ def in_plain_python(seconds, heard_at):
     flying = assemble(tl.load_mission("iris", changes)).flying
     guidance, memory, dt, names = flying.pilot.guidance, flying.moving.memory.guidance, 0.01, []
     for i in range(round(seconds / dt)):
-        heard = PilotInput(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
+        heard = PilotInput(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NO_REQUEST, UNKNOWN_STATUS)
         heard, lost = heard_at(heard, i * dt)
         heard = checked_input(guidance, memory, heard, 0.0, lost)
         decided, memory = guide(guidance, memory, heard, NONE, lost, i * dt, dt)
-        names.append(PHASE_NAMES[int(decided.shown.phase)])
+        names.append(PHASE_NAMES[int(decided.channels.phase)])
     return list(dict.fromkeys(names)), memory
 
 
@@ -186,7 +186,7 @@ def test_a_state_without_numbers_is_bridged_for_a_moment_and_then_stops(last, na
 
     found, memory = in_plain_python(5.5, heard_at)
     assert found == names
-    assert np.isfinite([*memory.compliant.position, *memory.compliant.heard.value]).all()
+    assert np.isfinite([*memory.compliance.position, *memory.compliance.filtered.value]).all()
 
 
 def fault_rows():

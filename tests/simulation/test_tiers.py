@@ -84,7 +84,7 @@ def test_without_optimised_code_the_quick_one_flies_on(empty, monkeypatch):
     mission = tl.load_mission("one-push", {"mission.duration": 0.5})
     before = tl.fly(mission)
     found = FlightPlan(mission).kernels.loop(1)
-    monkeypatch.setattr(code, "optimised_beside", lambda *given: None)
+    monkeypatch.setattr(code, "optimise_in_process", lambda *given: None)
     found.optimise().join(COMPILING)
     assert not found.is_best
     assert different(tl.fly(mission), before) == []

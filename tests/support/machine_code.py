@@ -52,7 +52,7 @@ class Loop:
         f = Function(module, graph, 1, head)
         with f.repeat("%count") as i:
             row, out = (
-                f.at(base, f.whole("mul", i, n)) for base, n in (("%given", self.given), ("%shown", self.width))
+                f.at(base, f.integer("mul", i, n)) for base, n in (("%given", self.given), ("%shown", self.width))
             )
             f.read = {
                 "fixed": lambda m: f.load("%fixed", m),

@@ -34,4 +34,5 @@ EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and
     "person": {"path": [{"point": [1.0, 0.0], "heading": 0.0}]},
     "changes": [{"time": 5.0, "key": "admittance.damping", "value": 4.0}],
 }
+BEYOND = {"sensors": {"additional": [{"name": "altimeter"}]}}  # on top of that: a sensor of one's own, if it were there
 SCHEMA = dict(reversed(list(schema_keys())))  # of `controller.name`, what every mission asks for

@@ -116,7 +116,7 @@ class Plugin:
             except TimeoutError:
                 continue
             for arrived in self.network(message):
-                answer = self._answer_size(arrived)
+                answer = self._answer(arrived)
                 for sent in self.network(answer) if answer else []:
                     self.socket.sendto(sent, pilot)
 

@@ -100,7 +100,7 @@ class Trial:
 
     def said(self):
         """Words of `/diagnostics` about events."""
-        self.front.telling.flush()
+        self.front.diagnostics.flush()
         told = [status for array in self.sent("/diagnostics") for status in array.status]
         return [status.message for status in told if status.name == "tandemlift: pilot"]
 

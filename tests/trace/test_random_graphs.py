@@ -99,7 +99,7 @@ def machine_code(program: Program, lanes: int, level: Any) -> Callable[[np.ndarr
     found = [where(x, 1.0, 0.0) if x.type == "b" else x for x in map(symbol(graph), program.run(inputs, TRACED))]
     f = Function(module, graph, lanes, "i64 @rows(ptr %x, ptr %y, i64 %count) #0", ("shared",))
     with f.repeat("%count") as row:
-        x, y = f.at("%x", f.whole("mul", row, INPUTS)), f.at("%y", f.whole("mul", row, OPERATIONS))
+        x, y = f.at("%x", f.integer("mul", row, INPUTS)), f.at("%y", f.integer("mul", row, OPERATIONS))
         f.read = {"shared": lambda i: f.load(x, i * lanes, "double"), "own": lambda i: f.load(x, i)}
         for m, value in enumerate(f.values(found)):
             f.store(value, y, m)

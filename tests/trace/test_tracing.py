@@ -355,7 +355,7 @@ def test_choices_among_numbers_that_are_none_are_those_of_plain_python(function)
 
 
 def cut(x):
-    return elementary.whole(x)
+    return elementary.to_integer(x)
 
 
 @pytest.mark.parametrize("lanes", [1, 8])

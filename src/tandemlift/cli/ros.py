@@ -14,7 +14,7 @@ from tandemlift.cli.console import echo
 from tandemlift.cli.live import DEFAULT, session_of
 from tandemlift.cli.run import DIVERGED, engine_option, load, set_option
 from tandemlift.common.errors import InputError
-from tandemlift.ros.sample_queue import every_of
+from tandemlift.ros.sample_queue import steps_between_samples
 
 if TYPE_CHECKING:
     from tandemlift.live.session.session import Session
@@ -66,7 +66,7 @@ def ros(
     """
     from tandemlift.engines.registry import engine_named
     from tandemlift.ros.ros1 import folder as package
-    from tandemlift.ros.selection import middleware_of, version_for
+    from tandemlift.ros.selection import middleware_for, version_for
 
     if folder:
         echo(str(package()))
@@ -76,9 +76,9 @@ def ros(
     mission, arguments = _split_arguments(words)
     engine_named(engine)
     loaded = load(mission, settings)
-    every_of(rate, loaded.mission.step)
+    steps_between_samples(rate, loaded.mission.step)
     spoken = version_for("1" if rviz else version)
-    middleware = middleware_of(spoken, arguments, asked=rviz or version is not None)
+    middleware = middleware_for(spoken, arguments, asked=rviz or version is not None)
     try:
         session = session_of(loaded, engine)
         session.prepare()

@@ -2,7 +2,7 @@
 
 The keys of `[supervision.reactions]`, the alarms and their texts, the order in which `laws.guidance.fault_reactions`
 looks at faults, and the tables in docs/safety.md come from here. What detects a fault is a law:
-`laws.guidance.supervision`.
+`laws.guidance.fault_detection`.
 """
 
 from __future__ import annotations

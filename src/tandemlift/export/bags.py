@@ -19,8 +19,8 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.export.frames import fixed
-from tandemlift.export.messages import SECOND, MessageTypes, Transforms, diagnostics_of, maker_of, modern
-from tandemlift.export.topics import ROOT, topics_of
+from tandemlift.export.messages import SECOND, MessageTypes, Transforms, event_maker, message_maker, modern
+from tandemlift.export.topics import ROOT, topics_from
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.vehicle import Vehicle
@@ -29,12 +29,12 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 START = SECOND  # ns, stamp of the flight's time 0
-CALLER, NAME = "/tandemlift", "flight"  # what a ROS 1 bag says published, and what a ROS 2 bag calls itself
+CALLER, NAME = "/tandemlift", "flight"  # the publisher in a ROS 1 bag, and the name of a ROS 2 bag
 Items = Iterable[tuple[int, Any]]  # times [ns] and messages
 
 
 class TopicStream(NamedTuple):
-    """A topic, its type as ROS 1 calls it, and its messages by time; who listens late gets the last if `latched`."""
+    """A topic, its type as ROS 1 calls it, and its messages by time; late subscribers get the last if `latched`."""
 
     topic: str
     kind: str
@@ -47,24 +47,24 @@ def stamp(time: float) -> int:
     return START + round(time * SECOND)
 
 
-def streams_of(flight: Flight, types: MessageTypes) -> list[TopicStream]:
+def streams_from(flight: Flight, types: MessageTypes) -> list[TopicStream]:
     """Everything of a flight that goes into a bag.
 
     Raises:
         InputError: the flight lacks what a bag needs.
     """
     vehicle = Vehicle.from_mission(flight.mission)
-    topics, stamps = topics_of(flight, vehicle), [stamp(t) for t in flight.time.tolist()]
-    transforms, diagnose = Transforms(types), diagnostics_of(types)
+    topics, stamps = topics_from(flight, vehicle), [stamp(t) for t in flight.time.tolist()]
+    transforms, diagnose = Transforms(types), event_maker(types)
     Text = types["std_msgs/String"]
     place = np.hstack([flight["position"], flight["attitude"]])
-    happened = [(stamp(at), diagnose(stamp(at), what)) for at, what in events_of(flight)]
+    happened = [(stamp(at), diagnose(stamp(at), what)) for at, what in events_from(flight)]
     return [
         TopicStream(f"{ROOT}/mission", "std_msgs/String", [(START, Text(format_toml(flight.mission)))], latched=True),
         TopicStream("/tf_static", "tf2_msgs/TFMessage", [(START, transforms.fixed(START, list(fixed(vehicle))))], True),
         TopicStream("/tf", "tf2_msgs/TFMessage", _made(stamps, place, transforms.moving)),
         *[TopicStream("/diagnostics", "diagnostic_msgs/DiagnosticArray", happened)] * bool(happened),
-        *(TopicStream(t.name, t.kind, _made(stamps, t.rows, maker_of(types, t))) for t in topics),
+        *(TopicStream(t.name, t.kind, _made(stamps, t.rows, message_maker(types, t))) for t in topics),
     ]
 
 
@@ -73,7 +73,7 @@ def _made(stamps: list[int], rows: Any, make: Callable[[int, Any], Any]) -> Iter
     return ((at, make(at, row)) for at, row in zip(stamps, rows.tolist(), strict=True))
 
 
-def events_of(flight: Flight) -> list[tuple[float, str]]:
+def events_from(flight: Flight) -> list[tuple[float, str]]:
     """When [s] what happened: phases and alarms, and why the flight was stopped.
 
     Without a supervision, which sees every step, the phases are those of the samples.
@@ -114,7 +114,7 @@ def write_mcap(flight: Flight, path: Path) -> None:
     from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
     store = ros.get_typestore(ros.Stores.ROS2_HUMBLE)
-    streams = streams_of(flight, _types_of(store, numbered=False))
+    streams = streams_from(flight, _types_of(store, numbered=False))
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=f"{path.name}.") as folder:
         bag = Writer(Path(folder) / NAME, version=8, storage_plugin=StoragePlugin.MCAP)
         bag.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
@@ -128,7 +128,7 @@ def write_mcap(flight: Flight, path: Path) -> None:
 
 
 def _qos(latched: bool) -> list[Any]:
-    """What a ROS 2 player offers: reliable, and of a latched topic the last message to who comes late."""
+    """What a ROS 2 player offers: reliable; late subscribers get the last message of a latched topic."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
     durability = QosDurability.TRANSIENT_LOCAL if latched else QosDurability.VOLATILE
@@ -144,7 +144,7 @@ def write_bag(flight: Flight, path: Path) -> None:
 
     store = ros.get_typestore(ros.Stores.ROS1_NOETIC)
     store.register(ros.get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage"))
-    streams = streams_of(flight, _types_of(store, numbered=True))
+    streams = streams_from(flight, _types_of(store, numbered=True))
     bag = Writer(path)
     bag.set_compression(Writer.CompressionFormat.LZ4)
     bag.compressor = _frame_that_ros_reads

@@ -4,7 +4,7 @@
 |---|---|---|
 | `world` | the mission's | z up |
 | `base_link` | centre of mass of the vehicle | body: x forward, y left along the beam, z up (ROS REP 103) |
-| `base_world` | as `base_link` | as `world`: for forces that are told in world axes |
+| `base_world` | as `base_link` | as `world`: for forces in world axes |
 | `payload` | centre of mass of the payload | body |
 | `joint_1` … | where a quadrotor is fixed to the payload | body |
 """
@@ -37,7 +37,7 @@ def joint(number: int) -> str:
 
 
 def _rotation(attitude: Array) -> Mat3:
-    """R of quaternions (T, 4), as a matrix of arrays (T); those of another norm, as sensors read them, are scaled."""
+    """R of quaternions (T, 4), as a matrix of arrays (T); those of another norm, as sensors give them, are scaled."""
     with np.errstate(invalid="ignore"):
         return rotation_from_quaternion(Quat(*(attitude / np.linalg.norm(attitude, axis=1, keepdims=True)).T))
 

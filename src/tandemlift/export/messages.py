@@ -1,6 +1,6 @@
 """Messages of standard types from the numbers of a topic, for ROS 1 and for ROS 2 alike.
 
-Quaternions come as w, x, y, z. Covariances are zero: not told. An `Imu` has no orientation (its covariance says −1).
+Quaternions come as w, x, y, z. Covariances are zero: unknown. An `Imu` has no orientation (its covariance says −1).
 """
 
 from __future__ import annotations
@@ -63,12 +63,12 @@ def modern(name: str) -> str:
 def _odometry(types: MessageTypes, topic: About) -> Maker:
     Odometry, Pose, Twist = types[ODOMETRY], types["geometry_msgs/Pose"], types["geometry_msgs/Twist"]
     Placed, Moving = types["geometry_msgs/PoseWithCovariance"], types["geometry_msgs/TwistWithCovariance"]
-    header, untold = types.headers(topic.frame), types.numbers([0.0] * 36)
+    header, unknown_covariance = types.headers(topic.frame), types.numbers([0.0] * 36)
 
     def make(stamp: int, v: Sequence[float]) -> Any:
         pose = Pose(types.Point(*v[:3]), types.quaternion(v[3:7]))
         twist = Twist(types.Vector(*v[7:10]), types.Vector(*v[10:]))
-        return Odometry(header(stamp), BASE, Placed(pose, untold), Moving(twist, untold))
+        return Odometry(header(stamp), BASE, Placed(pose, unknown_covariance), Moving(twist, unknown_covariance))
 
     return make
 
@@ -148,7 +148,7 @@ NUMBERS: dict[str, Numbers] = {
 }
 
 
-def maker_of(types: MessageTypes, topic: About) -> Maker:
+def message_maker(types: MessageTypes, topic: About) -> Maker:
     """What makes the messages of a topic."""
     return MAKERS[topic.kind](types, topic)
 
@@ -178,7 +178,7 @@ class Transforms:
         )
 
 
-def diagnostics_of(types: MessageTypes) -> Callable[[int, str], Any]:
+def event_maker(types: MessageTypes) -> Callable[[int, str], Any]:
     """What makes a message of `/diagnostics` from an event: its time [ns] and what happened."""
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header = types.headers("")
@@ -190,7 +190,7 @@ def diagnostics_of(types: MessageTypes) -> Callable[[int, str], Any]:
     return make
 
 
-def status_of(types: MessageTypes) -> Callable[[int, bool, str, Mapping[str, str]], Any]:
+def status_maker(types: MessageTypes) -> Callable[[int, bool, str, Mapping[str, str]], Any]:
     """What makes one from how a flight goes: time [ns], whether it is well, a summary, and more by name."""
     Many, Status = types["diagnostic_msgs/DiagnosticArray"], types["diagnostic_msgs/DiagnosticStatus"]
     header, Value = types.headers(""), types["diagnostic_msgs/KeyValue"]

@@ -21,7 +21,7 @@ from tandemlift.export.bags import rosbags
 from tandemlift.export.frames import eulers
 from tandemlift.export.messages import NUMBERS, SECOND
 from tandemlift.export.recipes import MeasuredPose, Recipe
-from tandemlift.export.topics import ALWAYS, JOINTS, PILOT, ROOT, SOMETIMES, all_recipes, topics_of
+from tandemlift.export.topics import ALWAYS, JOINTS, PILOT, ROOT, SOMETIMES, all_recipes, topics_from
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.old_names import renamed_channel, renamed_tables, renamed_topic, warn_of_old_names
 from tandemlift.flight.record import LATE, Flight
@@ -53,7 +53,7 @@ def read_bag(path: str | os.PathLike[str]) -> Flight:
         raise InputError(f"{path}: cannot be read as a bag ({error})") from error
     if not said[BASE]:
         there = ", ".join(sorted(t for t in said if said[t])) or "none"
-        raise InputError(f"{path}: has no {BASE}, by which samples are told; it has {there}")
+        raise InputError(f"{path}: has no {BASE}, whose messages are the samples; it has {there}")
     return _flight(path, said)
 
 
@@ -67,14 +67,14 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
     if missing:
         raise InputError(f"{path}: lacks the topics of {', '.join(missing)}, which every flight has")
     flight = Flight(time, {name: channels[name] for name in CHANNELS if name in channels}, mission, {})
-    topics_of(flight, vehicle)  # complains of what is not whole
+    topics_from(flight, vehicle)  # complains of what is not whole
     return Flight(time, flight.channels, mission, _metrics(flight, _events(said[EVENTS], int(stamps[0]))))
 
 
 def _mission(path: Path, said: Stamped) -> dict[str, Any]:
     """The mission as it was in the end, by the names that its keys have now."""
     if not said:
-        raise InputError(f"{path}: has no {MISSION}, which tells what was flown")
+        raise InputError(f"{path}: has no {MISSION}, the mission that was flown")
     try:
         tables, notices = renamed_tables(tomllib.loads(said[max(said)].data))
     except ValueError as error:

@@ -87,7 +87,7 @@ class Recipe(NamedTuple):
         frame: in which they are.
         needs: the channels.
         rows: the numbers of each message (T, n) from the channels.
-        back: the channels by name from these numbers; of a joint, its share of them.
+        back: the channels by name from these numbers; of a joint, its part of them.
         labels: of these numbers, where the message names them.
     """
 
@@ -137,7 +137,7 @@ def odometry(name: str, prefix: str = "") -> Recipe:
 def wrench(name: str, force: str, moment: str, at: Callable[[Vehicle], Array] | None = None) -> Recipe:
     """A force in world axes and a moment in body axes, as a wrench in world axes at the vehicle's centre of mass.
 
-    `at` tells where the force acts, if the moment is about that point [m], from the centre of mass, body axes.
+    `at` gives the point that the moment is about [m, body axes, from the centre of mass]; without it, that centre.
     """
 
     def lever(attitude: Array, vehicle: Vehicle, f: Array) -> Array:

@@ -79,7 +79,7 @@ def all_recipes(has: Container[str], vehicle: Vehicle) -> Iterator[Recipe]:
         yield values("pilot", known, vehicle)
 
 
-def recipes_of(flight: Flight, vehicle: Vehicle) -> list[Recipe]:
+def recipes_for(flight: Flight, vehicle: Vehicle) -> list[Recipe]:
     """How all topics of a flight are made that have a message for each sample; their names are whole."""
     rotors = tuple(f"rotor_{1 + i // 4}_{1 + i % 4}" for i in range(vehicle.rotor_count))
     return [
@@ -88,11 +88,11 @@ def recipes_of(flight: Flight, vehicle: Vehicle) -> list[Recipe]:
     ]
 
 
-def topics_of(flight: Flight, vehicle: Vehicle) -> list[Topic]:
+def topics_from(flight: Flight, vehicle: Vehicle) -> list[Topic]:
     """All topics of a flight that have a message for each sample.
 
     Raises:
         InputError: the flight lacks a channel that every flight has, or one is of a wrong size.
     """
     take = Source(flight, vehicle)
-    return [Topic(r.name, r.kind, r.frame, r.rows(take), r.labels) for r in recipes_of(flight, vehicle)]
+    return [Topic(r.name, r.kind, r.frame, r.rows(take), r.labels) for r in recipes_for(flight, vehicle)]

@@ -54,7 +54,7 @@ def export(what: Flight | Mission, path: str | os.PathLike[str], *, plugin: int 
     return path
 
 
-def ending_of(path: Path) -> str:
+def ending_from(path: Path) -> str:
     """The ending of a file's name, in small letters.
 
     Raises:
@@ -72,7 +72,7 @@ def is_model(path: Path) -> bool:
     Raises:
         InputError: its ending is of no format that there is.
     """
-    return ending_of(path) in (WORLD, MODEL)
+    return ending_from(path) in (WORLD, MODEL)
 
 
 def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Callable[[Path], None]:
@@ -81,7 +81,7 @@ def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Cal
     Raises:
         InputError: it cannot be such a file.
     """
-    ending = ending_of(path)
+    ending = ending_from(path)
     _check_plugin(plugin, path)
     if is_model(path):
         mission = what if isinstance(what, Mission) else check(what.mission, f"flight {what.name!r}")
@@ -97,7 +97,7 @@ def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Cal
 def _check_plugin(plugin: int | str | None, path: Path) -> None:
     if plugin is None:
         return
-    if ending_of(path) != WORLD:
+    if ending_from(path) != WORLD:
         raise InputError(f"{path}: only a world, {WORLD}, has a plugin")
     if plugin != "ros" and not (isinstance(plugin, int) and 1 <= plugin <= 65535):
         raise InputError(f"plugin = {plugin}: must be a port, from 1 to 65535, or 'ros'")

@@ -1,7 +1,7 @@
-"""The way among walls from above, with the vehicle as it went and the person's pushes; below, how far the walls were.
+"""View from above of the path among walls, with the vehicle and the person's pushes; below, the clearance.
 
-The vehicle is drawn to scale every few seconds: its beam, and the guards as the circles that touch walls. An arrow
-starts where the person held on at that time, points along the horizontal push and is as long as it was strong.
+The vehicle is drawn to scale at equal distances: its beam, and its guards as circles. An arrow starts where the person
+holds the payload at that time and has the direction and, to scale, the size of the horizontal push.
 """
 # paper: fig9
 
@@ -38,8 +38,8 @@ CAPTION = Caption(
 )
 IN_FLIGHTS = with_walls
 
-ROUND = 1.2  # m, shown around the way and the vehicle
-SPACING = 1.1  # vehicle spans of way from one vehicle drawn to the next
+ROUND = 1.2  # m, shown around the path and the vehicle
+SPACING = 1.1  # vehicle spans from one vehicle drawn to the next
 MOST, TALLEST, LEAST = 14, 5.0, 1.5  # vehicles; in, of the view from above
 BELOW, AROUND = 1.25, 0.75  # in: height of the lower panel, and of what is around them
 NEWTON = 0.75  # m of the view, for a newton
@@ -49,7 +49,7 @@ BEAM: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (5, 1.5))}
 
 
 def instants(flight: Flight) -> list[int]:
-    """Samples at which the vehicle is drawn: the first, the last, and some at even steps of the way."""
+    """Samples at which the vehicle is drawn: the first, the last, and some at equal distances."""
     path = flight["position"][:, :2]
     way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
     span = float(np.ptp(skeleton(Vehicle.from_mission(flight.mission)).points, axis=0).max())
@@ -96,11 +96,11 @@ def _pushes(ax: Any, found: list[tuple[Array, Array]]) -> None:
         ax.add_patch(FancyArrowPatch(*ends, color=VERMILLION, lw=1.2, zorder=6, gid="push", **look))
 
 
-def _wanted(flight: Flight) -> Array:
+def _desired(flight: Flight) -> Array:
     """The corners (n, 2) of the path that the person was to follow [m]; none without one."""
-    partner, corridor = flight.mission.get("person", {}), flight.mission.get("corridor", {})
-    own = [w["point"] for w in partner.get("path", [])] or corridor.get("centreline", [])
-    return np.array(own if partner.get("model", "none") not in ("none", "grab") else []).reshape(-1, 2)
+    person, corridor = flight.mission.get("person", {}), flight.mission.get("corridor", {})
+    own = [w["point"] for w in person.get("path", [])] or corridor.get("centreline", [])
+    return np.array(own if person.get("model", "none") not in ("none", "grab") else []).reshape(-1, 2)
 
 
 def _bounds(flight: Flight, shown: list[int]) -> Array:
@@ -114,7 +114,7 @@ def _bounds(flight: Flight, shown: list[int]) -> Array:
 def _from_above(ax: Any, flight: Flight, shown: list[int], found: list[tuple[Array, Array]]) -> None:
     for w in wall_tables(flight.mission):
         ax.plot(*np.array([w["start"], w["end"]]).T, color=BLACK, lw=1.6, solid_capstyle="round", zorder=3, gid="wall")
-    ax.plot(*_wanted(flight).T, color=GREY, lw=0.7, ls=(0, (4, 3)), zorder=1, gid="wanted")
+    ax.plot(*_desired(flight).T, color=GREY, lw=0.7, ls=(0, (4, 3)), zorder=1, gid="desired")
     for k in shown:
         _vehicle(ax, flight, k, BLACK if k in (shown[0], shown[-1]) else FAINT)
     path = flight["position"]
@@ -126,8 +126,8 @@ def _from_above(ax: Any, flight: Flight, shown: list[int], found: list[tuple[Arr
     ax.set_ylabel("$y$ (m)")
 
 
-def _apart(ax: Any, flight: Flight) -> None:
-    """The clearances over the way flown; a dot where the least of them is."""
+def _clearance(ax: Any, flight: Flight) -> None:
+    """The clearances over the distance flown; a dot at the smallest."""
     path, far = flight["position"][:, :2], clearances(flight)
     way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
     known = [(far.guards, {"color": BLUE, "lw": 1.2})] + ([] if far.beam is None else [(far.beam, BEAM)])
@@ -144,13 +144,13 @@ def _apart(ax: Any, flight: Flight) -> None:
     ax.yaxis.set_major_locator(value_ticks())
     ax.axhline(0.0, color=BLACK, lw=1.2, zorder=2)
     ax.set_xlim(-0.012 * max(way[-1], 0.1), max(way[-1], 0.1))
-    ax.set_xlabel("way of the centre of mass (m)")
+    ax.set_xlabel("distance flown (m)")
     ax.set_ylabel("clearance (m)")
 
 
 @journal
 def draw(flight: Flight) -> Figure:
-    """Draw the way from above [m] with the pushes [N], and the clearance [m] over the way flown."""
+    """Draw the path from above [m] with the pushes [N], and the clearance [m] over the distance flown."""
     keep = np.isfinite(drawable(np.column_stack([flight["position"], flight["attitude"]]))).all(axis=1)
     flight = Flight(
         flight.time[keep], {n: v[keep] for n, v in flight.channels.items()}, flight.mission, {}, flight.divergence
@@ -164,7 +164,7 @@ def draw(flight: Flight) -> Figure:
     _from_above(above, flight, shown, found)
     above.set_xlim(low[0], high[0])
     above.set_ylim(low[1], high[1])
-    _apart(below, flight)
+    _clearance(below, flight)
     handles: list[Any] = [
         Line2D([], [], color=BLACK, lw=1.6),
         Line2D([], [], color=BLUE, lw=1.2),
@@ -172,6 +172,6 @@ def draw(flight: Flight) -> Figure:
         Line2D([], [], color=VERMILLION, lw=1.2, marker=">", ms=3.5),
         Line2D([], [], **BEAM),
     ]
-    names = ["wall", "centre of mass; guards", "wanted", f"push (1 N: {NEWTON:g} m)", "beam"]
+    names = ["wall", "centre of mass; guards", "desired path", f"push (1 N: {NEWTON:g} m)", "beam"]
     figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.4)
     return figure

@@ -1,6 +1,6 @@
-"""What the observer finds: force and moment besides rotors, weight and person; and the sliding mode's condition.
+"""Estimate of the disturbance observer: force and moment besides rotors, weight and person; its error over λ₂.
 
-The condition of the paper's law is λ₂ > ‖δ − δ̂‖ on every axis: what is left of the disturbance, over λ₂, below 1.
+The condition of the paper's law is λ₂ > ‖δ − δ̂‖ on every axis: the estimation error, divided by λ₂, is below 1.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
@@ -26,10 +27,8 @@ CAPTION = Caption(
 )
 IN_FLIGHTS = with_any_of("disturbance_force")
 
-GUIDED = 2.0  # the phase in which a person steers
 
-
-def share_of_lambda(flight: Flight) -> Array | None:
+def error_over_lambda(flight: Flight) -> Array | None:
     """|δ − δ̂| over λ₂ (T, 6), as far as the observer can tell; None where the controller has no λ₂."""
     gains = flight.mission["controller"].get("gains")
     if not isinstance(gains, dict) or "lambda_2" not in gains:
@@ -38,21 +37,21 @@ def share_of_lambda(flight: Flight) -> Array | None:
     return np.abs(left) / np.maximum(np.array(gains["lambda_2"]), 1e-12)
 
 
-def _condition(ax: Any, flight: Flight, share: Array) -> None:
-    """Fill the panel of the condition: the largest share over the axes of the position, and of the attitude."""
+def _condition(ax: Any, flight: Flight, error: Array) -> None:
+    """Fill the panel of the condition: the largest error over the axes of position, and of attitude."""
     for part, look, name in ((slice(0, 3), COMPONENTS[0], "position"), (slice(3, 6), COMPONENTS[1], "attitude")):
-        line(ax, flight.time, share[:, part].max(axis=1), label=name, **look)
+        line(ax, flight.time, error[:, part].max(axis=1), label=name, **look)
     ax.axhline(1.0, color=BLACK, lw=0.7, ls=(0, (5, 3)))
-    fit(ax, np.zeros(1), np.ones(1), share, least=1.0)
+    fit(ax, np.zeros(1), np.ones(1), error, least=1.0)
     ax.set_ylabel("$|\\delta-\\hat{\\delta}|/\\lambda_2$")
     ax.legend(loc="upper right", ncols=2, columnspacing=1.2)
 
 
 @journal
 def draw(flight: Flight) -> Figure:
-    """Draw the disturbance's force [N] and moment [N·m], and its rest over λ₂, grey while a person steers."""
-    share = share_of_lambda(flight)
-    rows = 2 if share is None else 3
+    """Draw the disturbance's force [N] and moment [N·m], and its error over λ₂; grey while a person guides."""
+    error = error_over_lambda(flight)
+    rows = 2 if error is None else 3
     figure = Figure(figsize=(COLUMN, 1.35 * rows + 0.3), layout="constrained")
     axes = figure.subplots(rows, 1, squeeze=False)[:, 0]
     panels = (("disturbance_force", "$\\hat{d}$ (N)", 0.2), ("disturbance_moment", "$\\hat{\\tau}$ (N m)", 0.02))
@@ -61,8 +60,8 @@ def draw(flight: Flight) -> Figure:
         handles = components(ax, flight.time, flight[channel])
         fit(ax, np.zeros(1), flight[channel], least=least)
         ax.set_ylabel(label)
-    if share is not None:
-        _condition(axes[2], flight, share)
+    if error is not None:
+        _condition(axes[2], flight, error)
     for ax in axes:
         ax.axhline(0.0, color=GREY, lw=0.5, zorder=0)
         if "phase" in flight:

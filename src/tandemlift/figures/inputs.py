@@ -1,7 +1,7 @@
 """The commanded inputs: thrust U1 [N] and the moments U2, U3, U4 [N m] about the body axes.
 
-A disturbed start can ask for more than the rest of the flight by orders of magnitude. Where it does, a column of its
-own shows the start in full, and the column of the whole flight is scaled to what follows.
+A disturbed start can need inputs larger than those of the rest of the flight by orders of magnitude. Then a column of
+its own shows the start in full, and the column of the whole flight is scaled to the time after it.
 """
 # paper: fig7
 
@@ -17,7 +17,7 @@ from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import fit, line, time_axis
 from tandemlift.figures.drawing.start import START, is_disturbed
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, journal
-from tandemlift.figures.drawing.vehicle import weight_of
+from tandemlift.figures.drawing.vehicle import true_weight
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption(
@@ -50,7 +50,7 @@ def draw(flight: Flight) -> Figure:
     figure = Figure(figsize=(PAGE, 4.4), layout="constrained")
     widths = (1.0, 2.6) if disturbed else (1.0,)
     axes = figure.subplots(4, len(widths), squeeze=False, gridspec_kw={"width_ratios": widths})
-    weight = weight_of(flight)
+    weight = true_weight(flight)
     for i, row in enumerate(axes):
         _panel(row[-1], flight, i, ~early if disturbed else every, every)
         time_axis(row[-1], flight, label=i == 3)

@@ -1,6 +1,6 @@
-"""The person's interaction with the vehicle, per world axis: push, thresholds, reference, and when it gives way.
+"""The person's interaction with the vehicle, along each world axis: push, thresholds and reference.
 
-Grey where the push is beyond the threshold and the admittance answers it; white where the position is held.
+Grey while the push is beyond the threshold and the admittance responds; white while the position is held.
 """
 # paper: fig8
 

@@ -1,7 +1,7 @@
-"""What every quadrotor puts on the payload at its joint: force [N] and torque [N m], body axes.
+"""Force [N] and torque [N m] of every quadrotor on the payload at its joint, body axes.
 
-Where sensors are simulated, their readings stand faintly behind. Where a disturbed start asks for far more than the
-rest of the flight, the value axes are scaled to what follows its first second.
+Simulated sensor readings are drawn faintly behind. If a disturbed start needs far larger forces than the rest of the
+flight, the value axes are scaled to the time after the first second.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """The path in space, with arrows where the person pushed, and the vehicle at a few instants.
 
-An arrow starts where the push acted at the time of its peak, points along it and is as long, over the longest one, as
-it was strong. The path's shadow straight below it lies on the floor. Walls are seen through, and stand before or behind
-the path as they are nearer to the reader or farther away.
+An arrow starts where the push acts at its peak; its length is proportional to the force. The path's shadow lies on the
+floor straight below it. Walls are transparent, and drawn before or behind the path as they are nearer to the reader or
+farther away.
 """
 # paper: fig5, b
 
@@ -33,8 +33,8 @@ CAPTION = Caption(
     "Path",
     "The path of the centre of mass, with an arrow for each push of the person: it starts where the push acts at its "
     "peak, and its length is proportional to the force. The vehicle is drawn to scale at a few instants, black at the "
-    "start and at the end. Dotted lines lead from the pushes straight down to the floor, which is filled if the "
-    "vehicle can stand on it. Walls are transparent.",
+    "start and at the end. Dotted lines lead from the pushes straight down to the floor, where the path has its "
+    "shadow; a floor that the vehicle can stand on is filled. Walls are transparent.",
     "Three-dimensional view of the flown path with an arrow for each push, the vehicle at a few instants, and the "
     "floor and walls if there are any.",
 )

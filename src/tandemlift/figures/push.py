@@ -1,7 +1,7 @@
-"""The push of a person as it is, as the last readings of the joint sensors say, and as it is estimated, world axes.
+"""The true push of a person, its value from the latest joint readings, and its estimate, in world axes.
 
-Below: where on the beam it acts, the payload's mass, and by how much the sensors disagree. Grey where the pilot may not
-use the estimate; blue the tare, in which the sensors' bias is found.
+Below: where on the beam it acts, the payload's mass, and the disagreement of the sensors. Grey while the pilot must not
+use the estimate; blue during the tare, which finds the sensors' bias.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.panels import fit, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
-from tandemlift.figures.drawing.vehicle import payload_mass_of
+from tandemlift.figures.drawing.vehicle import true_payload_mass
 from tandemlift.flight.record import Flight
 from tandemlift.settings.pilot import EstimatorTable
 from tandemlift.vehicle import Vehicle
@@ -82,13 +82,13 @@ def _force(ax: Any, flight: Flight, axis: int) -> list[Any]:
 def _place(ax: Any, flight: Flight) -> None:
     """Fill the panel of where on the beam the push acts, as wide as the beam if the payload is one."""
     true = places(flight)
-    told = flight["push_point_estimate"]
-    told = np.where(told == 0.0, np.nan, told)
+    point = flight["push_point_estimate"]
+    point = np.where(point == 0.0, np.nan, point)
     for place in true:
         line(ax, flight.time, place, zorder=3, **TRUE)
-    line(ax, flight.time, told, zorder=4, **ESTIMATE)
+    line(ax, flight.time, point, zorder=4, **ESTIMATE)
     length = Vehicle.from_mission(flight.mission).payload.length
-    fit(ax, told, *true, least=LEAST_PLACE)
+    fit(ax, point, *true, least=LEAST_PLACE)
     if length:
         ax.set_ylim(-BEYOND * length / 2.0, BEYOND * length / 2.0)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
@@ -96,7 +96,7 @@ def _place(ax: Any, flight: Flight) -> None:
 
 
 def _mass(ax: Any, flight: Flight) -> None:
-    true, estimate = payload_mass_of(flight), flight["payload_mass_estimate"]
+    true, estimate = true_payload_mass(flight), flight["payload_mass_estimate"]
     ax.axhline(true, zorder=1, **TRUE)
     line(ax, flight.time, estimate, zorder=4, **ESTIMATE)
     fit(ax, estimate, np.array([true]), least=LEAST_MASS)

@@ -1,7 +1,6 @@
-"""The reference trajectories that the admittance makes of the push, per world axis.
+"""The reference trajectories of the admittance in response to the push, along each world axis.
 
-The push is drawn over its largest absolute value on that axis, above the position T_r [m] and velocity [m/s] that it
-brings about.
+The push, divided by its largest absolute value on that axis, is drawn above position T_r [m] and velocity [m/s].
 """
 # paper: fig4
 

@@ -48,7 +48,7 @@ def captions() -> dict[str, Caption]:
     return {VIEWS: views.CAPTION} | {name: figure.CAPTION for name, figure in figures().items()}
 
 
-def figures_of(flight: Flight) -> dict[str, FlightFigure]:
+def figures_for(flight: Flight) -> dict[str, FlightFigure]:
     """The figures that a flight has, in the order of `figures`."""
     return {name: figure for name, figure in figures().items() if figure.IN_FLIGHTS(flight)}
 
@@ -74,7 +74,7 @@ def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progr
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    written, drawn = [], figures_of(flight)
+    written, drawn = [], figures_for(flight)
     for done, (name, figure) in enumerate(drawn.items(), 1):
         page = figure.draw(flight)
         written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]

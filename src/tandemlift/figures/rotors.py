@@ -1,7 +1,7 @@
-"""Thrust of every rotor and what was commanded of it [N], between its limits, and the share of the wrench they give.
+"""Thrust and command of every rotor [N] with its limits, and the fraction of the commanded wrench that they give.
 
-A rotor that fails is marked from then on, and its upper limit falls to what it has left. Commands far beyond the limits
-are cut off.
+A rotor failure is marked, and its upper limit falls to the thrust that is left. Commands far beyond the limits are cut
+off.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ CAPTION = Caption(
 )
 IN_FLIGHTS = with_any_of("rotor_commands")
 
-AROUND, SHARE = 2.0, 0.85  # in: above and below the rows of rotors, and of that, the panel of the share
+AROUND, FRACTION = 2.0, 0.85  # in: above and below the rows of rotors, and of that, the lowest panel
 MARGIN = 0.12  # of the largest thrust, beyond the limits
-ROOMY = 0.7  # share of the thrust: if no more is left, words fit in above it
+ROOMY = 0.7  # fraction of the thrust: if no more is left, words fit in above it
 THRUST: dict[str, Any] = {"color": BLUE, "lw": 0.9}
 COMMAND: dict[str, Any] = {"color": TAN, "lw": 0.7}
 LIMIT: dict[str, Any] = {"color": BLACK, "lw": 0.7, "ls": (0, (5, 3))}
 FAILED: dict[str, Any] = {"color": VERMILLION, "lw": 1.0}
 
 
-def fault_of(flight: Flight, quadrotor: int, rotor: int) -> dict[str, Any] | None:
+def rotor_fault(flight: Flight, quadrotor: int, rotor: int) -> dict[str, Any] | None:
     """The fault of a rotor (both counted from 1) if it comes within the time flown: the last one that is given."""
     faults = [f for f in flight.mission.get("faults", []) if (f["quadrotor"], f["rotor"]) == (quadrotor, rotor)]
     return faults[-1] if faults and len(flight.time) and faults[-1]["time"] <= flight.time[-1] else None
@@ -78,12 +78,12 @@ def _panel(ax: Any, flight: Flight, column: int, most: float, fault: dict[str, A
     ax.yaxis.set_major_locator(value_ticks())
 
 
-def _share(ax: Any, flight: Flight) -> None:
+def _fraction(ax: Any, flight: Flight) -> None:
     line(ax, flight.time, flight["allocation_fraction"], color=BLUE, lw=1.0)
     ax.axhline(1.0, color=GREY, lw=0.4, zorder=0)
     ax.set_ylim(-0.05, 1.08)
     ax.set_yticks([0.0, 0.5, 1.0])
-    ax.set_ylabel("share of wrench")
+    ax.set_ylabel("fraction of wrench")
     time_axis(ax, flight)
 
 
@@ -97,12 +97,12 @@ def _legend(figure: Figure, failing: bool) -> None:
 
 @journal
 def draw(flight: Flight) -> Figure:
-    """Draw thrust, command and limits [N] of each rotor, a row a quadrotor, of the first eight; below, the share."""
+    """Draw thrust, command and limits [N] of each rotor, a row for each quadrotor (at most 8), and the fraction."""
     quadrotors = Vehicle.from_mission(flight.mission).quadrotors
     figure, rows = fleet_figure(len(quadrotors), AROUND)
     height = (figure.get_figheight() - AROUND) / rows
-    grid = figure.add_gridspec(rows + 1, 4, height_ratios=[*[height] * rows, SHARE])
-    faults = {name: fault_of(flight, *name) for name in product(range(1, rows + 1), range(1, 5))}
+    grid = figure.add_gridspec(rows + 1, 4, height_ratios=[*[height] * rows, FRACTION])
+    faults = {name: rotor_fault(flight, *name) for name in product(range(1, rows + 1), range(1, 5))}
     for column, ((row, rotor), fault) in enumerate(faults.items()):
         ax = figure.add_subplot(grid[row - 1, rotor - 1])
         _panel(ax, flight, column, quadrotors[row - 1].max_thrust, fault)
@@ -111,6 +111,6 @@ def draw(flight: Flight) -> Figure:
             ax.set_ylabel(f"quadrotor {row}\nthrust (N)")
         if row == 1:
             ax.set_title(f"rotor {rotor}")
-    _share(figure.add_subplot(grid[rows, :]), flight)
+    _fraction(figure.add_subplot(grid[rows, :]), flight)
     _legend(figure, any(faults.values()))
     return figure

@@ -1,6 +1,6 @@
-"""What is around the vehicle, in world axes: the air's velocity and force, the force of floor and walls, the height.
+"""Wind and contact, in world axes: velocity and force of the air, force of floor and walls, height above the floor.
 
-Grey where floor or walls touch the vehicle. The height is the lowest sole's over the floor.
+Grey while floor or walls touch the vehicle. The height is that of the lowest foot above the floor.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.ground import clearance, floor_height
 from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLACK, BLUE, COMPONENTS, GREY, PAGE, PALE, journal
-from tandemlift.figures.drawing.vehicle import weight_of
+from tandemlift.figures.drawing.vehicle import true_weight
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption(
@@ -37,7 +37,7 @@ VECTORS = (  # channel, label, least span of the axis
     ("contact_force", "contact force (N)", 1.0),
 )
 LEAST_HEIGHT = 0.02  # m
-HEIGHT = "height over floor (m)"
+HEIGHT = "height above floor (m)"
 
 
 def _vector(ax: Any, flight: Flight, name: str, least: float) -> None:
@@ -45,7 +45,7 @@ def _vector(ax: Any, flight: Flight, name: str, least: float) -> None:
     fit(ax, flight[name], least=least)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
     if name == "contact_force":
-        ax.axhline(weight_of(flight), color=BLACK, lw=0.7, ls=(0, (5, 3)), zorder=2)
+        ax.axhline(true_weight(flight), color=BLACK, lw=0.7, ls=(0, (5, 3)), zorder=2)
 
 
 def _height(ax: Any, flight: Flight, floor: float) -> None:
@@ -66,7 +66,7 @@ def _legend(figure: Figure, touching: bool) -> None:
 
 @journal
 def draw(flight: Flight) -> Figure:
-    """Draw, of what there is, wind [m/s], its force [N], the contact force [N, world axes] and the height [m]."""
+    """Draw wind [m/s], its force [N], contact force [N, world axes] and height [m], as far as the flight has them."""
     panels: list[tuple[str, Callable[[Any], None]]] = [
         (label, lambda ax, name=name, least=least: _vector(ax, flight, name, least))  # type: ignore[misc]
         for name, label, least in VECTORS

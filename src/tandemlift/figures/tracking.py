@@ -1,7 +1,7 @@
 """How the vehicle tracks: desired and actual orientation, position and velocity, and the normalised errors.
 
-Orientation is against what the attitude law tracks, in degrees; position and velocity are in world axes. Each error is
-divided by its own largest absolute value, which the legend gives.
+The desired orientation is what the attitude law tracks; orientation is in degrees, position and velocity are in world
+axes. Each error is divided by its largest absolute value, which the legend gives.
 """
 # paper: fig6
 

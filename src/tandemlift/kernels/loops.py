@@ -98,7 +98,7 @@ class LoopWriter:
     def begin_step(self, f: Function, k: str) -> None:
         """Form the inputs of step k from outside, once in a span where possible, and bind them."""
         x, lanes = self.templates, self.lanes
-        in_span = f.whole("and", k, SPAN - 1)
+        in_span = f.integer("and", k, SPAN - 1)
         with f.when(f.op(f"icmp eq i64 {in_span}, 0")):
             self.call(f, "sum_pushes", f"i64 {k}")
             if self.draws and lanes == 1:
@@ -113,10 +113,10 @@ class LoopWriter:
 
     def bind_inputs(self, f: Function, k: str) -> None:
         """Bind the inputs of step k to their places in memory."""
-        in_span = f.whole("and", k, SPAN - 1)
+        in_span = f.integer("and", k, SPAN - 1)
         t = self.time(f, k)
-        hand = f.at("%work", f.whole("add", f.whole("mul", in_span, 2 * self.width), self.pushes_at))
-        noise = f.at("%work", f.whole("add", in_span, self.noise)) if self.lanes == 1 else f.at("%work", self.noise)
+        hand = f.at("%work", f.integer("add", f.integer("mul", in_span, 2 * self.width), self.pushes_at))
+        noise = f.at("%work", f.integer("add", in_span, self.noise)) if self.lanes == 1 else f.at("%work", self.noise)
         pace = SPAN if self.lanes == 1 else 1
         f.read |= {
             "t": lambda i: t,
@@ -191,7 +191,7 @@ class LoopWriter:
         f.do(f"br i1 {f.op(f'icmp slt i64 %k, {stop}')}, label %sound, label %over")
         f.lines.append("sound:")
         if self.lanes == 1:
-            lost = f.load("%flying", leaf_offset(self.templates.flying, "moving", "lost").at)
+            lost = f.load("%flying", leaf_offset(self.templates.flying, "moving", "diverged").at)
             f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
             f.lines.append("step:")
         self.begin_step(f, "%k")

@@ -51,7 +51,7 @@ def delayed_spans(flying: Any) -> DelayedSpans:
         ("readings", "imu"),
         ("readings", "motion"),
         ("rotors", "arriving"),
-        ("partner", "seen"),
+        ("person", "view"),
     ]
     ends += [("readings", "additional", name) for name in getattr(late.additional, "_fields", ())]
     return DelayedSpans(

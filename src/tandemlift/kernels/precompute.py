@@ -21,20 +21,20 @@ NORMAL_LANES = 8  # of the loop that draws normal numbers for a flight alone
 def write_push(step: LoopWriter) -> None:
     """The sum of all pushes at the half steps of the span that holds step k."""
     f, width = step.function("sum_pushes", ", i64 %k"), step.width
-    first = f.whole("and", "%k", -SPAN)
+    first = f.integer("and", "%k", -SPAN)
     with f.repeat(HALVES * width) as i:
-        f.store(f.zero, "%work", f.whole("add", i, step.pushes_at))
-    opens, closes = step.time(f, first), step.time(f, f.whole("add", first, SPAN))
-    half, twice = f.op(f"fmul double %dt, {double(0.5)}"), f.whole("mul", first, 2)
+        f.store(f.zero, "%work", f.integer("add", i, step.pushes_at))
+    opens, closes = step.time(f, first), step.time(f, f.integer("add", first, SPAN))
+    half, twice = f.op(f"fmul double %dt, {double(0.5)}"), f.integer("mul", first, 2)
     pushes, count = step.context_word(f, "pushes"), step.context_word(f, "push_count")
     with f.repeat(count) as i:
-        row = f.at(pushes, f.whole("mul", i, leaves(GAUSSIAN)))
+        row = f.at(pushes, f.integer("mul", i, leaves(GAUSSIAN)))
         f.read |= {"push": lambda m: Place(row, m), "opens": lambda m: opens, "closes": lambda m: closes}
         with f.when(f.any(f.value(step.traced.push_is_active))), f.repeat(HALVES) as j:
-            number = f.op(f"sitofp i64 {f.whole('add', twice, j)} to double")
+            number = f.op(f"sitofp i64 {f.integer('add', twice, j)} to double")
             when = f.op(f"fmul double {number}, {half}")
             f.read["when"] = lambda m: when
-            _add_to(f, f.whole("add", f.whole("mul", j, width), step.pushes_at), step.traced.push)
+            _add_to(f, f.integer("add", f.integer("mul", j, width), step.pushes_at), step.traced.push)
     f.end()
 
 
@@ -46,7 +46,7 @@ def write_gust(step: LoopWriter) -> None:
         f.store(f.zero, "%work", step.gust + m)
     gusts, count = step.context_word(f, "gusts"), step.context_word(f, "gust_count")
     with f.repeat(count) as i:
-        row = f.at(gusts, f.whole("mul", i, leaves(GUST)))
+        row = f.at(gusts, f.integer("mul", i, leaves(GUST)))
         f.read["gusts"] = lambda m: Place(row, m)
         _add_to(f, step.gust, step.traced.gust)
     f.end()
@@ -71,15 +71,15 @@ def write_draw(step: LoopWriter) -> None:
             f.store(value, "%work", step.noise + m)
         f.end()
         return
-    first = f.whole("and", "%k", -SPAN)
+    first = f.integer("and", "%k", -SPAN)
     ramp = "<" + ", ".join(f"i64 {j}" for j in range(lanes)) + ">"
     f.read = {"key": lambda m: f.load(keys, m, "double")}
     with f.repeat(SPAN // lanes) as j:
-        base = f.spread(f.whole("add", first, f.whole("mul", j, lanes)), "i64")
+        base = f.spread(f.integer("add", first, f.integer("mul", j, lanes)), "i64")
         numbers = f.op(f"add <{lanes} x i64> {base}, {ramp}")
         f.read["number"] = lambda m: numbers
         for m, value in enumerate(v for four in step.traced.normals for v in f.values(four)):
-            at = f.whole("add", f.whole("mul", j, lanes), step.noise + m * SPAN)
+            at = f.integer("add", f.integer("mul", j, lanes), step.noise + m * SPAN)
             f.store(value, f.at("%work", at, "double"))
     f.end()
 
@@ -96,7 +96,7 @@ def write_surroundings(step: LoopWriter) -> None:
             f.store(f.spread(double(number)), "%flying", at + m)
         walls, count = step.context_word(f, "walls"), step.context_word(f, "wall_count")
         with f.repeat(count) as i:
-            row = f.at(walls, f.whole("mul", i, leaves(WALL)))
+            row = f.at(walls, f.integer("mul", i, leaves(WALL)))
             f.read["wall"] = lambda m: Place(row, m)
             with f.afresh():
                 f.put("%flying", at, step.traced.nearest)
@@ -108,15 +108,15 @@ def write_surroundings(step: LoopWriter) -> None:
 def _find_legs(step: LoopWriter, f: Function) -> None:
     flying, lanes = step.templates.flying, step.lanes
     index, leg = (
-        leaf_offset(flying, "moving", "partner", "index").at,
-        leaf_offset(flying, "moving", "partner", "leg").at,
+        leaf_offset(flying, "moving", "person", "index").at,
+        leaf_offset(flying, "moving", "person", "leg").at,
     )
-    legs, last = step.context_word(f, "legs"), f.whole("sub", step.context_word(f, "leg_count"), 1)
+    legs, last = step.context_word(f, "legs"), f.integer("sub", step.context_word(f, "leg_count"), 1)
     for lane in range(lanes):
         number = f.load("%flying", index * lanes + lane, "double")
         i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
         i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
         i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
-        row = f.at(legs, f.whole("mul", i, leaves(PATH_LEG)))
+        row = f.at(legs, f.integer("mul", i, leaves(PATH_LEG)))
         for m in range(leaves(PATH_LEG)):
             f.store(f.load(row, m * lanes + lane, "double"), "%flying", (leg + m) * lanes + lane, "double")

@@ -15,9 +15,9 @@ COMMAND_LINE = 2  # the delay line of the rotor commands: without delay, a comma
 def write_sample(step: LoopWriter, f: Function, k: str) -> None:
     """Write the sample of step k into the log, if one is due, and the last sample where Python reads it."""
     every, steps = step.context_word(f, "every"), step.context_word(f, "steps")
-    past = f.whole("sub", k, step.context_word(f, "since"))
-    row = f.whole("sdiv", past, every)
-    logged = f.op(f"icmp eq i64 {f.whole('mul', row, every)}, {past}")
+    past = f.integer("sub", k, step.context_word(f, "since"))
+    row = f.integer("sdiv", past, every)
+    logged = f.op(f"icmp eq i64 {f.integer('mul', row, every)}, {past}")
     final = f.op(f"icmp eq i64 {k}, {steps}")
     with f.when(f.op(f"or i1 {logged}, {final}")):
         if step.lanes == 1:
@@ -31,7 +31,7 @@ def _write_one_sample(step: LoopWriter, f: Function, row: str, logged: str, fina
     f.values(sample)
     for condition, name, index in ((logged, "log", row), (final, "last", "0")):
         with f.when(condition):
-            f.put(f.at(step.context_word(f, name), f.whole("mul", index, len(sample))), 0, sample)
+            f.put(f.at(step.context_word(f, name), f.integer("mul", index, len(sample))), 0, sample)
 
 
 def _write_samples_of_lanes(step: LoopWriter, f: Function, row: str, logged: str) -> None:
@@ -40,10 +40,10 @@ def _write_samples_of_lanes(step: LoopWriter, f: Function, row: str, logged: str
     with f.when(logged):
         log, stride = step.context_word(f, "log"), step.context_word(f, "stride")
         with f.repeat(step.lanes) as lane:
-            to = f.whole("add", f.whole("mul", lane, stride), f.whole("mul", row, columns))
+            to = f.integer("add", f.integer("mul", lane, stride), f.integer("mul", row, columns))
             with f.repeat(columns) as m:
-                at = f.whole("add", f.whole("mul", f.whole("add", m, step.sample), step.lanes), lane)
-                f.store(f.load("%work", at, "double"), log, f.whole("add", to, m), "double")
+                at = f.integer("add", f.integer("mul", f.integer("add", m, step.sample), step.lanes), lane)
+                f.store(f.load("%work", at, "double"), log, f.integer("add", to, m), "double")
 
 
 def write_next_state(step: LoopWriter, f: Function, k: str) -> None:
@@ -56,17 +56,17 @@ def write_next_state(step: LoopWriter, f: Function, k: str) -> None:
 def _write_delays(step: LoopWriter, f: Function, k: str) -> None:
     """Put what is delayed into row k of the delay line, and fetch what arrives for the next step."""
     ring, delays = step.context_word(f, "ring"), step.context_word(f, "delays")
-    mask = f.whole("sub", step.context_word(f, "rings"), 1)
-    into = f.at(ring, f.whole("mul", f.whole("and", k, mask), step.delayed.size))
+    mask = f.integer("sub", step.context_word(f, "rings"), 1)
+    into = f.at(ring, f.integer("mul", f.integer("and", k, mask), step.delayed.size))
     column = 0
     for j, (at, size) in enumerate(step.delayed):
         if not size:
             continue
-        arrives = f.whole("add", k, 1) if j == COMMAND_LINE else k
-        out = f.whole("and", f.whole("sub", arrives, f.load(delays, j, "i64")), mask)
+        arrives = f.integer("add", k, 1) if j == COMMAND_LINE else k
+        out = f.integer("and", f.integer("sub", arrives, f.load(delays, j, "i64")), mask)
         for m in range(size):
             f.store(f.load("%flying", at + m), into, column + m)
-        since = f.at(ring, f.whole("mul", out, step.delayed.size))
+        since = f.at(ring, f.integer("mul", out, step.delayed.size))
         for m in range(size):
             f.store(f.load(since, column + m), "%flying", at + m)
         column += size

@@ -70,7 +70,7 @@ class Templates(NamedTuple):
     @property
     def has_person(self) -> bool:
         """Whether a person leads the vehicle along a path."""
-        return isinstance(self.flying.partner, Person)
+        return isinstance(self.flying.person, Person)
 
     @property
     def has_floor(self) -> bool:
@@ -89,7 +89,7 @@ def templates_from(flying: FlightModel, given: StepInputs) -> Templates:
     given = with_person(flying, given, 0.0, 0.001)
     thought = run_pilot(flying, given.hand.start, 0.0, 0.001)
     acting = actuate(flying, thought.decision.thrusts, given, 0.0)
-    air = acting.weather.loads
+    air = acting.wind.loads
     moved = advance(flying.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
     _, sample = finish_sample(flying, thought, acting, moved, given)
     layouts = [zeroed(x) for x in (flying, outer, thought, acting, moved, sample)]

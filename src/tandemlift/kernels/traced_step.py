@@ -134,7 +134,7 @@ class TracedStep:
             self.input_of("hand", templates.given.hand),
             self.input_of("gust", ZERO),
             self.input_of("noise", templates.given.noise),
-            self.flying.moving.partner,
+            self.flying.moving.person,
             self.input_of("external", templates.given.external),
         )
         self.given = traced(with_person)(self.flying, outer, self.t, self.dt)
@@ -184,7 +184,7 @@ class TracedStep:
         self.limits, decision, memory = limit_thrusts(
             self, self.flying.pilot, self.flying.moving.memory, thought, self.t
         )
-        return PilotOutput(thought.known, thought.believed, decision, memory, thought.estimator)
+        return thought._replace(decision=decision, memory=memory)
 
     def _stepped_body(self, plant: Any, acting: Any) -> Any:
         return traced(step_body)(plant, self.flying.moving, acting, self.given.hand, self.dt)
@@ -192,7 +192,7 @@ class TracedStep:
     def _may_touch_walls(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""
         before, plant, dt = self.flying.moving, self.flying.plant, self.dt
-        free, air = without_contact(plant), acting.weather.loads
+        free, air = without_contact(plant), acting.wind.loads
         args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
         rate = traced(first_motion)(free, *args)
         room = traced(clearance)(plant.walls, before.near, plant.frame, before.state)

@@ -1,4 +1,4 @@
-"""What goes through delay lines: readings on their way to the pilot, commands to the rotors, what a person sees."""
+"""Delay lines: of readings on their way to the pilot, of commands to the rotors, of the view of a person."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from tandemlift.algebra.vector import Nothing
 
 
 class Delayed(NamedTuple):
-    """Marks what is delayed; by how many steps is data of the loop."""
+    """Marks a delayed signal; the number of steps is data of the loop."""
 
 
 class DelayLines(NamedTuple):
-    """Of the readings of the IMU and of the motion measurement, of the rotors' commands, of what a person sees.
+    """Of the readings of the IMU and of the motion measurement, of the rotors' commands, of the view of a person.
 
     Each is `Delayed` or `Nothing`; those of additional sensors' readings by name.
     """
@@ -20,5 +20,5 @@ class DelayLines(NamedTuple):
     imu: Any
     motion: Any
     command: Any
-    seen: Any
+    view: Any
     additional: Any = Nothing()

@@ -1,17 +1,18 @@
-"""What sensors read and estimators know, as channels."""
+"""The channels of sensors and estimators."""
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.laws.sensors.readings import Readings, by_name
 from tandemlift.loop.perception import Estimates
 
 
 class MeasuredChannels(NamedTuple):
-    """What sensors show: the last readings that the pilot has."""
+    """The latest readings that the pilot has."""
 
     measured_position: Vec3
     measured_velocity: Vec3
@@ -24,7 +25,7 @@ class MeasuredChannels(NamedTuple):
 
 
 class EstimatedChannels(NamedTuple):
-    """What is estimated from them."""
+    """The estimates made of them."""
 
     estimated_position: Vec3
     estimated_velocity: Vec3
@@ -33,10 +34,10 @@ class EstimatedChannels(NamedTuple):
     push_measured: Vec3
     push_estimate: Vec3
     push_moment_estimate: Vec3
-    push_point_estimate: Any
-    payload_mass_estimate: Any
-    sensor_disagreement: Any
-    push_usable: Any
+    push_point_estimate: Number
+    payload_mass_estimate: Number
+    sensor_disagreement: Number
+    push_usable: Number
 
 
 def channels_of_additional(readings: Any) -> Any:
@@ -45,11 +46,11 @@ def channels_of_additional(readings: Any) -> Any:
 
 
 @choice(absent="readings")
-def shown_readings(readings: Any) -> Any:
+def measured_channels(readings: Any) -> Any:
     """The channels of readings."""
 
 
-@shown_readings.register(Readings)
+@measured_channels.register(Readings)
 def _readings(readings: Readings) -> Any:
     m, u = readings.motion, readings.imu
     more = [reading.value for reading in readings.additional]
@@ -66,12 +67,12 @@ def _readings(readings: Readings) -> Any:
 
 
 @choice(absent="known")
-def shown_estimate(known: Any) -> Any:
-    """The channels of what is estimated."""
+def estimated_channels(known: Any) -> Any:
+    """The channels of estimates."""
 
 
-@shown_estimate.register(Estimates)
-def _estimate(known: Estimates) -> Any:
+@estimated_channels.register(Estimates)
+def _estimates(known: Estimates) -> Any:
     s, p = known.state, known.push
     return EstimatedChannels(
         estimated_position=s.position,

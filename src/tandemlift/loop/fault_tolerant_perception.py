@@ -10,12 +10,12 @@ from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.laws.estimation.navigation import centre_of_mass
 from tandemlift.laws.estimation.push_estimate import PushEstimate
-from tandemlift.laws.guidance.supervision import SensorStatus, sensor_status
+from tandemlift.laws.guidance.preflight_checks import SensorStatus, sensor_status
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.sensors.readings import Readings, Sensors, SensorState, sense
 from tandemlift.laws.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults
 from tandemlift.laws.sensors.watchdog import PredictedReadings, Watchdog, WatchdogReport, WatchdogState, watchdog_step
-from tandemlift.loop.estimate_channels import shown_estimate
+from tandemlift.loop.estimate_channels import estimated_channels
 from tandemlift.loop.perception import (
     Estimates,
     Estimators,
@@ -121,9 +121,9 @@ def _checked_readings(known: CheckedEstimates, readings: Any) -> Any:
     return known.readings
 
 
-@shown_estimate.register(CheckedEstimates)
+@estimated_channels.register(CheckedEstimates)
 def _shown_checked(known: CheckedEstimates) -> Any:
-    return shown_estimate(Estimates(known.push, known.state, known.vehicle))
+    return estimated_channels(Estimates(known.push, known.state, known.vehicle))
 
 
 @choice

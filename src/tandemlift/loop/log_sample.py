@@ -1,6 +1,7 @@
-"""What one step of a flight shows: the values behind the channels, and what the tally counts.
+"""The channels of one step of a flight, and what the step adds to the running metrics.
 
-Parts that a mission does not have show nothing. `flight.CHANNELS` gives unit and frame of every channel.
+`flight.channels` says what every channel is, in the same order. A part that a mission does not have has no channels:
+its group is `Nothing`.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, greatest, minimum, where
+from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
 from tandemlift.engines.compiled_contact import DistantFloor
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
@@ -24,12 +26,12 @@ from tandemlift.laws.person.person import PersonState
 from tandemlift.laws.person.virtual_hand import VirtualHandState
 from tandemlift.laws.rotors.allocation import achieved_fraction, wrench
 from tandemlift.laws.rotors.rotors import IdealRotors, Rotors
-from tandemlift.loop.estimate_channels import shown_estimate, shown_readings
-from tandemlift.loop.running_metrics import StepErrors, effort_of
+from tandemlift.loop.estimate_channels import estimated_channels, measured_channels
+from tandemlift.loop.running_metrics import PersonEffort, StepErrors, effort_of
 
 
 class Sample(NamedTuple):
-    """What one step shows. Fields that are groups of values (or `Nothing`) stand for the channels in them."""
+    """The channels of one step; the last fields are groups of channels, or `Nothing` without that part."""
 
     position: Vec3
     velocity: Vec3
@@ -46,51 +48,51 @@ class Sample(NamedTuple):
     admittance_force: Vec3
     push_force: Vec3
     push_moment: Vec3
-    thrust: Any
+    thrust: Number
     moment: Vec3
-    rotor_thrusts: Any
+    rotor_thrusts: PerRotor
     joint_force: Vec3
     joint_torque: Vec3
-    actuated: Any
-    air: Any
+    actuators: Any
+    wind: Any
     contact: Any
     measured: Any
     estimated: Any
-    disturbed: Any
-    guided: Any
-    watched: Any
+    disturbance: Any
+    guidance: Any
+    detection: Any
 
 
 class ActuatorChannels(NamedTuple):
-    """Of real rotors: the thrusts commanded, the wrench that they can give within limits, and its share of U."""
+    """The commands of real rotors, the wrench that they give within limits, and its fraction of the commanded one."""
 
-    rotor_commands: Any
-    allocated_thrust: Any
+    rotor_commands: PerRotor
+    allocated_thrust: Number
     allocated_moment: Vec3
-    allocation_fraction: Any
+    allocation_fraction: Number
 
 
 class WindChannels(NamedTuple):
-    """Of moving air: its velocity, and its force on all parts together."""
+    """The velocity of the air, and its force on all parts together."""
 
     wind_velocity: Vec3
     wind_force: Vec3
 
 
 class ContactChannels(NamedTuple):
-    """Of floor and walls: their force on all parts together."""
+    """The force of floor and walls on all parts together."""
 
     contact_force: Vec3
 
 
 class DetectionChannels(NamedTuple):
-    """Of the detection of lost rotors: the number of the rotor that is taken for lost, 0 for none."""
+    """The number of the rotor that the detection takes for failed; 0 for none."""
 
-    failed_rotor: Any
+    failed_rotor: Number
 
 
 class DisturbanceChannels(NamedTuple):
-    """Of an observer: what it estimates, and how far it is behind."""
+    """The estimate of a disturbance observer, and its error."""
 
     disturbance_force: Vec3
     disturbance_moment: Vec3
@@ -99,12 +101,12 @@ class DisturbanceChannels(NamedTuple):
 
 
 @choice(absent="observer")
-def disturbed(observer: Any, unknown: DisturbanceEstimate) -> Any:
-    """What an observer shows."""
+def disturbance_channels(observer: Any, unknown: DisturbanceEstimate) -> Any:
+    """The channels of a disturbance observer."""
 
 
-@disturbed.register(DisturbanceObserver)
-def _an_observer(observer, unknown):
+@disturbance_channels.register(DisturbanceObserver)
+def _observed(observer: DisturbanceObserver, unknown: DisturbanceEstimate) -> DisturbanceChannels:
     return DisturbanceChannels(
         disturbance_force=unknown.force,
         disturbance_moment=unknown.moment,
@@ -114,81 +116,87 @@ def _an_observer(observer, unknown):
 
 
 @choice(absent="detection")
-def watched(detection: Any, memory: Any) -> Any:
-    """What the detection of lost rotors shows."""
+def detection_channels(detection: Any, memory: Any) -> Any:
+    """The channels of the detection of failed rotors."""
 
 
-@watched.register(RotorLossDetection)
-def _is_watched(detection, memory):
-    return DetectionChannels(dot(memory.verdict.lost, detection.numbers))
+@detection_channels.register(RotorLossDetection)
+def _detected(detection: RotorLossDetection, memory: Any) -> DetectionChannels:
+    return DetectionChannels(failed_rotor=dot(memory.verdict.lost, detection.numbers))
 
 
 @choice
-def actuated(rotors: Any, effect: Any, command: Wrench, commands: Any) -> Any:
-    """What rotors of this kind show of commanded thrusts [N] for a wanted wrench."""
+def actuator_channels(rotors: Any, effect: Any, command: Wrench, commands: PerRotor) -> Any:
+    """The channels of rotors with commanded thrusts [N], for a commanded wrench."""
 
 
-@actuated.register(IdealRotors)
-def _nothing_to_show(rotors, effect, command, commands):
+@actuator_channels.register(IdealRotors)
+def _ideal(rotors: IdealRotors, effect: Any, command: Wrench, commands: PerRotor) -> Nothing:
     return Nothing()
 
 
-@actuated.register(Rotors)
-def _within_limits(rotors, effect, command, commands):
+@actuator_channels.register(Rotors)
+def _limited(rotors: Rotors, effect: Any, command: Wrench, commands: PerRotor) -> ActuatorChannels:
     thrusts = clip(commands, 0.0, rotors.max_thrust)
     given = wrench(effect, thrusts)
     return ActuatorChannels(
-        commands, given.thrust, given.moment, achieved_fraction(effect, rotors.wrench_scale, command, thrusts)
+        rotor_commands=commands,
+        allocated_thrust=given.thrust,
+        allocated_moment=given.moment,
+        allocation_fraction=achieved_fraction(effect, rotors.wrench_scale, command, thrusts),
     )
 
 
 @choice
-def saturated(rotors: Any, commands: Any) -> Any:
+def saturated(rotors: Any, commands: PerRotor) -> Number:
     """1 if any rotor is commanded to a limit or beyond, else 0."""
 
 
 @saturated.register(IdealRotors)
-def _never(rotors, commands):
+def _never(rotors: IdealRotors, commands: PerRotor) -> Number:
     return 0.0
 
 
 @elementwise
-def at_limit(command, most):
-    """1 where a thrust is at 0 or at its most, or beyond."""
+def at_limit(command: Number, most: Number) -> Number:
+    """1 where a thrust [N] is at 0 or at its maximum `most`, or beyond; else 0."""
     return where(command > 0.0, where(command < most, 0.0, 1.0), 1.0)
 
 
 @saturated.register(Rotors)
-def _any(rotors, commands):
+def _any_at_limit(rotors: Rotors, commands: PerRotor) -> Number:
     return minimum(total(at_limit(commands, rotors.max_thrust)), 1.0)
 
 
 @choice(absent="loads")
-def air_of(loads: Any, velocity: Any) -> Any:
-    """What moving air shows."""
+def wind_channels(loads: Any, velocity: Vec3) -> Any:
+    """The channels of moving air."""
 
 
-@air_of.register(PartLoads)
-def _some_air(loads, velocity):
-    return WindChannels(velocity, loads.payload.force + sum_over_set(loads.quadrotors.force))
+@wind_channels.register(PartLoads)
+def _wind(loads: PartLoads, velocity: Vec3) -> WindChannels:
+    return WindChannels(
+        wind_velocity=velocity,
+        wind_force=loads.payload.force + sum_over_set(loads.quadrotors.force),
+    )
 
 
 @choice(absent="floor")
-def contact_of(floor: Any, felt: PerfectReadings) -> Any:
-    """What contact shows."""
+def contact_channels(floor: Any, readings: PerfectReadings) -> Any:
+    """The channels of contact with floor and walls."""
 
 
-@contact_of.register(DistantFloor)
-@contact_of.register(Floor)
-def _some_contact(floor, felt):
-    return ContactChannels(felt.contact_force)
+@contact_channels.register(DistantFloor)
+@contact_channels.register(Floor)
+def _contact(floor: Any, readings: PerfectReadings) -> ContactChannels:
+    return ContactChannels(contact_force=readings.contact_force)
 
 
 @law
 def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
-    """The sample of a step, at its start."""
-    state, felt, read = flying.moving.state, moved.readings, thought.decision
-    guidance, command = read.guidance, read.command
+    """The channels of a step, at its start."""
+    state, readings, decision = flying.moving.state, moved.readings, thought.decision
+    guidance, command = decision.guidance, decision.command
     target = guidance.reference.trajectory
     return Sample(
         position=state.position,
@@ -209,47 +217,44 @@ def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSam
         thrust=command.wrench.thrust,
         moment=command.wrench.moment,
         rotor_thrusts=acting.thrusts,
-        joint_force=felt.joint_force,
-        joint_torque=felt.joint_torque,
-        actuated=actuated(flying.rotors, flying.plant.effect, command.wrench, read.thrusts),
-        air=air_of(acting.weather.loads, acting.weather.velocity),
-        contact=contact_of(flying.plant.floor, felt),
-        measured=shown_readings(flying.moving.readings),
-        estimated=shown_estimate(thought.known),
-        disturbed=disturbed(flying.pilot.observer, read.unknown),
-        guided=guidance.shown,
-        watched=watched(flying.pilot.detection, thought.memory.detection),
+        joint_force=readings.joint_force,
+        joint_torque=readings.joint_torque,
+        actuators=actuator_channels(flying.rotors, flying.plant.effect, command.wrench, decision.thrusts),
+        wind=wind_channels(acting.wind.loads, acting.wind.velocity),
+        contact=contact_channels(flying.plant.floor, readings),
+        measured=measured_channels(flying.moving.readings),
+        estimated=estimated_channels(thought.estimates),
+        disturbance=disturbance_channels(flying.pilot.observer, decision.disturbance),
+        guidance=guidance.channels,
+        detection=detection_channels(flying.pilot.detection, thought.memory.detection),
     )
 
 
-@choice(absent="partner")
-def effort(partner: Any, x: Sample) -> Any:
-    """What a step costs the person who guides the vehicle."""
+@choice(absent="person")
+def effort(person: Any, x: Sample) -> Any:
+    """The effort of the person who guides the vehicle, over a step."""
 
 
 @effort.register(PersonState)
-def _somebody(partner, x):
-    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
-
-
 @effort.register(VirtualHandState)
-def _a_hand(partner, x):
-    return effort_of(where(partner.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+def _effort(person: Any, x: Sample) -> PersonEffort:
+    return effort_of(where(person.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
 
 
 @choice(absent=0.0)
-def hearing(shown: Any) -> Any:
-    """1 while a push is heard along any axis, else 0; from what guidance shows."""
+def push_active(channels: Any) -> Number:
+    """1 while the pilot follows a push along any axis, else 0; from the channels of guidance."""
 
 
-@hearing.register(HandGuidanceChannels)
-def _heard(shown):
-    return greatest(shown.push_active)
+@push_active.register(HandGuidanceChannels)
+def _push_active(channels: HandGuidanceChannels) -> Number:
+    return greatest(channels.push_active)
 
 
 @law
 def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
-    """What a sample adds to the tally."""
+    """What a step adds to the running metrics."""
+    decision = thought.decision
     return StepErrors(
         position=x.reference_position - x.position,
         velocity=x.reference_velocity - x.velocity,
@@ -259,9 +264,8 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
         moment=x.moment,
         push=x.push_force,
         power=dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
-        saturated=saturated(flying.rotors, thought.decision.thrusts)
-        * thrust_fraction(thought.decision.guidance.running),
+        saturated=saturated(flying.rotors, decision.thrusts) * thrust_fraction(decision.guidance.running),
         clearance=clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
-        effort=effort(flying.moving.partner, x),
-        hearing=hearing(thought.decision.guidance.shown),
+        effort=effort(flying.moving.person, x),
+        push_active=push_active(decision.guidance.channels),
     )

@@ -113,7 +113,7 @@ def _by_clock(tare: TareAtTime, guidance: Any, t: Any) -> Any:
 
 @tare_begun.register(TareInHover)
 def _in_hover(tare: TareInHover, guidance: Any, t: Any) -> Any:
-    return guidance.phase.hovered
+    return guidance.phase.hover_time
 
 
 @choice(absent="t")

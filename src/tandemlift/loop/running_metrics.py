@@ -12,7 +12,7 @@ from tandemlift.laws.mechanics.clearance import smaller_clearance
 
 
 class StepErrors(NamedTuple):
-    """What a step adds to the tally: errors are desired minus actual, world axes or Euler angles; SI units."""
+    """Contributions of a step: errors are desired minus actual, world axes or Euler angles; SI units."""
 
     position: Vec3
     velocity: Vec3
@@ -25,11 +25,11 @@ class StepErrors(NamedTuple):
     saturated: Any
     clearance: Any
     effort: Any
-    hearing: Any
+    push_active: Any
 
 
 class PersonEffort(NamedTuple):
-    """Of a person who guides the vehicle, while they hold on: steps, sums of |force| and of the way flown per step."""
+    """Of a person who guides the vehicle, while they hold the grip: steps, sums of |force| and of the speed."""
 
     steps: Any
     force_sum: Any
@@ -37,7 +37,7 @@ class PersonEffort(NamedTuple):
 
 
 class RunningMetrics(NamedTuple):
-    """Sums and extremes over a stretch of steps; `triggers`: how often a push came to be heard; if one is now."""
+    """Sums and extremes over steps; `triggers`: how many pushes became active; `push_active`: 1 while one is."""
 
     steps: Any
     position_squares: Vec3
@@ -54,11 +54,26 @@ class RunningMetrics(NamedTuple):
     clearance: Any
     effort: Any
     triggers: Any
-    hearing: Any
+    push_active: Any
 
 
 EMPTY = RunningMetrics(
-    0.0, ZERO, ZERO, ZERO, ZERO, ZERO, math.inf, -math.inf, ZERO, ZERO, 0.0, 0.0, Nothing(), Nothing(), 0.0, 0.0
+    steps=0.0,
+    position_squares=ZERO,
+    position_max=ZERO,
+    velocity_max=ZERO,
+    attitude_squares=ZERO,
+    tilt_max=ZERO,
+    thrust_min=math.inf,
+    thrust_max=-math.inf,
+    moment_max=ZERO,
+    push_sum=ZERO,
+    power_sum=0.0,
+    saturated=0.0,
+    clearance=Nothing(),
+    effort=Nothing(),
+    triggers=0.0,
+    push_active=0.0,
 )
 NO_EFFORT = PersonEffort(0.0, 0.0, 0.0)
 
@@ -69,37 +84,37 @@ def added(effort: Any, more: Any) -> Any:
 
 
 @added.register(PersonEffort)
-def _somebody(effort, more):
+def _with_more(effort: PersonEffort, more: PersonEffort) -> PersonEffort:
     return PersonEffort(effort.steps + more.steps, effort.force_sum + more.force_sum, effort.speed_sum + more.speed_sum)
 
 
 @law
 def effort_of(grasp: Any, force: Vec3, velocity: Vec3) -> PersonEffort:
-    """A step's effort of a person who holds on (`grasp` 1) or not (0), with a force, at a velocity."""
+    """The effort of a step under a force at a velocity, while the person holds the grip (`grasp` 1) or not (0)."""
     strong, fast = sqrt(maximum(dot(force, force), 1e-24)), sqrt(maximum(dot(velocity, velocity), 1e-24))
     return PersonEffort(grasp, strong * grasp, fast * grasp)
 
 
 @law
 def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
-    """The tally with one more step."""
+    """The metrics with one more step."""
     return RunningMetrics(
-        c.steps + 1.0,
-        c.position_squares + x.position * x.position,
-        maximum(c.position_max, absolute(x.position)),
-        maximum(c.velocity_max, absolute(x.velocity)),
-        c.attitude_squares + x.attitude * x.attitude,
-        maximum(c.tilt_max, absolute(x.tilt)),
-        minimum(c.thrust_min, x.thrust),
-        maximum(c.thrust_max, x.thrust),
-        maximum(c.moment_max, absolute(x.moment)),
-        c.push_sum + x.push,
-        c.power_sum + x.power,
-        c.saturated + x.saturated,
-        smaller_clearance(c.clearance, x.clearance),
-        added(c.effort, x.effort),
-        c.triggers + x.hearing * (1.0 - c.hearing),
-        x.hearing,
+        steps=c.steps + 1.0,
+        position_squares=c.position_squares + x.position * x.position,
+        position_max=maximum(c.position_max, absolute(x.position)),
+        velocity_max=maximum(c.velocity_max, absolute(x.velocity)),
+        attitude_squares=c.attitude_squares + x.attitude * x.attitude,
+        tilt_max=maximum(c.tilt_max, absolute(x.tilt)),
+        thrust_min=minimum(c.thrust_min, x.thrust),
+        thrust_max=maximum(c.thrust_max, x.thrust),
+        moment_max=maximum(c.moment_max, absolute(x.moment)),
+        push_sum=c.push_sum + x.push,
+        power_sum=c.power_sum + x.power,
+        saturated=c.saturated + x.saturated,
+        clearance=smaller_clearance(c.clearance, x.clearance),
+        effort=added(c.effort, x.effort),
+        triggers=c.triggers + x.push_active * (1.0 - c.push_active),
+        push_active=x.push_active,
     )
 
 
@@ -108,7 +123,10 @@ def _root_mean(squares: Any, steps: float) -> list[float] | None:
 
 
 def summary(early: RunningMetrics, late: RunningMetrics, step: float) -> dict[str, Any]:
-    """The metrics from the sums before and after 10 s, with steps of `step` [s]; None where there is none."""
+    """The metrics by their names in metrics.json, from the sums before and after 10 s, with steps of `step` [s].
+
+    None where there is nothing to form one from.
+    """
     steps = early.steps + late.steps
     return {
         "position_rmse_m": _root_mean(early.position_squares + late.position_squares, steps),

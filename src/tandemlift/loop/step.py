@@ -1,8 +1,8 @@
-"""The closed loop, the only place where the pilot and a body meet: what one step is, and what it shows.
+"""The closed loop, the only place where the pilot and a body meet: one step of a flight, and the sample that it logs.
 
 At time t_k the pilot reads the state and the person's push, or what sensors and estimators make of them, and decides;
-the rotors answer; the body then moves for one step with their thrusts held and the push continuous. What sensors read
-during a step is known to the pilot at the next one, or later. What a mission does not have is `Nothing`, and costs
+the rotors respond; the body then moves for one step with their thrusts held and the push continuous. The pilot gets
+the sensor readings of a step at the next one, or later. A part that a mission does not have is `Nothing`, and costs
 nothing.
 """
 
@@ -15,17 +15,17 @@ from tandemlift.algebra.ops import absolute, maximum, where
 from tandemlift.algebra.vector import Nothing, Quat, dot
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
-from tandemlift.laws.guidance.requests import UNAWARE, operator_of
+from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rotation import sine_of_roll
-from tandemlift.laws.person.caller_inputs import pushed, thrusts_of
-from tandemlift.laws.person.person import asks_to_land, person_step
+from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
+from tandemlift.laws.person.person import landing_request, person_step
 from tandemlift.laws.rotors.rotors import rotors_step
 from tandemlift.loop.log_sample import errors_of, log_sample
 from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
 from tandemlift.loop.running_metrics import RunningMetrics, count
-from tandemlift.loop.wind_loads import wind_loads
+from tandemlift.loop.wind_loads import WindOutput, wind_loads
 from tandemlift.pilot.pilot import Decision, PilotInput, PilotMemory, PilotParameters, decide, with_thrusts
 
 SIN_ROLL_LIMIT = 0.9998476951563913  # sin 89°
@@ -33,7 +33,7 @@ FAR = 1000.0  # m
 
 
 class FlightState(NamedTuple):
-    """What changes from step to step; `lost` becomes 1 when the state is no longer sound."""
+    """What changes from step to step; `diverged` becomes 1 once the state is not finite or beyond all bounds."""
 
     state: State
     memory: PilotMemory
@@ -44,23 +44,26 @@ class FlightState(NamedTuple):
     estimator: Any
     rotors: Any
     readings: Any
-    partner: Any
-    tally: RunningMetrics
-    lost: Any
+    person: Any
+    metrics: RunningMetrics
+    diverged: Any
 
 
 class FlightModel(NamedTuple):
-    """One flight: what changes, and the numbers that do not. Its type is the compiled loop's variant."""
+    """One flight: its state, and the parameters that stay. Its type is the variant of the compiled loop.
+
+    `sources`: where the pilot's state and push come from. `delays`: a `DelayLines`.
+    """
 
     moving: FlightState
     pilot: PilotParameters
     plant: CompiledPlant
     rotors: Any
-    weather: Any
+    wind: Any
     sensors: Any
     estimator: Any
-    reads: Any
-    partner: Any
+    sources: Any
+    person: Any
     delays: Any
 
 
@@ -69,88 +72,95 @@ class StepNoise(NamedTuple):
 
     wind: Any
     sensors: Any
-    partner: Any
+    person: Any
 
 
 class StepInputs(NamedTuple):
-    """What a step is given from outside: the push, gusts [m/s], standard normals; a person's memory, once they push.
+    """The inputs of a step: the push, gusts [m/s], standard normals, and the person's memory once they have pushed.
 
-    `external` is what a caller adds who steps the flight by hand, else `Nothing`.
+    `external` is what a caller adds who steps the flight, else `Nothing`.
     """
 
     hand: PushSamples
     gust: Any
     noise: Any
-    partner: Any
+    person: Any
     external: Any = Nothing()
 
 
 class PilotOutput(NamedTuple):
-    """The pilot's part of a step: what is estimated, the attitude believed in, the decision, what is remembered."""
+    """The pilot's part of a step: estimates, the attitude that it uses, its decision, and the memories after it."""
 
-    known: Any
-    believed: Quat
+    estimates: Any
+    attitude: Quat
     decision: Decision
     memory: PilotMemory
     estimator: Any
 
 
 class Actuation(NamedTuple):
-    """What acts on the body over a step: rotor thrusts [N] and moving air; and what rotors and wind remember."""
+    """What acts on the body over a step: rotor thrusts [N] and wind; with the rotors' memory."""
 
     thrusts: Any
     rotors: Any
-    weather: Any
+    wind: WindOutput
 
 
 @law
-def with_person(flying: FlightModel, given: StepInputs, t: Any, dt: Any) -> StepInputs:
-    """What a step is given, with the push of its caller and of the person who guides the vehicle."""
-    before, noise = flying.moving, given.noise.partner
-    lent = person_step(flying.partner, before.partner, pushed(given.external, given.hand), before.state, noise, t, dt)
-    return StepInputs(lent.hand, given.gust, given.noise, lent.memory, given.external)
+def with_person(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> StepInputs:
+    """The inputs of a step, with the push of its caller and that of the person who guides the vehicle."""
+    before, noise, push = model.moving, inputs.noise.person, with_caller_push(inputs.external, inputs.hand)
+    output = person_step(model.person, before.person, push, before.state, noise, t, dt)
+    return inputs._replace(hand=output.push, person=output.memory)
 
 
 @law
-def perceive(flying: FlightModel, push: Push, t: Any, dt: Any) -> Any:
-    """(what is estimated, what the pilot hears, the estimators' memory) at time t [s]; `push`: the true one."""
-    before, reads = flying.moving, flying.reads
-    since = tare_time(flying.estimator, before.memory.guidance, t)
-    known, memory = estimate_all(flying.estimator, before.estimator, before.readings, since, dt)
-    readings = usable(known, before.readings)
-    state = read_state(reads.state, before.state, readings, known)
-    touch = read_push(reads.push, push, state, known)
-    land, sees = asks_to_land(before.partner), all_sensed(readings, known)
-    asked = operator_of(before.partner)
-    return known, PilotInput(state, touch.force, touch.moment, land, sees, asked, UNAWARE), memory
+def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
+    """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
+    before, sources = model.moving, model.sources
+    since = tare_time(model.estimator, before.memory.guidance, t)
+    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, since, dt)
+    readings = usable(estimates, before.readings)
+    state = read_state(sources.state, before.state, readings, estimates)
+    wrench = read_push(sources.push, push, state, estimates)
+    pilot_input = PilotInput(
+        state=state,
+        push=wrench.force,
+        moment=wrench.moment,
+        land=landing_request(before.person),
+        sensed=all_sensed(readings, estimates),
+        operator=operator_request(before.person),
+        status=UNKNOWN_STATUS,
+    )
+    return estimates, pilot_input, memory
 
 
 @law
-def run_pilot(flying: FlightModel, push: Push, t: Any, dt: Any) -> PilotOutput:
+def run_pilot(model: FlightModel, push: Push, t: Any, dt: Any) -> PilotOutput:
     """The pilot's part of a step."""
-    known, heard, estimator = perceive(flying, push, t, dt)
-    decision, memory = decide(flying.pilot, flying.moving.memory, heard, t, dt)
-    return PilotOutput(known, heard.state.attitude, decision, memory, estimator)
+    estimates, pilot_input, estimator = perceive(model, push, t, dt)
+    decision, memory = decide(model.pilot, model.moving.memory, pilot_input, t, dt)
+    return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
 
 
 @law
-def with_caller_thrusts(thought: PilotOutput, external: Any) -> PilotOutput:
-    """The pilot's part of a step, with the thrusts that its caller gives in place of the pilot's."""
-    decision = with_thrusts(thought.decision, thrusts_of(external, thought.decision.thrusts))
-    return PilotOutput(thought.known, thought.believed, decision, thought.memory, thought.estimator)
+def with_caller_thrusts(output: PilotOutput, external: Any) -> PilotOutput:
+    """The pilot's part of a step, with the thrusts that the caller gives in place of the pilot's."""
+    decision = output.decision
+    return output._replace(decision=with_thrusts(decision, commanded_thrusts(external, decision.thrusts)))
 
 
 @law
-def actuate(flying: FlightModel, thrusts: Any, given: StepInputs, t: Any) -> Actuation:
-    """What the rotors make of commanded thrusts [N] over the step from time t [s], and the wind over it."""
-    before = flying.moving
-    driven, rotors = rotors_step(flying.rotors, before.rotors, thrusts, before.state, t)
-    blowing = wind_loads(flying.weather, before.wind, flying.plant.frame, before.state, given.gust, given.noise.wind)
-    return Actuation(driven, rotors, blowing)
+def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Actuation:
+    """The response of the rotors to commanded thrusts [N] over the step from time t [s], and the wind over it."""
+    before = model.moving
+    driven, rotors = rotors_step(model.rotors, before.rotors, thrusts, before.state, t)
+    wind = wind_loads(model.wind, before.wind, model.plant.frame, before.state, inputs.gust, inputs.noise.wind)
+    return Actuation(driven, rotors, wind)
 
 
 @law
-def is_unsound(state: State) -> Any:
+def has_diverged(state: State) -> Any:
     """0 while the state is finite, within 89° of roll and 1 km of the origin, else 1."""
     far = where(dot(state.position, state.position) < FAR * FAR, 0.0, 1.0)
     return where(absolute(sine_of_roll(state.attitude)) < SIN_ROLL_LIMIT, far, 1.0)
@@ -158,29 +168,25 @@ def is_unsound(state: State) -> Any:
 
 @law
 def finish_sample(
-    flying: FlightModel, thought: PilotOutput, acting: Actuation, moved: BodyStep, given: StepInputs
+    model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs
 ) -> Any:
-    """What a step comes to once the body has moved: (Moving after it, the Sample at its start)."""
-    before, believed = flying.moving, thought.believed
-    readings, sensing = measure(
-        flying.sensors, before.sensing, before.state, moved.readings, believed, given.noise.sensors
-    )
-    sample = log_sample(flying, thought, acting, moved, given.hand)
-    tally = count(before.tally, errors_of(flying, thought, sample))
-    lost = maximum(before.lost, is_unsound(moved.state))
+    """The end of a step once the body has moved: (`FlightState` after it, `Sample` at its start)."""
+    before, noise = model.moving, inputs.noise.sensors
+    readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
+    sample = log_sample(model, output, acting, moved, inputs.hand)
     after = FlightState(
-        moved.state,
-        thought.memory,
-        acting.weather.memory,
-        moved.grip,
-        before.near,
-        sensing,
-        thought.estimator,
-        acting.rotors,
-        readings,
-        given.partner,
-        tally,
-        lost,
+        state=moved.state,
+        memory=output.memory,
+        wind=acting.wind.memory,
+        grip=moved.grip,
+        near=before.near,
+        sensing=sensing,
+        estimator=output.estimator,
+        rotors=acting.rotors,
+        readings=readings,
+        person=inputs.person,
+        metrics=count(before.metrics, errors_of(model, output, sample)),
+        diverged=maximum(before.diverged, has_diverged(moved.state)),
     )
     return after, sample
 
@@ -188,20 +194,21 @@ def finish_sample(
 @law
 def step_body(plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, dt: Any) -> BodyStep:
     """The body's part of a step."""
-    air = acting.weather.loads
-    return advance(plant, before.state, before.grip, before.near, acting.thrusts, air, hand, dt)
+    loads = acting.wind.loads
+    return advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
 
 
 @law
-def finish_step(flying: FlightModel, thought: PilotOutput, given: StepInputs, t: Any, dt: Any) -> Any:
-    """The rest of a step once the pilot has decided: (Moving after it, the Sample at its start)."""
-    thought = with_caller_thrusts(thought, given.external)
-    acting = actuate(flying, thought.decision.thrusts, given, t)
-    return finish_sample(flying, thought, acting, step_body(flying.plant, flying.moving, acting, given.hand, dt), given)
+def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: Any, dt: Any) -> Any:
+    """The rest of a step once the pilot has decided: (`FlightState` after it, `Sample` at its start)."""
+    output = with_caller_thrusts(output, inputs.external)
+    acting = actuate(model, output.decision.thrusts, inputs, t)
+    moved = step_body(model.plant, model.moving, acting, inputs.hand, dt)
+    return finish_sample(model, output, acting, moved, inputs)
 
 
 @law
-def step_flight(flying: FlightModel, given: StepInputs, t: Any, dt: Any) -> Any:
-    """One step of a flight from time t [s] by dt [s]: (Moving after it, the Sample at its start)."""
-    given = with_person(flying, given, t, dt)
-    return finish_step(flying, run_pilot(flying, given.hand.start, t, dt), given, t, dt)
+def step_flight(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> Any:
+    """One step of a flight from time t [s] by dt [s]: (`FlightState` after it, `Sample` at its start)."""
+    inputs = with_person(model, inputs, t, dt)
+    return finish_step(model, run_pilot(model, inputs.hand.start, t, dt), inputs, t, dt)

@@ -1,4 +1,4 @@
-"""Moving air around the vehicle: the wind, and the loads that it puts on the parts."""
+"""The wind around the vehicle, and its loads on the parts."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from tandemlift.laws.mechanics.wind import wind_step
 
 
 class WindModel(NamedTuple):
-    """The wind, and the parts' drag."""
+    """The wind, and the drag of the parts."""
 
     wind: Any
     drag: AirDrag
 
 
 class WindOutput(NamedTuple):
-    """The air over a step: its velocity [m/s, world axes], its loads on the parts, and the wind's memory after it."""
+    """The wind over a step: its velocity [m/s, world axes], its loads on the parts, and its memory after the step."""
 
     velocity: Any
     loads: Any
@@ -28,15 +28,15 @@ class WindOutput(NamedTuple):
 
 @choice
 def wind_loads(kind: Any, memory: Any, frame: PartsLayout, state: Any, gust: Any, noise: Any) -> Any:
-    """The air over a step that starts in `state`; `gust`: velocity of all gusts together [m/s, world axes]."""
+    """`WindOutput` over a step that starts in `state`; `gust`: velocity of all gusts together [m/s, world axes]."""
 
 
 @wind_loads.register(Nothing)
-def _still(kind, memory, frame, state, gust, noise):
+def _no_wind(kind: Nothing, memory: Any, frame: PartsLayout, state: Any, gust: Any, noise: Any) -> WindOutput:
     return WindOutput(kind, kind, memory)
 
 
 @wind_loads.register(WindModel)
-def _moving(kind, memory, frame, state, gust, noise):
+def _wind(kind: WindModel, memory: Any, frame: PartsLayout, state: Any, gust: Any, noise: Any) -> WindOutput:
     velocity, after = wind_step(kind.wind, memory, gust, noise)
     return WindOutput(velocity, air_loads(kind.drag, frame, state, velocity), after)

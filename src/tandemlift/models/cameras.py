@@ -1,7 +1,6 @@
-"""Cameras in a world of Gazebo: each stands still and saves a picture every so often.
+"""Fixed cameras in a world of Gazebo that save pictures periodically.
 
-Needs a server that draws (a display, or Xvfb); run it with `--lockstep`, and a camera has one picture for each of its
-periods, none left out.
+They need a server with a display (or Xvfb). With `--lockstep`, a camera saves a picture in every period.
 """
 
 from __future__ import annotations
@@ -13,20 +12,20 @@ from xml.etree import ElementTree
 import numpy as np
 
 from tandemlift.common.types import Array
-from tandemlift.models.sdf import numbers
+from tandemlift.models.sdf_elements import numbers
 from tandemlift.rendering.camera import ANGLE, NEAR
 
-FAR = 300.0  # m, of what is drawn
+FAR = 300.0  # m, of the drawn range
 PICTURES = "pictures"  # folder of pictures, where the server runs
 
 
 class FixedCamera(NamedTuple):
-    """A camera that stands still.
+    """A fixed camera.
 
     Attributes:
         name: of its model and of the folder of its pictures; letters, digits and underscores.
-        position: (3,) of the eye [m, world axes].
-        target: (3,) what it looks at.
+        position: (3,) [m, world axes].
+        target: (3,) the point that it looks at [m, world axes].
         size: width and height of a picture [pixels].
     """
 
@@ -37,15 +36,15 @@ class FixedCamera(NamedTuple):
 
 
 def add_cameras(world: str, eyes: Sequence[FixedCamera], every: float) -> str:
-    """A world with cameras in it.
+    """Add cameras to a world.
 
     Args:
-        world: its text, from `models.sdf.world`.
+        world: text of the world, from `models.sdf.world`.
         eyes: the cameras.
-        every: time from one picture to the next [s].
+        every: time between pictures [s].
 
     Returns:
-        The text.
+        The text of the new world.
     """
     top = ElementTree.fromstring(world.encode())
     place = top.find("world")

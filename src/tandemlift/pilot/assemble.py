@@ -1,4 +1,4 @@
-"""A pilot made from a mission, as the vehicle is believed to be."""
+"""A pilot made from a mission, for its nominal vehicle."""
 
 from __future__ import annotations
 
@@ -51,9 +51,8 @@ def _allocation(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     rows, weights = _weighted(mission.vehicle, a.priorities)
     limits = cls(*[q.max_thrust for q in vehicle.quadrotors for _ in range(4)])
     none = cls(*(0.0,) * vehicle.rotor_count)
-    return ConstrainedAllocation(inverse, rows, weights, limits, known_faults(mission, vehicle)), AllocationState(
-        none, none
-    )
+    allocation = ConstrainedAllocation(inverse, rows, weights, limits, known_faults(mission, vehicle))
+    return allocation, AllocationState(none, none)
 
 
 def admittance_from(a: AdmittanceTable) -> Admittance:
@@ -75,7 +74,7 @@ def _phases(p: PhasesTable) -> ScheduledPhases:
 
 
 def known_faults(mission: Mission, vehicle: Vehicle) -> Any:
-    """The rotor faults that the pilot is told of, each from the time when it knows of it."""
+    """The rotor faults that the pilot knows of, each from the time when it does."""
     known = [math.inf if f.known_after is None else f.time + f.known_after for f in mission.faults]
     failures = [(f.quadrotor, f.rotor, min(t, NEVER), f.efficiency) for f, t in zip(mission.faults, known, strict=True)]
     return rotor_faults(vehicle.rotor_count, failures)
@@ -92,21 +91,20 @@ def _guidance(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     admittance = admittance_from(mission.admittance)
     if mission.pilot.guidance == "hand":
         return start_hand_guidance(mission, vehicle, admittance, known_faults(mission, vehicle))
-    return ScheduledGuidance(admittance, _phases(mission.phases), 0.0, _rotors(mission.phases)), AdmittanceState(
-        ZERO, ZERO, ZERO
-    )
+    guidance = ScheduledGuidance(admittance, _phases(mission.phases), 0.0, _rotors(mission.phases))
+    return guidance, AdmittanceState(ZERO, ZERO, ZERO)
 
 
 def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, PilotMemory]:
-    """The pilot of a mission before its first sample, as the vehicle is believed to be.
+    """The pilot of a mission before its first sample, for its nominal vehicle.
 
     Raises:
         InputError: the controller is not registered, or the allocation weights do not fit the vehicle.
     """
     gains, memory = controller(mission.controller.name).start(mission.controller, vehicle, mission.mission.step)
-    guidance, guided = _guidance(mission, vehicle)
-    observer, observing = start_observer(mission, vehicle, mixer_from(vehicle.effect))
-    allocation, working = _allocation(mission, vehicle)
-    detection, watching = start_detection(mission, vehicle, mixer_from(vehicle.effect))
+    guidance, guidance_memory = _guidance(mission, vehicle)
+    observer, observer_memory = start_observer(mission, vehicle, mixer_from(vehicle.effect))
+    allocation, allocation_memory = _allocation(mission, vehicle)
+    detection, detection_memory = start_detection(mission, vehicle, mixer_from(vehicle.effect))
     parameters = PilotParameters(guidance, observer, gains, allocation, detection)
-    return parameters, PilotMemory(guided, observing, memory, working, watching)
+    return parameters, PilotMemory(guidance_memory, observer_memory, memory, allocation_memory, detection_memory)

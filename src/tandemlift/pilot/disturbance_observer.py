@@ -14,11 +14,11 @@ from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
-UNBOUNDED = 1e18  # of a slope
+UNBOUNDED = 1e18  # a slope that nothing reaches
 
 
 def _follower(bandwidth: Any, slope: Any, linear: bool, size: np.ndarray) -> DisturbanceFilter:
-    """A follower whose slope is given in N/s or N·m/s, for axes of a mass or inertia."""
+    """A filter with a slope in N/s or N·m/s, for axes of a mass [kg] or inertia [kg·m²]."""
     most = [UNBOUNDED] * 3 if linear else [min(s / m, UNBOUNDED) for s, m in zip(slope, size.tolist(), strict=True)]
     return DisturbanceFilter(vec3(bandwidth), vec3(most))
 

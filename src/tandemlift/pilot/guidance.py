@@ -11,15 +11,15 @@ from tandemlift.laws.guidance.admittance import Admittance
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
 from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState
 from tandemlift.laws.guidance.guidance import HandGuidance, HandGuidanceState
-from tandemlift.laws.guidance.phases import SETTLE, PhaseSettings, PhaseState
+from tandemlift.laws.guidance.phases import SETTLING_TIME, PhaseSettings, PhaseState
 from tandemlift.laws.guidance.yaw_compliance import FixedHeading, YawCompliance, YawState
 from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 from tandemlift.pilot.supervision import NEVER, start_requests, start_supervision
 from tandemlift.settings import ComplianceTable, Mission
 from tandemlift.vehicle import Vehicle
 
-SILENT = LowPassState(ZERO, ZERO)
-STILL = LowPassState(0.0, 0.0)
+NO_PUSH = LowPassState(ZERO, ZERO)
+NO_MOMENT = LowPassState(0.0, 0.0)
 
 
 def _phasing(mission: Mission) -> PhaseSettings:
@@ -32,7 +32,7 @@ def _phasing(mission: Mission) -> PhaseSettings:
         land_rate=1.0 / p.land_duration,
         touchdown_depth=c.touchdown_depth,
         spin_up_time=c.spin_up_time,
-        always=1.0 if p.rotors == "always" else 0.0,
+        always_running=1.0 if p.rotors == "always" else 0.0,
         max_descent_speed=c.max_descent_speed,
         requests=start_requests(mission),
     )
@@ -57,9 +57,8 @@ def _tank(c: ComplianceTable) -> tuple[Any, Any]:
     if c.tank.model == "none":
         return Nothing(), Nothing()
     t = c.tank
-    return EnergyTank(t.capacity, t.low_energy, t.max_damping, t.refill_fraction, 1.0 / t.fade_time), EnergyTankState(
-        t.capacity, 0.0
-    )
+    tank = EnergyTank(t.capacity, t.low_energy, t.max_damping, t.refill_fraction, decay_rate=1.0 / t.fade_time)
+    return tank, EnergyTankState(t.capacity, 0.0)
 
 
 def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
@@ -73,16 +72,17 @@ def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
         output_filter=low_pass(c.output_bandwidth, step),
         inverse_inertia=1.0 / (y.inertia or float(vehicle.inertia[2, 2])),
         damping=y.damping,
-        most=y.max_moment,
+        max_moment=y.max_moment,
         max_lead_angle=y.max_lead_angle,
     )
-    return turning, YawState(STILL, DeadBandState(0.0, 0.0, 0.0, 0.0, 0.0), STILL, start, 0.0, 0.0)
+    quiet = DeadBandState(active=0.0, above_time=0.0, inactive_time=0.0, mean=0.0, bias=0.0)
+    return turning, YawState(NO_MOMENT, quiet, NO_MOMENT, start, 0.0, 0.0)
 
 
 def start_hand_guidance(
     mission: Mission, vehicle: Vehicle, admittance: Admittance, known: Any
 ) -> tuple[HandGuidance, HandGuidanceState]:
-    """The guidance by hand of a mission before its first sample, and its memory; `known`: faults of rotors."""
+    """The guidance by hand of a mission before its first sample, and its memory; `known`: the known rotor faults."""
     c = mission.compliance
     supervision, supervising = start_supervision(mission, vehicle, known)
     tank, filled = _tank(c)
@@ -95,12 +95,31 @@ def start_hand_guidance(
         moment=low_pass(c.input_bandwidth, mission.mission.step),
         moment_lead=c.moment_lead,
         mass=vehicle.mass,
-        most_thrust=vehicle.max_thrust * c.thrust_fraction,
+        max_thrust=vehicle.max_thrust * c.thrust_fraction,
         tangent=math.tan(c.max_tilt),
         supervision=supervision,
     )
-    hearing = DeadBandState(ZERO, ZERO, ZERO, ZERO, ZERO)
+    quiet = DeadBandState(active=ZERO, above_time=ZERO, inactive_time=ZERO, mean=ZERO, bias=ZERO)
     at = ZERO if mission.phases.rotors == "always" else Vec3(*mission.initial.position)
-    compliant = ComplianceState(SILENT, hearing, SILENT, at, ZERO, ZERO, ZERO, at)
-    phase = PhaseState(IDLE, 0.0, at.z, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLE)
-    return guided, HandGuidanceState(phase, compliant, filled, turned, SILENT, supervising)
+    compliance = ComplianceState(
+        filtered=NO_PUSH,
+        band=quiet,
+        output=NO_PUSH,
+        position=at,
+        velocity=ZERO,
+        acceleration=ZERO,
+        jerk=ZERO,
+        anchor=at,
+    )
+    phase = PhaseState(
+        phase=IDLE,
+        since=0.0,
+        ground=at.z,
+        land_rate=0.0,
+        lift_fraction=0.0,
+        extra_depth=0.0,
+        handled_lifts=0.0,
+        handled_lands=0.0,
+        hover_time=-SETTLING_TIME,
+    )
+    return guided, HandGuidanceState(phase, compliance, filled, turned, NO_PUSH, supervising)

@@ -1,8 +1,8 @@
 """The pilot: from a measurement to rotor thrusts, the same for every body that it flies.
 
 measured push → guidance (gate, admittance, phases) → reference → controller → wrench → allocation → thrusts, and beside
-it the observer of what else acts on the vehicle. It is sampled every `mission.step`; everything that it computes is
-held until the next sample. `pilot.assemble` makes one from a mission.
+it the disturbance observer and the detection of rotor failures. The pilot is sampled every `mission.step`; its outputs
+are held until the next sample. `pilot.assemble` makes one from a mission.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ __all__ = [
 
 
 class PilotParameters(NamedTuple):
-    """Numbers of the pilot; the types of its members pick the laws."""
+    """The parameters of the pilot; the types of its members pick the laws."""
 
     guidance: Any
     observer: Any
@@ -40,7 +40,7 @@ class PilotParameters(NamedTuple):
 
 
 class PilotMemory(NamedTuple):
-    """What the pilot carries from sample to sample."""
+    """The memory of the pilot from sample to sample."""
 
     guidance: Any
     observer: Any
@@ -50,90 +50,97 @@ class PilotMemory(NamedTuple):
 
 
 class ControlInput(NamedTuple):
-    """What the pilot knows before it controls: what it measured, where to, what disturbs; and its parts' memories."""
+    """The input of the controller: measurements, guidance and disturbance; with the memories of the other parts."""
 
     measured: Measured
     guidance: Guidance
-    unknown: DisturbanceEstimate
+    disturbance: DisturbanceEstimate
     guidance_memory: Any
     observer_memory: Any
     detection_memory: Any
 
 
 class Decision(NamedTuple):
-    """One sample of the pilot: guidance, what disturbs, command, and the thrust of every rotor [N]."""
+    """One sample of the pilot: guidance, disturbance, command, and the thrust of every rotor [N]."""
 
     guidance: Guidance
-    unknown: DisturbanceEstimate
+    disturbance: DisturbanceEstimate
     command: Command
     thrusts: Any
 
 
 @choice(absent="allocation")
-def given_thrusts(allocation: Any) -> Any:
-    """The thrusts [N] that the allocation gave at the last sample, from its memory."""
+def last_thrusts(allocation: Any) -> Any:
+    """The thrusts [N] of the last sample, from the memory of the allocation."""
 
 
-@given_thrusts.register(AllocationState)
-def _within_limits(allocation):
+@last_thrusts.register(AllocationState)
+def _thrusts(allocation: AllocationState) -> Any:
     return allocation.thrusts
 
 
 @choice(absent=0.0)
-def given_thrust(allocation: Any) -> Any:
-    """The thrust of all rotors [N] that the allocation gave at the last sample; 0 if it does not keep it."""
+def last_total_thrust(allocation: Any) -> Any:
+    """The thrust of all rotors [N] at the last sample; 0 if the allocation has no memory of it."""
 
 
-@given_thrust.register(AllocationState)
-def _all_together(allocation):
+@last_total_thrust.register(AllocationState)
+def _total(allocation: AllocationState) -> Any:
     return total(allocation.thrusts)
 
 
 @law
-def control_input(p: PilotParameters, m: PilotMemory, heard: PilotInput, t: Any, dt: Any) -> ControlInput:
-    """What there is to know at time t [s] before the controller is asked."""
-    before, lost = last_known(p.observer, m.observer), failed_rotors(p.detection, m.detection, t)
-    heard = checked_input(p.guidance, m.guidance, heard, given_thrust(m.allocation), lost)
-    guidance, guided = guide(p.guidance, m.guidance, heard, before, lost, t, dt)
-    given = given_thrusts(m.allocation)
+def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Any, dt: Any) -> ControlInput:
+    """The input of the controller at time t [s]."""
+    before, failed = last_known(p.observer, m.observer), failed_rotors(p.detection, m.detection, t)
+    pilot_input = checked_input(p.guidance, m.guidance, pilot_input, last_total_thrust(m.allocation), failed)
+    guidance, guidance_memory = guide(p.guidance, m.guidance, pilot_input, before, failed, t, dt)
+    thrusts = last_thrusts(m.allocation)
     flying, learning = guidance.flying, guidance.learning
-    unknown, observing = observer_step(p.observer, m.observer, heard, given, flying, learning, dt)
-    watching = detection_step(p.detection, m.detection, heard, given, flying * learning, t, dt)
-    disturbance = Disturbance(unknown.force, unknown.moment + guidance.moment)
+    estimate, observer_memory = observer_step(p.observer, m.observer, pilot_input, thrusts, flying, learning, dt)
+    detection_memory = detection_step(p.detection, m.detection, pilot_input, thrusts, flying * learning, t, dt)
+    disturbance = Disturbance(estimate.force, estimate.moment + guidance.moment)
     return ControlInput(
-        Measured(heard.state, guidance.push, disturbance), guidance, unknown, guided, observing, watching
+        measured=Measured(pilot_input.state, guidance.push, disturbance),
+        guidance=guidance,
+        disturbance=estimate,
+        guidance_memory=guidance_memory,
+        observer_memory=observer_memory,
+        detection_memory=detection_memory,
     )
 
 
 @law
-def with_command(p: PilotParameters, m: PilotMemory, briefed: ControlInput, command: Command, memory: Any) -> Any:
-    """(Decision, the new memory) once the controller has commanded; `memory` is the controller's."""
-    thrusts = running(briefed.guidance.running, allocate(p.allocation, command.wrench))
-    decision = Decision(briefed.guidance, briefed.unknown, command, thrusts)
-    after = PilotMemory(
-        briefed.guidance_memory, briefed.observer_memory, memory, m.allocation, briefed.detection_memory
+def with_command(p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: Any) -> Any:
+    """(`Decision`, the new memory) once the controller has commanded; `memory` is the controller's."""
+    thrusts = running(given.guidance.running, allocate(p.allocation, command.wrench))
+    decision = Decision(given.guidance, given.disturbance, command, thrusts)
+    return decision, m._replace(
+        guidance=given.guidance_memory,
+        observer=given.observer_memory,
+        controller=memory,
+        detection=given.detection_memory,
     )
-    return decision, after
 
 
 @law
-def decide(p: PilotParameters, m: PilotMemory, heard: PilotInput, t: Any, dt: Any) -> Any:
-    """One sample of the pilot at time t [s], held for dt [s]: (Decision, the new memory).
+def decide(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Any, dt: Any) -> Any:
+    """One sample of the pilot at time t [s], held for dt [s]: (`Decision`, the new memory).
 
-    Thrusts are not limited yet where the allocation is `Constrained`.
+    The thrusts are not limited yet if the allocation is a `ConstrainedAllocation`.
     """
-    briefed = control_input(p, m, heard, t, dt)
-    command, memory = control(p.controller, m.controller, briefed.measured, briefed.guidance.reference)
-    return with_command(p, m, briefed, command, memory)
+    given = control_input(p, m, pilot_input, t, dt)
+    command, memory = control(p.controller, m.controller, given.measured, given.guidance.reference)
+    return with_command(p, m, given, command, memory)
 
 
 @law
 def with_allocation(m: PilotMemory, allocation: Any) -> PilotMemory:
     """A pilot's memory with that of an allocation within limits."""
-    return PilotMemory(m.guidance, m.observer, m.controller, allocation, m.detection)
+    return m._replace(allocation=allocation)
 
 
 @law
 def with_thrusts(d: Decision, thrusts: Any) -> Decision:
     """A decision with other thrusts [N]."""
-    return Decision(d.guidance, d.unknown, d.command, thrusts)
+    return d._replace(thrusts=thrusts)

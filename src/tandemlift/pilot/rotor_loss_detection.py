@@ -1,4 +1,4 @@
-"""The detection of a lost rotor of a mission."""
+"""The detection of rotor failures of a mission."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 from tandemlift.settings import DetectionTable, Mission
 from tandemlift.vehicle import Vehicle
 
-BOUND = 0.5  # of what a rotor's loss leaves: what a sample adds to the scatter at most
+BOUND = 0.5  # of the residual after a rotor failure: the largest contribution of a sample to the scatter
 
 
 def _rules(d: DetectionTable) -> DecisionRules:
@@ -58,7 +58,7 @@ def start_detection(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[
 
 
 def _at_start(mission: Mission, vehicle: Vehicle, k: RotorLossDetection) -> DetectionState:
-    """The memory before the first sample: at rest in itself, with a scatter that nothing exceeds."""
+    """The memory before the first sample: consistent with rest, with a scatter that nothing exceeds."""
     i, rotors = mission.initial, each(vehicle.rotor_count)
     none, nought = rotors(*(0.0,) * vehicle.rotor_count), _four((0.0,) * 4)
     start = k.trial if mission.actuators.start == "hover" else none

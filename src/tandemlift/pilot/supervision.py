@@ -1,4 +1,4 @@
-"""The supervision of a mission, and an operator's requests by the clock."""
+"""The supervision of a mission, and its scheduled requests."""
 
 from __future__ import annotations
 
@@ -7,69 +7,70 @@ from typing import Any
 
 from tandemlift.algebra.vector import Nothing, Vec3, each, vec3
 from tandemlift.common.faults import REACTIONS
+from tandemlift.laws.guidance.fault_detection import NO_TIME, Fence, SupervisionLimits
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults
+from tandemlift.laws.guidance.preflight_checks import PreflightChecks
 from tandemlift.laws.guidance.requests import RequestSchedule
-from tandemlift.laws.guidance.supervision import (
-    EventLog,
-    Fence,
-    LimitTimers,
-    PreflightChecks,
-    Supervision,
-    SupervisionLimits,
-    SupervisionState,
-)
+from tandemlift.laws.guidance.supervision import EventLog, Supervision, SupervisionState
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
-SLOTS = 16  # events that are kept
-PADDED = 4  # requests: their number, rounded up, is the variant
+SLOTS = 16  # largest number of events
+PADDED = 4  # the number of requests is rounded up to a multiple: it is a part of the compiled variant
 NEVER = 1e18  # s
 
 
 def start_requests(mission: Mission) -> Any:
     """The requests of a mission, in the order of time, or `Nothing`."""
-    asked = sorted(mission.requests, key=lambda r: r.time)
-    if not asked:
+    requests = sorted(mission.requests, key=lambda r: r.time)
+    if not requests:
         return Nothing()
-    enabling = [r.action == "enable" for r in asked if r.action in ("enable", "disable")]
+    enabling = [r.action == "enable" for r in requests if r.action in ("enable", "disable")]
     first = before = 0.0 if enabling[:1] == [True] else 1.0
     changes = []
-    for r in asked:
+    for r in requests:
         after = {"enable": 1.0, "disable": 0.0}.get(r.action, before)
         changes.append(after - before)
         before = after
-    spare = -len(asked) % PADDED
-    cls = each(len(asked) + spare)
+    spare = -len(requests) % PADDED
+    cls = each(len(requests) + spare)
 
     def column(values: list[float], rest: float = 0.0) -> Any:
         return cls(*values, *[rest] * spare)
 
-    lift, land, stop = ([float(r.action == what) for r in asked] for what in ("lift", "land", "stop"))
-    times = column([r.time for r in asked], NEVER)
+    lift, land, stop = ([float(r.action == what) for r in requests] for what in ("lift", "land", "stop"))
+    times = column([r.time for r in requests], NEVER)
     return RequestSchedule(times, column(lift), column(land), column(stop), column(changes), first)
 
 
 def _checks(mission: Mission, vehicle: Vehicle) -> PreflightChecks:
     c, payload = mission.supervision.checks, vehicle.payload.mass
-    least, most = payload * c.min_payload_ratio, payload * c.max_payload_ratio
-    return PreflightChecks(c.thrust_fraction, math.cos(c.tilt), c.speed, c.rates, least, most)
+    return PreflightChecks(
+        thrust_fraction=c.thrust_fraction,
+        min_upright=math.cos(c.tilt),
+        speed=c.speed,
+        rates=c.rates,
+        min_payload=payload * c.min_payload_ratio,
+        max_payload=payload * c.max_payload_ratio,
+    )
 
 
 def _limits(mission: Mission) -> SupervisionLimits:
     b, w = mission.supervision.limits, mission.supervision.watchdog
     return SupervisionLimits(
         thrust=b.thrust_fraction,
-        upright=math.cos(b.tilt),
+        min_upright=math.cos(b.tilt),
         rates=b.rates,
         tracking_error=b.tracking_error,
         thrust_time=b.thrust_time,
         tilt_time=b.tilt_time,
         rates_time=b.rates_time,
         tracking_error_time=b.tracking_error_time,
-        apart_time=w.joints_time,
-        blank_time=w.invalid_time,
+        joints_time=w.joints_time,
+        invalid_state_time=w.invalid_time,
+        touchdown_gap=mission.supervision.touchdown_gap,
     )
 
 
@@ -78,8 +79,8 @@ def start_supervision(mission: Mission, vehicle: Vehicle, known: Any) -> tuple[A
 
     Args:
         mission: the mission.
-        vehicle: as it is believed to be.
-        known: the faults of rotors that the pilot knows of.
+        vehicle: the nominal one.
+        known: the known rotor faults.
     """
     s, i = mission.supervision, mission.initial
     if s.model == "none":
@@ -98,10 +99,19 @@ def start_supervision(mission: Mission, vehicle: Vehicle, known: Any) -> tuple[A
         recovery_time=s.recovery_time,
         blind_descent_depth=s.blind_descent_depth,
         blind_descent_acceleration=s.blind_descent_acceleration,
-        touchdown_gap=s.touchdown_gap,
         slots=slots(*map(float, range(SLOTS))),
     )
     at, empty = Vec3(*i.position), slots(*(0.0,) * SLOTS)
     state = State(at, vec3(i.velocity), quaternion_from_euler(vec3(i.euler)), vec3(i.rates))
-    timers, events = LimitTimers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), EventLog(empty, empty, 0.0, 0.0, 0.0)
-    return supervision, SupervisionState(0.0, 0.0, 0.0, 0.0, timers, state, at, 0.0, 0.0, events)
+    return supervision, SupervisionState(
+        reaction=0.0,
+        alarm=0.0,
+        hold_time=0.0,
+        fault_free_time=0.0,
+        timers=NO_TIME,
+        state=state,
+        reference=at,
+        failed_lift_check=0.0,
+        failed_guidance_check=0.0,
+        events=EventLog(empty, empty, 0.0, 0.0, 0.0),
+    )

@@ -18,7 +18,7 @@ from tandemlift.rendering.light import HAZE, SKYLIGHT, SUN, SUNLIGHT, ZENITH, Sh
 from tandemlift.rendering.mesh import linear
 from tandemlift.rendering.pixels import LANES, Pixels, array, columns, store_where
 from tandemlift.trace import Function, Graph, flat, rebuilt
-from tandemlift.trace.elementary import exp, maximum, minimum, sqrt, where, whole
+from tandemlift.trace.elementary import exp, maximum, minimum, sqrt, to_integer, where
 from tandemlift.trace.elementary import floor as rounded_down
 
 FLOOR, LINE = linear("#d2d5d8"), linear("#a3abb3")
@@ -99,7 +99,7 @@ def place_in(floor: PaintedFloor, x: Any, y: Any, rows: Any, columns: Any) -> An
     row, column = (y - floor.south) / floor.texel - 0.5, (x - floor.west) / floor.texel - 0.5
     known = (row >= 0.0) & (row < rows - 1.0) & (column >= 0.0) & (column < columns - 1.0)
     row, column = where(known, row, 0.0), where(known, column, 0.0)
-    i, j = whole(row), whole(column)
+    i, j = to_integer(row), to_integer(column)
     return known, i * columns + j, row - i, column - j
 
 
@@ -149,7 +149,7 @@ def _looked_up(f: Function, table: str, entries: str, beyond: str | int) -> str:
     """Numbers of a table so far beyond entries."""
     found = "poison"
     for lane in range(LANES):
-        entry = f.whole("add", f.op(f"extractelement <{LANES} x i64> {entries}, i64 {lane}"), beyond)
+        entry = f.integer("add", f.op(f"extractelement <{LANES} x i64> {entries}, i64 {lane}"), beyond)
         found = f.op(f"insertelement {f.vector} {found}, double {f.load(table, entry, 'double')}, i64 {lane}")
     return found
 
@@ -159,7 +159,7 @@ def _write_paint(g: Graph, f: Function, at: dict[str, str]) -> None:
     numbers, shade, picture = (array(f, at[name]) for name in ("numbers", "shade", "light"))
     f.read |= {"rows": lambda i: at["rows"], "columns": lambda i: at["columns"], "width": lambda i: at["width"]}
     f.read["number"] = lambda i: f.load(numbers, i, "double")
-    next_row = f.whole("add", at["columns"], 1)
+    next_row = f.integer("add", at["columns"], 1)
     within = g.input("column", type="i") < g.input("width", type="i")
     with f.repeat(at["height"]) as row:
         f.read["row"] = lambda i: row
@@ -167,7 +167,7 @@ def _write_paint(g: Graph, f: Function, at: dict[str, str]) -> None:
             entries = f.value(entry)
             beyond = ["0", "1", at["columns"], next_row]
             f.read["shade"] = lambda i: _looked_up(f, shade, entries, beyond[i])
-            place = f.whole("mul", f.whole("add", f.whole("mul", row, at["width"]), first), 3)
+            place = f.integer("mul", f.integer("add", f.integer("mul", row, at["width"]), first), 3)
             store_where(f, f.value(within), f.values(light), f.at(picture, place, "double"))
 
 

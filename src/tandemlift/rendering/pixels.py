@@ -53,7 +53,7 @@ class Pixels:
         words = np.array([x.ctypes.data if isinstance(x, np.ndarray) else x for x in given], np.int64)
         began = time.perf_counter()
         code.free[self.name](words.ctypes.data)
-        code.spent(time.perf_counter() - began)
+        code.add_time(time.perf_counter() - began)
 
 
 def array(f: Function, word: str) -> str:
@@ -67,9 +67,9 @@ def columns(f: Function, first: str, after: str) -> Iterator[str]:
 
     Input `column` is the number of a column, which may lie behind the last.
     """
-    blocks = f.whole("sdiv", f.whole("add", f.whole("sub", after, first), LANES - 1), LANES)
+    blocks = f.integer("sdiv", f.integer("add", f.integer("sub", after, first), LANES - 1), LANES)
     with f.repeat(blocks) as block:
-        column = f.whole("add", first, f.whole("mul", block, LANES))
+        column = f.integer("add", first, f.integer("mul", block, LANES))
         lanes = f.op(f"add <{LANES} x i64> {f.spread(column, 'i64')}, {RAMP}")
         f.read["column"] = lambda i: lanes
         yield column

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tandemlift.common.types import Array
 from tandemlift.rendering.pixels import Pixels, array, columns, load_where, store_where
 from tandemlift.trace import Function, Graph
-from tandemlift.trace.elementary import floor, maximum, minimum, where, whole
+from tandemlift.trace.elementary import floor, maximum, minimum, to_integer, where
 
 UNIFORM = ("corner", "row", "height", "width")
 
@@ -33,7 +33,7 @@ def span(p: Any, q: Any, r: Any, count: Any) -> Any:
     low, high = minimum(minimum(p, q), r), maximum(maximum(p, q), r)
     first, after = maximum(0.0, -floor(-(low - 0.5))), minimum(count, floor(high - 0.5) + 1.0)
     total = p + q + r
-    return whole(first), whole(where(total == total, after, 0.0))
+    return to_integer(first), to_integer(where(total == total, after, 0.0))
 
 
 def share(a: Corner, b: Corner, c: Corner, row: Any, column: Any) -> Any:
@@ -57,7 +57,7 @@ def triangles(g: Graph, f: Function, at: dict[str, str]) -> Iterator[tuple[str, 
     f.read |= {"height": lambda i: at["height"], "width": lambda i: at["width"]}
     corners = array(f, at["corners"])
     with f.repeat(at["count"]) as number:
-        triangle = f.at(corners, f.whole("mul", number, 9), "double")
+        triangle = f.at(corners, f.integer("mul", number, 9), "double")
         f.read["corner"] = lambda i: f.load(triangle, i, "double")
         f.values(numbers)  # before pixels are written, which might be the same memory
         yield number, [Corner(*numbers[i : i + 3]) for i in (0, 3, 6)]
@@ -75,7 +75,7 @@ def pixels(g: Graph, f: Function, at: dict[str, str], corners: list[Corner]) -> 
     with f.repeat(below, top) as i:
         f.read["row"] = lambda m: i
         with columns(f, left, right) as j:
-            pixel = f.whole("add", f.whole("mul", i, at["width"]), j)
+            pixel = f.integer("add", f.integer("mul", i, at["width"]), j)
             known = load_where(f, f.value(within), f.at(depth, pixel, "double"))[0]
             f.read["depth"] = lambda m: known
             mask = f.value(seen)
@@ -88,7 +88,7 @@ def _write_nearest(g: Graph, f: Function, at: dict[str, str]) -> None:
     with triangles(g, f, at) as (number, corners), pixels(g, f, at, corners) as (pixel, mask, (near, v, w)):
         store_where(f, mask, [near], f.at(depth, pixel, "double"))
         store_where(f, mask, [f.spread(number, "i64")], f.at(face, pixel, "i64"), "i64")
-        store_where(f, mask, [v, w], f.at(weights, f.whole("mul", pixel, 2), "double"))
+        store_where(f, mask, [v, w], f.at(weights, f.integer("mul", pixel, 2), "double"))
 
 
 def _write_glaze(g: Graph, f: Function, at: dict[str, str]) -> None:
@@ -96,8 +96,8 @@ def _write_glaze(g: Graph, f: Function, at: dict[str, str]) -> None:
     *paint, opacity = (g.input("color", i) for i in range(4))
     mixed = [p + opacity * (c - p) for p, c in zip((g.input("light", i) for i in range(4)), [*paint, 1.0], strict=True)]
     with triangles(g, f, at) as (number, corners), pixels(g, f, at, corners) as (pixel, mask, _):
-        color = f.at(colors, f.whole("mul", number, 4), "double")
-        place = f.at(picture, f.whole("mul", pixel, 4), "double")
+        color = f.at(colors, f.integer("mul", number, 4), "double")
+        place = f.at(picture, f.integer("mul", pixel, 4), "double")
         light = load_where(f, mask, place, 4)
         f.read |= {"color": lambda i: f.load(color, i, "double"), "light": lambda i: light[i]}
         store_where(f, mask, f.values(mixed), place)

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from tandemlift.common.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
-from tandemlift.report.flight_report import DASH, figure_of, number, table_of
+from tandemlift.report.flight_report import DASH, html_figure, html_table, number
 from tandemlift.report.page import COMPARISON, STYLE
-from tandemlift.report.setup import setup_of
+from tandemlift.report.setup import setup_rows
 from tandemlift.studies.controller_comparison import (
     LEAST,
     Entry,
@@ -40,7 +40,7 @@ class TableColumn(NamedTuple):
     Attributes:
         heading: what it is.
         unit: in which it is shown.
-        name: of the score; its difference that is physical is in `comparison.LEAST`, and without one nobody wins.
+        name: of the score; `LEAST` has its smallest physical difference; without one no value is bold.
         scale: shown units for each SI unit.
         axis: the place of the value in a score of three numbers.
     """
@@ -72,7 +72,7 @@ OF_A_PART = (
 OF_A_FLIGHT = (TableColumn("Saturated", "%", "rotor_saturated_share", 1e2), TableColumn("Time a step", "ns", "step_ns"))
 COLUMNS = (*OF_A_PART, *OF_A_FLIGHT)
 NOTE = """Errors are desired minus actual position in the air, {when}. The effort is the mean norm of the commanded
-moments over the same time. Saturated is the share of all steps in which a rotor is at a limit. Bold: the least value
+moments over the same time. Saturated is the fraction of steps in which a rotor is at a limit. Bold: the least value
 of those that did not diverge, with all that are within 1 µm, 1 mN m or 0.01 % of it; nothing, where all are."""
 STILL = "<p>{when} every position error is below 1 µm.</p>"
 
@@ -96,7 +96,7 @@ def _of_flights(entries: Sequence[Entry], part: ScoredPart) -> str:
             filled, outcome = "".join(of[name] for of in cells), found[name]["diverged"] or "flown to the end"
         rows.append(f'<tr><th scope="row">{escape(name)}</th>{filled}<td>{escape(outcome)}</td></tr>')
     head = f'<tr><th scope="col">Controller</th>{_heads(COLUMNS)}<th scope="col">Outcome</th></tr>'
-    return table_of(head, rows, "compared")
+    return html_table(head, rows, "compared")
 
 
 def _of_part(flights: Mapping[str, Flight], part: ScoredPart) -> str:
@@ -106,7 +106,7 @@ def _of_part(flights: Mapping[str, Flight], part: ScoredPart) -> str:
     found = {name: scores(flight, part) | run_of(flight) for name, flight in flights.items()}
     cells = [_cells(column, found) for column in OF_A_PART]
     rows = [f'<tr><th scope="row">{escape(n)}</th>{"".join(of[n] for of in cells)}</tr>' for n in found]
-    table = table_of(f'<tr><th scope="col">Controller</th>{_heads(OF_A_PART)}</tr>', rows, "compared part")
+    table = html_table(f'<tr><th scope="col">Controller</th>{_heads(OF_A_PART)}</tr>', rows, "compared part")
     return f"<h3>{part.words.capitalize()}</h3>\n{table}"
 
 
@@ -114,7 +114,7 @@ def _heads(columns: Sequence[TableColumn]) -> str:
     return "".join(f'<th scope="col">{c.heading}<br><small>{c.unit}</small></th>' for c in columns)
 
 
-def figures_as_html(drawn: Mapping[str, Figure], captions: Mapping[str, Caption]) -> str:
+def html_figures(drawn: Mapping[str, Figure], captions: Mapping[str, Caption]) -> str:
     """The section of a page with figures, by name, each with the caption of that name."""
     from tandemlift.figures.drawing.style import save
 
@@ -122,21 +122,21 @@ def figures_as_html(drawn: Mapping[str, Figure], captions: Mapping[str, Caption]
     with tempfile.TemporaryDirectory() as folder:
         for place, (name, figure) in enumerate(drawn.items(), 1):
             png = save(figure, Path(folder) / f"{name}.png")
-            shown.append(figure_of(place, name, png, captions[name]))
+            shown.append(html_figure(place, name, png, captions[name]))
     return f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>"
 
 
-def setup_as_html(flight: Flight, without: Sequence[str] = ()) -> str:
+def html_setup(flight: Flight, without: Sequence[str] = ()) -> str:
     """What was flown, but for some parts of it."""
     rows = [
         f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>'
-        for what, said in setup_of(flight)
+        for what, said in setup_rows(flight)
         if what not in without
     ]
-    return table_of("", rows, "setup")
+    return html_table("", rows, "setup")
 
 
-def versions_as_html(flight: Flight) -> str:
+def html_versions(flight: Flight) -> str:
     """What a flight was flown with, but for its engine."""
     return escape(", ".join(f"{name} {version}" for name, version in flight.version.items() if name != "engine"))
 
@@ -177,10 +177,10 @@ def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> 
         where=f"engine <b>{escape(first.version.get('engine', ''))}</b>",
         note=NOTE.format(when=counts.words),
         table="\n".join(tables),
-        figures=figures_as_html(controller_figures.figures_of(flights), controller_figures.CAPTIONS),
-        setup=setup_as_html(first, without=["Pilot"]),
+        figures=html_figures(controller_figures.drawn_figures(flights), controller_figures.CAPTIONS),
+        setup=html_setup(first, without=["Pilot"]),
         settings=_settings(flights),
-        versions=versions_as_html(first),
+        versions=html_versions(first),
     )
     with atomic_write(path) as partial:
         partial.write_text(text, "utf-8")

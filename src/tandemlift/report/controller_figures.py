@@ -1,4 +1,4 @@
-"""Several controllers on one mission: errors of position over time on shared axes, and what the rotors give.
+"""Several controllers on one mission: position errors over time on shared axes, and rotor thrusts.
 
 A disturbed start, or a controller that diverges, would hide the rest: the time before the first push has a column of
 its own, and axes are scaled to flights that did not diverge. Panels in which nothing moves are left out.
@@ -174,7 +174,7 @@ def draw_thrusts(flights: Mapping[str, Flight]) -> Figure:
     return figure
 
 
-def figures_of(flights: Mapping[str, Flight]) -> dict[str, Figure]:
+def drawn_figures(flights: Mapping[str, Flight]) -> dict[str, Figure]:
     """The figures of a comparison by name; without the errors where none reaches 1 µm."""
     drawn = {"thrusts": draw_thrusts(flights)}
     if any(any(moving_axes(flights.values(), part)) for part in parts_of(flights.values())):

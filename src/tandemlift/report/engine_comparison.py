@@ -9,14 +9,14 @@ from pathlib import Path
 
 from tandemlift.common.files import atomic_write
 from tandemlift.flight.record import Flight
-from tandemlift.report.controller_comparison import figures_as_html, setup_as_html, versions_as_html
-from tandemlift.report.flight_report import DASH, number, table_of
-from tandemlift.report.page import COMPARISON
+from tandemlift.report.controller_comparison import html_figures, html_setup, html_versions
+from tandemlift.report.flight_report import DASH, html_table, number
+from tandemlift.report.page import COMPARISON, STYLE
 from tandemlift.studies.engine_comparison import QUANTITIES, SETTLED, engine_summary, most_apart, speed
 
-NOTE = f"""The same mission, pilot and chance; only the body lives in another engine. Differences are the largest of any
-sample from the first engine, joints from {SETTLED:g} s on. Steps a second are with the pilot, on the machine that wrote
-this page."""
+NOTE = f"""The same mission, pilot and random numbers; only the engine of the body differs. Differences are the largest
+of any sample, against the first engine; those of joints from {SETTLED:g} s on. Steps a second include the pilot, on the
+machine that wrote this page."""
 
 
 def _row(name: str, flight: Flight, first: Flight) -> str:
@@ -34,26 +34,25 @@ def _table(flights: Mapping[str, Flight]) -> str:
     columns += [("Ends at", "m"), ("Steps", "1/s")]
     heads = "".join(f'<th scope="col">{escape(head)}<br><small>{unit}</small></th>' for head, unit in columns)
     rows = (_row(name, flight, first) for name, flight in flights.items())
-    return table_of(f'<tr><th scope="col">Engine</th>{heads}</tr>', rows, "compared")
+    return html_table(f'<tr><th scope="col">Engine</th>{heads}</tr>', rows, "compared")
 
 
 def _engines(flights: Mapping[str, Flight]) -> str:
     rows = (f'<tr><th scope="row">{e}</th><td>{escape(engine_summary(e))}</td></tr>' for e in flights)
-    return f"<section>\n<h2>Engines</h2>\n{table_of('', rows, 'setup')}\n</section>"
+    return f"<section>\n<h2>Engines</h2>\n{html_table('', rows, 'setup')}\n</section>"
 
 
 def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str]) -> Path:
     """Write one mission in several engines as one HTML file without references; it appears whole or not at all.
 
     Args:
-        flights: from `apart.fly_in`.
+        flights: by engine, from `engine_comparison.fly_in`.
         path: of the HTML file; its folder is there.
 
     Returns:
         The path.
     """
     from tandemlift.report import engine_figures
-    from tandemlift.report.page import STYLE
 
     path, first = Path(path), next(iter(flights.values()))
     text = COMPARISON.format(
@@ -64,10 +63,10 @@ def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str]) -
         where=f"engines <b>{escape(', '.join(flights))}</b>",
         note=NOTE,
         table=_table(flights),
-        figures=figures_as_html(engine_figures.figures_of(flights), engine_figures.CAPTIONS),
-        setup=setup_as_html(first),
+        figures=html_figures(engine_figures.drawn_figures(flights), engine_figures.CAPTIONS),
+        setup=html_setup(first),
         settings=_engines(flights),
-        versions=versions_as_html(first),
+        versions=html_versions(first),
     )
     with atomic_write(path) as partial:
         partial.write_text(text, "utf-8")

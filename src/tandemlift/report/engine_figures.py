@@ -113,6 +113,6 @@ def draw_differences(flights: Mapping[str, Flight]) -> Figure:
     return figure
 
 
-def figures_of(flights: Mapping[str, Flight]) -> dict[str, Figure]:
+def drawn_figures(flights: Mapping[str, Flight]) -> dict[str, Figure]:
     """The figures of a comparison by name."""
     return {"flights": draw_over_each_other(flights), "differences": draw_differences(flights)}

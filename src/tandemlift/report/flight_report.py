@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.files import atomic_write
-from tandemlift.figures.registry import VIEWS, captions, figures_of
+from tandemlift.figures.registry import VIEWS, captions, figures_for
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.report.page import PAGE, STYLE
-from tandemlift.report.setup import setup_of
+from tandemlift.report.setup import setup_rows
 
 if TYPE_CHECKING:
     from tandemlift.figures.drawing.figure import Caption
@@ -141,7 +141,7 @@ def _place(point: Iterable[float]) -> str:
 
 def _pngs(flight: Flight, figures: Any) -> dict[str, Path]:
     """The PNG files of a flight's figures by name, of those that there are."""
-    names = (VIEWS, *figures_of(flight))
+    names = (VIEWS, *figures_for(flight))
     if isinstance(figures, (str, os.PathLike)):
         found = {name: Path(figures) / f"{name}.png" for name in names}
     else:
@@ -152,10 +152,10 @@ def _pngs(flight: Flight, figures: Any) -> dict[str, Path]:
 def _engine(flight: Flight) -> str:
     """Which engine the body lived in, of flights that say so."""
     name = flight.version.get("engine")
-    return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine not told"
+    return f"Flown in engine <b>{escape(name)}</b>" if name else "Engine unknown"
 
 
-def table_of(head: str, rows: Iterable[str], look: str) -> str:
+def html_table(head: str, rows: Iterable[str], look: str) -> str:
     """A table of rows as HTML, that scrolls sideways where it is too wide; `head` is its first row, '' for none."""
     top = f"<thead>{head}</thead>\n" if head else ""
     body = f"<tbody>\n{chr(10).join(rows)}\n</tbody>"
@@ -164,11 +164,11 @@ def table_of(head: str, rows: Iterable[str], look: str) -> str:
 
 def _setup(flight: Flight) -> str:
     """Vehicle, pilot, rotors, sensors and surroundings as a table, a row each."""
-    rows = (f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>' for what, said in setup_of(flight))
-    return table_of("", rows, "setup")
+    rows = (f'<tr><th scope="row">{escape(what)}</th><td>{escape(said)}</td></tr>' for what, said in setup_rows(flight))
+    return html_table("", rows, "setup")
 
 
-def figure_of(place: int, name: str, png: Path, caption: Caption) -> str:
+def html_figure(place: int, name: str, png: Path, caption: Caption) -> str:
     """A picture in the page, with its number and caption."""
     data = png.read_bytes()
     width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
@@ -205,7 +205,7 @@ def write_report(
         The path.
     """
     path, words = Path(path), captions()
-    shown = [figure_of(i, name, png, words[name]) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
+    shown = [html_figure(i, name, png, words[name]) for i, (name, png) in enumerate(_pngs(flight, figures).items(), 1)]
     text = PAGE.format(
         name=escape(flight.name),
         style=STYLE,

@@ -221,7 +221,7 @@ def _person(flight: Flight) -> Iterator[Row]:
     yield "Person", f"{LEADS[p.model]}{where}; {late}; {arm}; tremor {describe(p.tremor, 'N')}"
 
 
-def setup_of(flight: Flight) -> list[Row]:
+def setup_rows(flight: Flight) -> list[Row]:
     """The set-up of a flight: rows of a name and a description."""
     parts = (_vehicle, _pilot, _guidance, _watch, _rotors, _sensors, _surroundings, _person)
     return [row for part in parts for row in part(flight)]

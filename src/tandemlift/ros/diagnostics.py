@@ -1,4 +1,4 @@
-"""What happens, as messages of `/diagnostics`, and once a second how it goes."""
+"""Events, and once a second the state of the flight, as messages of `/diagnostics`."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from tandemlift.export.messages import MessageTypes, diagnostics_of, status_of
+from tandemlift.export.messages import MessageTypes, event_maker, status_maker
 from tandemlift.flight.record import Flight
 from tandemlift.ros.middleware import TopicPublisher
 from tandemlift.simulation.results import describe_event
 
 AGAIN = 1.0  # s, before the same words are said again
-MOST = 100  # events that wait to be told
+MOST = 100  # events that wait
 KIND, TOPIC = "diagnostic_msgs/DiagnosticArray", "/diagnostics"
-Tell = Callable[[str], None]
+Notify = Callable[[str], None]
 
 
 class FlightDiagnostics:
-    """What is told of a flight.
+    """The events and the state of a flight, as messages.
 
     Args:
         channel: of the topic.
@@ -28,20 +28,20 @@ class FlightDiagnostics:
     """
 
     def __init__(self, channel: TopicPublisher, types: MessageTypes) -> None:
-        self._channel, self._event, self._status = channel, diagnostics_of(types), status_of(types)
+        self._channel, self._event, self._status = channel, event_maker(types), status_maker(types)
         self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
         self._said: dict[str, float] = {}
-        self._now = (-1, 0, 0)  # phase, alarm, refusal
+        self._now = (-1, 0, 0)  # phase, alarm, failed check
 
-    def tell(self, what: str) -> None:
-        """Let an event be told, from any thread and without waiting; the same words once a second at most."""
+    def add(self, what: str) -> None:
+        """Queue an event, from any thread and without waiting; the same words once a second at most."""
         now = time.monotonic()
         if now - self._said.get(what, -AGAIN) >= AGAIN:
             self._said[what] = now
             self._waiting.append((time.time_ns(), what))
 
     def flush(self) -> None:
-        """Tell what waits."""
+        """Publish what waits."""
         while self._waiting:
             at, what = self._waiting.popleft()
             self._channel.publish(self._event(at, what))
@@ -49,7 +49,7 @@ class FlightDiagnostics:
             self._said.clear()
 
     def follow(self, flight: Flight, stamps: list[int]) -> None:
-        """Tell of phases, alarms and refusals as they change in samples."""
+        """Queue phases, alarms and failed checks as they change in samples."""
         if "phase" not in flight:
             return
         none = np.zeros(len(stamps))
@@ -61,5 +61,5 @@ class FlightDiagnostics:
                 self._now = now
 
     def report(self, stamp: int, summary: str, well: bool, more: Mapping[str, str]) -> None:
-        """Tell how it goes: in a word, whether all is `well`, and more by name."""
+        """Publish the state of the flight: a word for it, whether all is `well`, and more by name."""
         self._channel.publish(self._status(stamp, well, summary, more))

@@ -18,7 +18,7 @@ KINDS = {"box": CUBE, "sphere": SPHERE, "cylinder": CYLINDER}
 UNTURNED = (1.0, 0.0, 0.0, 0.0)
 
 
-def quaternion_of(R: Array) -> tuple[float, float, float, float]:
+def quaternion_from(R: Array) -> tuple[float, float, float, float]:
     """The quaternion w, x, y, z of a rotation (3 × 3): the eigenvector of Bar-Itzhack's K (2000) for its value 1."""
     K = np.empty((4, 4))
     K[0, 0], K[1:, 1:] = np.trace(R), R + R.T - np.trace(R) * np.eye(3)
@@ -46,7 +46,7 @@ class MarkerWriter:
         """A box, sphere or cylinder."""
         size = shape.size
         edges = {"box": size, "sphere": 3 * (2.0 * size[0],), "cylinder": (2.0 * size[0],) * 2 + size[1:]}[shape.kind]
-        attitude = UNTURNED if shape.axes is LEVEL else quaternion_of(shape.axes)
+        attitude = UNTURNED if shape.axes is LEVEL else quaternion_from(shape.axes)
         return self._mark(number, KINDS[shape.kind], stamp, shape.position, attitude, edges, shape.color, shape.opacity)
 
     def arrow(self, number: int, stamp: int, start: Array, end: Array, color: str, width: float) -> Any:

@@ -15,10 +15,10 @@ class TopicPublisher(Protocol):
 
     @property
     def wanted(self) -> bool:
-        """Whether somebody listens, now or, if it is latched, perhaps later."""
+        """Whether there is a subscriber now or, if it is latched, may be one later."""
 
     def publish(self, message: Any) -> None:
-        """Send a message, without waiting for who listens."""
+        """Send a message, without waiting for subscribers."""
 
 
 class Middleware(Protocol):
@@ -40,12 +40,12 @@ class Middleware(Protocol):
         Args:
             topic: its name.
             kind: of its messages.
-            latched: whether who comes late is sent the last one.
+            latched: whether late subscribers get the last message.
             depth: how many may wait for somebody who is slow.
         """
 
-    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], object]) -> None:
-        """Let a function heed every message of a topic, in a thread of the middleware's."""
+    def subscribe(self, topic: str, kind: str, handle: Callable[[Any], object]) -> None:
+        """Call a function with every message of a topic, in a thread of the middleware."""
 
     def serve(self, name: str, answer: Callable[[], Answer]) -> None:
         """Answer a request without arguments, `std_srvs/Trigger`, in a thread of the middleware's."""
@@ -57,4 +57,4 @@ class Middleware(Protocol):
         """Let these be the values of the parameters."""
 
     def shutdown(self) -> None:
-        """Say good-bye; nothing more is heard or sent."""
+        """Disconnect; nothing is sent or received any more."""

@@ -1,4 +1,4 @@
-"""A session's flight, told to a middleware and pushed by it, in real time."""
+"""A flight in real time that a middleware publishes and that pushes, requests and parameters from it change."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ from tandemlift.ros.middleware import Middleware
 from tandemlift.ros.parameters import Parameters
 from tandemlift.ros.pushes import Pushes
 from tandemlift.ros.requests import REQUESTS, RequestServices
-from tandemlift.ros.sample_queue import Clock, SampleBatch, SampleQueue, as_flight, every_of
+from tandemlift.ros.sample_queue import Clock, SampleBatch, SampleQueue, as_flight, steps_between_samples
 from tandemlift.ros.topics import LatchedTopics, MarkerTopics, SampleTopics
 from tandemlift.vehicle import Vehicle
 
 PUSH = f"{ROOT}/push"
 RATE = 100.0  # Hz
-MARKERS, WAYS, STATUS, STILL, PARAMETERS = 0.05, 0.2, 1.0, 2.0, 0.2  # s, from one to the next
+MARKERS, PATHS, STATUS, STILL, PARAMETERS = 0.05, 0.2, 1.0, 2.0, 0.2  # s, from one to the next
 PATIENCE = 0.1  # s, for a sample
 ENDS = ("over", "lost", "failed")  # phases in which nothing moves any more
 
 
 class FlightNode:
-    """See the module.
+    """Publishes a session's flight, and passes on what comes from the middleware.
 
     Args:
         session: what is flown; not yet started.
-        middleware: where it is told.
+        middleware: what publishes and receives.
         rate: of samples [Hz].
 
     Raises:
-        InputError: the rate is none.
+        InputError: the rate is not possible.
     """
 
     def __init__(self, session: Session, middleware: Middleware, rate: float = RATE) -> None:
@@ -45,34 +45,37 @@ class FlightNode:
         vehicle = Vehicle.from_settings(self._flight.now.vehicle)
         self._tables = tables_of(self._flight.now)
         self._clock = Clock(session)
-        self._feed = SampleQueue(every_of(rate, self._flight.dt), lambda step: self._clock.stamp(step))
-        self.telling = FlightDiagnostics(middleware.advertise(TOPIC, KIND, depth=100), middleware.types)
-        self._pushes = Pushes(session, self.telling.tell)
-        self._parameters = Parameters(session, middleware, self.telling.tell)
-        self._samples, self._shown = SampleTopics(middleware, self._first(), vehicle), MarkerTopics(middleware, vehicle)
+        self._queue = SampleQueue(steps_between_samples(rate, self._flight.dt), lambda step: self._clock.stamp(step))
+        self.diagnostics = FlightDiagnostics(middleware.advertise(TOPIC, KIND, depth=100), middleware.types)
+        self._pushes = Pushes(session, self.diagnostics.add)
+        self._parameters = Parameters(session, middleware, self.diagnostics.add)
+        self._samples, self._markers = (
+            SampleTopics(middleware, self._first(), vehicle),
+            MarkerTopics(middleware, vehicle),
+        )
         self._once, self._vehicle = LatchedTopics(middleware), vehicle
-        self._due = dict.fromkeys((MARKERS, WAYS, STATUS, STILL), 0.0)
-        self._told, self._stopping = 0, threading.Event()
+        self._due = dict.fromkeys((MARKERS, PATHS, STATUS, STILL), 0.0)
+        self._published, self._stopping = 0, threading.Event()
         self._keeper = threading.Thread(target=self._keep_parameters, name="parameters", daemon=True)
 
     def _first(self) -> Flight:
-        self._feed.note(self._flight)
-        taken = self._feed.take(0.0)
+        self._queue.note(self._flight)
+        taken = self._queue.take(0.0)
         assert taken, "the first step is one of the samples"
         return as_flight(taken, self._flight, self._tables)
 
     def start(self) -> None:
-        """Set what parameters say, listen, and begin to fly."""
-        self._parameters.turn()
-        self._session.watchers += [self._feed.note, self._pushes.watch]
-        self._once.tell_vehicle(self._session.scene, self._vehicle, time.time_ns())
-        self._tell_mission()
-        self._middleware.subscribe(PUSH, WRENCH, self._pushes.heed)
+        """Set the parameters, subscribe, and begin to fly."""
+        self._parameters.exchange()
+        self._session.watchers += [self._queue.note, self._pushes.watch]
+        self._once.publish_vehicle(self._session.scene, self._vehicle, time.time_ns())
+        self._publish_mission()
+        self._middleware.subscribe(PUSH, WRENCH, self._pushes.handle)
         requests = RequestServices(self._session)
         for what in REQUESTS:
             self._middleware.serve(f"{ROOT}/{what}", partial(requests.answer, what))
         self._clock = Clock(self._session)
-        self._feed.note(self._flight)
+        self._queue.note(self._flight)
         self._session.start()
         self._keeper.start()
 
@@ -92,22 +95,22 @@ class FlightNode:
 
     def publish(self) -> bool:
         """Publish what has been flown since the last time, and whatever else is due; whether there was a sample."""
-        taken = self._feed.take(PATIENCE)
+        taken = self._queue.take(PATIENCE)
         if taken:
             self._publish(taken)
-        self.telling.flush()
+        self.diagnostics.flush()
         return taken is not None
 
     def _publish(self, taken: SampleBatch) -> None:
         stamps = taken.stamps
         flight = as_flight(taken, self._flight, self._tables)
         self._samples.publish(flight, stamps)
-        self.telling.follow(flight, stamps)
-        self._told += len(stamps)
+        self.diagnostics.follow(flight, stamps)
+        self._published += len(stamps)
         if self._is_due(MARKERS):
-            self._shown.move(flight, stamps[-1])
-        if self._is_due(WAYS):
-            self._shown.go_on(flight, stamps[-1])
+            self._markers.move(flight, stamps[-1])
+        if self._is_due(PATHS):
+            self._markers.extend_paths(flight, stamps[-1])
         if self._is_due(STILL):
             self._once.draw()
         if self._is_due(STATUS):
@@ -122,27 +125,27 @@ class FlightNode:
         return due
 
     def _report(self, stamp: int) -> None:
-        """Tell how it goes."""
-        status, told = self._session.status(), self._told
-        self._told = 0
+        """Publish the state of the flight."""
+        status, published = self._session.status(), self._published
+        self._published = 0
         more = {
-            "samples in the last second": f"{told}",
+            "samples in the last second": f"{published}",
             "time of the flight over time of the wall": f"{status['factor']:.3f}",
             "behind the clock, at most [ms]": f"{status['behind_ms']:.1f}",
             "late for good [s]": f"{self._clock.late:.3f}",
             "alarm": status["alarm"],
             "flown [s]": f"{status['recorded_s']:.1f}",
         }
-        self.telling.report(stamp, status["phase"], not status["alarm"], more)
+        self.diagnostics.report(stamp, status["phase"], not status["alarm"], more)
 
     def _keep_parameters(self) -> None:
-        """Heed parameters until the end, in a thread of their own: a change may take long to make ready."""
+        """Exchange parameters until the end, in a thread of their own: a change may take long to prepare."""
         while not self._stopping.wait(PARAMETERS):
             try:
-                if self._parameters.turn():
-                    self._tell_mission()
+                if self._parameters.exchange():
+                    self._publish_mission()
             except Exception as error:  # of a middleware that is not there for a while
-                self.telling.tell(f"parameters: {error!r}"[:300])
+                self.diagnostics.add(f"parameters: {error!r}"[:300])
 
-    def _tell_mission(self) -> None:
-        self._once.tell_mission(tables_of(self._flight.now))
+    def _publish_mission(self) -> None:
+        self._once.publish_mission(tables_of(self._flight.now))

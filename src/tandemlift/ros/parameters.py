@@ -18,7 +18,7 @@ from tandemlift.live.session.tunable_parameters import parameters_of
 from tandemlift.live.wire.page_messages import SetMessage
 from tandemlift.missions import Mission
 from tandemlift.missions.values import shown
-from tandemlift.ros.diagnostics import Tell
+from tandemlift.ros.diagnostics import Notify
 from tandemlift.ros.middleware import Middleware
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
@@ -32,15 +32,15 @@ class Parameters:
     Args:
         session: whose settings they are.
         middleware: where they are kept.
-        tell: told of what is refused.
+        notify: called with what is refused.
     """
 
-    def __init__(self, session: Session, middleware: Middleware, tell: Tell) -> None:
-        self._session, self._middleware, self._tell = session, middleware, tell
+    def __init__(self, session: Session, middleware: Middleware, notify: Notify) -> None:
+        self._session, self._middleware, self._notify = session, middleware, notify
         self._first = session.flight.now
 
-    def turn(self) -> bool:
-        """Heed what has been set since the last time; keep what is so now; whether anything has changed."""
+    def exchange(self) -> bool:
+        """Apply what has been set since the last time, and set all to the present values; whether anything changed."""
         wishes, before = self._middleware.parameters(), self._session.flight.now
         for key in sorted(wishes, key=lambda key: (key in LAST, key)):
             self._set(key, wishes[key])
@@ -63,11 +63,11 @@ class Parameters:
                 key, value = DAMPING, damping_of(self._session.flight.now, value)
             self._session.apply(_message(key, value))
         except InputError as error:
-            self._tell(f"parameter refused: {error}")
+            self._notify(f"parameter refused: {error}")
 
 
 def _message(key: str, value: Any) -> SetMessage:
-    """What is said to a session to set a key.
+    """The message to a session that sets a key.
 
     Raises:
         InputError: the value is of no kind that a setting has.

@@ -17,13 +17,13 @@ from tandemlift.common.types import Array
 from tandemlift.export.frames import ALIGNED, BASE, WORLD, fixed, to_body, to_world
 from tandemlift.live.session.session import Session
 from tandemlift.live.wire.page_messages import ForceMessage
-from tandemlift.ros.diagnostics import Tell
+from tandemlift.ros.diagnostics import Notify
 from tandemlift.simulation.recorded_flight import RecordedFlight
 from tandemlift.vehicle import Vehicle
 
 HELD = 0.5  # s of the flight, for which a push acts without another message
 LEAST = 1e-6  # N, below which there is no push
-SLIP = 1e-6  # share of a torque that may be about the force's own direction
+SLIP = 1e-6  # fraction of a torque that may be about the force's own direction
 ABSURD = 1e6  # N, N m
 
 
@@ -32,19 +32,19 @@ class Pushes:
 
     Args:
         session: whose flight is pushed.
-        tell: told of what is refused, and of what is cut.
+        notify: called with what is refused and what is limited.
     """
 
-    def __init__(self, session: Session, tell: Tell) -> None:
-        self._session, self._tell, self._until = session, tell, math.inf
+    def __init__(self, session: Session, notify: Notify) -> None:
+        self._session, self._notify, self._until = session, notify, math.inf
         self._turn = threading.Lock()  # of several who push; the flight's thread never takes it
         vehicle = Vehicle.from_settings(session.flight.now.vehicle)
         self._origins = {WORLD: np.zeros(3), ALIGNED: np.zeros(3), BASE: np.zeros(3), **dict(fixed(vehicle))}
         guards = np.array([q.guard_radius for q in vehicle.quadrotors])
         self._reach = float(np.max(np.linalg.norm(vehicle.lever_arms, axis=1) + guards))
 
-    def heed(self, message: Any) -> None:
-        """Push as a `geometry_msgs/WrenchStamped` says, or tell why not; whatever was pushed before is over then."""
+    def handle(self, message: Any) -> None:
+        """Apply the push of a `geometry_msgs/WrenchStamped`, or notify why not; it replaces any push before."""
         with self._turn:
             try:
                 force, point = self._read(message)
@@ -52,13 +52,13 @@ class Pushes:
                 self._until = self._session.flight.step + HELD / self._session.flight.dt if any(force) else math.inf
             except InputError as error:
                 self.let_go()
-                self._tell(f"push refused: {error}")
+                self._notify(f"push refused: {error}")
 
     def watch(self, flight: RecordedFlight) -> None:
-        """After every step: let go when nothing has been heard for too long."""
+        """After every step: end the push if no message has come for too long."""
         if flight.step >= self._until:
             self.let_go()
-            self._tell(f"push over: no message for {HELD:g} s")
+            self._notify(f"push over: no message for {HELD:g} s")
 
     def let_go(self) -> None:
         """Nobody pushes any more."""
@@ -94,7 +94,7 @@ class Pushes:
         most, size = self._session.flight.now.person.max_force, float(np.linalg.norm(force))
         if size <= most:
             return force if size >= LEAST else np.zeros(3)
-        self._tell(f"push cut: {size:.3g} N is more than person.max_force = {most:g} N")
+        self._notify(f"push cut: {size:.3g} N is more than person.max_force = {most:g} N")
         return force * (most / size)
 
     def _point(self, frame: str, force: Array, torque: Array) -> Array:

@@ -55,9 +55,9 @@ class Ros1:
         make, of = self._rospy.Publisher, message_type(kind)
         return _Publisher(make(topic, of, queue_size=depth, latch=latched, tcp_nodelay=True), latched)
 
-    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], object]) -> None:
-        """Let a function heed the messages of a topic; of several that wait, the last."""
-        self._rospy.Subscriber(topic, message_type(kind), heed, queue_size=1, tcp_nodelay=True)
+    def subscribe(self, topic: str, kind: str, handle: Callable[[Any], object]) -> None:
+        """Call a function with the messages of a topic; if several wait, with the last."""
+        self._rospy.Subscriber(topic, message_type(kind), handle, queue_size=1, tcp_nodelay=True)
 
     def serve(self, name: str, answer: Callable[[], Answer]) -> None:
         """Answer `std_srvs/Trigger`."""

@@ -48,7 +48,7 @@ class Ros2:
 
         self._participant = DomainParticipant(_domain() if domain is None else domain)
         self.types, self.over = MessageTypes(DdsTypes(), numbered=False), False
-        self._heed: list[tuple[Any, Callable[[Any], object]]] = []
+        self._handlers: list[tuple[Any, Callable[[Any], object]]] = []
         self._services: dict[str, Callable[[], Answer]] = {}
         self._set: dict[str, Any] = {}
         self._some, self._worker = WaitSet(self._participant), ThreadPoolExecutor(1, "requests")
@@ -59,19 +59,19 @@ class Ros2:
         self._listener.start()
 
     def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> TopicPublisher:
-        """A topic to publish on: reliable, ten or more may wait; of a latched one, who comes late gets the last."""
+        """A topic to publish on: reliable, ten or more may wait; late subscribers get the last if latched."""
         from cyclonedds.pub import DataWriter
 
         qos = _qos(latched, 1 if latched else max(depth, DEPTH))
         return _Writer(DataWriter(self._participant, self._topic(topic, kind), qos), latched)
 
-    def subscribe(self, topic: str, kind: str, heed: Callable[[Any], object]) -> None:
-        """Let a function heed the messages of a topic."""
+    def subscribe(self, topic: str, kind: str, handle: Callable[[Any], object]) -> None:
+        """Call a function with the messages of a topic."""
         from cyclonedds.core import InstanceState, ReadCondition, SampleState, ViewState
         from cyclonedds.sub import DataReader
 
         reader = DataReader(self._participant, self._topic(topic, kind), _qos(False, DEPTH))
-        self._heed.append((reader, heed))
+        self._handlers.append((reader, handle))
         self._some.attach(ReadCondition(reader, SampleState.NotRead | ViewState.Any | InstanceState.Alive))
 
     def serve(self, name: str, answer: Callable[[], Answer]) -> None:
@@ -84,14 +84,14 @@ class Ros2:
         return found
 
     def keep(self, values: Mapping[str, Any]) -> None:
-        """Nothing: the latched mission tells how settings are."""
+        """Nothing: the latched mission has the settings."""
 
     def shutdown(self) -> None:
         """Leave the domain."""
         self.over = True
         self._listener.join()
         self._worker.shutdown()
-        self._heed.clear()
+        self._handlers.clear()
         del self._some, self._participant
 
     def _topic(self, name: str, kind: str) -> Any:
@@ -105,13 +105,13 @@ class Ros2:
 
         while not self.over:
             self._some.wait(round(NAP * 1e9))
-            for reader, heed in tuple(self._heed):
+            for reader, handle in tuple(self._handlers):
                 try:
                     for message in reader.take(DEPTH):
                         if not isinstance(message, InvalidSample):  # a notice that a writer has gone
-                            heed(message)
+                            handle(message)
                 except Exception:  # of bytes that are no such message
-                    log.exception("a message could not be heeded")
+                    log.exception("a message could not be handled")
 
     def _serve(self, what: str) -> None:
         """Do what is asked for, and say what came of it."""

@@ -90,7 +90,7 @@ def as_flight(taken: SampleBatch, flight: RecordedFlight, tables: dict[str, Any]
     return Flight(at, dict(channels_of(flight.layout, taken.rows)), tables, {})
 
 
-def every_of(rate: float, dt: float) -> int:
+def steps_between_samples(rate: float, dt: float) -> int:
     """Steps from a sample to the next, at a rate [Hz].
 
     Raises:

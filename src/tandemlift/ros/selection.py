@@ -33,7 +33,7 @@ def version_for(asked: str | None) -> str:
     )
 
 
-def middleware_of(version: str, arguments: Sequence[str], *, asked: bool) -> Middleware:
+def middleware_for(version: str, arguments: Sequence[str], *, asked: bool) -> Middleware:
     """Connect to a ROS.
 
     Args:

@@ -1,4 +1,4 @@
-"""What is published: samples by the recipes of exported bags, frames, ways, markers; and what is published once."""
+"""The topics: samples by the recipes of exported bags, frames, paths and markers, and what is published once."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.export.frames import WORLD, fixed, quaternions
-from tandemlift.export.messages import Maker, MessageTypes, Transforms, maker_of
+from tandemlift.export.messages import Maker, MessageTypes, Transforms, message_maker
 from tandemlift.export.recipes import POSE, Recipe, Source, Topic
-from tandemlift.export.topics import ROOT, recipes_of
+from tandemlift.export.topics import ROOT, recipes_for
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.ros import scenery
@@ -23,7 +23,7 @@ TF, TF_STATIC, TRANSFORMS = "/tf", "/tf_static", "tf2_msgs/TFMessage"
 MISSION, TEXT = f"{ROOT}/mission", "std_msgs/String"
 STILL, MOVING = f"{ROOT}/markers/still", f"{ROOT}/markers/moving"
 FLOWN, ASKED, PATH = f"{ROOT}/path", f"{ROOT}/reference/path", "nav_msgs/Path"
-WAY, APART = 60.0, 0.2  # s of the way that is shown, and between its points
+SHOWN, APART = 60.0, 0.2  # s of a path that is shown, and between its points
 
 
 class SampleTopic(NamedTuple):
@@ -46,13 +46,13 @@ class SampleTopics:
     def __init__(self, middleware: Middleware, flight: Flight, vehicle: Vehicle) -> None:
         types, self._vehicle = middleware.types, vehicle
         self._sent = [
-            SampleTopic(r, maker_of(types, r), middleware.advertise(r.name, r.kind))
-            for r in recipes_of(flight, vehicle)
+            SampleTopic(r, message_maker(types, r), middleware.advertise(r.name, r.kind))
+            for r in recipes_for(flight, vehicle)
         ]
         self._transform, self._tf = Transforms(types).moving, middleware.advertise(TF, TRANSFORMS, depth=100)
 
     def publish(self, flight: Flight, stamps: list[int]) -> None:
-        """Publish samples, as far as somebody listens."""
+        """Publish samples on the topics that have subscribers."""
         take = Source(flight, self._vehicle)
         wanted = [(s.channel, s.make, s.recipe.rows(take).tolist()) for s in self._sent if s.channel.wanted]
         if self._tf.wanted:
@@ -64,7 +64,7 @@ class SampleTopics:
 
 
 class LatchedTopics:
-    """What is published once, and again to who comes late.
+    """What is published once; latched, so that late subscribers get it too.
 
     Args:
         middleware: where to.
@@ -76,11 +76,11 @@ class LatchedTopics:
         self._static = middleware.advertise(TF_STATIC, TRANSFORMS, latched=True)
         self._still = middleware.advertise(STILL, MARKERS, latched=True)
 
-    def tell_mission(self, tables: Mapping[str, Any]) -> None:
+    def publish_mission(self, tables: Mapping[str, Any]) -> None:
         """Publish the mission as it is now."""
         self._mission.publish(self._types[TEXT](format_toml(tables)))
 
-    def tell_vehicle(self, scene: Mapping[str, Any], vehicle: Vehicle, stamp: int) -> None:
+    def publish_vehicle(self, scene: Mapping[str, Any], vehicle: Vehicle, stamp: int) -> None:
         """Publish where the vehicle's parts are, and what it and its surroundings look like."""
         self._static.publish(Transforms(self._types).fixed(stamp, list(fixed(vehicle))))
         self._drawn = scenery.still(self._types, scene, vehicle)
@@ -92,7 +92,7 @@ class LatchedTopics:
 
 
 class MarkerTopics:
-    """What is only looked at: markers that move, the way flown and the way asked for.
+    """What is only displayed: moving markers, the flown path and the reference path.
 
     Args:
         middleware: where to.
@@ -102,7 +102,7 @@ class MarkerTopics:
     def __init__(self, middleware: Middleware, vehicle: Vehicle) -> None:
         types = middleware.types
         self._markers, self._moving = middleware.advertise(MOVING, MARKERS), scenery.PushMarkers(types, vehicle)
-        self._ways = [PathTopic(types, middleware.advertise(topic, PATH)) for topic in (FLOWN, ASKED)]
+        self._paths = [PathTopic(types, middleware.advertise(topic, PATH)) for topic in (FLOWN, ASKED)]
 
     def move(self, flight: Flight, stamp: int) -> None:
         """Show the last sample."""
@@ -110,12 +110,12 @@ class MarkerTopics:
             last = {name: flight[name][-1:] for name in flight}
             self._markers.publish(self._moving.of(last, stamp))
 
-    def go_on(self, flight: Flight, stamp: int) -> None:
-        """Let the ways go on to the last sample, and show them."""
+    def extend_paths(self, flight: Flight, stamp: int) -> None:
+        """Extend the paths by the last sample, and publish them."""
         poses = (flight["position"], flight["attitude"]), (flight["reference_position"], None)
-        for way, (place, attitude) in zip(self._ways, poses, strict=True):
+        for path, (place, attitude) in zip(self._paths, poses, strict=True):
             turned = quaternions(flight["reference_euler"][-1:]) if attitude is None else attitude[-1:]
-            way.go_on(stamp, [*place[-1].tolist(), *turned[0].tolist()])
+            path.extend(stamp, [*place[-1].tolist(), *turned[0].tolist()])
 
 
 class PathTopic:
@@ -123,11 +123,11 @@ class PathTopic:
 
     def __init__(self, types: MessageTypes, channel: TopicPublisher) -> None:
         self._Path, self._header, self._channel = types[PATH], types.headers(WORLD), channel
-        self._make = maker_of(types, Topic("", POSE, WORLD, np.zeros((0, 7))))
-        self._poses: deque[Any] = deque(maxlen=round(WAY / APART))
+        self._make = message_maker(types, Topic("", POSE, WORLD, np.zeros((0, 7))))
+        self._poses: deque[Any] = deque(maxlen=round(SHOWN / APART))
 
-    def go_on(self, stamp: int, pose: list[float]) -> None:
-        """One more pose; publish them all if somebody listens."""
+    def extend(self, stamp: int, pose: list[float]) -> None:
+        """Add a pose, and publish them all if there is a subscriber."""
         self._poses.append(self._make(stamp, pose))
         if self._channel.wanted:
             self._channel.publish(self._Path(self._header(stamp), list(self._poses)))

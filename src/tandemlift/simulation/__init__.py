@@ -1,1 +1,1 @@
-"""Flying a mission: what it is assembled from, whole flights, flights step by step, and changes in flight."""
+"""Simulation of missions: assembly, whole flights, flights step by step, and changes in flight."""

@@ -1,4 +1,4 @@
-"""The rotors of a mission: ideal, or real with limits, lag, delay, faults and ground effect."""
+"""The rotors of a mission: ideal, or with limits, lag, delay, faults and ground effect."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tandemlift.vehicle import Vehicle
 
 
 def hover_thrusts(vehicle: Vehicle, weights: Any) -> Any:
-    """Thrusts of all rotors [N] that carry the weight, as a set."""
+    """Rotor thrusts [N] that carry the weight, as a set."""
     thrusts = vehicle.allocation(weights) @ [vehicle.weight, 0.0, 0.0, 0.0]
     return each(vehicle.rotor_count)(*thrusts.tolist())
 
@@ -58,7 +58,7 @@ def rotors_from(
 
 
 def start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, delayed: bool) -> tuple[Any, Any, Any]:
-    """The rotors of a mission, their memory at t = 0, and their thrusts [N] then."""
+    """The rotors of a mission, their state and thrusts [N] at t = 0."""
     hover = hover_thrusts(vehicle, mission.allocation.weights)
     if mission.actuators.model == "ideal":
         return IdealRotors(), Nothing(), hover

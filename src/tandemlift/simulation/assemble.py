@@ -1,7 +1,7 @@
-"""A mission put together for the loop: the flight at t = 0, and what it is given from outside.
+"""A flight assembled from a mission: its state and parameters at t = 0, and its inputs from outside.
 
-Everything random is drawn from the mission's seed: constant errors and the first eddies here, the rest step by step by
-a counter-based generator with the seed's key.
+All random numbers derive from the mission's seed: constant errors and the initial turbulence are drawn here, the rest
+step by step by a counter-based generator with the seed's key.
 """
 
 from __future__ import annotations
@@ -41,7 +41,15 @@ from tandemlift.vehicle import Vehicle
 
 
 class AssembledFlight(NamedTuple):
-    """A flight at t = 0, its inputs' layout, its tables, the delays in steps, its key."""
+    """An assembled flight.
+
+    Attributes:
+        flying: the flight at t = 0.
+        given: the layout of its inputs.
+        tables: pushes, gusts, walls and path legs.
+        delays: of IMU, motion sensor, rotor commands and the person's sight, in steps.
+        seeds: the key of its random numbers.
+    """
 
     flying: FlightModel
     given: StepInputs
@@ -59,7 +67,7 @@ def delays_from(mission: Mission) -> NDArray[np.int64]:
         mission.actuators.delay * real,
     ]
     steps = [round(s / mission.mission.step) for s in seconds]
-    sight = round(mission.person.delay / mission.mission.step) - 1  # what is seen is known a step later anyway
+    sight = round(mission.person.delay / mission.mission.step) - 1  # a step of delay is inherent
     accompanied = mission.person.model not in ("none", "grab")
     more = [round(s.delay / mission.mission.step) * simulated for s in mission.sensors.additional]
     return np.array([*steps, max(sight, 0) * accompanied, *more], dtype=np.int64)
@@ -69,21 +77,21 @@ def delay_lines_from(mission: Mission, delays: NDArray[np.int64]) -> Any:
     """Which delay lines a mission has; `Nothing` if it has none."""
     if not delays.any():
         return Nothing()
-    imu, motion, command, seen, *more = [Delayed() if d else Nothing() for d in delays]
+    imu, motion, command, view, *more = [Delayed() if d else Nothing() for d in delays]
     names = tuple(s.name for s in mission.sensors.additional)
-    return DelayLines(imu, motion, command, seen, by_name(names)(*more))
+    return DelayLines(imu, motion, command, view, by_name(names)(*more))
 
 
-def start_metrics(far: Any, company: Any) -> RunningMetrics:
-    """The tally of a flight before its first step; `far`: the clearance before any wall was looked at."""
-    return EMPTY._replace(clearance=far, effort=company if isinstance(company, Nothing) else NO_EFFORT)
+def start_metrics(far: Any, person: Any) -> RunningMetrics:
+    """The running metrics before the first step; `far`: the clearance before any wall was looked at."""
+    return EMPTY._replace(clearance=far, effort=person if isinstance(person, Nothing) else NO_EFFORT)
 
 
 def assemble(mission: Mission) -> AssembledFlight:
-    """A mission's loop at t = 0.
+    """Assemble the flight of a mission at t = 0.
 
     Raises:
-        InputError: something in the mission cannot be built.
+        InputError: a part of the mission cannot be built.
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
     chance = np.random.default_rng(mission.mission.seed)
@@ -93,28 +101,40 @@ def assemble(mission: Mission) -> AssembledFlight:
     grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
     delays = delays_from(mission)
     rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, delayed=bool(delays[2]))
-    weather, eddies = start_weather(mission, vehicle, chance)
+    wind, eddies = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
     near, hand = near_walls_from(walls), PushSamples(push, push, push)
-    devices, hiss = sensors_from(mission, vehicle, chance)
+    devices, sensor_noise = sensors_from(mission, vehicle, chance)
     sensing: Any = Nothing()
     if not isinstance(devices, Nothing):
-        felt = readings_at_rest(plant, state, grip, near, thrusts, hand)
-        sensing = start_sensing(devices, state, felt, state.attitude)
+        initial = readings_at_rest(plant, state, grip, near, thrusts, hand)
+        sensing = start_sensing(devices, state, initial, state.attitude)
     readings = Nothing() if isinstance(devices, Nothing) else readings_of(sensing)
     estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
-    partner, company, twitch = start_person(mission, vehicle, state)
-    tally = start_metrics(clearance(walls, near, plant.frame, state), company)
-    moving = FlightState(state, memory, eddies, grip, near, sensing, known, spinning, readings, company, tally, 0.0)
-    reads = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
+    person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
+    moving = FlightState(
+        state=state,
+        memory=memory,
+        wind=eddies,
+        grip=grip,
+        near=near,
+        sensing=sensing,
+        estimator=known,
+        rotors=spinning,
+        readings=readings,
+        person=memory_of_person,
+        metrics=start_metrics(clearance(walls, near, plant.frame, state), memory_of_person),
+        diverged=0.0,
+    )
+    sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
     late = delay_lines_from(mission, delays)
-    flying = FlightModel(moving, pilot, plant, rotors, weather, devices, estimators, reads, partner, late)
-    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(weather), hiss, twitch), company)
+    flying = FlightModel(moving, pilot, plant, rotors, wind, devices, estimators, sources, person, late)
+    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), sensor_noise, tremor_noise), memory_of_person)
     return AssembledFlight(
         flying,
         given,
-        input_tables_from(mission, path_legs_from(mission, partner, state)),
+        input_tables_from(mission, path_legs_from(mission, person, state)),
         delays,
         np.array(key_from_seed(mission.mission.seed)),
     )

@@ -1,4 +1,4 @@
-"""What is around the vehicle: pushes, wind, floor and walls of a mission."""
+"""Pushes, wind and walls of a mission, as the inputs of a flight."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from tandemlift.settings import Mission
 from tandemlift.trace import flat, leaves
 from tandemlift.vehicle import Vehicle
 
-LEAST_AIRSPEED = 0.5  # m/s, at which eddies pass in still air
-NO_WHIFFS = WindNoise(0.0, 0.0, 0.0, 0.0, 0.0)
+LEAST_AIRSPEED = 0.5  # m/s, at which turbulence passes in still air
+NO_NOISE = WindNoise(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def push_kind(mission: Mission) -> Any:
-    """The zero push of the type that serves a mission's pushes: with a moment only if one has any."""
+    """A zero push of the type that the mission needs: with a moment only if a push has one."""
     central = all(p.point == ZERO for p in mission.pushes) and mission.person.model == "none"
     return CentralPush(ZERO) if central else PointPush(ZERO, mat3([[0.0] * 3] * 3))
 
@@ -55,7 +55,7 @@ def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
 
 
 def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generator) -> tuple[Any, Any]:
-    """The wind of a mission and its eddies at t = 0, or `Nothing`."""
+    """The wind of a mission and its turbulence at t = 0, or `Nothing`."""
     w = mission.wind
     if w.model == "none":
         return Nothing(), Nothing()
@@ -72,9 +72,9 @@ def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generato
 def wind_noise_from(weather: Any) -> Any:
     """The layout of the wind's standard normals."""
     still = isinstance(weather, Nothing) or isinstance(weather.wind.turbulence, Nothing)
-    return Nothing() if still else NO_WHIFFS
+    return Nothing() if still else NO_NOISE
 
 
 def near_walls_from(settings: Any) -> Any:
-    """The walls nearest to the parts, before any was looked at; or `Nothing`."""
+    """The nearest walls before any was looked at, or `Nothing`."""
     return settings if isinstance(settings, Nothing) else no_walls_near(settings)

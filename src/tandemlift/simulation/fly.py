@@ -25,22 +25,22 @@ from tandemlift.simulation.stepping import body_in, fly_stepwise
 from tandemlift.trace import leaves, unflat
 from tandemlift.trace.compile_events import Stopped, always
 
-STRETCH = 0.1  # s between looks at the keyboard and at the progress bar
-FIRST_STRETCH = 5_000  # steps
+STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
+FIRST_STRETCH = 5_000  # steps of the first stretch
 
 
 def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
-    """Fly on, some tenth of a second at a time; each step that is reached."""
+    """Fly to the end in stretches of some tenth of a second; yields the step reached after each."""
     pace, ends = FIRST_STRETCH, sorted({s for s in (p.late_step,) if s < p.steps} | {p.steps + 1})
     for end in ends:
         while memory.k < min(end, p.steps):
             if not going():
                 raise Stopped
-            stop = end if memory.k + pace >= end - 1 else memory.k + pace  # the last step and the last sample together
+            stop = end if memory.k + pace >= end - 1 else memory.k + pace  # never the last sample alone
             began = time.perf_counter()
             before, after = memory.k, memory.fly(stop)
             spent = time.perf_counter() - began
-            memory.code.spent(spent)
+            memory.code.add_time(spent)
             yield after
             if after < min(stop, p.steps):
                 return
@@ -54,7 +54,7 @@ def _fly_compiled(
     progress: Progress | None = None,
     going: Callable[[], bool] = always,
 ) -> list[RawResult]:
-    """Fly one flight, or up to LANES of one variant and one grid; of these, lost ones again, to stop where they do."""
+    """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time."""
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
     memory = FlightMemory(
@@ -88,7 +88,7 @@ def _fly_compiled(
 
 
 def _flies_stepwise(p: FlightPlan) -> bool:
-    """Whether a mission is flown step by step: where Python has a say in it."""
+    """Whether a mission is flown step by step, because Python takes part in it."""
     return p.interpreted is not None or changes_in_flight(p.mission)
 
 
@@ -99,7 +99,7 @@ def _fly_together(
     progress: Progress | None = None,
     going: Callable[[], bool] = always,
 ) -> list[RawResult]:
-    """Fly what goes together, as a block unless it is one flight alone."""
+    """Fly flights of one group, as a block if there are several."""
     if _flies_stepwise(flights[0]):
         return [fly_stepwise(flights[0], rows, every, progress, going=going)]
     return _fly_compiled(flights, rows, every, progress, going)
@@ -110,14 +110,14 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
 
     Args:
         mission: from `load_mission`.
-        engine: name of the body's engine; if None, that of the mission's recording, or "compiled".
-        progress: called now and then with (steps flown, steps in all).
+        engine: name of the engine; if None, that of the mission's recording, or "compiled".
+        progress: called from time to time with (steps flown, steps in all).
 
     Returns:
-        The flight. If it diverged it holds what was flown until then, and `divergence` says why.
+        The flight. If it diverged, it holds the samples until then, and `divergence` says why.
 
     Raises:
-        InputError: the engine is not known, or the mission cannot be built.
+        InputError: the engine is unknown, or the mission cannot be built.
     """
     engine = engine_of(mission) if engine is None else engine
     engine_named(engine)
@@ -136,17 +136,17 @@ def fly_many(
     *,
     progress: Progress | None = None,
 ) -> list[Any]:
-    """Fly many missions, whatever mixture of variants, in blocks that share each instruction, on several threads.
+    """Fly many missions of any mixture of variants, in blocks that share each instruction, on several threads.
 
     Args:
         missions: from `load_mission`.
-        keep: "flights" for a list of `Flight`; "metrics" for a list of metrics only, in memory that does not grow
-            with the number of steps.
-        threads: how many to use, by default one a processor.
+        keep: "flights" for a list of `Flight`; "metrics" for a list of metrics only, in memory that does not grow with
+            the number of steps.
+        threads: number of threads; by default one for each processor.
         progress: called with (flights flown, flights in all).
 
     Returns:
-        One entry a mission, in the order given, the same to the last bit as from flying it alone.
+        One entry for each mission, in the order given, equal to the last bit to that of a flight alone.
 
     Raises:
         InputError: `keep` or `threads` is not one of the above, or a mission cannot be built.
@@ -170,12 +170,12 @@ def fly_many(
             results[i] = flight_of(f, x) if keep == "flights" else metrics_of(f, x)
         finished.add(len(places))
 
-    jobs = list(_jobs(missions))  # all of them first: Python at work here would hold up the threads that fly
+    jobs = list(_jobs(missions))  # prepared first, because Python code here would block the threads
     pool = ThreadPoolExecutor(threads or os.cpu_count() or 1)
     try:
         for future in [pool.submit(run, places, flights) for places, flights in jobs]:
             future.result()
-    except BaseException:  # also Ctrl-C: nobody waits for what still flies
+    except BaseException:  # also Ctrl-C: do not wait for the threads
         going.clear()
         pool.shutdown(wait=False, cancel_futures=True)
         raise
@@ -184,7 +184,7 @@ def fly_many(
 
 
 class _Counter:
-    """Flights flown so far, over all threads."""
+    """Counts the finished flights of all threads."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:
         self.flown, self.total, self.progress = 0, total, progress
@@ -198,7 +198,7 @@ class _Counter:
 
 
 def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[FlightPlan]]]:
-    """What goes together, with its places: same variant and grid, at most LANES; what is flown step by step alone."""
+    """Groups of flights of one variant and grid, at most LANES, with their places; stepwise flights alone."""
     groups: defaultdict[Any, list[tuple[int, FlightPlan]]] = defaultdict(list)
     for i, mission in enumerate(missions):
         p = FlightPlan(mission)

@@ -1,9 +1,9 @@
-"""What changes in a flight while it is flown: its parameters, its controller, and the hand that is moved from outside.
+"""Changes in flight: of parameters, of the controller, and of the virtual hand.
 
-A flight's parameters are numbers in a flat array. A changed mission is put together anew, its numbers are compared with
-those of the mission before it, and those that differ go from the one to the other in a straight line. Where it takes
-other laws, they take over from one step to the next, and a controller with a fresh memory if it remembers other things.
-What would take another memory of anything else, another body or another delay is refused.
+A flight's parameters are numbers in a flat array. A changed mission is assembled anew; its numbers are compared with
+the current ones, and those that differ are ramped linearly. If the change needs other laws, these take over between two
+steps, and a controller starts with fresh memory if its layout differs. Changes that need another memory of anything
+else, another body or another delay are refused.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ LATER = "is chosen before a flight begins, and cannot be changed in flight"
 
 
 def changes_in_flight(mission: Mission) -> bool:
-    """Whether something changes while a mission is flown."""
+    """Whether a mission changes in flight."""
     return bool(mission.changes or mission.person.recording)
 
 
 class ScheduledChange(NamedTuple):
-    """A mission to become, from step `first` on, over so many steps."""
+    """A change to another mission, from step `first` on, over a number of steps."""
 
     first: int
     steps: int
@@ -44,7 +44,7 @@ def scheduled_change(before: FlightPlan, mission: Mission, key: str, first: int,
     """A change of one key, checked against the flight as it is before.
 
     Raises:
-        InputError: the key is one that cannot be changed in flight.
+        InputError: the key cannot be changed in flight.
     """
     after = FlightPlan(mission, interactive=before.interactive)
     _check(before, after, key)
@@ -52,7 +52,7 @@ def scheduled_change(before: FlightPlan, mission: Mission, key: str, first: int,
 
 
 def scheduled_changes(p: FlightPlan) -> list[ScheduledChange]:
-    """The changes of a mission, in the order in which they are due."""
+    """The changes of a mission in the order of time."""
     dues, last = list[ScheduledChange](), p
     for change, mission in zip(p.mission.changes, in_turn(p.mission), strict=True):
         dues.append(scheduled_change(last, mission, change.key, round(change.time / p.dt), change.duration))
@@ -61,12 +61,12 @@ def scheduled_changes(p: FlightPlan) -> list[ScheduledChange]:
 
 
 def _kept(p: FlightPlan) -> tuple[Any, ...]:
-    """What a flight keeps from its beginning: the layout of what moves, but for the controller's memory; the data."""
+    """Everything that a change must keep: layouts except that of the controller's memory, and data."""
     moving, plant = p.flying.moving, p.flying.plant
     rest = moving._replace(memory=moving.memory._replace(controller=Nothing()))
     data = (plant, *p.tables, p.delays, p.seeds)
     numbers = [np.asarray(_numbers(x)).tobytes() for x in data]
-    return layout(rest), layout(plant), layout(p.given), layout(p.flying.partner), p.steps, p.every, p.dt, numbers
+    return layout(rest), layout(plant), layout(p.given), layout(p.flying.person), p.steps, p.every, p.dt, numbers
 
 
 def _numbers(value: Any) -> Any:
@@ -74,7 +74,7 @@ def _numbers(value: Any) -> Any:
 
 
 def _parameters(p: FlightPlan) -> list[float]:
-    """The numbers of a flight that do not change by themselves."""
+    """The parameters of a flight as numbers."""
     return flat(p.flying)[leaves(p.flying.moving) :]
 
 
@@ -93,7 +93,7 @@ def _check(before: FlightPlan, after: FlightPlan, key: str) -> None:
 
 
 class ParameterRamp:
-    """Numbers of a flight on their way in a straight line; at once, where one of both is no finite number."""
+    """A linear ramp of numbers of a flight; a jump where an end is not finite."""
 
     def __init__(self, numbers: Array, places: NDArray[np.intp], target: Array, due: ScheduledChange) -> None:
         self.places, self.first, self.steps = places, due.first, due.steps
@@ -101,14 +101,14 @@ class ParameterRamp:
         self.jumps = ~(np.isfinite(self.before) & np.isfinite(self.after))
         self.way = np.where(self.jumps, 0.0, self.after) - np.where(self.jumps, 0.0, self.before)
 
-    def leave(self, places: NDArray[np.intp]) -> None:
-        """Leave numbers at some places to a change that came later."""
+    def release(self, places: NDArray[np.intp]) -> None:
+        """Give up numbers that a later change has taken over."""
         kept = ~np.isin(self.places, places)
         self.places, self.before, self.after = self.places[kept], self.before[kept], self.after[kept]
         self.jumps, self.way = self.jumps[kept], self.way[kept]
 
     def apply(self, numbers: Array, k: int) -> bool:
-        """Write the numbers of step k; whether more is to come."""
+        """Write the numbers of step k; whether the ramp goes on."""
         share = (k - self.first + 1) / self.steps
         going = np.where(self.jumps, self.after, self.before + self.way * share)
         numbers[self.places] = going if share < 1.0 else self.after
@@ -116,10 +116,10 @@ class ParameterRamp:
 
 
 class ParameterChanges:
-    """What of a flight changes, step by step.
+    """The changes of a flight, step by step.
 
     Args:
-        p: the mission as it is at the first step.
+        p: the plan of the flight at its first step.
     """
 
     def __init__(self, p: FlightPlan) -> None:
@@ -128,29 +128,29 @@ class ParameterChanges:
         self.moved = read_recording(p.mission.person.recording) if p.mission.person.recording else None
         self.next_row = 0
 
-    def become(self, numbers: Array, before: FlightPlan, due: ScheduledChange) -> None:
-        """Let a flight's numbers go from one mission's to those of a changed one, of the same layout."""
+    def ramp_to(self, numbers: Array, before: FlightPlan, due: ScheduledChange) -> None:
+        """Start a ramp from the current numbers to those of a changed mission of the same layout."""
         now, target = np.array(flat(before.flying)), np.array(flat(due.prepared.flying))
         differ = (now != target) & (np.arange(now.size) >= leaves(before.flying.moving))
         places = np.flatnonzero(differ)
         for ramp in self.ramps:
-            ramp.leave(places)
+            ramp.release(places)
         self.ramps.append(ParameterRamp(numbers, places, target, due))
 
     def apply(self, numbers: Array, k: int) -> bool:
-        """Write what is different at step k; whether anything is."""
+        """Write the ramped numbers of step k; whether there are any."""
         ramps = self.ramps
         self.ramps = [ramp for ramp in ramps if ramp.apply(numbers, k)]
         return bool(ramps)
 
     def take_due(self, k: int) -> list[ScheduledChange]:
-        """The changes that begin with step k, which are taken out of those to come."""
+        """Remove and return the changes that begin by step k."""
         taken = [due for due in self.dues if due.first <= k]
         self.dues = self.dues[len(taken) :]
         return taken
 
     def hand_at(self, k: int) -> Array | None:
-        """The hand's numbers from step k on, where a recording moves it then."""
+        """The numbers of the virtual hand from step k on, if the recording moves it then."""
         if self.moved is None:
             return None
         row, steps = self.next_row, self.moved.steps
@@ -160,6 +160,6 @@ class ParameterChanges:
 
 
 def hand_place(p: FlightPlan) -> slice:
-    """Where the hand that is moved from outside stands in a flight's numbers; nowhere without one."""
-    span = leaf_offset(p.flying, "partner", "hand")
+    """The place of the virtual hand in a flight's numbers; empty without one."""
+    span = leaf_offset(p.flying, "person", "hand")
     return slice(span.at, span.at + span.size)

@@ -1,4 +1,4 @@
-"""The person of a mission: their path as a table of legs, and how they are before the first step."""
+"""The person of a mission: the path as a table of legs, and the person's state at t = 0."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from tandemlift.laws.person.person import (
     Person,
     PersonSettings,
     PersonState,
+    guided_point,
     person_view,
-    steered,
 )
-from tandemlift.laws.person.tremor import STILL, TWITCH, tremor
-from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, VirtualHand, VirtualHandState
+from tandemlift.laws.person.tremor import NO_TREMOR_NOISE, STILL, tremor
+from tandemlift.laws.person.virtual_hand import HAND_RELEASED, VirtualHand, VirtualHandState
 from tandemlift.laws.signals.low_pass import LowPassState, low_pass
 from tandemlift.settings import Mission
 from tandemlift.settings.person import PersonTable, WaypointTable
@@ -25,30 +25,30 @@ from tandemlift.vehicle import Vehicle
 
 
 def person_settings_from(p: PersonTable) -> PersonSettings:
-    """How a person of a mission leads."""
+    """The person's way of leading, from the mission."""
     hands = 1.0 if p.model == "two-hands" else 0.0
     at_grip, stays = 0.0 if p.model == "steer" else 1.0, 1.0 if p.model == "hold" else 0.0
     return PersonSettings(at_grip, hands * p.yaw_gain, hands * p.yaw_damping, stays)
 
 
 def waypoints_from(mission: Mission) -> tuple[WaypointTable, ...]:
-    """The path of a mission's person: their own, or the corridor's centreline."""
+    """The path of the person: their own, or the centreline of the corridor."""
     centreline = mission.corridor.centreline
     return mission.person.path or tuple(WaypointTable(point=point) for point in centreline)
 
 
 def grip_from(mission: Mission, vehicle: Vehicle) -> Vec3:
-    """Where the person holds on [m, body axes, from the centre of mass]."""
+    """The point that the person holds [m, body axes, from the centre of mass]."""
     along = 0.0 if mission.person.model == "two-hands" else mission.person.grip
     return vec3([0.0, along, 0.0] - vehicle.center_of_mass)
 
 
-def path_legs_from(mission: Mission, partner: Any, state: State) -> list[PathLeg]:
-    """The legs of a mission's path, from where what is steered is at the start; none without a person."""
-    if not isinstance(partner, Person):
+def path_legs_from(mission: Mission, person: Any, state: State) -> list[PathLeg]:
+    """The legs of the path, from the initial position of the steered point; none without a person."""
+    if not isinstance(person, Person):
         return []
     p, waypoints = mission.person, waypoints_from(mission)
-    at, _ = steered(partner.manner, person_view(partner.grip, state))
+    at, _ = guided_point(person.settings, person_view(person.grip, state))
     at, heading, legs = Vec3(at.x, at.y, at.z + mission.phases.height), mission.initial.euler[2], list[PathLeg]()
     level = at.z
     for number, w in enumerate(waypoints):
@@ -62,14 +62,14 @@ def path_legs_from(mission: Mission, partner: Any, state: State) -> list[PathLeg
 
 
 def start_virtual_hand(p: PersonTable, step: float) -> tuple[VirtualHand, VirtualHandState]:
-    """A hand that is moved from outside, and its memory at t = 0."""
+    """The virtual hand and its state at t = 0."""
     nothing, still = LowPassState(ZERO, ZERO), LowPassState(0.0, 0.0)
-    grab = VirtualHand(NOBODY_HOLDS, p.stiffness, p.damping, low_pass(1.0 / p.lag, step), p.max_force)
+    grab = VirtualHand(HAND_RELEASED, p.stiffness, p.damping, low_pass(1.0 / p.lag, step), p.max_force)
     return grab, VirtualHandState(nothing, still, nothing, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def start_person(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any, Any, Any]:
-    """The person of a mission, their memory at t = 0 and the layout of their noise; or `Nothing` three times."""
+    """The person of a mission, their state at t = 0 and the layout of their noise; or `Nothing` three times."""
     p, step = mission.person, mission.mission.step
     if p.model == "none":
         return Nothing(), Nothing(), Nothing()
@@ -81,13 +81,13 @@ def start_person(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any,
         damping=p.damping,
         lag=low_pass(1.0 / p.lag, step),
         tremor=tremor(p.tremor, step),
-        most=p.max_force,
-        most_couple=p.max_couple,
+        max_force=p.max_force,
+        max_couple=p.max_couple,
         horizon=p.delay + 2.0 * p.lag,
     )
     height = mission.initial.position[2] + p.height_fraction * mission.phases.height
     last = float(len(waypoints_from(mission)) - 1)
-    walk = PathFollowing(
+    following = PathFollowing(
         speed=p.speed,
         gain=p.gain,
         look_ahead=p.look_ahead,
@@ -99,9 +99,20 @@ def start_person(mission: Mission, vehicle: Vehicle, state: State) -> tuple[Any,
         height=height,
         last=last,
     )
-    partner = Person(grip, arm, walk, person_settings_from(p))
-    seen = person_view(grip, state)
-    quiet = LowPassState(0.0, 0.0)
-    leg = path_legs_from(mission, partner, state)[0]
-    memory = PersonState(seen, 0.0, leg, LowPassState(seen.grip, ZERO), quiet, quiet, ZERO, 0.0, 0.0, 0.0, STILL)
-    return partner, memory, TWITCH
+    person = Person(grip, arm, following, person_settings_from(p))
+    view = person_view(grip, state)
+    nothing = LowPassState(0.0, 0.0)
+    memory = PersonState(
+        view=view,
+        index=0.0,
+        leg=path_legs_from(mission, person, state)[0],
+        place=LowPassState(view.grip, ZERO),
+        couple=nothing,
+        grasp=nothing,
+        trim=ZERO,
+        dwelled=0.0,
+        begun=0.0,
+        landing=0.0,
+        tremor=STILL,
+    )
+    return person, memory, NO_TREMOR_NOISE

@@ -1,4 +1,4 @@
-"""The pilot as an object, for a loop of one's own: a measurement in, rotor thrusts out."""
+"""The pilot as an object for the user's own loop: measurement in, rotor thrusts out."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tandemlift.common.types import Array
 from tandemlift.controllers import control
 from tandemlift.kernels.context import aligned
 from tandemlift.kernels.pilot_sampling import PilotData, PilotSampler
-from tandemlift.laws.guidance.requests import NOBODY, UNAWARE
+from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.laws.mechanics.body import State
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.pilot.pilot import PilotInput
@@ -23,7 +23,9 @@ from tandemlift.trace.code import Code
 from tandemlift.trace.key import key_of
 from tandemlift.vehicle import Vehicle
 
-HEARD = PilotInput(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NOBODY, UNAWARE)
+HEARD = PilotInput(
+    State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NO_REQUEST, UNKNOWN_STATUS
+)
 SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
 
 
@@ -37,7 +39,7 @@ class Pilot:
         thrusts: thrust of every rotor [N] (4N,), the answer to the last measurement; overwritten by the next.
 
     Raises:
-        InputError: the mission's controller is plain Python; only a law can be compiled into the pilot.
+        InputError: the mission's controller is plain Python; the pilot needs a law, which can be compiled.
     """
 
     def __init__(self, mission: Mission) -> None:
@@ -61,7 +63,7 @@ class Pilot:
         self._context.view(np.float64)[-1] = self._dt
         self._code = code
         code.optimise()
-        return code.called("sample", self._context.ctypes.data)
+        return code.bound("sample", self._context.ctypes.data)
 
     def step(
         self,
@@ -79,13 +81,13 @@ class Pilot:
             measurement: float64 (16,): position [m] and velocity [m/s] of the centre of mass in world axes, attitude
                 quaternion w, x, y, z (body to world), rates [rad/s] in body axes, force of the person [N] in world
                 axes.
-            moment: of the person [N·m] (3,) about the centre of mass, body axes; none if not given.
-            lift: whether a lift is asked for, besides `phases.lift_start`.
-            land: whether the person asks to land.
-            stop: whether the rotors must stop at once, and stay so until `reset`.
-            enabled: whether the pilot may listen to the person; it holds its position while it may not.
+            moment: of the person [N·m] (3,) about the centre of mass, body axes; zero if not given.
+            lift: whether to lift, in addition to `phases.lift_start`.
+            land: whether to land.
+            stop: whether to stop the rotors at once; they stay stopped until `reset`.
+            enabled: whether the pilot may follow the person; otherwise it holds its position.
 
-        What is asked is heard by a pilot that is guided by hand.
+        The requests affect only a pilot that is guided by hand.
 
         Returns:
             Thrust of every rotor [N] (4N,), the same array each time.

@@ -1,4 +1,4 @@
-"""A mission made ready for the compiled loop, which is chosen by the types of its members and kept for the next."""
+"""The plan of a flight: a mission prepared for the compiled loop, which its types select and which is cached."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from tandemlift.settings import Mission
 from tandemlift.simulation.assemble import assemble
 from tandemlift.trace import flat
 
-LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take more than a second
+LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
 KERNELS: dict[Any, Kernels] = {}
 
 
 class FlightPlan:
-    """A mission ready to fly: its loop at t = 0, what it is given from outside, and its grid of steps.
+    """A mission ready to fly: the assembled flight at t = 0, its inputs from outside, and its time grid.
 
     Args:
         mission: from `load_mission`.
-        interactive: whether the caller of a step may add a push, and give thrusts (`laws.person.caller_inputs`).
+        interactive: whether the caller of a step may add a push and replace thrusts (`laws.person.caller_inputs`).
     """
 
     def __init__(self, mission: Mission, *, interactive: bool = False) -> None:
@@ -42,9 +42,9 @@ class FlightPlan:
             self.given = self.given._replace(external=nothing)
         self.interpreted: tuple[Any, Any] | None = None
         if type(self.flying.pilot.controller) in control.interpreted:
-            self._set_controller_aside()
+            self._detach_python_controller()
 
-    def _set_controller_aside(self) -> None:
+    def _detach_python_controller(self) -> None:
         moving, pilot = self.flying.moving, self.flying.pilot
         self.interpreted = pilot.controller, moving.memory.controller
         memory = moving.memory._replace(controller=NoMemory())
@@ -54,7 +54,7 @@ class FlightPlan:
 
     @cached_property
     def variant(self) -> Any:
-        """What decides the compiled loop: the types, not the values, of the flight's members and inputs."""
+        """The key of the compiled loop: the types, not the values, of the flight's members and inputs."""
         return layout(self.flying), layout(self.given)
 
     @property
@@ -64,7 +64,7 @@ class FlightPlan:
 
     @property
     def late_step(self) -> int:
-        """The first step that starts at `LATE` or after."""
+        """The first step that starts at `LATE` or later."""
         return math.ceil(LATE / self.dt - 1e-9)
 
     @property
@@ -75,15 +75,15 @@ class FlightPlan:
         return KERNELS[self.variant]
 
     def start(self) -> FlightStart:
-        """The flight at its first step, as a compiled loop takes it."""
-        return FlightStart(np.array(flat(self.flying)), self.tables, self._ring(), self.seeds)
+        """The flight at its first step, as input of a compiled loop."""
+        return FlightStart(np.array(flat(self.flying)), self.tables, self._delay_lines(), self.seeds)
 
     def grid(self, rows: int, every: int) -> TimeGrid:
-        """The steps of the flight, with so many rows of a log of every so many steps."""
+        """The time grid of the flight, with a log of `rows` rows, one every `every` steps."""
         return TimeGrid(self.steps, every, rows, self.dt, self.delays)
 
-    def _ring(self) -> np.ndarray:
-        """A delay line for this flight, filled with what it holds at t = 0."""
+    def _delay_lines(self) -> np.ndarray:
+        """The delay lines of this flight, filled with the values at t = 0."""
         numbers = np.array(flat(self.flying))
         if not self.delays.any():
             return np.zeros((1, 0))

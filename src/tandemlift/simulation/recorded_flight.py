@@ -20,7 +20,7 @@ from tandemlift.common.types import Array
 from tandemlift.engines.registry import EngineBody
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import leaf_offset
-from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS, VirtualHandInput
+from tandemlift.laws.person.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
 from tandemlift.missions.recording import WIDTH, Recording, write_recording
@@ -173,7 +173,7 @@ class RecordedFlight:
     @property
     def hand(self) -> VirtualHandInput:
         """The hand as it was last moved."""
-        return unflat(self._stepper.a[self._stepper.hand], NOBODY_HOLDS)
+        return unflat(self._stepper.a[self._stepper.hand], HAND_RELEASED)
 
     def advance(self) -> None:
         """Take a step."""
@@ -196,7 +196,7 @@ class RecordedFlight:
     def hold(self, hand: VirtualHandInput) -> None:
         """Move the hand, from the next step on."""
         numbers = np.array(flat(hand))
-        self._stepper.hold(numbers)
+        self._stepper.move_hand(numbers)
         if self._hand and self._hand[-1][0] == self.step:
             self._hand.pop()
         self._hand.append((self.step, numbers))

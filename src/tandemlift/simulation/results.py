@@ -1,4 +1,4 @@
-"""What a flight has left behind when it is over, and the record that is made of it."""
+"""The raw result of a flight, and the record made from it."""
 
 from __future__ import annotations
 
@@ -17,8 +17,7 @@ from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.kernels import leaf_offset
-from tandemlift.laws.guidance.supervision import SupervisionState
-from tandemlift.laws.guidance.supervisor import ALARM, PHASE
+from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
@@ -31,7 +30,16 @@ from tandemlift.trace import flat, leaves, unflat
 
 @dataclass
 class RawResult:
-    """The raw outcome of a flight: what moved, the tally before 10 s, the step reached, the log, the last sample."""
+    """The raw result of a flight.
+
+    Attributes:
+        moving: the last state.
+        early: running metrics until 10 s.
+        step: the step reached.
+        log: logged samples as rows.
+        last: the last sample.
+        wall: computing time [s].
+    """
 
     moving: FlightState
     early: RunningMetrics
@@ -42,15 +50,15 @@ class RawResult:
 
     @property
     def lost(self) -> bool:
-        """Whether the state became unsound."""
-        return self.moving.lost != 0.0
+        """Whether the flight diverged."""
+        return self.moving.diverged != 0.0
 
 
 def take_metrics(numbers: Array, like: FlightModel, lanes: int) -> list[RunningMetrics]:
-    """Take the tallies out of a flight or a block of flights, and start them anew."""
-    at, size = leaf_offset(like, "moving", "tally")
+    """Take the running metrics out of a flight or a block, and reset them."""
+    at, size = leaf_offset(like, "moving", "metrics")
     rows = numbers[at * lanes : (at + size) * lanes].reshape(-1, lanes)
-    empty = like.moving.tally
+    empty = like.moving.metrics
     tallies = [unflat(rows[:, lane], empty) for lane in range(lanes)]
     rows[:] = np.array(flat(empty))[:, None]
     return tallies
@@ -72,28 +80,28 @@ def divergence_of(p: FlightPlan, flown: RawResult) -> Divergence | None:
     return Divergence("distance from the origin [m]", at, math.dist(state.position, ZERO), f"must stay below {FAR:g} m")
 
 
-def _formed(value: Any) -> Any:
-    """A metric, or None if it or any part of it is not a finite number."""
+def _finite_or_none(value: Any) -> Any:
+    """A metric; None if it, or any part of it, is not finite."""
     parts = value if isinstance(value, list) else [value]
     return value if all(v is not None and math.isfinite(v) for v in parts) else None
 
 
 def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
-    """The metrics of a flight by their names in metrics.json; None where one could not be formed."""
+    """The metrics of a flight by their names in metrics.json; None for a metric without a finite value."""
     first, last = unflat(flown.log[0], p.sample), unflat(flown.last, p.sample)
     late_reached = p.late_step < p.steps and flown.step >= p.late_step
-    early, late = (flown.early, flown.moving.tally) if late_reached else (flown.moving.tally, EMPTY)
+    early, late = (flown.early, flown.moving.metrics) if late_reached else (flown.moving.metrics, EMPTY)
     formed = summary(early, late, p.dt)
     formed["final_position_m"] = list(flown.moving.state.position)
     formed["final_reference_m"] = list(last.reference_position)
     formed["command_at_start"] = [first.thrust, *first.moment]
-    formed |= _of_detection(p, flown)
-    formed = {name: _formed(value) for name, value in formed.items()}
+    formed |= _detection_metrics(p, flown)
+    formed = {name: _finite_or_none(value) for name, value in formed.items()}
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.moving)}
 
 
 def events_of(moving: FlightState) -> list[list[Any]]:
-    """What a supervision saw happen: [time [s], what], in the order of time; none without one."""
+    """Events of the supervision, as [time [s], text], in the order of time; none without supervision."""
     supervising = getattr(moving.memory.guidance, "supervision", None)
     if not isinstance(supervising, SupervisionState):
         return []
@@ -107,7 +115,7 @@ def events_of(moving: FlightState) -> list[list[Any]]:
 
 
 def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
-    """An event in words, from phase, alarm and the check that refuses; now, and in the event before."""
+    """The text of an event, from (phase, alarm, failed check) now and in the event before."""
     phase, alarm, refused = now
     if alarm and (alarm != before[1] or phase not in (IDLE, before[0])):
         return f"{ALARM_TEXTS[alarm]} -> {PHASE_NAMES[phase]}"
@@ -116,8 +124,8 @@ def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> s
     return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1].text}"
 
 
-def _of_detection(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
-    """How often a rotor was taken for lost, and how long after its loss [s] the one that is; None where none is."""
+def _detection_metrics(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
+    """Metrics of the rotor-loss detection: number of detections, and delay [s] of the correct one (None without)."""
     detection, memory = p.flying.pilot.detection, flown.moving.memory.detection
     if isinstance(detection, Nothing):
         return {}
@@ -129,13 +137,13 @@ def _of_detection(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
 
 @cache
 def versions(engine: str) -> Mapping[str, str]:
-    """Versions of what a flight is flown with in an engine."""
+    """Versions of the packages that a flight in an engine uses."""
     packages = ("tandemlift", "llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
     return {name: metadata.version(name) for name in packages}
 
 
 def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
-    """The channels of samples laid out like `like`: those of a group one by one; vectors of sets part by part."""
+    """The channels of samples laid out like `like`: groups channel by channel, vectors of sets part by part."""
     at = 0
     for name, part in zip(like._fields, like, strict=True):
         columns = rows[:, at : at + leaves(part)]

@@ -29,32 +29,32 @@ FORCE, POINT, THRUSTS = (
     slice(0, 3),
     slice(3, 6),
     slice(6, -1),
-)  # of the numbers of a `laws.person.caller_inputs.External`
+)  # of the numbers of a `laws.person.caller_inputs.CallerInput`
 MOST_SEED = 10**18  # as `mission.seed`
-TOLD_EVERY = 1000  # steps between two reports of the time spent, which decides when optimised code is made
+REPORT_EVERY = 1000  # steps between reports of computing time, which decides when optimised code is made
 
 
 class Simulation:
     """A mission's flight, a step at a time: the pilot, sensors, rotors, wind and body that `tl.fly` flies.
 
-    A step goes from `time` to `time` + `dt`. The pilot is sampled at its start; what it decides, and what the caller
-    adds, acts until its end. Then `state` is the state at the new `time`, and `sim["rotor_thrusts"]` and the other
-    channels are the sample of the step just taken: what the pilot saw and decided at its start, `sample_time`, and what
-    acted over it. These are the samples that a `Flight` holds.
+    A step goes from `time` to `time` + `dt`. The pilot is sampled at its start; its decision and the inputs of the
+    caller act until its end. Then `state` is the state at the new `time`, and `sim["rotor_thrusts"]` and the other
+    channels are the sample of the step just taken: what the pilot read and decided at its start, `sample_time`, and
+    what acted over it. A `Flight` holds the same samples.
 
     Args:
         mission: from `load_mission`.
-        engine: name of the body's engine; if None, that of the mission's recording, or "compiled".
+        engine: name of the engine; if None, that of the mission's recording, or "compiled".
 
     Attributes:
-        mission: what is flown.
-        engine: name of the body's engine.
+        mission: the mission that is flown.
+        engine: name of the engine.
         k: steps taken since the start.
         dt: length of a step [s].
         channels: names of the channels, the same as the flight's.
 
     Raises:
-        InputError: the engine is not known, or the mission cannot be built.
+        InputError: the engine is unknown, or the mission cannot be built.
     """
 
     def __init__(self, mission: Mission, engine: str | None = None) -> None:
@@ -72,17 +72,17 @@ class Simulation:
         self._state = leaf_offset(p.flying, "moving", "state")
 
     def _begin(self) -> None:
-        vars(self).pop("_stepper", None)  # an engine that only one can lead is let go first
+        vars(self).pop("_stepper", None)  # first release an engine that only one pilot can drive
         self._stepper = Stepper(self._p, body_in(self.engine, self._p))
         self.k, self._early, self._rows, self._end = 0, EMPTY, list[Array](), None
-        self._wall = self._told = 0.0
+        self._wall = self._reported = 0.0
 
     def reset(self, seed: int | None = None) -> Array:
         """Begin anew at t = 0.
 
         Args:
-            seed: of all that is drawn by chance, in place of `mission.seed`, from now on; if None, it stays as it is,
-                and the same flight begins again.
+            seed: of all random numbers, instead of `mission.seed`, from now on; if None, the seed stays and the same
+                flight begins again.
 
         Returns:
             The state (13,) at t = 0.
@@ -99,32 +99,32 @@ class Simulation:
     def step(
         self, push: ArrayLike | None = None, thrusts: ArrayLike | None = None, *, point: ArrayLike | None = None
     ) -> Array:
-        """Take one step of `dt`; what is given acts over this step alone.
+        """Take one step of `dt`; the inputs act for this step only.
 
         Args:
-            push: force (3,) [N] on the vehicle in world axes, besides what the mission pushes.
-            thrusts: of every rotor (4N,) [N], quadrotor by quadrotor, commanded in place of what the pilot decides.
-                Delay, lag, limits and faults of real rotors act on them; ideal ones give them as they are. The pilot
-                goes on deciding, and is not told.
-            point: where the push acts (3,) [m], body axes, from the centre of mass; there if not given.
+            push: force (3,) [N] on the vehicle in world axes, in addition to the mission's pushes.
+            thrusts: of every rotor (4N,) [N], quadrotor by quadrotor, commanded instead of the pilot's decision.
+                Delay, lag, limits and faults of real rotors apply to them; ideal rotors produce them exactly. The pilot
+                continues to decide and does not know of them.
+            point: point of application of the push (3,) [m], body axes, from the centre of mass; that centre if None.
 
         Returns:
             The state (13,) at the new `time`.
 
         Raises:
-            InputError: the flight is over, or what is given is not so many finite numbers.
+            InputError: the flight is over, or an input is not an array of that many finite numbers.
         """
         if self.over:
             raise InputError(f"{self._why_over()}; reset() begins anew")
-        self._take_in(push, thrusts, point)
+        self._set_inputs(push, thrusts, point)
         began = time.perf_counter()
         self._stepper.step(self.k, external=self._external)
-        self._keep()
+        self._log_and_advance()
         self._wall += time.perf_counter() - began
         return self.state
 
-    def _take_in(self, push: Any, thrusts: Any, point: Any) -> None:
-        """Write what a caller adds to a step."""
+    def _set_inputs(self, push: Any, thrusts: Any, point: Any) -> None:
+        """Write the caller's inputs of a step."""
         x = self._external
         x.fill(0.0)
         if push is not None:
@@ -137,19 +137,19 @@ class Simulation:
             x[THRUSTS] = numbers("thrusts", thrusts, x.size - 7, "N, one for each rotor")
             x[-1] = 1.0
 
-    def _keep(self) -> None:
-        """Keep the sample of the step that has just been taken if it is to be logged, and go on to the next."""
+    def _log_and_advance(self) -> None:
+        """Log the sample of the step just taken, if it is due, and count the step."""
         p, stepper = self._p, self._stepper
         if self.k % p.every == 0:
             self._rows.append(stepper.row.copy())
         self.k, self._end = self.k + 1, None
         if self.k == p.late_step < p.steps:
             (self._early,) = take_metrics(stepper.a, stepper.p.flying, 1)
-        if self.k % TOLD_EVERY == 0:
-            stepper.code.spent(self._wall - self._told)
-            self._told = self._wall
+        if self.k % REPORT_EVERY == 0:
+            stepper.code.add_time(self._wall - self._reported)
+            self._reported = self._wall
 
-    # what there is to know
+    # state and channels
 
     @property
     def time(self) -> float:
@@ -184,7 +184,7 @@ class Simulation:
     @property
     def divergence(self) -> Divergence | None:
         """Why the flight has diverged: quantity, time, value and limit; None if it has not."""
-        return divergence_of(self._p, self._flown(np.empty((0, 0)), np.empty(0)))
+        return divergence_of(self._p, self._result(np.empty((0, 0)), np.empty(0)))
 
     def _why_over(self) -> str:
         return str(self.divergence or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s")
@@ -228,9 +228,9 @@ class Simulation:
     def flight(self) -> Flight:
         """The record of what was flown so far, logged every `mission.log_interval`; the simulation can go on.
 
-        It is that of a flight whose mission ends at `time`: its last sample is the pilot's at `time`, if one is due,
-        with nothing added. A body in another engine, or a controller in plain Python, cannot be asked for that sample
-        without going on; it is then there at the mission's end alone. What the caller added stands in the channels, and
+        It equals that of a flight whose mission ends at `time`: its last sample is that of the pilot at `time`, if one
+        is due, without inputs. With a body in another engine, or a controller in plain Python, this sample exists only
+        at the mission's end, because taking it would advance the flight. The caller's inputs are in the channels, but
         not in the record's mission.
 
         Raises:
@@ -241,14 +241,21 @@ class Simulation:
         if not rows:
             raise InputError("nothing is logged yet: take a step first")
         last = np.full(leaves(self._p.sample), math.nan) if self.lost else self._stepper.row if end is None else end
-        return flight_of(self._p, self._flown(np.array(rows), last), self.engine)
+        return flight_of(self._p, self._result(np.array(rows), last), self.engine)
 
-    def _flown(self, log: Array, last: Array) -> RawResult:
+    def _result(self, log: Array, last: Array) -> RawResult:
         like = self._stepper.p.flying.moving
-        return RawResult(unflat(self._stepper.a[: leaves(like)], like), self._early, self.k, log, last, self._wall)
+        return RawResult(
+            moving=unflat(self._stepper.a[: leaves(like)], like),
+            early=self._early,
+            step=self.k,
+            log=log,
+            last=last,
+            wall=self._wall,
+        )
 
     def _sample_here(self) -> Array | None:
-        """The sample at `time`, taken without going on; None if that cannot be."""
+        """The sample at `time`, taken without advancing; None if that is impossible."""
         stepper = self._stepper
         returns = stepper.body is None and stepper.interpreted is None
         if self._end is None and not self.lost and (returns or self.k == self._p.steps):
@@ -261,14 +268,14 @@ class Simulation:
 
 
 def numbers(name: str, value: Any, count: int, what: str) -> Array:
-    """So many finite numbers.
+    """An array of `count` finite numbers.
 
     Raises:
         InputError: the value is something else.
     """
     try:
         found = np.asarray(value)
-    except ValueError:  # rows of several lengths
+    except ValueError:  # rows of different lengths
         found = np.empty(0, dtype=object)
     if found.shape != (count,) or found.dtype.kind not in "fiu" or not all(map(math.isfinite, found.tolist())):
         given = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
@@ -280,7 +287,7 @@ def with_seed(mission: Mission, seed: Any) -> Mission:
     """A mission with another seed.
 
     Raises:
-        InputError: the seed cannot be one.
+        InputError: the seed is not allowed.
     """
     try:
         number = operator.index(seed)

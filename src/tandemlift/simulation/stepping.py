@@ -1,6 +1,6 @@
-"""Flying step by step: for a controller in plain Python, a body in another engine, or what changes in flight.
+"""Flights step by step: for controllers in plain Python, other engines, and changes in flight.
 
-The parts of a step are compiled, and hand their values on in the memory of the flight.
+The parts of a step are compiled and exchange values through the memory of the flight.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def body_in(engine: str, p: FlightPlan) -> EngineBody | None:
     """The body of a mission at t = 0 in an engine; None for the compiled one.
 
     Raises:
-        InputError: the engine is not known, not installed, or cannot take the mission.
+        InputError: the engine is unknown, not installed, or cannot fly the mission.
     """
     chosen, plant = engine_named(engine), p.flying.plant
     if chosen.load is None:
@@ -45,12 +45,12 @@ class Stepper:
     """One flight, a step at a time.
 
     Args:
-        p: the mission, ready.
-        body: where the body lives; None for the compiled one.
+        p: the plan of the flight.
+        body: a body of another engine; None for the compiled one.
 
     Attributes:
         a: the flight's numbers.
-        row: the numbers of the sample of the last step.
+        row: the sample of the last step, as numbers.
     """
 
     def __init__(self, p: FlightPlan, body: EngineBody | None = None) -> None:
@@ -58,7 +58,7 @@ class Stepper:
         self._lay_out(p)
 
     def _lay_out(self, p: FlightPlan, before: FlightMemory | None = None) -> None:
-        """Make the memory in which a mission's step works; what waits in delay lines is kept."""
+        """Allocate the memory of a step; the content of the delay lines is kept."""
         self.p, self.interpreted = p, p.interpreted
         leaves_body = self.body is not None
         self.by_parts = leaves_body or self.interpreted is not None
@@ -68,34 +68,34 @@ class Stepper:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
         self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
-        self.at_lost, self.hand = leaf_offset(p.flying, "moving", "lost").at, hand_place(p)
-        self._find_rooms()
+        self.at_lost, self.hand = leaf_offset(p.flying, "moving", "diverged").at, hand_place(p)
+        self._bind_views()
 
-    def _find_rooms(self) -> None:
-        """Where a step's parts leave what Python or another engine takes, and look for what it answers."""
-        room = {
+    def _bind_views(self) -> None:
+        """Bind views of the memory that the parts of a step exchange with Python or another engine."""
+        view = {
             name: self.memory.work[self.memory.span(name)]
             for name in ("asked", "answer", "external", "acting", "push", "moved")
         }
         acting = self.p.kernels.templates.acting
-        thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "weather", "loads")
-        self.x, self.y, self.v, self.push = room["asked"], room["answer"], room["moved"], room["push"]
-        self.external = room["external"]
+        thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "wind", "loads")
+        self.x, self.y, self.v, self.push = view["asked"], view["answer"], view["moved"], view["push"]
+        self.external = view["external"]
         if self.body is not None:
             self.v[:] = flat(self.p.kernels.templates.moved)
-        self.thrusts = room["acting"][thrusts.at : thrusts.at + thrusts.size]
-        self.loads = room["acting"][air.at : air.at + air.size]
+        self.thrusts = view["acting"][thrusts.at : thrusts.at + thrusts.size]
+        self.loads = view["acting"][air.at : air.at + air.size]
 
     def change(self, due: ScheduledChange) -> None:
-        """Let the flight go on as a changed mission; what takes other laws is changed at once."""
+        """Change the mission: ramp its numbers, or exchange the laws at once."""
         if due.prepared.variant == self.p.variant:
-            self.changing.become(self.a, self.p, due)
+            self.changing.ramp_to(self.a, self.p, due)
             self.p = due.prepared
         else:
-            self._hand_over(due.prepared)
+            self._exchange_laws(due.prepared)
 
-    def _hand_over(self, p: FlightPlan) -> None:
-        """Go on by other laws; a controller begins with a fresh memory if it remembers other things; ramps jump."""
+    def _exchange_laws(self, p: FlightPlan) -> None:
+        """Go on with other laws. A controller of another layout starts with fresh memory; ramps end at once."""
         size, hand, row = leaves(self.p.flying.moving), self.a[self.hand].copy(), self.row
         moving = unflat(self.a[:size], self.p.flying.moving)
         memory, fresh = moving.memory, p.flying.moving.memory.controller
@@ -104,11 +104,11 @@ class Stepper:
         self.changing.ramps.clear()
         self._lay_out(p, self.memory)
         self.a[:] = flat(p.flying._replace(moving=moving._replace(memory=memory)))
-        self.hold(hand)
+        self.move_hand(hand)
         self.row[:] = row
 
-    def hold(self, hand: np.ndarray) -> None:
-        """Move the hand that is moved from outside: the numbers of a `laws.person.virtual_hand.Held`."""
+    def move_hand(self, hand: np.ndarray) -> None:
+        """Move the virtual hand: the numbers of its input, see `laws.person.virtual_hand`."""
         self.a[self.hand] = hand
         self.memory.put("fresh", 1)
 
@@ -119,15 +119,15 @@ class Stepper:
             self.memory.put("fresh", 1)
         hand = self.changing.hand_at(k)
         if hand is not None:
-            self.hold(hand)
+            self.move_hand(hand)
 
     def step(self, k: int, *, final: bool = False, external: Array | None = None) -> None:
-        """Take step number k; its sample is left in `row`.
+        """Take step k, and write its sample into `row`.
 
         Args:
             k: the step.
-            final: whether only the sample is taken. A body in another engine moves all the same.
-            external: the numbers of a `person.caller_inputs.External`, where the mission was prepared as interactive.
+            final: whether only the sample is taken; a body in another engine moves nevertheless.
+            external: the numbers of a `laws.person.caller_inputs.CallerInput`, if the plan is interactive.
         """
         self._change(k)
         if external is not None:
@@ -142,15 +142,15 @@ class Stepper:
         else:
             if self.interpreted is not None:
                 call["ask"](at)
-                self._answer()
+                self._ask_controller()
             if self.body is not None:
                 call["decide"](at)
                 self._advance(self.body)
             call["complete"](at)
         put("fresh", 0)
 
-    def _answer(self) -> None:
-        """Let the controller in plain Python decide."""
+    def _ask_controller(self) -> None:
+        """Call the controller in plain Python."""
         assert self.interpreted
         gains, memory = self.interpreted
         measured, reference = unflat(self.x, GIVEN)
@@ -163,13 +163,13 @@ class Stepper:
         self.v[STATE : STATE + body.readings.size] = body.readings
 
     def rest(self) -> None:
-        """Take no step for now; to be called ten times a second, or more often, by who lets a flight wait."""
+        """Keep a waiting flight alive; call it at least ten times a second while no step is taken."""
         if isinstance(self.body, WaitingBody):
             self.body.rest()
 
     @property
     def lost(self) -> bool:
-        """Whether the state is no longer sound."""
+        """Whether the flight has diverged."""
         return bool(self.a[self.at_lost] != 0.0)
 
 
@@ -181,7 +181,7 @@ def fly_stepwise(
     body: EngineBody | None = None,
     going: Callable[[], bool] = always,
 ) -> RawResult:
-    """Fly a mission step by step; as the loop does, to the last bit if the body is the same."""
+    """Fly a mission step by step; with the compiled body equal to the compiled loop to the last bit."""
     stepper, columns = Stepper(p, body), leaves(p.sample)
     log, last = np.zeros((rows, columns)), np.full(columns, math.nan)
     began, early, k = time.perf_counter(), EMPTY, 0

@@ -53,14 +53,14 @@ def yaw(bench: Bench) -> Iterator[Row]:
         "1 N at the beam's end: yaw rate", "steady", f"{rates.mean():.2f} ± {rates.std():.3f} rad/s", rates.std() < 0.05
     )
     pushed = (steady.time > 16.0) & (steady.time < 32.0)
-    yield below("the same: yaw tracking, at most", np.abs(heading(steady)[pushed]).max(), 1.0, "°", 2)
+    yield below("the same: largest yaw error", np.abs(heading(steady)[pushed]).max(), 1.0, "°", 2)
     late = strong.time > 34.0
     most = np.abs(strong["rates"][:, 2]).max()
     rest = np.abs(strong["rates"][late, 2]).max()
     yield Row(
-        "3 N at the beam's end for 2 s: yields, and recovers",
+        "3 N at the beam's end for 2 s: largest yaw rate, and after it",
         "at rest again",
         f"{most:.2f}, then {rest:.3f} rad/s",
         rest < 0.05,
     )
-    yield below("the same: yaw tracking once it is over, at most", np.abs(heading(strong)[late]).max(), 1.0, "°", 2)
+    yield below("the same: largest yaw error after it", np.abs(heading(strong)[late]).max(), 1.0, "°", 2)

@@ -62,11 +62,11 @@ def alone(bench: Bench) -> Iterator[Row]:
         least, passed = m["clearance_min_m"], through(mission, m)
         limit = f"through, ≥ {LEAST[name]:g} m" if LEAST[name] else "through"
         said = f"{'through' if passed else 'not through'}, {least:.2f} m"
-        yield Row(f"`{name}`: landed at its end, least clearance", limit, said, passed and least >= LEAST[name])
+        yield Row(f"`{name}`: landed at its end, smallest clearance", limit, said, passed and least >= LEAST[name])
         weight = mission.vehicle.payload.mass * GRAVITY
         force, work = m["human_force_mean_n"], m["human_work_per_path_j_m"]
-        said = f"{force:.2f} N, {work:.2f} J/m; carrying its payload by hand takes {weight:.2f} N all the way"
-        yield Row("the same: the person's mean force, work over the way", "", said, None)
+        said = f"{force:.2f} N, {work:.2f} J/m; carrying the payload by hand takes {weight:.2f} N"
+        yield Row("the same: the person's mean force, work per metre", "", said, None)
 
 
 def persons(bench: Bench) -> Iterator[Row]:
@@ -75,9 +75,9 @@ def persons(bench: Bench) -> Iterator[Row]:
     missions = random_persons("zigzag", bench.draws)
     flown = bench.metrics(missions)
     passed = sum(through(m, f) for m, f in zip(missions, flown, strict=True))
-    what = f"`zigzag`, {bench.draws} random persons: through, nothing touched, landed"
+    what = f"`zigzag`, {bench.draws} random persons: reached the end, touched nothing, landed"
     yield Row(what, f"{bench.draws} of {bench.draws}", f"{passed} of {bench.draws}", passed == bench.draws)
     clear = np.quantile([f["clearance_min_m"] for f in flown], [0.5, 0.05, 0.0])
-    yield Row("the same: clearance, median / 5 % / least", "", "{:.2f} / {:.2f} / {:.2f} m".format(*clear), None)
+    yield Row("the same: clearance, median / 5 % / min", "", "{:.2f} / {:.2f} / {:.2f} m".format(*clear), None)
     force, work = (np.mean([f[key] for f in flown]) for key in ("human_force_mean_n", "human_work_per_path_j_m"))
-    yield Row("the same: mean force, work over the way", "", f"{force:.2f} N, {work:.2f} J/m", None)
+    yield Row("the same: mean force, work per metre", "", f"{force:.2f} N, {work:.2f} J/m", None)

@@ -89,15 +89,17 @@ def rows_of(kind: str, outcomes: list[dict[str, Any]]) -> Iterator[Row]:
     said = "{:.2f} m/s, {:.1f}°, {:.2f} m"
     within = bool(np.all(worst <= np.array(limits)))
     yield Row(
-        "the same: touch-down, tilt, way, worst",
+        "the same: largest touch-down speed, tilt, distance",
         "≤ {:g} m/s, {:g}°, {:g} m".format(*limits),
         said.format(*worst),
         within,
     )
-    yield Row("the same: right rotor named", f"{count} of {count}", f"{len(found)} of {count}", len(found) == count)
+    yield Row(
+        "the same: correct rotor identified", f"{count} of {count}", f"{len(found)} of {count}", len(found) == count
+    )
     times = 1e3 * np.array(found)
     yield below(
-        "the same: found after, median / 95 % / most", np.quantile(times, [0.5, 0.95, 1.0]), [100.0] * 3, "ms", 0
+        "the same: detection time, median / 95 % / max", np.quantile(times, [0.5, 0.95, 1.0]), [100.0] * 3, "ms", 0
     )
 
 

@@ -32,9 +32,9 @@ def nominal(bench: Bench) -> Iterator[Row]:
     yield below("3 + 3 N of wind, gusts of 1 N rms: RMSE x / y / z", rms(errors(wind)), (18.0, 18.0, 2.0), "mm", 2)
     yield below("the same: mean offset", np.abs(errors(wind).mean(axis=0)), (3.0, 3.0, 3.0), "mm", 2)
     yield below("rotor lag 50 ms, delay 20 ms: RMSE x / y / z", rms(errors(slow)), (5.0, 5.0, 1.0), "mm", 2)
-    yield from wrong_belief(heavy, f"payload {HEAVIER} kg heavier than believed")
+    yield from wrong_belief(heavy, f"payload {HEAVIER} kg heavier than assumed")
     mass = heavy["payload_mass_estimate"][-1]
-    yield below("the same: error of the mass identified", abs(mass / (0.5 + HEAVIER) - 1.0) * 100.0, 2.0, "%", 2)
+    yield below("the same: error of the estimated mass", abs(mass / (0.5 + HEAVIER) - 1.0) * 100.0, 2.0, "%", 2)
     yield from wrong_belief(aside, f"payload's centre of mass off by {ASIDE} m")
     yield from saturated(real, calm, wind)
 
@@ -49,19 +49,25 @@ def real_row(flight: Flight) -> Row:
     """Mission iris as it is: biases, drift, misalignment, its own state estimate, from the floor and back to it."""
     lifted, landing = flight.mission["phases"]["lift_start"], flight.mission["phases"]["land_start"]
     values = rms(errors(flight, max(LATE, lifted), landing))
-    return below("`iris` as it is, from the floor, with biases and its own estimate", values, (4.0, 4.0, 1.0), "mm", 2)
+    return below(
+        "`iris` unchanged: from the floor, with sensor biases and its own state estimate",
+        values,
+        (4.0, 4.0, 1.0),
+        "mm",
+        2,
+    )
 
 
 def wrong_belief(flight: Flight, what: str) -> Iterator[Row]:
     """How far off the height is, five seconds after the lift."""
     p = flight.mission["phases"]
     off = np.abs(errors(flight, p["lift_start"] + p["lift_duration"] + 5.0, p["land_start"])[:, 2])
-    yield below(f"{what}: z, from 5 s after the lift, at most", off.max(), 3.0, "mm", 2)
+    yield below(f"{what}: largest z error from 5 s after the lift", off.max(), 3.0, "mm", 2)
 
 
 def saturated(real: Flight, calm: Flight, wind: Flight) -> Iterator[Row]:
     """Steps with a rotor at a limit."""
-    names = ("`iris` as it is", "calm, with the tilted start", "wind, with the tilted start")
+    names = ("`iris` unchanged", "calm, from the tilted start", "wind, from the tilted start")
     for flight, name, limit in zip((real, calm, wind), names, (0.1, 0.1, 2.0), strict=True):
         share = 100.0 * flight.metrics()["rotor_saturated_share"]
         yield below(f"steps with a saturated rotor, {name}", share, limit, "%", 3)
@@ -84,7 +90,8 @@ def draws(bench: Bench) -> Iterator[Row]:
     flights = bench.fly([drawn(rng, number) for number in range(bench.draws)])
     failed = sum(flight.divergence is not None for flight in flights)
     values = np.array([rms(errors(flight)) for flight in flights if flight.divergence is None])
-    yield Row(f"{bench.draws} draws of all at once: failures", "0", str(failed), failed == 0)
+    what = f"{bench.draws} random draws of all deviations together: failures"
+    yield Row(what, "0", str(failed), failed == 0)
     yield below("the same: worst RMSE x / y / z", values.max(axis=0), (25.0, 25.0, 3.0), "mm")
     yield Row(
         "the same: median RMSE x / y / z", "", f"{' / '.join(f'{v:.1f}' for v in np.median(values, axis=0))} mm", None

@@ -1,11 +1,11 @@
-"""What compiles the laws: a graph of what they compute, traced from their source, and machine code made of it.
+"""The compiler of the laws: it traces them into a graph and makes machine code of the graph.
 
-`graph` holds symbols and the graph that they build, `fused` what is traced in place of a law, `elementary` the
-functions that machine code has no instruction for, `layout` nested values in flat arrays, `llvm` the graph as text,
-`machine` the text as code, `code` machine code in two tiers, `store` what is kept on disk.
+`symbol` and `graph` build the graph; `fused` makes the copy of a law that is traced; `elementary` has the functions
+without a machine instruction; `layout` turns nested values into flat arrays; `llvm` writes the graph as text; `machine`
+compiles the text; `code` manages machine code in two tiers; `store` keeps it on disk.
 """
 
-from tandemlift.trace import elementary  # which `ops` asks for where it meets a symbol
+from tandemlift.trace import elementary  # `ops` imports it for symbols
 from tandemlift.trace.fused import traced
 from tandemlift.trace.graph import LEAVES, Graph, symbols, written_out
 from tandemlift.trace.layout import flat, is_value, leaves, rebuilt, unflat, zeroed

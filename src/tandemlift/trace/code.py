@@ -1,8 +1,8 @@
-"""Machine code in two tiers: unoptimised code is there in a moment, optimised code takes its place with the same bits.
+"""Machine code in two tiers: unoptimised code is ready in a moment; optimised code replaces it with the same bits.
 
-What was compiled before comes from disk. Optimised code is made beside, in a process of its own, once flights have
-spent so long in the other that it pays, or once a second process flies the same. TANDEMLIFT_OPTIMISE=0 leaves it out
-unless it is asked for.
+Code compiled before is read from disk. A separate process makes optimised code once flights have spent enough time in
+unoptimised code, or once a second process flies the same mission. TANDEMLIFT_OPTIMISE=0 disables this; `optimise()`
+still works.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ from concurrent.futures import Future, wait
 from typing import Any, NamedTuple
 
 from tandemlift.trace import machine, store
-from tandemlift.trace.compile_events import Compiled, Stopped, always, compiling
-from tandemlift.trace.optimising import optimised_beside
+from tandemlift.trace.compile_events import Compiled, Stopped, always, publish
+from tandemlift.trace.optimising import optimise_in_process
 
-PAYS = 2.0  # times what unoptimised code took to make: a third or so of what optimised code takes
-LOOP = "flight loop"  # what is compiled, unless the module says otherwise
-LOOK = 0.1  # s between looks at whether somebody interrupts
-ONE_AT_A_TIME = threading.Lock()  # as LLVM does anyway; who waits may still stop
-HELD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # keeps Python's lock: for calls of microseconds
-FREE = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # gives it up: for calls that take long
+PAYS = 2.0  # times the compile time of unoptimised code: about a third of that of optimised code
+LOOP = "flight loop"  # the name in notices, unless the module has another
+LOOK = 0.1  # s, between checks for Ctrl-C
+ONE_AT_A_TIME = threading.Lock()  # as LLVM does anyway; a waiting compilation can still be stopped
+HELD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # keeps Python's lock (GIL): for calls of microseconds
+FREE = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)  # releases it: for long calls
 
 
 class Written(NamedTuple):
-    """A module as text, and what must be known to call its functions."""
+    """A module as text, and the facts that its callers need."""
 
     text: str
     about: dict[str, Any]
@@ -43,7 +43,7 @@ def _compiled(text: str, going: Callable[[], bool]) -> bytes:
 
 
 def _interruptible(work: Callable[[], bytes]) -> bytes:
-    """What `work` gives. The main thread waits for it, and hears Ctrl-C meanwhile: LLVM cannot be interrupted."""
+    """The result of `work`, run in a thread so that the main thread receives Ctrl-C, which LLVM would not."""
     if threading.current_thread() is not threading.main_thread():
         return work()
     done: Future[bytes] = Future()
@@ -61,17 +61,17 @@ def _interruptible(work: Callable[[], bytes]) -> bytes:
 
 
 class Code:
-    """The functions of a module, called with the address of a context; each gives an integer.
+    """The functions of a module; each takes the address of a context and returns an integer.
 
     Args:
-        key: of everything that decides it (`trace.key`).
-        names: of its functions.
-        write: gives the module as text; asked only if no code is on disk.
-        best: how much is done for the speed of optimised code.
-        going: whether to go on; asked before what cannot be interrupted.
+        key: hash of everything that determines the code (`trace.key`).
+        names: names of its functions.
+        write: returns the module as text; called only if no code is on disk.
+        best: optimisation level of optimised code.
+        going: whether to go on; called before a compilation, which cannot be interrupted.
 
     Attributes:
-        about: what must be known to call the functions.
+        about: facts that the callers need.
         is_best: whether the optimised code is in place.
     """
 
@@ -102,7 +102,7 @@ class Code:
 
     def _quick(self, going: Callable[[], bool]) -> store.StoredCode:
         began = time.perf_counter()
-        compiling(None)
+        publish(None)
         came = Compiled(LOOP)
         try:
             written = self._text()
@@ -113,7 +113,7 @@ class Code:
             store.write(f"{self._key}-text", store.StoredCode({}, zlib.compress(written.text.encode(), 1)))
             came = Compiled(entry.about.get("what", LOOP), seconds, kept, is_made=True)
         finally:
-            compiling(came)
+            publish(came)
         return entry
 
     def _take(self, code: bytes) -> None:
@@ -121,13 +121,13 @@ class Code:
         for name, address in self._loaded.addresses.items():
             self.held[name], self.free[name] = HELD(address), FREE(address)
 
-    def called(self, name: str, context: int) -> Callable[[], int]:
-        """A function that calls one of the functions with a context, always the best code that there is."""
+    def bound(self, name: str, context: int) -> Callable[[], int]:
+        """One of the functions, bound to a context; a call always runs the best code available."""
         held, address = self.held, ctypes.c_void_p(context)
         return lambda: held[name](address)
 
-    def spent(self, seconds: float) -> None:
-        """Tell of time spent in this code: optimised code is made once it pays."""
+    def add_time(self, seconds: float) -> None:
+        """Count time [s] spent in this code; optimised code is made once it pays."""
         if self.is_best or os.environ.get("TANDEMLIFT_OPTIMISE") == "0":
             return
         with self._lock:
@@ -136,10 +136,10 @@ class Code:
             self.optimise()
 
     def optimise(self, *, trace_first: bool = False) -> threading.Thread | None:
-        """Make optimised code beside, in a process of its own; the thread that waits for it, if there is one.
+        """Make optimised code in a separate process; the thread that waits for it, or None if none is needed.
 
         Args:
-            trace_first: whether the module is traced before this returns, if it was not yet; else beside as well.
+            trace_first: trace the module before this call returns, if it was not traced yet, instead of in the thread.
         """
         if trace_first and not self.is_best and not store.read(f"{self._key}-text"):
             self._text()
@@ -153,15 +153,15 @@ class Code:
 
     def _improve(self) -> None:
         found = store.read(f"{self._key}-best")
-        code = found.code if found else optimised_beside(self._text_on_disk(), self._best, self._key)
+        code = found.code if found else optimise_in_process(self._text_on_disk(), self._best, self._key)
         if code is None:
-            return  # what there is flies on
-        before = self._loaded  # a call may still be in it
+            return  # unoptimised code stays in use
+        before = self._loaded  # a call may still run in it
         self._take(code)
         self._kept, self.is_best = before, True
         self._written = None
 
     def _text_on_disk(self) -> str:
-        """The module as text; from disk rather than traced once more."""
+        """The module as text; from disk if possible, rather than traced again."""
         found = None if self._written else store.read(f"{self._key}-text")
         return zlib.decompress(found.code).decode() if found else self._text().text

@@ -1,4 +1,4 @@
-"""What the core tells while it works, to whoever shows it: that a loop is compiled; and how it is told to stop."""
+"""Events of compilations for those who display them, and the exception that stops work."""
 
 from __future__ import annotations
 
@@ -8,16 +8,23 @@ from typing import NamedTuple
 
 
 class Stopped(Exception):
-    """Work that is not to go on."""
+    """Work was stopped by its caller."""
 
 
 def always() -> bool:
-    """Whether to go on: yes."""
+    """True: go on without end."""
     return True
 
 
 class Compiled(NamedTuple):
-    """What was compiled, or could not be: how long it took [s], whether it is on disk for the next process."""
+    """The end of a compilation.
+
+    Attributes:
+        what: name of what was compiled.
+        seconds: the time it took [s].
+        is_kept: whether it is on disk for the next process.
+        is_made: whether it succeeded.
+    """
 
     what: str
     seconds: float = 0.0
@@ -29,15 +36,15 @@ Watcher = Callable[[Compiled | None], None]
 _watchers: list[Watcher] = []
 
 
-def compiling(what: Compiled | None) -> None:
-    """Tell that a loop begins to be compiled (None), or what came of it; from any thread."""
+def publish(what: Compiled | None) -> None:
+    """Publish that a compilation begins (None) or has ended; from any thread."""
     for watch in tuple(_watchers):
         watch(what)
 
 
 @contextmanager
 def watching(watch: Watcher) -> Iterator[None]:
-    """Let somebody be told for a while."""
+    """Call `watch` with each event while the context is open."""
     _watchers.append(watch)
     try:
         yield

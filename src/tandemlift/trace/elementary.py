@@ -5,7 +5,7 @@ log within 1 ulp, exp 1.25, atan2 2.75, tanh 2.75, sin and cos 2 for |x| ≤ 1e3
 within a relative (2 + p |ln x|) 2⁻⁵². A zero of either sign is taken as +0. Method: Muller, Elementary Functions, 3rd
 ed., chapters 3 and 11.
 
-Of plain numbers each gives the number that machine code gives.
+For plain numbers each returns the same number as machine code.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ TAN_EIGHTH = 0.41421356237309503  # tan(π/8)
 
 
 def polynomial(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of this file, fused when it is first called."""
+    """Mark a function of this file; it is fused at its first call."""
 
     @functools.wraps(function)
     def call(*args: Any) -> Any:
@@ -50,8 +50,8 @@ def as_bits(x: Any) -> Any:
     return struct.unpack("<q", struct.pack("<d", x))[0]
 
 
-def whole(x: Any) -> Any:
-    """A number cut to an integer, as `int` does."""
+def to_integer(x: Any) -> Any:
+    """A number truncated to an integer, as by `int`."""
     if not isinstance(x, Symbol):
         return int(x)
     return x if x.type == "i" else converted("fptosi", x, "i")
@@ -126,7 +126,7 @@ def _exp_parts(x: Any) -> Any:
 
 @polynomial
 def exp(x: Any) -> Any:
-    """eˣ, with x held within [−708, 709]."""
+    """eˣ, with x limited to [−708, 709]."""
     p, q = _exp_parts(select(x < -708.0, -708.0, select(x > 709.0, 709.0, x)))
     return p + p * q
 

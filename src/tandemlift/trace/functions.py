@@ -1,4 +1,4 @@
-"""Any function of values as machine code over rows of numbers: for tests, benchmarks and studies of laws alone."""
+"""Machine code of any function of values over rows of numbers, for tests, benchmarks and studies of single laws."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from tandemlift.trace.text import Module
 
 
 def written(function: Callable[..., Any], *likes: Any, lanes: int = 1, rolls_from: int = 0) -> tuple[str, int]:
-    """A module whose `rows` evaluates a function as `compiled` does, as text, and how many numbers it gives."""
+    """The text of a module whose `rows` evaluates a function as `compiled` does, and the number of its results."""
     graph, ends = Graph(rolls_from), list(itertools.accumulate(map(leaves, likes), initial=0))
     arguments = [graph.inputs("x", like, first) for like, first in zip(likes, ends, strict=False)]
     found = symbols(graph, traced(function)(*arguments))
     module = Module()
     f = Function(module, graph, lanes, "i64 @rows(ptr %x, ptr %y, i64 %count) #0")
     with f.repeat("%count") as row:
-        x = f.at("%x", f.whole("mul", row, ends[-1]))
-        y = f.at("%y", f.whole("mul", row, len(found)))
+        x = f.at("%x", f.integer("mul", row, ends[-1]))
+        y = f.at("%y", f.integer("mul", row, len(found)))
         f.read["x"] = lambda i: Place(x, i)
         f.put(y, 0, found)
     f.end("i64 0")
@@ -46,13 +46,13 @@ def compiled(
     Args:
         function: a law, or any function of values that can be traced; a law is fused as in a flight.
         likes: a value laid out like each of its arguments (a number for a number).
-        lanes: rows that one instruction serves, 1 or a power of two.
-        level: how much is done for the speed of the code.
-        rolls_from: how many values a set must have to be served by a loop; 0 for never.
+        lanes: rows per instruction, 1 or a power of two.
+        level: optimisation level.
+        rolls_from: size from which on sets are handled in loops; 0 for never.
 
     Returns:
-        A function from (rows, numbers of all arguments) to (rows, numbers of what it returns), depth first; a number of
-        rows that is no multiple of the lanes is filled up with the last one.
+        A function from (rows, numbers of all arguments) to (rows, numbers of what it returns), depth first. The
+        last row is repeated up to a multiple of the lanes.
 
     Raises:
         TraceError: the function cannot be traced.

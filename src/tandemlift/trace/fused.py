@@ -1,8 +1,8 @@
-"""The copy of a law that is traced: a·b + c in its source becomes one fused operation, wherever it is run.
+"""The copy of a law that is traced: each a·b + c of its source becomes one fused multiply-add.
 
-A compiler may contract a product and a sum as it likes, differently for one flight and for a block of flights. Here the
-choice is made once, in the source of the law, so that all machine code rounds alike. Plain Python keeps the unfused
-source. A law whose source cannot be read, or that stands inside another function, is traced as it is, unfused.
+A compiler could contract products and sums differently for one flight and for a block of flights. Here the choice is
+made once, in the source of the law, so that all machine code rounds alike. Plain Python runs the unfused source. A law
+whose source cannot be read, or that is defined inside another function, is traced unfused.
 """
 
 from __future__ import annotations
@@ -62,12 +62,12 @@ def _definitions(source: str) -> dict[tuple[str, int], ast.FunctionDef]:
 
 
 def _source(function: Callable[..., Any]) -> ast.FunctionDef | None:
-    """The definition of a function, if it can be read and stands by itself."""
+    """The definition of a function, if its source can be read and it is no inner function."""
     if not isinstance(function, types.FunctionType) or function.__closure__:
         return None
     code = function.__code__
     try:
-        source = "".join(linecache.getlines(code.co_filename))  # as it was run, where `load_controller` did that
+        source = "".join(linecache.getlines(code.co_filename))  # the text that ran, also for files of `load_controller`
         return _definitions(source).get((code.co_name, code.co_firstlineno))
     except (SyntaxError, ValueError):
         return None
@@ -90,7 +90,7 @@ def _bare(given: ast.arguments) -> ast.arguments:
 
 @functools.cache
 def fused(function: Callable[..., Any]) -> Callable[..., Any]:
-    """The copy of a law that is traced: fused, and calling what stands for other laws while they are traced."""
+    """The fused copy of a law, which calls the traced forms of other laws."""
     with ONE_AT_A_TIME:
         node = _source(function)
         if node is None:
@@ -105,14 +105,14 @@ def fused(function: Callable[..., Any]) -> Callable[..., Any]:
     scope: dict[str, Any] = {name: traced(known[name]) for name in used if name in known}
     scope |= {"__builtins__": builtins, FMA: fma}
     if "int" in used:
-        scope["int"] = _elementary("whole")
+        scope["int"] = _elementary("to_integer")
     copy = types.FunctionType(code, scope, function.__name__, function.__defaults__)
     copy.__kwdefaults__ = function.__kwdefaults__
     return copy
 
 
 def _elementary(name: str) -> Callable[..., Any]:
-    from tandemlift.trace import elementary  # which is made of fused functions
+    from tandemlift.trace import elementary  # which uses fused functions itself
 
     return getattr(elementary, name)
 
@@ -126,7 +126,7 @@ def _marked(count: int) -> frozenset[Callable[..., Any]]:
 
 
 def _run(law: Callable[..., Any], *args: Any) -> Any:
-    """A law on symbols; one of a user's own that fails on them is refused."""
+    """Run a law on symbols; a user's law that fails on them is refused."""
     try:
         return fused(law)(*args)
     except InputError:
@@ -141,7 +141,7 @@ def _run(law: Callable[..., Any], *args: Any) -> Any:
 
 
 def traced(thing: Any) -> Any:
-    """What stands for a global name of a law while it is traced."""
+    """The traced form of an object that a law uses by a global name."""
     if isinstance(thing, Elementwise):
         return thing.calling(traced(thing.scalar))
     if isinstance(thing, Choice):

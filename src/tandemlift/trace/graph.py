@@ -1,7 +1,7 @@
-"""A graph of operations on numbers, which symbols build when a law is run on them.
+"""A graph of operations on numbers, built by symbols when a law runs on them.
 
-A node is (operation, arguments, type). Equal nodes are one node, so that what occurs twice is computed once. Types: `f`
-a double, `b` a truth, `i` a 64-bit integer. A set of many numbers is one node, with their count.
+A node is (operation, arguments, type). Equal nodes are one node, so nothing is computed twice. Types: `f` a double, `b`
+a truth, `i` a 64-bit integer. A large set of numbers is one node with a count.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LEAVES = ("const", "in")
 
 
 class Graph:
-    """Nodes by number, in the order in which they were made: arguments come before what is made of them."""
+    """Nodes by number, in the order of their creation: arguments come first."""
 
     def __init__(self, rolls_from: int = 0) -> None:
         self.ops: list[str] = []
@@ -31,7 +31,7 @@ class Graph:
         self._known: dict[Any, int] = {}
 
     def node(self, op: str, args: tuple[Any, ...], kind: str, count: int = -1) -> int:
-        """The number of a node; a new one if there is none like it. `count`: that of its arguments, if not given."""
+        """The number of a node; a new node unless an equal one exists. `count`: by default that of its arguments."""
         if count < 0:
             count = max([self.counts[a] for a in args]) if self.rolls_from and op not in LEAVES else 0
         key = (op, args, kind, count)
@@ -39,7 +39,7 @@ class Graph:
         if found is None:
             found = self._known[key] = len(self.ops)
             if found >= MOST_NODES:
-                raise refused_here(f"makes more than {MOST_NODES:,} operations: write it for fewer")
+                raise refused_here(f"makes more than {MOST_NODES:,} operations: write it with fewer")
             self.ops.append(op)
             self.args.append(args)
             self.types.append(kind)
@@ -47,7 +47,7 @@ class Graph:
         return found
 
     def needed(self, roots: Iterable[int], known: Container[int] = ()) -> list[int]:
-        """The nodes that roots need, in their order, and that are not known; what those alone need is left out."""
+        """The unknown nodes that roots need, in order; what only known nodes need is left out."""
         seen, stack = set[int](), list(roots)
         while stack:
             node = stack.pop()
@@ -59,11 +59,11 @@ class Graph:
         return sorted(seen)
 
     def input(self, kind: str, index: int = 0, type: str = "f") -> Symbol:
-        """A number that is given when the graph is evaluated."""
+        """An input: a number that is known only when the graph is evaluated."""
         return Symbol(self, self.node("in", (kind, index), type), type)
 
     def inputs(self, kind: str, like: Any, first: int = 0) -> Any:
-        """A nested value laid out like `like` whose numbers are given, as inputs `first` and on of a kind."""
+        """A nested value laid out like `like`, whose numbers are the inputs of a kind from `first` on."""
         if is_set(like) and 0 < self.rolls_from <= len(like):
             return Symbol(self, self.node("in", (kind, first), "f", len(like)), "f")
         if not is_value(like):
@@ -124,14 +124,14 @@ class Graph:
 
 
 def written_out(value: Any) -> Any:
-    """A nested value with its sets value by value, none as one symbol."""
+    """A nested value whose sets are tuples of symbols instead of single symbols."""
     if isinstance(value, Symbol):
         return each(value.rolled)(*value) if value.rolled else value
     return type(value)(*map(written_out, value)) if is_value(value) else value
 
 
 def symbols(graph: Graph, value: Any) -> list[Symbol]:
-    """The numbers of a nested value, or of a tuple of such, as symbols, those that are known as well."""
+    """The numbers of a nested value, or of a tuple of such, as symbols; constants too."""
     if isinstance(value, tuple) or (isinstance(value, Symbol) and value.rolled):
         return [s for part in value for s in symbols(graph, part)]
     return [Symbol(graph, graph.number(value), "f")]

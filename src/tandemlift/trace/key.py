@@ -1,4 +1,4 @@
-"""What decides machine code: the sources of the laws, the layouts of their values, the processor, the versions."""
+"""Keys of machine code: hashes of the sources, the layouts of the values, the processor and the versions."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ def classes(value: Any) -> set[type]:
 
 
 def sources(value: Any) -> list[Path]:
-    """Every file that the code for values like this one is made of."""
+    """All source files that determine the code for values like this one."""
     own = {p for folder in FOLDERS for p in (PACKAGE / folder).rglob("*.py")}
     own |= {PACKAGE / f"{name}.py" for name in FILES}
     theirs = {Path(inspect.getfile(c)) for c in classes(value) if not c.__module__.startswith("tandemlift.")}
-    if theirs:  # a user's own laws may call others, of other files
+    if theirs:  # a user's laws may call laws of other files
         files = {Path(law.__code__.co_filename) for law in LAWS if not is_ours(law.__code__)}
         theirs |= {path for path in files if path.is_file()}
     return sorted(own | theirs)
@@ -45,7 +45,7 @@ def _content(path: Path, changed: int, size: int) -> bytes:
 
 
 def content(path: Path) -> bytes:
-    """What a file holds; one of this package as it was at first, for that is what runs, another as it is now."""
+    """Content of a file; of a file of this package the content at its first use, because that is what runs."""
     if path.is_relative_to(PACKAGE):
         return _content(path, 0, 0)
     found = path.stat()
@@ -65,8 +65,8 @@ def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
 
     Args:
         value: nested, or a tuple of such.
-        more: whatever else decides it.
-        files: what it is made of, beside `trace`, if that is not a flight.
+        more: further values that determine the code.
+        files: its sources beside `trace`, if it is not the code of a flight.
     """
     from tandemlift.trace.machine import processor
 

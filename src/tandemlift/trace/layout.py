@@ -1,6 +1,6 @@
-"""A nested value and its numbers in a flat array, depth first.
+"""Nested values as flat arrays of numbers, depth first.
 
-Leaf i of lane l of `lanes` interleaved values stands at a[i * lanes + l].
+Leaf i of lane l of `lanes` interleaved values is a[i * lanes + l].
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ def flat(value: Any) -> list[float]:
 
 
 def leaves(value: Any) -> int:
-    """How many numbers a nested value holds."""
+    """Number of leaves of a nested value."""
     return sum(map(leaves, value)) if is_value(value) else 1
 
 
@@ -29,10 +29,10 @@ def zeroed(value: Any) -> Any:
 
 
 def unflat(numbers: Any, like: Any) -> Any:
-    """The nested value laid out like `like` whose numbers are `numbers`, as Python floats."""
+    """A nested value laid out like `like` with these numbers, as Python floats."""
     return rebuilt(map(float, numbers), like)
 
 
 def rebuilt(leaves: Any, like: Any) -> Any:
-    """The nested value laid out like `like` of the next leaves of an iterator."""
+    """A nested value laid out like `like`, made of the next leaves of an iterator."""
     return type(like)(*[rebuilt(leaves, part) for part in like]) if is_value(like) else next(leaves)

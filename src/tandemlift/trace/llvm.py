@@ -1,8 +1,8 @@
-"""A graph as text of LLVM's language: scalars for one flight, vectors of `lanes` numbers for as many flights.
+"""A graph as LLVM text: scalars for one flight, vectors of `lanes` numbers for a block of flights.
 
 A `Function` is written from top to bottom: nodes by `values`, memory by `load` and `store`, loops and branches as
-contexts. What depends on the same numbers in all lanes (time, constants) stays a scalar. Nodes written inside a loop or
-a branch are known there alone.
+contexts. Values that are equal in all lanes (time, constants) stay scalars. Nodes written inside a loop or a branch are
+known only there.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from tandemlift.trace.text import BASE, Module, Text, constant
 
 BINARY = frozenset(["fadd", "fsub", "fmul", "fdiv", "add", "sub", "mul", "and", "or", "xor", "shl", "ashr"])
 INTRINSICS = {"fma": "fma", "sqrt": "sqrt", "fabs": "fabs", "floor": "floor"}
-CYCLES = {"fma": 4, "fmul": 3, "fadd": 3, "fsub": 3, "fdiv": 13, "sqrt": 20, "select": 2}  # about, until the result
+CYCLES = {"fma": 4, "fmul": 3, "fadd": 3, "fsub": 3, "fdiv": 13, "sqrt": 20, "select": 2}  # approximate latency
 Read = Callable[[int], "str | Place"]
 
 
@@ -26,16 +26,16 @@ class Function(Text):
     """One function over the nodes of a graph.
 
     Args:
-        module: where it goes.
-        graph: whose nodes it computes.
-        lanes: how many numbers a value holds, one for each flight.
+        module: the module that it belongs to.
+        graph: the graph whose nodes it computes.
+        lanes: numbers in a value, one for each flight.
         head: its name and parameters, as in `i64 @fly(ptr %c)`.
-        uniform: kinds of inputs that are the same in all lanes.
+        uniform: kinds of inputs that are equal in all lanes.
 
     Attributes:
-        read: for each kind of input, how an input of that kind is had here.
-        kept: nodes that were computed before, elsewhere, and how each is had here.
-        sets: sets of many numbers.
+        read: for each kind of input, a function from its index to its text or place.
+        kept: nodes computed elsewhere before, each with a function to its text or place.
+        sets: large sets of numbers.
     """
 
     def __init__(self, module: Module, graph: Graph, lanes: int, head: str, uniform: Iterable[str] = ()) -> None:
@@ -49,7 +49,7 @@ class Function(Text):
 
     @contextmanager
     def scope(self) -> Iterator[None]:
-        """What is computed within is not known behind."""
+        """Forget afterwards what is computed inside the context."""
         lengths = [(known, len(known)) for known in self._known]
         read = dict(self.read)
         yield
@@ -60,7 +60,7 @@ class Function(Text):
 
     @contextmanager
     def afresh(self) -> Iterator[None]:
-        """What is computed before is not known within, nor what is computed within behind: memory has changed."""
+        """Forget what was computed before, and afterwards what is computed inside, because memory has changed."""
         before = self._values, self._spread, self.sets.places
         self._values, self._spread, self.sets.places = {}, {}, {}
         yield
@@ -83,26 +83,26 @@ class Function(Text):
         return known[node]
 
     def values(self, symbols: Iterable[Symbol]) -> list[str]:
-        """What symbols are, in all lanes."""
+        """The values of symbols in all lanes, as text."""
         nodes = [s.node for s in symbols]
         self.write(nodes)
         return [self._operand(node, spread=True) for node in nodes]
 
     def value(self, symbol: Symbol) -> str:
-        """What a symbol is, in all lanes."""
+        """The value of a symbol in all lanes, as text."""
         return self.values([symbol])[0]
 
     def scalar(self, symbol: Symbol) -> str:
-        """What a symbol is that has the same value in all lanes."""
+        """The scalar of a symbol that is equal in all lanes, as text."""
         self.write([symbol.node])
         return self._operand(symbol.node, spread=False)
 
     def operand(self, node: int) -> str:
-        """A number that has been computed here, in all lanes."""
+        """A number already computed in this function, in all lanes."""
         return self._operand(node, spread=True)
 
     def known(self) -> set[int]:
-        """The nodes that have been computed here."""
+        """The nodes already computed in this function."""
         return {*self._values, *self.sets.places}
 
     def _kind(self, type: str, uniform: bool) -> str:
@@ -132,7 +132,7 @@ class Function(Text):
         return sorted(seen) if self.lanes > 1 or g.rolls_from else self._by_urgency(sorted(seen))
 
     def _by_urgency(self, nodes: list[int]) -> list[int]:
-        """Nodes in an order in which those come first whose consequences take longest."""
+        """Nodes in the order of the longest chain of operations that depends on them, longest first."""
         g, urgency = self.graph, dict.fromkeys(nodes, 0)
         for node in reversed(nodes):
             if g.ops[node] not in LEAVES and node not in self.kept:
@@ -143,11 +143,11 @@ class Function(Text):
         return sorted(nodes, key=lambda node: (-urgency[node], node))
 
     def is_leaf(self, node: int) -> bool:
-        """Whether a node is had here without its arguments."""
+        """Whether a node is available without its arguments."""
         return self.graph.ops[node] in LEAVES or node in self.kept
 
     def write(self, roots: list[int]) -> None:
-        """Compute nodes, and what they need."""
+        """Compute nodes and all their arguments."""
         nodes = self._missing(roots)
         if any(self.graph.counts[node] for node in nodes):
             self.sets.write(nodes, roots)
@@ -156,35 +156,35 @@ class Function(Text):
                 self.write_number(node)
 
     def write_number(self, node: int) -> None:
-        """Compute a number whose arguments are known here."""
+        """Compute a number whose arguments are already computed."""
         g = self.graph
         op, args = g.ops[node], g.args[node]
-        if op == "const" or node in self._values:  # an input may be had from other nodes
+        if op == "const" or node in self._values:  # the reader of an input may compute other nodes
             return
         if op == "in":
-            self._values[node] = self._had(self.read[args[0]](args[1]))
+            self._values[node] = self._text_of(self.read[args[0]](args[1]))
         elif node in self.kept:
-            self._values[node] = self._had(self.kept[node]())
+            self._values[node] = self._text_of(self.kept[node]())
         elif op.startswith("get "):
             at = self.sets.places[args[0]]
-            self._values[node] = self.load(at.base, self.whole("add", at.first, int(op[4:]) * at.stride))
+            self._values[node] = self.load(at.base, self.integer("add", at.first, int(op[4:]) * at.stride))
         else:
             uniform = self.is_uniform(node)
             operands = [self._operand(a, not uniform) for a in args]
             self._values[node] = self.op(self.instruction(node, lambda t: self._kind(t, uniform), operands))
 
-    def _had(self, given: str | Place) -> str:
+    def _text_of(self, given: str | Place) -> str:
         return self.load(given.base, given.first) if isinstance(given, Place) else given
 
     def put(self, base: str, at: str | int, symbols: Sequence[Symbol], kind: str = "") -> None:
-        """Write numbers to memory, one behind the other, all values of a set in a loop.
+        """Write numbers to consecutive memory, the values of a set in a loop.
 
-        Everything is computed before anything is written. What is an input of `kind` is where it belongs already.
+        Everything is computed before anything is written. Inputs of `kind` are in place already.
         """
         self.sets.put(base, at, symbols, kind)
 
     def instruction(self, node: int, kind_of: Callable[[str], str], x: list[str]) -> str:
-        """What computes a node from operands; `kind_of`: LLVM's name for a type of the graph."""
+        """The instruction that computes a node from operands; `kind_of`: LLVM's name for a type of the graph."""
         g = self.graph
         op, kind = g.ops[node], kind_of(g.types[node])
         if op in BINARY:
@@ -198,7 +198,7 @@ class Function(Text):
             return f"{op} {given} {x[0]}, {x[1]}"
         if op == "fneg":
             return f"fneg {kind} {x[0]}"
-        if op == "fptosi":  # a number that is none gives 0, one that is too large the largest
+        if op == "fptosi":  # NaN gives 0, a number out of range the nearest integer
             return self._intrinsic("llvm.fptosi.sat", kind, given, x)
         if op in ("sitofp", "uitofp"):
             return f"{op} {given} {x[0]} to {kind}"

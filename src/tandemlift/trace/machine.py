@@ -1,4 +1,4 @@
-"""Text of LLVM's language to machine code of this processor, by llvmlite."""
+"""LLVM text to machine code for this processor, by llvmlite."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import llvmlite.binding as llvm
 
 
 class Level(NamedTuple):
-    """How much is done for speed: passes over the text, generation of code, neighbours as vectors."""
+    """Optimisation level: of the passes, of the code generator, and whether neighbouring operations become vectors."""
 
     passes: int
     code: int
@@ -56,10 +56,10 @@ def compiled(text: str, level: Level = BEST) -> bytes:
 
 
 class Loaded:
-    """Object code in memory, ready to be called.
+    """Object code in memory, ready for calls.
 
     Attributes:
-        addresses: of its functions by name.
+        addresses: address of each function by name.
     """
 
     def __init__(self, code: bytes, names: Iterable[str]) -> None:

@@ -1,7 +1,7 @@
-"""Optimised machine code, made in a process of its own: LLVM works on one module at a time in a process.
+"""Optimised machine code, made in a separate process, because LLVM compiles one module at a time in a process.
 
-`python -m tandemlift.trace.optimising LEVEL KEY CHECKSUM` reads a module as text, keeps its object code on disk and
-writes it. Such a process ends by itself, a few seconds after the one that began it at the latest.
+`python -m tandemlift.trace.optimising LEVEL KEY CHECKSUM` reads a module as text, stores its object code on disk and
+prints it. The process ends by itself, at most a few seconds after the one that started it.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ import sys
 from tandemlift.trace import store
 from tandemlift.trace.machine import Level, compiled
 
-COURTESY = 10  # of the process: it leaves the processor to those that fly
+NICENESS = 10  # of the process, so that flights have priority
 RUNNING: set[subprocess.Popen[bytes]] = set()
 
 
-def optimised_beside(text: str, level: Level, key: str) -> bytes | None:
-    """The object code of a module, optimised so far, which is kept under a key; None if it cannot be made."""
+def optimise_in_process(text: str, level: Level, key: str) -> bytes | None:
+    """The optimised object code of a module, also stored under the key; None if it cannot be made."""
     data, pipe = text.encode(), subprocess.PIPE
     given = [*[str(int(part)) for part in level], key, hashlib.sha256(data).hexdigest()]
     command = [sys.executable, "-m", "tandemlift.trace.optimising", *given]
@@ -36,19 +36,19 @@ def optimised_beside(text: str, level: Level, key: str) -> bytes | None:
 
 
 @atexit.register
-def leave() -> None:
-    """Let what is being made be finished for the next process, and wait for nothing."""
+def detach() -> None:
+    """Do not wait for running processes: they finish and store their code for the next process."""
     for process in list(RUNNING):
         process.returncode = 0
 
 
 def main(passes: str, code: str, vectors: str, key: str, checksum: str) -> None:
-    """Read a module from standard input; keep its object code, and write it to standard output."""
+    """Read a module from standard input, store its object code, and write it to standard output."""
     if hasattr(os, "nice"):
-        os.nice(COURTESY)
+        os.nice(NICENESS)
     data = sys.stdin.buffer.read()
     if hashlib.sha256(data).hexdigest() != checksum:
-        sys.exit("the module is cut short: who wrote it has ended")
+        sys.exit("the module is incomplete: the process that wrote it has ended")
     made = compiled(data.decode(), Level(int(passes), int(code), bool(int(vectors))))
     if quick := store.read(f"{key}-quick"):
         store.write(f"{key}-best", store.StoredCode(quick.about, made))

@@ -1,4 +1,4 @@
-"""Laws that cannot be traced are refused by name, file and line, with what is allowed."""
+"""Errors for laws that cannot be traced: name, file, line, and what is allowed instead."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ OURS = str(Path(__file__).parent.parent)
 
 
 class TraceError(InputError):
-    """A law cannot be traced: it asks a symbol for what only a number has."""
+    """A law cannot be traced: it asks a symbol for something that only a number has."""
 
 
 def is_ours(code: CodeType) -> bool:
-    """Whether a function is one of this package."""
+    """Whether a function belongs to this package."""
     return code.co_filename.startswith(OURS)
 
 
 def refused(what: str, code: CodeType, line: int) -> TraceError:
-    """That a law cannot be traced: its file, line and name, why, and what is allowed."""
+    """The error for a law that cannot be traced: file, line, name, reason, and what is allowed."""
     way = "" if is_ours(code) else "; or register the controller with compiled=False"
     return TraceError(f"{code.co_filename}, line {line}: {code.co_name}() {what}{way}")
 
 
 def refused_here(what: str) -> TraceError:
-    """That the innermost law that is being traced cannot be: of a user's own, the function that has it."""
+    """The error for the innermost law being traced; inside a user's file, for the user's function."""
     frame = sys._getframe(1)
     while frame.f_back and frame.f_code.co_filename.startswith(HERE):
         frame = frame.f_back

@@ -1,8 +1,8 @@
-"""Sets of many numbers in machine code: arrays in memory, and one loop over what is done to all of their values.
+"""Large sets of numbers in machine code: arrays in memory, and loops over their values.
 
-A function writes its nodes in stages. All numbers of a stage come first, then a loop for the sets of each size, in
-which every value of a set goes through the same instructions. What a later stage needs of them waits in memory. The
-bits are those of the same laws written out value by value.
+A function writes its nodes in stages. First come all numbers of a stage, then for each size of set one loop, in which
+every value passes through the same instructions. Memory keeps what a later stage needs. The bits are the same as
+without loops.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from tandemlift.trace.text import BASE, constant, double
 if TYPE_CHECKING:
     from tandemlift.trace.llvm import Function
 
-WIDEST = 8  # values of a set that one instruction serves in a flight alone
+WIDEST = 8  # values of a set per instruction in a flight alone
 
 
 class Place(NamedTuple):
-    """Values in memory: where the first stands, counted in numbers of all lanes, and how far on each next one."""
+    """Values in memory: base address, offset of the first value, and stride, both in numbers of all lanes."""
 
     base: str
     first: str | int
@@ -29,7 +29,7 @@ class Place(NamedTuple):
 
 
 def stages(f: Function, nodes: Iterable[int]) -> dict[int, int]:
-    """The stage of every node: a number that is made of a set comes a stage after it."""
+    """The stage of each node: a number computed from a set comes one stage after it."""
     g, found = f.graph, dict[int, int]()
     for node in nodes:
         stage = 0
@@ -42,14 +42,14 @@ def stages(f: Function, nodes: Iterable[int]) -> dict[int, int]:
 
 
 def width_of(f: Function, count: int) -> int:
-    """How many values of a set one instruction serves: lanes are served by vectors already."""
+    """Values of a set per instruction; 1 in a block, whose lanes fill the vectors already."""
     if f.lanes > 1:
         return 1
     return next(w for w in (WIDEST, 4, 2, 1) if count % w == 0)
 
 
 class Loop:
-    """The loop over the values of sets of one size, at `i`, `width` of them at a time."""
+    """The loop over the values of sets of one size; an iteration handles `width` values from `i` on."""
 
     def __init__(self, f: Function, count: int, i: str) -> None:
         self.f, self.i, self.width = f, i, width_of(f, count)
@@ -62,7 +62,7 @@ class Loop:
         return base if lanes == 1 else f"<{lanes} x {base}>"
 
     def operand(self, node: int) -> str:
-        """A number, or the values of a set that this turn of the loop is about."""
+        """A number, or the values of a set that this iteration handles."""
         f, g = self.f, self.f.graph
         if g.counts[node]:
             if node not in self.values:
@@ -72,7 +72,7 @@ class Loop:
         return value if self.width == 1 or value.startswith("splat") else self.repeated(node, value)
 
     def repeated(self, node: int, value: str) -> str:
-        """A number beside all values of this turn."""
+        """A number, repeated for all values of this iteration."""
         f = self.f
         base = BASE[f.graph.types[node]]
         if f.graph.ops[node] == "const":
@@ -82,34 +82,34 @@ class Loop:
         return f.op(f"shufflevector {kind} {first}, {kind} poison, <{self.width} x i32> zeroinitializer")
 
     def loaded(self, at: Place) -> str:
-        """The values of this turn from memory."""
+        """Load the values of this iteration."""
         f = self.f
         if self.width == 1 or at.stride == 1:
             return f.op(f"load {self.kind('f')}, ptr {self.address(at)}, align 8")
         value = "poison"
         for j in range(self.width):
-            one = f.load(at.base, f.whole("add", at.first, f.whole("mul", f.whole("add", self.i, j), at.stride)))
+            one = f.load(at.base, f.integer("add", at.first, f.integer("mul", f.integer("add", self.i, j), at.stride)))
             value = f.op(f"insertelement {self.kind('f')} {value}, double {one}, i64 {j}")
         return value
 
     def address(self, at: Place) -> str:
-        """Where the first value of this turn stands."""
+        """Address of the first value of this iteration."""
         f = self.f
-        return f.at(at.base, f.whole("add", at.first, f.whole("mul", self.i, at.stride)))
+        return f.at(at.base, f.integer("add", at.first, f.integer("mul", self.i, at.stride)))
 
     def truth(self, node: int, value: str) -> str:
-        """A truth that waits as 1 or 0."""
+        """A truth from its stored form, 1.0 or 0.0; numbers as they are."""
         if self.f.graph.types[node] == "f":
             return value
         return self.f.op(f"fcmp one {self.kind('f')} {value}, {self.constant(0.0)}")
 
     def constant(self, value: float) -> str:
-        """A constant for all values of this turn."""
+        """A constant for all values of this iteration."""
         text = double(value)
         return text if self.kind("f") == "double" else f"splat (double {text})"
 
-    def leave(self, node: int, to: Place) -> None:
-        """Let the values of this turn wait in memory."""
+    def store(self, node: int, to: Place) -> None:
+        """Store the values of this iteration."""
         f, value = self.f, self.values[node]
         if f.graph.types[node] == "b":
             one, none = (f"{self.kind('f')} {self.constant(x)}" for x in (1.0, 0.0))
@@ -118,15 +118,15 @@ class Loop:
 
 
 @contextmanager
-def over(f: Function, count: int) -> Iterator[Loop]:
+def loop_over(f: Function, count: int) -> Iterator[Loop]:
     """A loop over the values of sets of one size."""
     width = width_of(f, count)
-    with f.repeat(count // width) as turn:
-        yield Loop(f, count, turn if width == 1 else f.whole("mul", turn, width))
+    with f.repeat(count // width) as i:
+        yield Loop(f, count, i if width == 1 else f.integer("mul", i, width))
 
 
 class Part(NamedTuple):
-    """A number that is written to memory as number `first`, or a set of `size` from there on."""
+    """A number, or a set of `size` numbers, to be written from number `first` on."""
 
     first: int
     node: int
@@ -134,11 +134,11 @@ class Part(NamedTuple):
 
 
 class Sets:
-    """The sets of many numbers of a function.
+    """The large sets of a function.
 
     Attributes:
-        places: where sets stand that are known here.
-        room: gives memory for a set of so many numbers.
+        places: places of the sets already computed.
+        room: allocates memory for a set of a number of values.
     """
 
     def __init__(self, f: Function) -> None:
@@ -146,7 +146,7 @@ class Sets:
         self.room: Callable[[int], Place] = lambda count: Place(f.own_memory(count), 0)
 
     def write(self, nodes: list[int], roots: list[int]) -> None:
-        """Compute nodes, sets among them, stage by stage."""
+        """Compute nodes and sets, stage by stage."""
         f, g = self.f, self.f.graph
         stage_of = stages(f, nodes)
         awaited = set(roots)
@@ -169,24 +169,24 @@ class Sets:
                 self._write_sets(sets[stage, count], count, awaited)
 
     def _write_sets(self, nodes: list[int], count: int, awaited: set[int]) -> None:
-        """Sets of one size and one stage: those that are in memory, and a loop for those that are computed."""
+        """Write sets of one size and stage: find those in memory, and compute the others in a loop."""
         f, g, computed = self.f, self.f.graph, []
         for node in nodes:
-            if node not in self.places and not self._finds(node, count):
+            if node not in self.places and not self._place_without_loop(node, count):
                 computed.append(node)
         if not computed:
             return
         waits = {node: self.room(count) for node in computed if node in awaited}
-        with over(f, count) as loop:
+        with loop_over(f, count) as loop:
             for node in computed:
                 operands = [loop.operand(a) for a in g.args[node]]
                 loop.values[node] = f.op(f.instruction(node, loop.kind, operands))
                 if node in waits:
-                    loop.leave(node, waits[node])
+                    loop.store(node, waits[node])
         self.places |= waits
 
-    def _finds(self, node: int, count: int) -> bool:
-        """Whether a set is in memory, or is put there number by number."""
+    def _place_without_loop(self, node: int, count: int) -> bool:
+        """Place a set that needs no loop: in memory already, or written number by number. Whether that was possible."""
         f, g = self.f, self.f.graph
         op, args = g.ops[node], g.args[node]
         if op == "const":
@@ -198,12 +198,12 @@ class Sets:
         elif op.startswith("take "):
             first, step = map(int, op.split()[1:])
             source = self.places[args[0]]
-            at = f.whole("add", source.first, first * source.stride)
+            at = f.integer("add", source.first, first * source.stride)
             self.places[node] = Place(source.base, at, source.stride * step)
         elif op == "pack":
             self.places[node] = to = self.room(count)
             for i, argument in enumerate(args):
-                f.store(f.operand(argument), to.base, f.whole("add", to.first, i))
+                f.store(f.operand(argument), to.base, f.integer("add", to.first, i))
         else:
             return False
         return True
@@ -212,7 +212,7 @@ class Sets:
         f, to = self.f, self.room(len(values))
         for i, value in enumerate(values):
             text = constant(value)
-            f.store(text if f.lanes == 1 else f"splat (double {text})", to.base, f.whole("add", to.first, i))
+            f.store(text if f.lanes == 1 else f"splat (double {text})", to.base, f.integer("add", to.first, i))
         return to
 
     def put(self, base: str, at: str | int, symbols: Sequence[Symbol], kind: str = "") -> None:
@@ -222,10 +222,10 @@ class Sets:
         values = f.values(Symbol(f.graph, part.node, "f") for part in parts if not part.size)
         sources = [part.node for part in parts if part.size]
         f.write(sources)
-        moved = {node: self._aside(node, base) for node in sources}
+        moved = {node: self._copy_source(node, base) for node in sources}
         numbers = iter(values)
         for part in parts:
-            place = f.whole("add", at, part.first)
+            place = f.integer("add", at, part.first)
             if part.size:
                 self._copy(moved[part.node], f.graph.counts[part.node], Place(base, place))
             else:
@@ -245,8 +245,8 @@ class Sets:
         g = self.f.graph
         return g.ops[part.node] == "in" and g.args[part.node] == (kind, part.first)
 
-    def _aside(self, node: int, base: str) -> Place:
-        """Where a set can be copied from while the memory at `base` is written."""
+    def _copy_source(self, node: int, base: str) -> Place:
+        """A place from which a set can be copied while the memory at `base` is written."""
         at, count = self.places[node], self.f.graph.counts[node]
         if at.base != base:
             return at
@@ -256,5 +256,5 @@ class Sets:
 
     def _copy(self, source: Place, count: int, to: Place) -> None:
         f = self.f
-        with over(f, count) as loop:
+        with loop_over(f, count) as loop:
             f.do(f"store {loop.kind('f')} {loop.loaded(source)}, ptr {loop.address(to)}, align 8")

@@ -1,8 +1,8 @@
-"""Machine code on disk, so that the next process need not compile: one file an object, in a folder of the user's own.
+"""A cache of machine code on disk: one file for each object, in a folder that belongs to the user.
 
-A file is written whole or not at all, and is read only if it belongs to the user, nobody else can write it, and its
-checksum holds; another is made anew. The folder keeps the newest `MOST_BYTES`. Nothing here ever fails: without a
-folder that can be used, everything is compiled.
+Files are written atomically. A file is read only if it belongs to the user, nobody else can write it, and its checksum
+is right; otherwise it is made anew. The folder keeps the newest `MOST_BYTES`. No function here raises: without a usable
+folder, everything is compiled.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ CHECKSUM = 32  # bytes
 
 
 class StoredCode(NamedTuple):
-    """Object code, and what must be known to call it."""
+    """Object code, and the facts that its callers need."""
 
     about: dict[str, Any]
     code: bytes
@@ -39,7 +39,7 @@ def root() -> Path:
 
 
 def folder() -> Path | None:
-    """The folder of objects, made if need be; None if there can be none that only the user writes to."""
+    """The folder of objects, made if necessary; None without a folder that only the user can write to."""
     path = root() / "code"
     try:
         path.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -49,7 +49,7 @@ def folder() -> Path | None:
 
 
 def _is_own(found: os.stat_result, kind: Any) -> bool:
-    """Whether a file or folder belongs to the user alone."""
+    """Whether a file or folder belongs to the user and nobody else can write it."""
     if not kind(found.st_mode):
         return False
     return not hasattr(os, "geteuid") or (found.st_uid == os.geteuid() and not found.st_mode & 0o022)
@@ -62,7 +62,7 @@ def path_of(key: str) -> Path | None:
 
 
 def read(key: str) -> StoredCode | None:
-    """The entry of a key, or None if there is none that can be trusted; one that cannot is removed."""
+    """The entry of a key, or None without one that can be trusted; an untrusted one is removed."""
     path = path_of(key)
     if path is None:
         return None
@@ -77,7 +77,7 @@ def read(key: str) -> StoredCode | None:
 
 
 def _entry(data: bytes) -> StoredCode | None:
-    """What a file holds, if it is whole."""
+    """The entry in a file, or None if the file is damaged."""
     body = data[len(MAGIC) + CHECKSUM :]
     if not data.startswith(MAGIC) or hashlib.sha256(body).digest() != data[len(MAGIC) :][:CHECKSUM]:
         return None
@@ -86,13 +86,13 @@ def _entry(data: bytes) -> StoredCode | None:
 
 
 def write(key: str, entry: StoredCode) -> bool:
-    """Keep an entry; whether that was possible."""
+    """Store an entry; whether that was possible."""
     path = path_of(key)
     if path is None:
         return False
     body = json.dumps(entry.about).encode() + b"\n" + entry.code
     try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".")  # of the user alone
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".")  # readable and writable by the user only
     except OSError:
         return False
     try:
@@ -103,20 +103,20 @@ def write(key: str, entry: StoredCode) -> bool:
         with contextlib.suppress(OSError):
             os.unlink(name)
         return False
-    _bound(path.parent)
+    _trim(path.parent)
     return True
 
 
 def remove(key: str) -> None:
-    """Remove an entry that is needed no more."""
+    """Remove an entry that is no longer needed."""
     path = path_of(key)
     if path is not None:
         with contextlib.suppress(OSError):
             path.unlink()
 
 
-def _bound(home: Path) -> None:
-    """Remove what was not used for longest, beyond `MOST_BYTES`."""
+def _trim(home: Path) -> None:
+    """Remove the least recently used entries beyond `MOST_BYTES`."""
     with contextlib.suppress(OSError):
         files = sorted(((f.stat().st_mtime, f.stat().st_size, f) for f in home.iterdir()), reverse=True)
         total = 0

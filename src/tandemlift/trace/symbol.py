@@ -1,7 +1,6 @@
-"""Numbers that are not known yet: what a law makes of them is written into a graph.
+"""Symbols: numbers that are not known yet. Operations on them are written into a graph.
 
-What depends on constants alone is a number: additions, products, roots and fused operations are folded as IEEE 754
-rounds them.
+Operations on constants alone are folded, rounded as IEEE 754 says.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ NAMES = {"f": "a number", "b": "a truth", "i": "an integer"}
 
 
 class Symbol:
-    """A number that is not known yet, or a set of numbers where these are so many that loops serve them."""
+    """A number that is not known yet, or a large set of such numbers, which machine code handles in loops."""
 
     __slots__ = ("graph", "node", "type")
     __array_ufunc__ = None  # a NumPy scalar on the left defers to our operators
@@ -32,11 +31,11 @@ class Symbol:
 
     @property
     def rolled(self) -> int:
-        """How many numbers it holds; 0 for one that is no set."""
+        """Size of the set; 0 for a single number."""
         return self.graph.counts[self.node]
 
     def packed(self, value: Any) -> Any:
-        """A set of values as one symbol, others as they are."""
+        """A set of values as one symbol; any other value unchanged."""
         return Symbol(self.graph, self.graph.pack(value), "f") if is_set(value) else value
 
     def __len__(self) -> int:
@@ -147,7 +146,7 @@ def _graph_of(*values: Any) -> Graph:
     return next(v.graph for v in values if isinstance(v, Symbol))
 
 
-def _is_whole(value: Any) -> bool:
+def _is_integer(value: Any) -> bool:
     """Whether a value is an integer of integer arithmetic."""
     return value.type == "i" if isinstance(value, Symbol) else type(value) is int
 
@@ -166,7 +165,7 @@ def _type_of(value: Any) -> str:
 
 
 def _is_operand(value: Any, other: Any) -> bool:
-    """Whether a value can stand beside another: a number, or a set beside one that is a symbol."""
+    """Whether a value can be an operand next to another: a number, or a set next to a symbol of equal size."""
     if isinstance(value, tuple):
         return is_set(value) and isinstance(other, Symbol) and other.rolled == len(value)
     return isinstance(value, (Symbol, float, int)) or hasattr(value, "__float__")
@@ -176,7 +175,7 @@ def _arithmetic(op: str, whole: str, a: Any, b: Any) -> Any:
     if not (_is_operand(a, b) and _is_operand(b, a)):
         return NotImplemented
     graph = _graph_of(a, b)
-    if whole and _is_whole(a) and _is_whole(b):
+    if whole and _is_integer(a) and _is_integer(b):
         return Symbol(graph, graph.node(whole, (_node_of(graph, a), _node_of(graph, b)), "i"), "i")
     if op in ("fmul", "fdiv") and not isinstance(b, Symbol) and b == 1.0:
         return a
@@ -197,7 +196,7 @@ def _compared(predicate: str, whole: str, a: Any, b: Any) -> Any:
     if _type_of(a) == _type_of(b) == "b" and whole in ("eq", "ne"):
         differs = _bitwise("xor", a, b)
         return differs if whole == "ne" else ~differs
-    if _is_whole(a) and _is_whole(b):
+    if _is_integer(a) and _is_integer(b):
         op, args = f"icmp {whole}", (_node_of(graph, a), _node_of(graph, b))
     else:
         op, args = f"fcmp {predicate}", (graph.number(a), graph.number(b))
@@ -234,7 +233,7 @@ def unary(op: str, x: Any) -> Any:
 
 
 def converted(op: str, x: Any, kind: str) -> Any:
-    """A value in another type: `bitcast` as it stands, `fptosi` cut to a whole number."""
+    """A value in another type: `bitcast` keeps the bits, `fptosi` truncates to an integer."""
     return Symbol(x.graph, x.graph.node(op, (x.node,), kind), kind)
 
 
@@ -262,7 +261,7 @@ def _is_exact(a: Any, b: Any) -> bool:
 
 
 def fma(a: Any, b: Any, c: Any) -> Any:
-    """What a · b + c in the source of a law becomes: rounded once for numbers, field by field for linear values."""
+    """a · b + c of the source of a law: rounded once for numbers, field by field for linear values."""
     rolled = any(isinstance(v, Symbol) and v.rolled for v in (a, b, c))
     if not any(isinstance(v, tuple) and not (rolled and is_set(v)) for v in (a, b, c)):
         return once_rounded(a, b, c) if all(_type_of(v) != "b" for v in (a, b, c)) else operator.add(a * b, c)

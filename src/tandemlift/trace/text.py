@@ -1,4 +1,4 @@
-"""Text of LLVM's language: modules, and functions written from top to bottom, with loops and branches as contexts."""
+"""LLVM text: modules, and functions written from top to bottom, with loops and branches as contexts."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from typing import Any
 
 BASE = {"f": "double", "b": "i1", "i": "i64"}  # LLVM's name for each type of the graph
 WIDE = '"prefer-vector-width"="512" "min-legal-vector-width"="512"'
-LONG = 8_000  # lines: such a function waits for its instructions, and is faster if it is shorter
+LONG = 8_000  # lines, from which on the instruction cache limits a function, which is then optimised for size
 ATTRIBUTES = [
     f"attributes #0 = {{ nounwind {WIDE} }}",
     f"attributes #1 = {{ nounwind noinline {WIDE} }}",
     f"attributes #2 = {{ nounwind noinline optsize minsize {WIDE} }}",
 ]
-WHOLE = {"add": operator.add, "mul": operator.mul}
+INTEGER_OPS = {"add": operator.add, "mul": operator.mul}
 
 
 class Module:
@@ -29,7 +29,7 @@ class Module:
 
     @property
     def text(self) -> str:
-        """All of it."""
+        """The text of the module."""
         return "\n".join([*sorted(self.declared), *self.functions, *ATTRIBUTES]) + "\n"
 
 
@@ -37,8 +37,8 @@ class Text(ABC):
     """The text of one function.
 
     Args:
-        module: where it goes.
-        lanes: how many numbers a value holds, one for each flight.
+        module: the module that it belongs to.
+        lanes: numbers in a value, one for each flight.
         head: its name and parameters, as in `i64 @fly(ptr %c)`.
     """
 
@@ -59,26 +59,26 @@ class Text(ABC):
 
     @abstractmethod
     def scope(self) -> AbstractContextManager[None]:
-        """What is computed within is not known behind."""
+        """Forget afterwards what is computed inside the context."""
 
     def do(self, text: str) -> None:
-        """An instruction without a result."""
+        """Write an instruction without a result."""
         self.lines.append("  " + text)
 
     def op(self, text: str) -> str:
-        """An instruction's result."""
+        """Write an instruction; the name of its result."""
         self._count += 1
         self.lines.append(f"  %v{self._count} = {text}")
         return f"%v{self._count}"
 
     def label(self, name: str) -> str:
-        """Begin a block, which what stands before runs into."""
+        """Begin a block; the block before it branches to it."""
         self.do(f"br label %{name}")
         self.lines.append(f"{name}:")
         return name
 
     def fresh(self, name: str) -> str:
-        """A name for a block that is used nowhere else."""
+        """A unique name for a block."""
         self._count += 1
         return f"{name}{self._count}"
 
@@ -86,7 +86,7 @@ class Text(ABC):
 
     @contextmanager
     def repeat(self, count: str | int, first: str | int = 0) -> Iterator[str]:
-        """A loop from `first` to `count` − 1, whose body hands on nothing but what it writes to memory."""
+        """A loop from `first` to `count` − 1; its body passes values on only through memory."""
         head, body, done = self.fresh("head"), self.fresh("body"), self.fresh("done")
         i = f"%i{self._count}"
         before = self.label(self.fresh("before"))
@@ -104,7 +104,7 @@ class Text(ABC):
 
     @contextmanager
     def when(self, condition: str) -> Iterator[None]:
-        """A branch that hands on nothing but what it writes to memory."""
+        """A branch; its body passes values on only through memory."""
         yes, done = self.fresh("yes"), self.fresh("done")
         self.do(f"br i1 {condition}, label %{yes}, label %{done}")
         self.lines.append(f"{yes}:")
@@ -113,7 +113,7 @@ class Text(ABC):
         self.label(done)
 
     def any(self, truth: str) -> str:
-        """Whether something holds in any lane."""
+        """Whether a truth holds in any lane."""
         if self.lanes == 1:
             return truth
         name = f"@llvm.vector.reduce.or.v{self.lanes}i1"
@@ -123,7 +123,7 @@ class Text(ABC):
     # memory
 
     def at(self, base: str, index: str | int, kind: str = "") -> str:
-        """The place of a value in memory."""
+        """The address of a value in memory."""
         return self.op(f"getelementptr {kind or self.vector}, ptr {base}, i64 {index}")
 
     def load(self, base: str, index: str | int = 0, kind: str = "") -> str:
@@ -134,22 +134,22 @@ class Text(ABC):
         """Write a value of all lanes, or of another kind."""
         self.do(f"store {kind or self.vector} {value}, ptr {self.at(base, index, kind)}, align 8")
 
-    def whole(self, op: str, a: str | int, b: str | int) -> str:
+    def integer(self, op: str, a: str | int, b: str | int) -> str:
         """Arithmetic of 64-bit integers."""
         if op == "add" and (a == 0 or b == 0):
             return str(b if a == 0 else a)
-        if op in WHOLE and isinstance(a, int) and isinstance(b, int):
-            return str(WHOLE[op](a, b))
+        if op in INTEGER_OPS and isinstance(a, int) and isinstance(b, int):
+            return str(INTEGER_OPS[op](a, b))
         return self.op(f"{op} i64 {a}, {b}")
 
     def call(self, result: str, name: str, *arguments: str, types: Iterable[str]) -> str:
-        """A call of one of LLVM's own functions."""
+        """Call one of LLVM's own functions; the name of its result."""
         self.module.declared.add(f"declare {result} {name}({', '.join(types)})")
         given = ", ".join(f"{t} {a}" for t, a in zip(types, arguments, strict=True))
         return self.op(f"call {result} {name}({given})")
 
     def own_memory(self, count: int) -> str:
-        """Memory of the function's own, for so many numbers of all lanes."""
+        """Memory on the stack of the function, for `count` numbers of all lanes."""
         name = f"%room{len(self._rooms)}"
         self._rooms.append(f"  {name} = alloca {self.vector}, i64 {count}, align 64")
         return name

@@ -44,7 +44,7 @@ def guided(changes=None):
 def motion(push, seconds, changes=None, across=100.0):
     """Position, velocity, acceleration and jerk at every step under a push F(t) [N]."""
     g, m = guided(changes)
-    k, m, out = g.compliance, m.compliant, []
+    k, m, out = g.compliance, m.compliance, []
     for i in range(round(seconds / H)):
         m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, H)
         out.append([*m.position, *m.velocity, *m.acceleration, *m.jerk])
@@ -146,7 +146,7 @@ def test_beyond_the_yaw_authority_it_yields_and_brakes_with_no_more_than_that():
         moment = 3.0 if i < 2000 else 0.0
         course, heading = yaw_step(g.heading, heading, moment, yaw, STEERED, 0.0, H)
         yaw = course.angle
-        asked.append(J * heading.acceleration - heading.eased.value)  # what the rotors are to give
+        asked.append(J * heading.acceleration - heading.output.value)  # what the rotors are to give
     assert abs(heading.rate) < 0.05
     assert np.abs(asked).max() <= 0.9 + 1e-9
     assert min(np.array(asked)[2200:]) == pytest.approx(-0.9, abs=1e-6)

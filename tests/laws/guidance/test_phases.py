@@ -5,35 +5,44 @@ import pytest
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, PHASE_NAMES, STOPPED
 from tandemlift.laws.guidance.phases import (
-    SETTLE,
+    SETTLING_TIME,
     PhaseBounds,
     PhaseSettings,
     PhaseState,
-    follow,
-    later,
-    more,
+    exceeds,
+    lift_request,
     phase_output,
-    wants_lift,
+    reached,
+    update_phase,
 )
-from tandemlift.laws.guidance.requests import NOBODY, OperatorRequest, RequestCounts, RequestSchedule, also, asked_until
+from tandemlift.laws.guidance.requests import (
+    NO_REQUEST,
+    OperatorRequest,
+    RequestCounts,
+    RequestSchedule,
+    requests_until,
+    with_operator,
+)
 from tandemlift.laws.mechanics.body import State
 
 FREE = PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEVEL, DT, NEVER = Quat(1.0, 0.0, 0.0, 0.0), 0.05, 1e18
 PHASING = PhaseSettings(1.0, 1.0, 0.5, NEVER, 0.5, 0.03, 0.3, 0.0, 10.0, Nothing())
-BEFORE = PhaseState(IDLE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLE)
+BEFORE = PhaseState(IDLE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLING_TIME)
 
 
-def flown(until, k=PHASING, bounds=lambda t: FREE, operator=lambda t: NOBODY, land=lambda t: 0.0, height=0.0):
+def flown(until, k=PHASING, bounds=lambda t: FREE, operator=lambda t: NO_REQUEST, land=lambda t: 0.0, height=0.0):
     """[(time, name of the phase)] whenever it changes; the last memory and orders."""
     m, story, t = BEFORE, [], 0.0
     state = State(Vec3(0.0, 0.0, height), ZERO, LEVEL, ZERO)
     for i in range(round(until / DT)):
         t = i * DT
-        asked = also(asked_until(k.requests, t), operator(t), later(t, k.lift_start), later(t, k.land_start))
-        lands = max(land(t), more(asked.lands, m.lands))
-        lifts = wants_lift(k, m, asked, operator(t).lift, lands)
-        after = follow(k, m, state, asked, (lifts, lands), bounds(t), t, DT)
+        asked = with_operator(
+            requests_until(k.requests, t), operator(t), reached(t, k.lift_start), reached(t, k.land_start)
+        )
+        lands = max(land(t), exceeds(asked.lands, m.handled_lands))
+        lifts = lift_request(k, m, asked, operator(t).lift, lands)
+        after = update_phase(k, m, state, asked, (lifts, lands), bounds(t), t, DT)
         if after.phase != m.phase:
             story.append((round(t, 2), PHASE_NAMES[int(after.phase)]))
         m = after
@@ -47,17 +56,17 @@ def names(story):
 def test_by_the_clock_it_lifts_listens_lands_and_stays_down():
     story, _, orders = flown(20.0, PHASING._replace(land_start=8.0))
     assert story == [(1.0, "lift"), (3.3, "guided"), (8.0, "land"), (10.0, "idle")]
-    assert (orders.running, orders.listening, orders.countering, orders.grounded) == (0.0, 0.0, 0.0, 1.0)
+    assert (orders.running, orders.responding, orders.compensating, orders.grounded) == (0.0, 0.0, 0.0, 1.0)
 
 
 def test_a_check_that_refuses_a_lift_delays_it_until_it_no_longer_does():
-    story, _, _ = flown(5.0, bounds=lambda t: FREE._replace(ready=0.0 if t < 2.5 else 1.0))
+    story, _, _ = flown(5.0, bounds=lambda t: FREE._replace(lift_allowed=0.0 if t < 2.5 else 1.0))
     assert story[0] == (2.5, "lift")
 
 
 def test_a_landing_that_is_asked_for_on_the_ground_takes_back_a_lift_that_was_refused():
     k = PHASING._replace(requests=requests((2.0, "land")))
-    story, _, _ = flown(6.0, k, bounds=lambda t: FREE._replace(ready=0.0 if t < 3.0 else 1.0))
+    story, _, _ = flown(6.0, k, bounds=lambda t: FREE._replace(lift_allowed=0.0 if t < 3.0 else 1.0))
     assert story == []
 
 
@@ -86,8 +95,8 @@ def test_what_was_asked_in_the_air_is_forgotten_on_the_ground():
 def test_disabled_it_holds_and_does_not_listen_and_enabled_it_does():
     k = PHASING._replace(requests=requests((5.0, "disable"), (6.0, "enable")))
     assert flown(8.0, k)[0][2:] == [(5.0, "hold"), (6.0, "guided")]
-    assert flown(5.5, k)[2].listening == 0.0
-    assert flown(5.5, k)[2].countering == 1.0
+    assert flown(5.5, k)[2].responding == 0.0
+    assert flown(5.5, k)[2].compensating == 1.0
 
 
 def test_an_operator_beside_the_clock_enables_and_stops():
@@ -105,7 +114,7 @@ def test_an_operator_lifts_without_the_clock():
 def test_a_stop_ends_every_phase_for_good(phase):
     at = {"idle": 0.5, "lift": 2.0, "hold": 5.0, "guided": 5.0, "land": 9.0}[phase]
     k = PHASING._replace(land_start=8.0, requests=requests((at, "stop"), (12.0, "lift")))
-    story, m, _ = flown(20.0, k, bounds=lambda t: FREE._replace(clear=float(phase != "hold")))
+    story, m, _ = flown(20.0, k, bounds=lambda t: FREE._replace(guidance_allowed=float(phase != "hold")))
     assert story[-1] == (at, "stopped")
     assert m.phase == STOPPED
 
@@ -122,29 +131,31 @@ def test_a_hold_during_the_lift_lands_from_where_it_is():
     story, m, _ = flown(2.2, bounds=lambda t: FREE._replace(hold=1.0) if t >= 2.0 else FREE, height=0.3)
     assert story[-1] == (2.0, "land")
     s = (2.0 - 1.0 - 0.3) * 0.5
-    assert m.risen == pytest.approx(10 * s**3 - 15 * s**4 + 6 * s**5, abs=1e-12)
+    assert m.lift_fraction == pytest.approx(10 * s**3 - 15 * s**4 + 6 * s**5, abs=1e-12)
     before, after = (flown(t, bounds=lambda t: FREE._replace(hold=float(t >= 2.0)))[2] for t in (2.0, 2.05))
     assert after.lift.value == pytest.approx(before.lift.value, abs=0.06)
 
 
 def test_a_landing_ends_when_it_stands_on_something():
-    story, _, _ = flown(6.0, PHASING._replace(land_start=4.0), bounds=lambda t: FREE._replace(landed=float(t > 4.5)))
+    story, _, _ = flown(
+        6.0, PHASING._replace(land_start=4.0), bounds=lambda t: FREE._replace(touched_down=float(t > 4.5))
+    )
     assert story[-1] == (4.55, "idle")
 
 
 def test_a_landing_is_no_faster_than_allowed_and_as_deep_as_told():
     k = PHASING._replace(land_start=4.0, max_descent_speed=0.3)
-    _, m, orders = flown(4.2, k, bounds=lambda t: FREE._replace(deep=0.5), height=1.0)
+    _, m, orders = flown(4.2, k, bounds=lambda t: FREE._replace(extra_depth=0.5), height=1.0)
     assert m.land_rate == pytest.approx(0.3 / (1.875 * 0.53))
     assert orders.end == pytest.approx(1.0 - 0.03 - 0.5)  # the ground is where the lift began
 
 
 def test_hovering_counts_from_steady_flight():
     _, m, _ = flown(3.3 + 2.0)
-    assert m.hovered == pytest.approx(2.0 - SETTLE, abs=2 * DT)
-    assert flown(3.2)[1].hovered == -SETTLE
+    assert m.hover_time == pytest.approx(2.0 - SETTLING_TIME, abs=2 * DT)
+    assert flown(3.2)[1].hover_time == -SETTLING_TIME
 
 
 def test_nobody_asks_for_nothing():
-    assert asked_until(Nothing(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
+    assert requests_until(Nothing(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
     assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED} == set(map(float, range(len(PHASE_NAMES))))

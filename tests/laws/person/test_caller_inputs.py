@@ -6,7 +6,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
-from tandemlift.laws.person.caller_inputs import CallerInput, pushed, thrusts_of
+from tandemlift.laws.person.caller_inputs import CallerInput, commanded_thrusts, with_caller_push
 from tandemlift.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace import flat
@@ -25,7 +25,7 @@ def external(force=ZERO, point=ZERO, thrusts=None):
 
 @pytest.mark.parametrize("own", [CENTRAL, AT_POINTS])
 def test_an_added_push_adds_its_force_and_its_moment_at_start_middle_and_end(own):
-    hand = pushed(external(FORCE, POINT), PushSamples(own, own, own))
+    hand = with_caller_push(external(FORCE, POINT), PushSamples(own, own, own))
     alone = push_moment(PointPush(FORCE, mat3(np.outer(FORCE, POINT))), TILTED)
     for push in hand:
         assert push.force == own.force + FORCE
@@ -34,7 +34,7 @@ def test_an_added_push_adds_its_force_and_its_moment_at_start_middle_and_end(own
 
 @pytest.mark.parametrize("attitude", [TILTED, Quat(-0.5, 0.5, -0.5, 0.5)])
 def test_without_a_force_the_moment_of_a_central_push_is_zero_and_never_minus_zero(attitude):
-    hand = pushed(external(point=Vec3(-0.3, 0.8, -0.1)), PushSamples(CENTRAL, CENTRAL, CENTRAL))
+    hand = with_caller_push(external(point=Vec3(-0.3, 0.8, -0.1)), PushSamples(CENTRAL, CENTRAL, CENTRAL))
     moment = push_moment(hand.start, attitude)
     assert moment == ZERO
     assert not any(np.signbit(v) for v in moment)
@@ -42,10 +42,10 @@ def test_without_a_force_the_moment_of_a_central_push_is_zero_and_never_minus_ze
 
 def test_thrusts_are_the_pilots_unless_they_are_overridden():
     own, given = ROTORS(*range(8)), [7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.0]
-    assert thrusts_of(external(), own) == own
-    assert thrusts_of(external(thrusts=given), own) == tuple(given)
-    assert thrusts_of(Nothing(), own) is own
-    assert pushed(Nothing(), CENTRAL) is CENTRAL
+    assert commanded_thrusts(external(), own) == own
+    assert commanded_thrusts(external(thrusts=given), own) == tuple(given)
+    assert commanded_thrusts(Nothing(), own) is own
+    assert with_caller_push(Nothing(), CENTRAL) is CENTRAL
 
 
 @pytest.mark.parametrize("point", [[0.0, 0.0, 0.0], [0.0, -0.5, 0.1]])

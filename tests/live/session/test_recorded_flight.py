@@ -7,7 +7,7 @@ from click.testing import CliRunner
 import tandemlift as tl
 from tandemlift.algebra.vector import Vec3
 from tandemlift.cli.main import cli
-from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
+from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.live.session.interactive_mission import interactive_mission
 from tandemlift.live.session.saving import save_in_process
 from tandemlift.simulation.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
@@ -38,7 +38,7 @@ def pulled_about(flight, seconds, seed=0):
     chance = np.random.default_rng(seed)
     while flight.step * flight.dt < seconds and not flight.over:
         fly(flight, flight.step * flight.dt + chance.uniform(0.001, 0.4))
-        hand = NOBODY_HOLDS._replace(
+        hand = HAND_RELEASED._replace(
             held=float(chance.random() < 0.6),
             grip=Vec3(0.0, chance.uniform(-1, 1), 0.0),
             target=Vec3(*chance.uniform(-1, 1, 3)),

@@ -91,7 +91,7 @@ def test_hands_are_refused_until_it_has_tared_by_itself_in_steady_hover(session)
     estimator = mission.estimator.model_copy(update={"tare": "hover", "tare_duration": 2.0})
     pilot = mission.pilot.model_copy(update={"push": "estimate"})
     session._flight.now = mission.model_copy(update={"estimator": estimator, "pilot": pilot})
-    until_tared = 2.0 - session._flight.number("memory", "guidance", "phase", "hovered")
+    until_tared = 2.0 - session._flight.number("memory", "guidance", "phase", "hover_time")
     if until_tared > 0.0:
         with pytest.raises(tl.InputError, match="hands off until the force sensors are tared, in steady hover"):
             say(session, "force", force=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))

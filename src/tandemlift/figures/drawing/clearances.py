@@ -24,7 +24,7 @@ class Clearances(NamedTuple):
     beam: Array | None
 
 
-def state_of(flight: Flight) -> State:
+def logged_states(flight: Flight) -> State:
     """The state of all samples, each number an array (T)."""
     names = zip(("position", "velocity", "attitude", "rates"), (Vec3, Vec3, Quat, Vec3), strict=True)
     return State(*[kind(*flight[name].T) for name, kind in names])
@@ -36,7 +36,7 @@ def _length(o: Vec3) -> Array:
 
 def clearances(flight: Flight) -> Clearances:
     """Distance of guards and beam from the nearest wall; below zero where they are in it."""
-    vehicle, s = Vehicle.from_mission(flight.mission), state_of(flight)
+    vehicle, s = Vehicle.from_mission(flight.mission), logged_states(flight)
     upright = [wall(w["start"], w["end"], w["top"]) for w in wall_tables(flight.mission)]
     R = body_to_world(flight["attitude"])
     guards = np.full(len(flight.time), np.inf)
@@ -60,9 +60,9 @@ def clearances(flight: Flight) -> Clearances:
 
 def grips(flight: Flight) -> Array | None:
     """Where the person of [person] holds the payload (T, 3) [m, world axes], or None without one."""
-    partner = flight.mission.get("person", {"model": "none"})
-    if partner["model"] in ("none", "grab"):
+    person = flight.mission.get("person", {"model": "none"})
+    if person["model"] in ("none", "grab"):
         return None
-    along = 0.0 if partner["model"] == "two-hands" else partner["grip"]
+    along = 0.0 if person["model"] == "two-hands" else person["grip"]
     arm = np.array([0.0, along, 0.0]) - Vehicle.from_mission(flight.mission).center_of_mass
     return flight["position"] + body_to_world(flight["attitude"]) @ arm

@@ -1,4 +1,4 @@
-"""What each file of a figure says besides drawing it: its caption, and which flights have it."""
+"""What the file of a figure has besides its drawing: a caption, and which flights have the figure."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.attitude import body_to_world
-from tandemlift.figures.drawing.vehicle import mass_of
+from tandemlift.figures.drawing.vehicle import true_mass
 from tandemlift.flight.record import Flight
 from tandemlift.laws.mechanics.contact import floor, sole_positions, standing_height
 from tandemlift.settings.surroundings import GroundTable
@@ -26,7 +26,7 @@ def floor_height(flight: Flight) -> float | None:
     ground = GroundTable.model_validate(flight.mission.get("ground", {}))
     if ground.model == "none" or ground.height is not None:
         return ground.height if ground.model != "none" else None
-    vehicle, mission, mass = Vehicle.from_mission(flight.mission), flight.mission, mass_of(flight)
+    vehicle, mission, mass = Vehicle.from_mission(flight.mission), flight.mission, true_mass(flight)
     step, friction = mission["mission"]["step"], ground.friction
     at_zero = floor(_soles(vehicle), mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage)
     return mission["initial"]["position"][2] - standing_height(at_zero, mass * GRAVITY)

@@ -7,16 +7,16 @@ from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle
 
 
-def mass_of(flight: Flight) -> float:
+def true_mass(flight: Flight) -> float:
     """Mass [kg] of the vehicle that flew."""
     return Vehicle.from_mission(flight.mission).mass * flight.mission.get("plant", {}).get("mass_scale", 1.0)
 
 
-def weight_of(flight: Flight) -> float:
+def true_weight(flight: Flight) -> float:
     """Weight [N] of the vehicle that flew."""
-    return mass_of(flight) * GRAVITY
+    return true_mass(flight) * GRAVITY
 
 
-def payload_mass_of(flight: Flight) -> float:
+def true_payload_mass(flight: Flight) -> float:
     """Mass [kg] of the payload that flew: it has the whole difference from the vehicle that the pilot knows."""
-    return mass_of(flight) - sum(q.mass for q in Vehicle.from_mission(flight.mission).quadrotors)
+    return true_mass(flight) - sum(q.mass for q in Vehicle.from_mission(flight.mission).quadrotors)

@@ -2,7 +2,7 @@
 
 M (T̈_r − T̈_d) + C (Ṫ_r − Ṫ_d) + K (T_r − T_d) = F_ext, per world axis, with T_d at rest and F_ext the gated force of
 the person on the vehicle. Erratum: the paper prints T_d − T_r, which would move the vehicle against the push.
-T̈_r is taken at the sample and held over the step.
+T̈_r is computed at the sample and held over the step.
 """
 
 from typing import Any, NamedTuple
@@ -12,25 +12,24 @@ from tandemlift.algebra.ops import absolute, clip, where
 from tandemlift.algebra.vector import Vec3
 from tandemlift.laws.signals.trajectories import Trajectory
 
-REST = Vec3(
-    1e-100, 1e-100, 1e-100
-)  # m/s, lost in any motion; one that dies ends near 1e-114, not in slow denormal numbers
+# m/s; far below any motion. A velocity that decays ends near 1e-114, and never in slow denormal numbers.
+REST = Vec3(1e-100, 1e-100, 1e-100)
 
 
 class HardGate(NamedTuple):
-    """Lets a force through whole where it exceeds the threshold [N]."""
+    """Passes a force unchanged where it exceeds the threshold [N]."""
 
     threshold: Vec3
 
 
 class SoftGate(NamedTuple):
-    """Lets through what exceeds the threshold [N]: continuous, at the price of `threshold` less force."""
+    """Passes the part of a force that exceeds the threshold [N]: continuous, but smaller by the threshold."""
 
     threshold: Vec3
 
 
 class Admittance(NamedTuple):
-    """Gate, 1/M [1/kg], C [N·s/m], K [N/m] per world axis; `reanchor` is 1 if T_d moves where a push left T_r."""
+    """Gate, 1/M [1/kg], C [N·s/m], K [N/m] per world axis; `reanchor` is 1 if T_d moves to T_r after a push, else 0."""
 
     gate: Any
     inverse_mass: Vec3
@@ -49,39 +48,39 @@ class AdmittanceState(NamedTuple):
 
 @choice
 def gate(kind: Any, F: Any) -> Any:
-    """The part of a measured force [N, world axes] that the admittance answers, per axis."""
+    """The part of a measured force [N, world axes] that the admittance responds to, per axis."""
 
 
 @elementwise
-def hard(F, threshold):
+def hard(F: Any, threshold: Any) -> Any:
     """F where |F| > threshold, else 0."""
     return where(absolute(F) > threshold, F, 0.0)
 
 
 @elementwise
-def soft(F, threshold):
+def soft(F: Any, threshold: Any) -> Any:
     """F − threshold sgn F where |F| > threshold, else 0."""
     return F - clip(F, -threshold, threshold)
 
 
 @gate.register(HardGate)
-def _hard(kind, F):
+def _hard(kind: HardGate, F: Any) -> Any:
     return hard(F, kind.threshold)
 
 
 @gate.register(SoftGate)
-def _soft(kind, F):
+def _soft(kind: SoftGate, F: Any) -> Any:
     return soft(F, kind.threshold)
 
 
 @elementwise
-def anchored(anchor, position, velocity, force, reanchor):
-    """T_d of one axis, moved to T_r once no force comes through and the motion away from T_d has died.
+def anchored(anchor: Any, position: Any, velocity: Any, force: Any, reanchor: Any) -> Any:
+    """T_d of one axis, moved to T_r once the gate passes no force and the motion away from T_d has ended.
 
-    From then on no spring pulls: T_r coasts to rest under its damping, and stays.
+    From then on the spring is unloaded: T_r comes to rest under its damping, and stays.
     """
-    died = where(velocity * (position - anchor) > 0.0, anchor, position)
-    return where(absolute(force) * reanchor + (1.0 - reanchor) > 0.0, anchor, died)
+    ended = where(velocity * (position - anchor) > 0.0, anchor, position)
+    return where(absolute(force) * reanchor + (1.0 - reanchor) > 0.0, anchor, ended)
 
 
 @law

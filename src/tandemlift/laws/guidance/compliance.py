@@ -1,11 +1,11 @@
-"""How the vehicle yields to a hand: from the push as it is measured to a trajectory that it can follow.
+"""Compliance to a person's push: from the measured push to a trajectory that the vehicle can follow.
 
 measured push → low-pass → less its bias → soft dead-band with hysteresis and dwell → low-pass → admittance → limits
 
 Per world axis, M a + C v + K (p − p_d) = F with F the push beyond the threshold. Both low-passes are of second order,
-so the acceleration's rate is known too, and the reference can be led by the time that the vehicle takes to answer.
-Speed is bounded by braking, acceleration by what the rotors can still give, jerk by its slope; whatever starts or stops
-does so without a bump. While nobody pushes, the mean of what is measured is taken for a bias, slowly.
+so the rate of the acceleration is known too, and the reference can lead by the response time of the vehicle. Speed,
+acceleration and jerk are bounded, also by the thrust that is left; every start and stop is smooth. While nobody pushes,
+a slow mean of the measured push becomes its bias.
 
 Passivity: `laws.guidance.energy_tank`. Yaw: `laws.guidance.yaw_compliance`.
 """
@@ -14,43 +14,42 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
-from tandemlift.algebra.vector import Vec3, dot
+from tandemlift.algebra.vector import Vec3
 from tandemlift.laws.guidance.admittance import Admittance, anchored, soft
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
-QUIET = 2.0  # s
-FAINT = 0.3  # of the threshold: what is louder counts no more for the bias
-LATE = 0.5  # 1/s: the bias comes two seconds after what is learned
+QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
+BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias
+BIAS_RATE = 0.5  # 1/s, at which the bias follows the mean: two seconds late
 
 
 class DeadBand(NamedTuple):
-    """Threshold [N] above which a push is heard, and `release` [N] below which it is over; `dwell` [s] before it is.
+    """Threshold [N] above which a push is active, and `release` [N] below which it ends; `dwell` [s] before it starts.
 
-    `forgetting`: one over the time constant [s] of the mean that is learned as a bias, once nothing was heard for
-    `QUIET`.
+    `bias_rate` [1/s]: of the mean that becomes the bias, while no push was active for `QUIET_TIME`.
     """
 
     threshold: Any
     release: Any
     dwell: Any
-    forgetting: Any
+    bias_rate: Any
 
 
 class DeadBandState(NamedTuple):
-    """Memory: 1 while a push is heard, else 0; for how long it has been above, and not heard [s]; the bias.
+    """Memory: 1 while a push is active, else 0; for how long it has been above the threshold, and not active [s]; bias.
 
-    What is being `learned` becomes the bias later, or is forgotten if it was the beginning of a push.
+    The bias follows the `mean` late, and the mean returns to it if it was the beginning of a push.
     """
 
-    on: Any
-    above: Any
-    off: Any
-    learned: Any
+    active: Any
+    above_time: Any
+    inactive_time: Any
+    mean: Any
     bias: Any
 
 
 class MotionLimits(NamedTuple):
-    """Greatest speed [m/s], acceleration [m/s²] and jerk [m/s³] along each axis; how hard it brakes [1/s]."""
+    """Largest speed [m/s], acceleration [m/s²] and jerk [m/s³] along each axis; gain of the braking [1/s]."""
 
     speed: Vec3
     acceleration: Vec3
@@ -59,9 +58,10 @@ class MotionLimits(NamedTuple):
 
 
 class Compliance(NamedTuple):
-    """Low-pass on the push, dead-band, low-pass after it, M, C, K and T_d, limits; what leads by how long [s].
+    """Low-pass of the push, dead-band, low-pass after it, M, C, K and T_d, limits.
 
-    `force_lead` [s] of the push that is countered, `reference_lead` [s] of the reference's acceleration.
+    `force_lead` [s]: lead time of the push that the controller compensates. `reference_lead` [s]: lead time of the
+    reference's acceleration.
     """
 
     input_filter: LowPass
@@ -74,11 +74,11 @@ class Compliance(NamedTuple):
 
 
 class ComplianceState(NamedTuple):
-    """Memory: the push [N] behind each low-pass, the dead-band's, and the trajectory with T_d."""
+    """Memory: the push [N] after the first low-pass, the dead-band's, the force [N] after the second; T_r, and T_d."""
 
-    heard: LowPassState
-    hearing: DeadBandState
-    eased: LowPassState
+    filtered: LowPassState
+    band: DeadBandState
+    output: LowPassState
     position: Vec3
     velocity: Vec3
     acceleration: Vec3
@@ -87,80 +87,81 @@ class ComplianceState(NamedTuple):
 
 
 @elementwise
-def still_on(on, above, force, threshold, release, dwell):
-    """1 while a push is heard: from when it was above the threshold for the dwell until it is below the release."""
-    begins = where(absolute(force) > threshold, where(above < dwell, 0.0, 1.0), 0.0)
-    return where(on > 0.0, where(absolute(force) < release, 0.0, 1.0), begins)
+def is_active(active: Any, above_time: Any, force: Any, threshold: Any, release: Any, dwell: Any) -> Any:
+    """1 while a push is active: once it was above the threshold for the dwell, until it is below the release."""
+    begins = where(absolute(force) > threshold, where(above_time < dwell, 0.0, 1.0), 0.0)
+    return where(active > 0.0, where(absolute(force) < release, 0.0, 1.0), begins)
 
 
 @elementwise
-def time_above(above, force, threshold, dt):
+def time_above(above_time: Any, force: Any, threshold: Any, dt: Any) -> Any:
     """For how long a push has been above the threshold [s]."""
-    return where(absolute(force) > threshold, above + dt, 0.0)
+    return where(absolute(force) > threshold, above_time + dt, 0.0)
 
 
 @elementwise
-def silent_for(off, on, dt):
-    """For how long nothing has been heard [s]."""
-    return (off + dt) * (1.0 - on)
+def time_inactive(inactive_time: Any, active: Any, dt: Any) -> Any:
+    """For how long no push has been active [s]."""
+    return (inactive_time + dt) * (1.0 - active)
 
 
 @elementwise
-def drawn(force, most, off):
-    """What draws the bias: the force, held within a most, once nothing was heard for `QUIET`."""
-    return where(off < QUIET, 0.0, clip(force, -most, most))
+def bias_input(force: Any, bound: Any, inactive_time: Any) -> Any:
+    """What the mean follows: the force within a bound, once no push was active for `QUIET_TIME`."""
+    return where(inactive_time < QUIET_TIME, 0.0, clip(force, -bound, bound))
 
 
 @elementwise
-def kept(on, old, new):
-    """The old where a push is heard, else the new."""
-    return where(on > 0.0, old, new)
+def unless_active(active: Any, old: Any, new: Any) -> Any:
+    """The old value while a push is active, else the new one."""
+    return where(active > 0.0, old, new)
 
 
 @law
-def dead_band(k: DeadBand, m: DeadBandState, force: Any, listening: Any, dt: Any) -> Any:
-    """(what of a force exceeds the threshold while it is heard, the new memory); not `listening` (0), nothing is."""
+def dead_band(k: DeadBand, m: DeadBandState, force: Any, enabled: Any, dt: Any) -> Any:
+    """(the part of an active force beyond the threshold, the new memory); while `enabled` is 0, no push is active."""
     f = force - m.bias
-    above = time_above(m.above, f, k.threshold, dt) * listening
-    on = still_on(m.on, above, f, k.threshold, k.release, k.dwell) * listening
-    off = silent_for(m.off, on, dt) * listening
-    learned = kept(on, m.bias, m.learned + drawn(force - m.learned, k.threshold * FAINT, off) * (k.forgetting * dt))
-    bias = m.bias + (learned - m.bias) * (LATE * dt)
-    return soft(f, k.threshold) * on, DeadBandState(on, above, off, learned, bias)
+    above = time_above(m.above_time, f, k.threshold, dt) * enabled
+    active = is_active(m.active, above, f, k.threshold, k.release, k.dwell) * enabled
+    inactive = time_inactive(m.inactive_time, active, dt) * enabled
+    deviation = bias_input(force - m.mean, k.threshold * BIAS_CLIP, inactive)
+    mean = unless_active(active, m.bias, m.mean + deviation * (k.bias_rate * dt))
+    bias = m.bias + (mean - m.bias) * (BIAS_RATE * dt)
+    return soft(f, k.threshold) * active, DeadBandState(active, above, inactive, mean, bias)
 
 
 @elementwise
-def braked(acceleration, velocity, most, braking):
-    """An acceleration that does not carry the speed beyond the most: it is then braked towards it."""
-    return clip(acceleration, -braking * (most + velocity), braking * (most - velocity))
+def speed_limited(acceleration: Any, velocity: Any, max_speed: Any, gain: Any) -> Any:
+    """An acceleration that does not carry the speed beyond a limit: it brakes towards the limit."""
+    return clip(acceleration, -gain * (max_speed + velocity), gain * (max_speed - velocity))
 
 
 @elementwise
-def approached(value, target, most):
-    """A value that comes nearer to its target by a most."""
-    return value + clip(target - value, -most, most)
+def moved_towards(value: Any, target: Any, step: Any) -> Any:
+    """A value moved towards its target by at most a step."""
+    return value + clip(target - value, -step, step)
 
 
 @law
-def shortened(a: Vec3, across: Any) -> Vec3:
-    """An acceleration whose horizontal part is at most `across` [m/s²]."""
+def with_horizontal_limit(a: Vec3, limit: Any) -> Vec3:
+    """An acceleration whose horizontal part is at most `limit` [m/s²]."""
     size = sqrt(maximum(a.x * a.x + a.y * a.y, 1e-24))
-    share = minimum(across / size, 1.0)
-    return Vec3(a.x * share, a.y * share, a.z)
+    factor = minimum(limit / size, 1.0)
+    return Vec3(a.x * factor, a.y * factor, a.z)
 
 
 @law
-def wanted(k: Compliance, m: ComplianceState, force: Vec3, damping: Any, across: Any) -> Vec3:
-    """The acceleration [m/s²] that a force beyond the threshold asks for, within limits."""
+def admittance_acceleration(k: Compliance, m: ComplianceState, force: Vec3, damping: Any, horizontal: Any) -> Vec3:
+    """The admittance's response [m/s²] to a force beyond the threshold, within limits."""
     a = k.admittance
     pull = force - (a.damping + Vec3(damping, damping, damping)) * m.velocity - a.stiffness * (m.position - m.anchor)
     free = clip(pull * a.inverse_mass, -k.limits.acceleration, k.limits.acceleration)
-    return shortened(braked(free, m.velocity, k.limits.speed, k.limits.braking_gain), across)
+    return with_horizontal_limit(speed_limited(free, m.velocity, k.limits.speed, k.limits.braking_gain), horizontal)
 
 
 @law
 def compliance_step(
-    k: Compliance, m: ComplianceState, push: Vec3, listening: Any, damping: Any, across: Any, dt: Any
+    k: Compliance, m: ComplianceState, push: Vec3, enabled: Any, damping: Any, horizontal: Any, dt: Any
 ) -> ComplianceState:
     """The memory after a step.
 
@@ -168,37 +169,37 @@ def compliance_step(
         k: the compliance.
         m: its memory.
         push: as measured [N, world axes].
-        listening: 1 while the person steers, else 0.
+        enabled: 1 while the vehicle follows pushes, else 0.
         damping: to be added to C [N·s/m].
-        across: the greatest horizontal acceleration that the rotors can still give [m/s²].
+        horizontal: the largest horizontal acceleration that the rotors can still give [m/s²].
         dt: of the step [s].
     """
-    heard = low_pass_step(k.input_filter, m.heard, push)
-    beyond, hearing = dead_band(k.band, m.hearing, heard.value, listening, dt)
-    eased = low_pass_step(k.output_filter, m.eased, beyond)
-    asked = wanted(k, m, eased.value, damping, across)
-    acceleration = approached(m.acceleration, asked, k.limits.jerk * dt)
-    jerk = (acceleration - m.acceleration) * (1.0 / dt)
+    filtered = low_pass_step(k.input_filter, m.filtered, push)
+    beyond, band = dead_band(k.band, m.band, filtered.value, enabled, dt)
+    output = low_pass_step(k.output_filter, m.output, beyond)
+    target = admittance_acceleration(k, m, output.value, damping, horizontal)
+    acceleration = moved_towards(m.acceleration, target, k.limits.jerk * dt)
     position = m.position + m.velocity * dt + acceleration * (0.5 * dt * dt)
     velocity = m.velocity + acceleration * dt
-    anchor = anchored(m.anchor, position, velocity, eased.value, k.admittance.reanchor)
-    return ComplianceState(heard, hearing, eased, position, velocity, acceleration, jerk, anchor)
+    return ComplianceState(
+        filtered=filtered,
+        band=band,
+        output=output,
+        position=position,
+        velocity=velocity,
+        acceleration=acceleration,
+        jerk=(acceleration - m.acceleration) * (1.0 / dt),
+        anchor=anchored(m.anchor, position, velocity, output.value, k.admittance.reanchor),
+    )
 
 
 @law
 def with_speed(k: Compliance, speed: Vec3) -> Compliance:
-    """A compliance with another greatest speed along each axis [m/s]."""
-    limits = MotionLimits(speed, k.limits.acceleration, k.limits.jerk, k.limits.braking_gain)
-    return Compliance(k.input_filter, k.band, k.output_filter, k.admittance, limits, k.force_lead, k.reference_lead)
+    """A compliance with another largest speed along each axis [m/s]."""
+    return k._replace(limits=k.limits._replace(speed=speed))
 
 
 @law
-def countered(k: Compliance, m: ComplianceState) -> Vec3:
-    """The push that is to be countered when the vehicle answers [N, world axes]."""
-    return m.heard.value + m.heard.rate * k.force_lead
-
-
-@law
-def power_of(m: ComplianceState, velocity: Vec3) -> Any:
-    """What the person's push beyond the threshold does at a velocity [W]."""
-    return dot(m.eased.value, velocity)
+def compensated_push(k: Compliance, m: ComplianceState) -> Vec3:
+    """The push that the controller compensates [N, world axes]: the filtered one, by its lead time ahead."""
+    return m.filtered.value + m.filtered.rate * k.force_lead

@@ -1,6 +1,6 @@
 """The reaction to faults, such as a failed rotor: the strongest reaction that is configured for any of them.
 
-The faults, their numbers and their order are in `common.faults`; `supervision.active_faults` detects them.
+The faults, their numbers and their order are in `common.faults`; `fault_detection` detects them.
 """
 
 from collections import namedtuple

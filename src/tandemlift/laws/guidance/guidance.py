@@ -1,33 +1,41 @@
-"""From the push to the reference: by the clock as in the paper, or guided by the hand, in phases.
+"""Guidance: from the push to the reference, by a schedule as in the paper, or by hand in phases.
 
-`ScheduledGuidance`: gate → admittance → lift and landing at set times. `HandGuidance`: phases with
-entry conditions, a compliance that the vehicle can follow, and a heading that a hand can turn.
+`ScheduledGuidance`: gate → admittance → lift and landing at set times. `HandGuidance`: phases with entry conditions, a
+compliance that the vehicle can follow, and a heading that a person can turn.
 """
 
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.constants import GRAVITY
-from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.law import Nothing, choice, law
 from tandemlift.algebra.ops import maximum, sqrt, where
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, dot
+from tandemlift.algebra.vector import ZERO, Vec3, apply, dot
 from tandemlift.common.phases import LAND
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.laws.guidance.admittance import Admittance, admittance_response, admittance_step, gate
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compliance_step, countered
+from tandemlift.laws.guidance.admittance import Admittance, AdmittanceState, admittance_response, admittance_step, gate
+from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
 from tandemlift.laws.guidance.energy_tank import passivity_damping
 from tandemlift.laws.guidance.phases import (
     PhaseOutput,
     PhaseSettings,
     PhaseState,
-    follow,
+    exceeds,
     is_in,
-    later,
-    more,
+    lift_request,
     phase_output,
-    wants_lift,
+    reached,
+    update_phase,
 )
-from tandemlift.laws.guidance.requests import NOBODY, UNAWARE, OperatorRequest, VehicleStatus, also, asked_until
-from tandemlift.laws.guidance.supervisor import concluded, given_up, kept_inside, supervise, usable_input
+from tandemlift.laws.guidance.requests import (
+    NO_REQUEST,
+    UNKNOWN_STATUS,
+    OperatorRequest,
+    VehicleStatus,
+    requests_until,
+    with_operator,
+)
+from tandemlift.laws.guidance.supervised_reference import fenced, usable_input, with_blind_descent
+from tandemlift.laws.guidance.supervision import finish_supervision, supervise
 from tandemlift.laws.guidance.yaw_compliance import HeadingReference, yaw_step
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
@@ -36,11 +44,11 @@ from tandemlift.laws.signals.trajectories import Reference, ScheduledPhases, Tra
 
 
 class PilotInput(NamedTuple):
-    """What the pilot is told at a sample.
+    """The pilot's input at a sample.
 
     The state; the person's push: force [N, world axes] and moment about the centre of mass [N·m, body axes]; 1 if the
-    person asks to land, else 0; what sensors read and estimators know, or `Nothing`; what an operator asks, and what
-    the pilot knows of its vehicle.
+    person requests a landing, else 0; readings and estimates, or `Nothing`; the operator's requests; the status of the
+    vehicle.
     """
 
     state: State
@@ -48,8 +56,8 @@ class PilotInput(NamedTuple):
     moment: Vec3
     land: Any
     sensed: Any
-    operator: OperatorRequest = NOBODY
-    own: VehicleStatus = UNAWARE
+    operator: OperatorRequest = NO_REQUEST
+    status: VehicleStatus = UNKNOWN_STATUS
 
 
 class AlwaysRunning(NamedTuple):
@@ -57,14 +65,14 @@ class AlwaysRunning(NamedTuple):
 
 
 class RunningInFlight(NamedTuple):
-    """Rotors run from the time `start` [s] of the lift to the end of the landing at `stop`."""
+    """Rotors run from the `start` [s] of the lift to the end of the landing at `stop` [s]."""
 
     start: Any
     stop: Any
 
 
 class ThrustFraction(NamedTuple):
-    """The share of every thrust that is commanded: 1 while the rotors run, else 0."""
+    """The fraction of every thrust that is commanded: 1 while the rotors run, else 0."""
 
     value: Any
 
@@ -79,9 +87,9 @@ class ScheduledGuidance(NamedTuple):
 
 
 class HandGuidance(NamedTuple):
-    """Guidance by hand. `mass` [kg]; `most_thrust` [N] that may be used; `tangent` of the greatest tilt.
+    """Guidance by hand. `mass` [kg]; `max_thrust` [N] that may be used; `tangent` of the largest tilt.
 
-    `moment`: low-pass on the push's moment, which is countered as it will be `moment_lead` [s] later.
+    `moment`: low-pass of the push's moment, which the controller compensates with a lead time of `moment_lead` [s].
     """
 
     phasing: PhaseSettings
@@ -91,7 +99,7 @@ class HandGuidance(NamedTuple):
     moment: LowPass
     moment_lead: Any
     mass: Any
-    most_thrust: Any
+    max_thrust: Any
     tangent: Any
     supervision: Any
 
@@ -100,7 +108,7 @@ class HandGuidanceState(NamedTuple):
     """Memory of the parts of a guidance by hand."""
 
     phase: PhaseState
-    compliant: ComplianceState
+    compliance: ComplianceState
     tank: Any
     heading: Any
     moment: LowPassState
@@ -108,7 +116,7 @@ class HandGuidanceState(NamedTuple):
 
 
 class HandGuidanceChannels(NamedTuple):
-    """What a guidance by hand shows."""
+    """The channels of a guidance by hand."""
 
     phase: Any
     push_filtered: Vec3
@@ -119,11 +127,11 @@ class HandGuidanceChannels(NamedTuple):
 
 
 class Guidance(NamedTuple):
-    """What the push asks for.
+    """The output of a guidance.
 
-    The gated force [N, world axes], T_r with its derivatives, the reference; the push to be countered: force [N, world
-    axes] and moment [N·m, body axes]; which share of the thrusts is commanded; 1 in flight, else 0; 1
-    while an observer may learn, which is not so where the feet may press on the floor; and what is shown.
+    The gated force [N, world axes]; T_r with its derivatives; the reference; the push that the controller compensates:
+    force [N, world axes] and moment [N·m, body axes]; the fraction of the thrusts that is commanded; 1 in flight, else
+    0; 1 while observers may learn, else 0, as where the feet may press on the ground; the channels.
     """
 
     force: Vec3
@@ -134,28 +142,40 @@ class Guidance(NamedTuple):
     running: Any
     flying: Any
     learning: Any
-    shown: Any
+    channels: Any
 
 
 @choice
-def guide(g: Any, m: Any, heard: Any, unknown: Any, lost: Any, t: Any, dt: Any) -> Any:
-    """(Guidance, the new memory) at time t [s]; `unknown`: a `DisturbanceEstimate`; `lost`: 1 once a rotor is lost."""
+def guide(g: Any, m: Any, pilot_input: Any, disturbance: Any, rotor_failed: Any, t: Any, dt: Any) -> Any:
+    """(`Guidance`, the new memory) at time t [s].
+
+    Args:
+        g: the guidance, whose type picks the law.
+        m: its memory.
+        pilot_input: a `PilotInput` that `checked_input` has checked.
+        disturbance: a `DisturbanceEstimate`.
+        rotor_failed: 1 once a rotor has failed, else 0.
+        t: time [s].
+        dt: since the last sample [s].
+    """
 
 
 @choice
-def checked_input(g: Any, m: Any, heard: PilotInput, thrust: Any, rotor_lost: Any) -> Any:
-    """What the pilot is told, made fit for use; with the thrust of all rotors [N], and 1 if one is found to be lost."""
+def checked_input(g: Any, m: Any, pilot_input: PilotInput, thrust: Any, rotor_failed: Any) -> Any:
+    """The pilot's input, made usable; with the thrust of all rotors [N], and 1 once a rotor has failed, else 0."""
 
 
 @checked_input.register(ScheduledGuidance)
-def _told(g, m, heard, thrust, rotor_lost):
-    return heard
+def _unchecked(g: ScheduledGuidance, m: Any, pilot_input: PilotInput, thrust: Any, rotor_failed: Any) -> PilotInput:
+    return pilot_input
 
 
 @checked_input.register(HandGuidance)
-def _attentive(g, m, heard, thrust, rotor_lost):
-    sound = usable_input(g.supervision, m.supervision, heard, thrust, rotor_lost)
-    return PilotInput(sound.state, sound.push, sound.moment, heard.land, heard.sensed, heard.operator, sound.own)
+def _checked(
+    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, thrust: Any, rotor_failed: Any
+) -> PilotInput:
+    usable = usable_input(g.supervision, m.supervision, pilot_input, thrust, rotor_failed)
+    return pilot_input._replace(state=usable.state, push=usable.push, moment=usable.moment, status=usable.status)
 
 
 @choice
@@ -164,87 +184,101 @@ def running(rotors: Any, thrusts: Any) -> Any:
 
 
 @running.register(AlwaysRunning)
-def _always(rotors, thrusts):
+def _always(rotors: AlwaysRunning, thrusts: Any) -> Any:
     return thrusts
 
 
 @running.register(ThrustFraction)
-def _a_share(rotors, thrusts):
+def _fraction(rotors: ThrustFraction, thrusts: Any) -> Any:
     return thrusts * rotors.value
 
 
 @choice
 def thrust_fraction(rotors: Any) -> Any:
-    """The share of every thrust that is commanded."""
+    """The fraction of every thrust that is commanded."""
 
 
 @thrust_fraction.register(AlwaysRunning)
-def _all_of_it(rotors):
+def _whole(rotors: AlwaysRunning) -> Any:
     return 1.0
 
 
 @thrust_fraction.register(ThrustFraction)
-def _its_value(rotors):
+def _value(rotors: ThrustFraction) -> Any:
     return rotors.value
 
 
 @choice
 def run(rotors: Any, t: Any) -> Any:
-    """Whether rotors run at time t [s], for `running`."""
+    """`AlwaysRunning` or a `ThrustFraction`, for `running`: whether rotors run at time t [s]."""
 
 
 @run.register(AlwaysRunning)
-def _run_always(rotors, t):
+def _run_always(rotors: AlwaysRunning, t: Any) -> AlwaysRunning:
     return rotors
 
 
 @run.register(RunningInFlight)
-def _run_in_flight(rotors, t):
+def _run_in_flight(rotors: RunningInFlight, t: Any) -> ThrustFraction:
     return ThrustFraction(where(t < rotors.start, 0.0, where(t < rotors.stop, 1.0, 0.0)))
 
 
 @guide.register(ScheduledGuidance)
-def _clocked(g, m, heard, unknown, lost, t, dt):
-    force = gate(g.admittance.gate, heard.push)
+def _by_schedule(
+    g: ScheduledGuidance,
+    m: AdmittanceState,
+    pilot_input: PilotInput,
+    disturbance: DisturbanceEstimate,
+    rotor_failed: Any,
+    t: Any,
+    dt: Any,
+) -> Any:
+    force = gate(g.admittance.gate, pilot_input.push)
     motion = admittance_response(g.admittance, m, force)
-    target = Reference(reference(g.phases, motion, t), g.yaw, 0.0, 0.0, ZERO)
-    guidance = Guidance(force, motion, target, heard.push, ZERO, run(g.rotors, t), 1.0, 1.0, Nothing())
+    guidance = Guidance(
+        force=force,
+        admittance=motion,
+        reference=Reference(reference(g.phases, motion, t), g.yaw, 0.0, 0.0, ZERO),
+        push=pilot_input.push,
+        moment=ZERO,
+        running=run(g.rotors, t),
+        flying=1.0,
+        learning=1.0,
+        channels=Nothing(),
+    )
     return guidance, admittance_step(g.admittance, m, force, motion, dt)
 
 
 @law
-def still_able(g: HandGuidance, unknown: DisturbanceEstimate) -> Any:
-    """The horizontal acceleration [m/s²] that rotors and tilt leave, once weight and disturbance are carried."""
-    d = unknown.force
+def available_acceleration(g: HandGuidance, disturbance: DisturbanceEstimate) -> Any:
+    """The horizontal acceleration [m/s²] that rotors and tilt can give beside weight and disturbance."""
+    d = disturbance.force
     up = maximum(g.mass * GRAVITY - d.z, 0.0)
-    thrust = sqrt(maximum(g.most_thrust * g.most_thrust - up * up, 0.0))
+    thrust = sqrt(maximum(g.max_thrust * g.max_thrust - up * up, 0.0))
     across = sqrt(maximum(d.x * d.x + d.y * d.y, 1e-24))
-    most = where(thrust < up * g.tangent, thrust, up * g.tangent)
-    return maximum(most - across, 0.0) / g.mass
+    limit = where(thrust < up * g.tangent, thrust, up * g.tangent)
+    return maximum(limit - across, 0.0) / g.mass
 
 
 @law
-def grounded_at(orders: PhaseOutput, m: ComplianceState, state: State) -> ComplianceState:
+def grounded_at(phase: PhaseOutput, m: ComplianceState, state: State) -> ComplianceState:
     """The compliance's memory; on the ground the reference stays with the vehicle, at rest."""
-    on = orders.grounded
-    position = state.position * on + m.position * (1.0 - on)
+    on = phase.grounded
     off = 1.0 - on
-    return ComplianceState(
-        m.heard,
-        m.hearing,
-        LowPassState(m.eased.value * off, m.eased.rate * off),
-        position,
-        m.velocity * off,
-        m.acceleration * off,
-        m.jerk * off,
-        state.position * on + m.anchor * off,
+    return m._replace(
+        output=LowPassState(m.output.value * off, m.output.rate * off),
+        position=state.position * on + m.position * (1.0 - on),
+        velocity=m.velocity * off,
+        acceleration=m.acceleration * off,
+        jerk=m.jerk * off,
+        anchor=state.position * on + m.anchor * off,
     )
 
 
 @law
-def lifted(g: HandGuidance, T: Trajectory, orders: PhaseOutput) -> Trajectory:
-    """The desired trajectory: T_r, lifted and landed."""
-    lift, land, end = orders.lift, orders.land, orders.end
+def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) -> Trajectory:
+    """The desired trajectory: T_r with the ramps of lift and landing."""
+    lift, land, end = phase.lift, phase.land, phase.end
     z = T.position.z + g.phasing.height * lift.value - end
     dz = T.velocity.z + g.phasing.height * lift.rate
     ddz = T.acceleration.z + g.phasing.height * lift.curvature
@@ -257,60 +291,73 @@ def lifted(g: HandGuidance, T: Trajectory, orders: PhaseOutput) -> Trajectory:
 
 
 @law
-def may_stand(m: PhaseState, height: Any) -> Any:
+def presses_on_ground(m: PhaseState, height: Any) -> Any:
     """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0."""
     return is_in(m, LAND) * where(height < m.ground, 1.0, 0.0)
 
 
 @law
-def channels_of(
-    orders: PhaseOutput, compliant: ComplianceState, damping: Any, course: HeadingReference, supervised: Any
+def channels_from(
+    phase: PhaseOutput, m: ComplianceState, damping: Any, heading: HeadingReference, supervision: Any
 ) -> HandGuidanceChannels:
-    """What is shown of a step; `supervised`: of the supervision."""
-    heard = compliant.heard.value - compliant.hearing.bias
-    return HandGuidanceChannels(orders.phase, heard, compliant.hearing.on, damping, course.rate, supervised)
+    """The channels of a step; `supervision`: those of supervision."""
+    push = m.filtered.value - m.band.bias
+    return HandGuidanceChannels(phase.phase, push, m.band.active, damping, heading.rate, supervision)
 
 
 @law
-def phased(g: HandGuidance, m: HandGuidanceState, heard: PilotInput, lost: Any, t: Any, dt: Any) -> Any:
-    """(the phase, what the supervision comes to, its memory) at time t [s]; `lost`: 1 once a rotor is lost."""
-    k, operator = g.phasing, heard.operator
-    asked = also(asked_until(k.requests, t), operator, later(t, k.lift_start), later(t, k.land_start))
-    lands = maximum(maximum(heard.land, lost), more(asked.lands, m.phase.lands))
-    lifts = wants_lift(k, m.phase, asked, operator.lift, lands)
-    supervised, supervising = supervise(g.supervision, m.supervision, heard, m.phase, lifts, t, dt)
-    phase = follow(k, m.phase, heard.state, asked, (lifts, lands), supervised.bounds, t, dt)
-    return phase, supervised, supervising
+def supervised_phase(
+    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, rotor_failed: Any, t: Any, dt: Any
+) -> Any:
+    """(the phase, `SupervisionOutput`, the memory of supervision) at time t [s]."""
+    k, operator = g.phasing, pilot_input.operator
+    requests = with_operator(
+        requests_until(k.requests, t), operator, reached(t, k.lift_start), reached(t, k.land_start)
+    )
+    land = maximum(maximum(pilot_input.land, rotor_failed), exceeds(requests.lands, m.phase.handled_lands))
+    lift = lift_request(k, m.phase, requests, operator.lift, land)
+    output, memory = supervise(g.supervision, m.supervision, pilot_input, m.phase, lift, t, dt)
+    phase = update_phase(k, m.phase, pilot_input.state, requests, (lift, land), output.bounds, t, dt)
+    return phase, output, memory
 
 
 @guide.register(HandGuidance)
-def _guided(g, m, heard, unknown, lost, t, dt):
-    state = heard.state
-    phase, supervised, supervising = phased(g, m, heard, lost, t, dt)
-    orders = phase_output(g.phasing, phase, t)
-    now = grounded_at(orders, m.compliant, state)
-    burned = dot(now.velocity * g.compliance.admittance.damping, now.velocity)
-    damping, tank = passivity_damping(g.tank, m.tank, now.heard.value, state.velocity, burned, dt)
-    how = kept_inside(g.supervision, g.compliance, now, g.phasing.height * orders.lift.value)
-    after = compliance_step(how, now, heard.push, orders.listening, damping, still_able(g, unknown), dt)
-    about = apply(rotation_from_quaternion(state.attitude), heard.moment).z
+def _by_hand(
+    g: HandGuidance,
+    m: HandGuidanceState,
+    pilot_input: PilotInput,
+    disturbance: DisturbanceEstimate,
+    rotor_failed: Any,
+    t: Any,
+    dt: Any,
+) -> Any:
+    state = pilot_input.state
+    phase, supervised, memory = supervised_phase(g, m, pilot_input, rotor_failed, t, dt)
+    allowed = phase_output(g.phasing, phase, t)
+    before = grounded_at(allowed, m.compliance, state)
+    dissipated = dot(before.velocity * g.compliance.admittance.damping, before.velocity)
+    damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
+    compliance = fenced(g.supervision, g.compliance, before, g.phasing.height * allowed.lift.value)
+    horizontal = available_acceleration(g, disturbance)
+    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, dt)
+    about_vertical = apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z
     yaw = euler_from_quaternion(state.attitude).angles.z
-    course, heading = yaw_step(g.heading, m.heading, about, yaw, orders, lost, dt)
-    moment = low_pass_step(g.moment, m.moment, heard.moment)
-    motion = Trajectory(now.position, now.velocity, after.acceleration)
-    target = given_up(
-        g.supervision, lifted(g, motion, orders), state, supervised.blind, is_in(phase, LAND), orders.land.value
-    )
-    shown, supervision = concluded(g.supervision, supervising, phase, target.position, t)
+    heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)
+    moment = low_pass_step(g.moment, m.moment, pilot_input.moment)
+    motion = Trajectory(before.position, before.velocity, after.acceleration)
+    target, blind = with_lift_and_landing(g, motion, allowed), supervised.motion_unknown
+    target = with_blind_descent(g.supervision, target, state, blind, is_in(phase, LAND), allowed.land.value)
+    shown, memory = finish_supervision(g.supervision, memory, phase, target.position, t)
+    lead = after.jerk * g.compliance.reference_lead
     guidance = Guidance(
-        after.eased.value,
-        motion,
-        Reference(target, course.angle, course.rate, course.acceleration, after.jerk * g.compliance.reference_lead),
-        countered(g.compliance, after) * orders.countering,
-        (moment.value + moment.rate * g.moment_lead) * orders.countering,
-        ThrustFraction(orders.running),
-        orders.flying * (1.0 - supervised.blind),
-        1.0 - may_stand(phase, target.position.z),
-        channels_of(orders, after, damping, course, shown),
+        force=after.output.value,
+        admittance=motion,
+        reference=Reference(target, heading.angle, heading.rate, heading.acceleration, lead),
+        push=compensated_push(g.compliance, after) * allowed.compensating,
+        moment=(moment.value + moment.rate * g.moment_lead) * allowed.compensating,
+        running=ThrustFraction(allowed.running),
+        flying=allowed.flying * (1.0 - blind),
+        learning=1.0 - presses_on_ground(phase, target.position.z),
+        channels=channels_from(allowed, after, damping, heading, shown),
     )
-    return guidance, HandGuidanceState(phase, after, tank, heading, moment, supervision)
+    return guidance, HandGuidanceState(phase, after, tank, turned, moment, memory)

@@ -1,8 +1,8 @@
 """The phases of a flight with a person, as a state machine.
 
-idle on the ground → lift → hold ⇄ guided → land → idle; from any of them → stopped, for good. Each is entered for a
-reason and left for a reason; `PhaseOutput` says what a phase allows. A law without branches: every condition is a
-number, 1 or 0. The diagram is in docs/safety.md.
+idle on the ground → lift → hold ⇄ guided → land → idle; from each of them → stopped, which is final. `next_phase` has
+the transitions, `PhaseOutput` what a phase allows. The laws have no branches: every condition is a number, 1 or 0. The
+diagram is in docs/safety.md; `common.phases` has names and numbers.
 """
 
 from typing import Any, NamedTuple
@@ -15,17 +15,17 @@ from tandemlift.laws.guidance.requests import RequestCounts
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.signals.trajectories import SmoothStep, smoothstep
 
-SETTLE = 1.0  # s, of steady hover before a tare
-STEADY = 0.1  # m/s and rad/s
+SETTLING_TIME = 1.0  # s, of steady hover before a tare
+STEADY_SPEED = 0.1  # m/s and rad/s
 
 
 class PhaseSettings(NamedTuple):
-    """What is asked for, and how fast.
+    """Parameters of the phases.
 
-    `height` [m] of the lift; when it is asked for, and the landing [s]; rates are 1/duration [1/s]. `touchdown_depth`
-    [m]: how far below the ground the landing's reference ends, so that the feet press. `spin_up_time` [s] from when the
-    rotors run to the lift. `always` is 1 if the rotors run in idle too. `max_descent_speed` [m/s]: of a landing.
-    `requests` besides, or `Nothing`.
+    `height` [m] of the lift; the times of the requests to lift and to land [s]; rates are 1/duration [1/s].
+    `touchdown_depth` [m]: how far below the ground a landing's reference ends, so that the feet press. `spin_up_time`
+    [s]: from the start of the rotors to the lift. `always_running` is 1 if the rotors run on the ground too, else 0.
+    `max_descent_speed` [m/s]: of a landing. `requests`: a `RequestSchedule`, or `Nothing`.
     """
 
     height: Any
@@ -35,60 +35,61 @@ class PhaseSettings(NamedTuple):
     land_rate: Any
     touchdown_depth: Any
     spin_up_time: Any
-    always: Any
+    always_running: Any
     max_descent_speed: Any
     requests: Any
 
 
 class PhaseState(NamedTuple):
-    """Memory: which phase, since when [s]; the ground's height [m], and 1/duration of the landing that is flown.
+    """Memory: the phase and its start [s]; height of the ground [m], and 1/duration of the present landing [1/s].
 
-    `risen`: the share of the lift that was flown; `deep` [m]: how much farther down the landing ends. How many requests
-    to lift and to land have been dealt with; how long it has hovered steadily, less `SETTLE` [s].
+    `lift_fraction`: of the lift that is done; `extra_depth` [m]: how much farther down the landing ends; the numbers of
+    requests to lift and to land that are handled; for how long the vehicle has hovered steadily, less `SETTLING_TIME`.
     """
 
     phase: Any
     since: Any
     ground: Any
     land_rate: Any
-    risen: Any
-    deep: Any
-    lifts: Any
-    lands: Any
-    hovered: Any
+    lift_fraction: Any
+    extra_depth: Any
+    handled_lifts: Any
+    handled_lands: Any
+    hover_time: Any
 
 
 class PhaseBounds(NamedTuple):
-    """What supervision allows, 1 or 0: a lift, to listen; what it demands: to hold, land, stop; 1 once landed.
+    """Bounds by supervision, 1 or 0: whether it allows a lift and guidance; whether it demands to hold, land, stop.
 
-    `deep` [m]: how much farther down a landing that begins now ends.
+    `touched_down`: whether a landing has ended early on something. `extra_depth` [m]: how much farther down a landing
+    that begins now ends.
     """
 
-    ready: Any
-    clear: Any
+    lift_allowed: Any
+    guidance_allowed: Any
     hold: Any
     land: Any
     stop: Any
-    landed: Any
-    deep: Any
+    touched_down: Any
+    extra_depth: Any
 
 
 class PhaseOutput(NamedTuple):
-    """What the phase lets happen: which it is; 1 or 0 for on the ground, listening to pushes, rotors running.
+    """What a phase allows: its number; 1 or 0 for on the ground, following pushes, rotors running.
 
-    `flying`: 1 from when the feet may have left the ground, for observers; `countering`: 1 while pushes are countered.
-    Ramps of lift and landing; the landing ends at `end` [m].
+    `flying`: 1 once the feet may have left the ground, for observers. The ramps of lift and landing; the landing ends
+    at height `end` [m]. `compensating`: 1 while the controller compensates pushes.
     """
 
     phase: Any
     grounded: Any
-    listening: Any
+    responding: Any
     running: Any
     flying: Any
     lift: SmoothStep
     land: SmoothStep
     end: Any
-    countering: Any
+    compensating: Any
 
 
 @law
@@ -98,39 +99,39 @@ def is_in(m: PhaseState, phase: Any) -> Any:
 
 
 @law
-def later(t: Any, start: Any) -> Any:
-    """1 from a time on, else 0."""
+def reached(t: Any, start: Any) -> Any:
+    """1 from a time on, before 0."""
     return where(t >= start, 1.0, 0.0)
 
 
 @law
-def more(count: Any, than: Any) -> Any:
-    """1 if a count is more than another, else 0."""
-    return where(count > than, 1.0, 0.0)
+def exceeds(count: Any, other: Any) -> Any:
+    """1 if a count is above another, else 0."""
+    return where(count > other, 1.0, 0.0)
 
 
 @law
-def wants_lift(k: PhaseSettings, m: PhaseState, asked: RequestCounts, wish: Any, wants_land: Any) -> Any:
-    """1 on the ground while a lift is asked for: once by a request, or by a `wish` (1)."""
-    again = where(m.land_rate > 0.0, 1.0 - k.always, 1.0)
-    return is_in(m, IDLE) * maximum(more(asked.lifts, m.lifts), wish) * (1.0 - wants_land) * again
+def lift_request(k: PhaseSettings, m: PhaseState, requests: RequestCounts, operator: Any, land: Any) -> Any:
+    """1 on the ground while a lift is requested, by requests or the `operator` (1), and no landing (`land`); else 0."""
+    again = where(m.land_rate > 0.0, 1.0 - k.always_running, 1.0)
+    return is_in(m, IDLE) * maximum(exceeds(requests.lifts, m.handled_lifts), operator) * (1.0 - land) * again
 
 
 @law
 def next_phase(
-    k: PhaseSettings, m: PhaseState, asked: RequestCounts, bounds: PhaseBounds, lifts: Any, wants_land: Any, t: Any
+    k: PhaseSettings, m: PhaseState, requests: RequestCounts, bounds: PhaseBounds, lifts: Any, land: Any, t: Any
 ) -> Any:
-    """The phase after this sample; `lifts` is 1 if a lift begins."""
+    """The phase after this sample; `lifts` is 1 if a lift begins, `land` 1 if a landing is requested."""
     lift = is_in(m, LIFT)
     up = lift * where((t - m.since - k.spin_up_time) * k.lift_rate >= 1.0, 1.0, 0.0) + is_in(m, GUIDED) + is_in(m, HOLD)
-    listens = asked.enabled * bounds.clear * (1.0 - bounds.hold)
-    demanded = maximum(maximum(wants_land, bounds.land), lift * bounds.hold)
+    guided = requests.enabled * bounds.guidance_allowed * (1.0 - bounds.hold)
+    demanded = maximum(maximum(land, bounds.land), lift * bounds.hold)
     lands = (lift + is_in(m, GUIDED) + is_in(m, HOLD)) * demanded
-    landed = is_in(m, LAND) * maximum(where((t - m.since) * m.land_rate >= 1.0, 1.0, 0.0), bounds.landed)
+    landed = is_in(m, LAND) * maximum(where((t - m.since) * m.land_rate >= 1.0, 1.0, 0.0), bounds.touched_down)
     phase = where(lifts > 0.0, LIFT, m.phase)
-    phase = where(up > 0.0, where(listens > 0.0, GUIDED, HOLD), phase)
+    phase = where(up > 0.0, where(guided > 0.0, GUIDED, HOLD), phase)
     phase = where(lands > 0.0, LAND, where(landed > 0.0, IDLE, phase))
-    return where(maximum(asked.stop, bounds.stop) > 0.0, STOPPED, phase)
+    return where(maximum(requests.stop, bounds.stop) > 0.0, STOPPED, phase)
 
 
 @law
@@ -141,21 +142,21 @@ def landing_rate(k: PhaseSettings, height: Any) -> Any:
 
 
 @law
-def hovered(m: PhaseState, phase: Any, state: State, dt: Any) -> Any:
-    """How long it has hovered steadily in the air, less `SETTLE` [s]; it goes on once it is above zero."""
+def hover_time(m: PhaseState, phase: Any, state: State, dt: Any) -> Any:
+    """For how long it has hovered steadily, less `SETTLING_TIME` [s]; above zero it only needs to be in the air."""
     up = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, 0.0))
     moving = maximum(dot(state.velocity, state.velocity), dot(state.rates, state.rates))
-    steady = where(moving < STEADY * STEADY, up, where(m.hovered >= 0.0, up, 0.0))
-    return where(steady > 0.0, m.hovered + dt, where(m.hovered >= 0.0, m.hovered, -SETTLE))
+    steady = where(moving < STEADY_SPEED * STEADY_SPEED, up, where(m.hover_time >= 0.0, up, 0.0))
+    return where(steady > 0.0, m.hover_time + dt, where(m.hover_time >= 0.0, m.hover_time, -SETTLING_TIME))
 
 
 @law
-def follow(
+def update_phase(
     k: PhaseSettings,
     m: PhaseState,
     state: State,
-    asked: RequestCounts,
-    wants: Any,
+    requests: RequestCounts,
+    wanted: tuple[Any, Any],
     bounds: PhaseBounds,
     t: Any,
     dt: Any,
@@ -163,55 +164,55 @@ def follow(
     """The phase at time t [s].
 
     Args:
-        k: what the phases are like.
+        k: parameters of the phases.
         m: their memory.
         state: of the vehicle.
-        asked: what has been asked until now.
-        wants: (1 if a lift is asked for, 1 if a landing is, for whatever reason), else 0.
-        bounds: what supervision forbids or demands.
+        requests: all until now.
+        wanted: (1 if a lift is requested, 1 if a landing is, for whatever reason), else 0.
+        bounds: by supervision.
         t: now [s].
         dt: since the last sample [s].
     """
     height, idle = state.position.z, is_in(m, IDLE)
-    lifts = wants[0] * bounds.ready * (1.0 - bounds.stop)
-    phase = next_phase(k, m, asked, bounds, lifts, wants[1], t)
+    lifts = wanted[0] * bounds.lift_allowed * (1.0 - bounds.stop)
+    phase = next_phase(k, m, requests, bounds, lifts, wanted[1], t)
     lands = where(phase == LAND, 1.0 - is_in(m, LAND), 0.0)
     ground = where(lifts > 0.0, height, m.ground)
-    deep = where(lands > 0.0, bounds.deep, m.deep)
-    rate = where(lands > 0.0, landing_rate(k, height - ground + k.touchdown_depth + deep), m.land_rate)
+    extra_depth = where(lands > 0.0, bounds.extra_depth, m.extra_depth)
+    rate = where(lands > 0.0, landing_rate(k, height - ground + k.touchdown_depth + extra_depth), m.land_rate)
     up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate).value
-    in_vain = maximum(lifts, maximum(1.0 - idle, idle * more(asked.lands, m.lands)))
+    settled = maximum(lifts, maximum(1.0 - idle, idle * exceeds(requests.lands, m.handled_lands)))
     return PhaseState(
-        phase,
-        where(phase == m.phase, m.since, t),
-        ground,
-        where(lifts > 0.0, 0.0, rate),
-        where(lifts > 0.0, 0.0, where(is_in(m, LIFT) > 0.0, up, m.risen)),
-        deep,
-        where(in_vain > 0.0, asked.lifts, m.lifts),
-        where(idle > 0.0, asked.lands, m.lands),
-        hovered(m, phase, state, dt),
+        phase=phase,
+        since=where(phase == m.phase, m.since, t),
+        ground=ground,
+        land_rate=where(lifts > 0.0, 0.0, rate),
+        lift_fraction=where(lifts > 0.0, 0.0, where(is_in(m, LIFT) > 0.0, up, m.lift_fraction)),
+        extra_depth=extra_depth,
+        handled_lifts=where(settled > 0.0, requests.lifts, m.handled_lifts),
+        handled_lands=where(idle > 0.0, requests.lands, m.handled_lands),
+        hover_time=hover_time(m, phase, state, dt),
     )
 
 
 @law
 def phase_output(k: PhaseSettings, m: PhaseState, t: Any) -> PhaseOutput:
-    """What a phase lets happen at time t [s]."""
+    """What a phase allows at time t [s]."""
     idle, lift, land, stopped = is_in(m, IDLE), is_in(m, LIFT), is_in(m, LAND), is_in(m, STOPPED)
     up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate)
     down = smoothstep(t, m.since, m.land_rate)
-    landed = idle * k.always * where(m.land_rate > 0.0, 1.0, 0.0)
+    landed = idle * k.always_running * where(m.land_rate > 0.0, 1.0, 0.0)
     begun = where(t - m.since < k.spin_up_time, 0.0, 1.0)
-    down_here = idle * (1.0 - k.always)
-    risen = m.risen * (1.0 - stopped) * (1.0 - down_here)
+    parked = idle * (1.0 - k.always_running)
+    lift_fraction = m.lift_fraction * (1.0 - stopped) * (1.0 - parked)
     return PhaseOutput(
         phase=m.phase,
-        grounded=down_here + stopped,
-        listening=is_in(m, GUIDED),
-        running=(1.0 - down_here) * (1.0 - stopped),
-        flying=(1.0 - down_here) * (1.0 - stopped) * (1.0 - lift * (1.0 - begun) * (1.0 - k.always)),
-        lift=SmoothStep(where(lift > 0.0, up.value, risen), lift * up.rate, lift * up.curvature),
+        grounded=parked + stopped,
+        responding=is_in(m, GUIDED),
+        running=(1.0 - parked) * (1.0 - stopped),
+        flying=(1.0 - parked) * (1.0 - stopped) * (1.0 - lift * (1.0 - begun) * (1.0 - k.always_running)),
+        lift=SmoothStep(where(lift > 0.0, up.value, lift_fraction), lift * up.rate, lift * up.curvature),
         land=SmoothStep(land * down.value + landed, land * down.rate, land * down.curvature),
-        end=m.ground - k.touchdown_depth - m.deep,
-        countering=(1.0 - idle) * (1.0 - stopped),
+        end=m.ground - k.touchdown_depth - m.extra_depth,
+        compensating=(1.0 - idle) * (1.0 - stopped),
     )

@@ -1,7 +1,7 @@
-"""What an operator asks of the vehicle: at set times, or now; and what it is told of itself beside the state.
+"""Requests of an operator, at set times or now; and the status of the vehicle beside its state.
 
-To lift and to land are asked once, and forgotten when done or in vain; stop is for good; enabled or not holds until the
-next word on it.
+A request to lift or to land counts once, and lapses once it is done or refused. A stop is final. Enabled or disabled
+holds until the next request about it.
 """
 
 from typing import Any, NamedTuple
@@ -12,7 +12,7 @@ from tandemlift.algebra.vector import total
 
 
 class OperatorRequest(NamedTuple):
-    """What is asked now, 1 or 0: to lift, to stop the rotors at once; and whether pushes may be listened to."""
+    """Requests of now, 1 or 0: to lift, to stop the rotors at once; and whether pushes may be followed."""
 
     lift: Any
     stop: Any
@@ -20,23 +20,23 @@ class OperatorRequest(NamedTuple):
 
 
 class VehicleStatus(NamedTuple):
-    """What the pilot knows of its vehicle at a sample.
+    """The status of the vehicle at a sample, as the pilot knows it.
 
-    `rotor_lost` is 1 if one is found to be lost, else 0; `thrust` [N] of all rotors as allocated at the last sample, 0
-    if that is not known; `blank` is 1 if the state that it is told has no numbers, else 0.
+    `rotor_failed` is 1 once a rotor has failed, else 0; `thrust` [N] of all rotors as allocated at the last sample, 0
+    if unknown; `state_invalid` is 1 if the pilot's state has values that are not numbers, else 0.
     """
 
-    rotor_lost: Any
+    rotor_failed: Any
     thrust: Any
-    blank: Any
+    state_invalid: Any
 
 
-NOBODY = OperatorRequest(0.0, 0.0, 1.0)
-UNAWARE = VehicleStatus(0.0, 0.0, 0.0)
+NO_REQUEST = OperatorRequest(0.0, 0.0, 1.0)
+UNKNOWN_STATUS = VehicleStatus(0.0, 0.0, 0.0)
 
 
 class RequestSchedule(NamedTuple):
-    """Requests at times [s], sets: 1 where one is to lift, to land, to stop; by how much one changes `enabled`."""
+    """Requests at times [s], sets: 1 where one is to lift, to land, to stop; the change of `enabled` by each."""
 
     time: Any
     lift: Any
@@ -47,7 +47,7 @@ class RequestSchedule(NamedTuple):
 
 
 class RequestCounts(NamedTuple):
-    """What has been asked until a time: how often to lift and to land; 1 or 0 for to stop, and for enabled."""
+    """All requests until a time: the number of those to lift and to land; 1 or 0 for stop, and for enabled."""
 
     lifts: Any
     lands: Any
@@ -56,23 +56,23 @@ class RequestCounts(NamedTuple):
 
 
 @elementwise
-def due(time, what, t):
-    """What is asked from a time on, else 0."""
-    return where(t >= time, what, 0.0)
+def due(time: Any, request: Any, t: Any) -> Any:
+    """A request from its time on, before 0."""
+    return where(t >= time, request, 0.0)
 
 
-@choice(absent=NOBODY)
-def operator_of(company: Any) -> Any:
-    """What is asked by somebody at the vehicle, from their memory: nothing, but of those who can."""
+@choice(absent=NO_REQUEST)
+def operator_request(person: Any) -> Any:
+    """`OperatorRequest` of a person at the vehicle, from their memory."""
 
 
 @choice(absent=RequestCounts(0.0, 0.0, 0.0, 1.0))
-def asked_until(requests: Any, t: Any) -> Any:
-    """What requests ask until time t [s]."""
+def requests_until(requests: Any, t: Any) -> Any:
+    """`RequestCounts` of a schedule until time t [s]."""
 
 
-@asked_until.register(RequestSchedule)
-def _asked(requests, t):
+@requests_until.register(RequestSchedule)
+def _until(requests: RequestSchedule, t: Any) -> RequestCounts:
     r = requests
     return RequestCounts(
         total(due(r.time, r.lift, t)),
@@ -83,11 +83,11 @@ def _asked(requests, t):
 
 
 @law
-def also(asked: RequestCounts, operator: OperatorRequest, lifts: Any, lands: Any) -> RequestCounts:
-    """What is asked, with an operator's wishes and so many more requests to lift and to land."""
+def with_operator(requests: RequestCounts, operator: OperatorRequest, lifts: Any, lands: Any) -> RequestCounts:
+    """The requests, with those of an operator of now, and so many more to lift and to land."""
     return RequestCounts(
-        asked.lifts + lifts,
-        asked.lands + lands,
-        maximum(asked.stop, operator.stop),
-        minimum(asked.enabled, operator.enabled),
+        requests.lifts + lifts,
+        requests.lands + lands,
+        maximum(requests.stop, operator.stop),
+        minimum(requests.enabled, operator.enabled),
     )

@@ -1,81 +1,54 @@
-"""Supervision of a flight by hand: checks before a lift and before a hand is listened to, limits, and reactions.
+"""Supervision of a flight by hand: checks, detection of faults, the reaction to them, and the log of events.
 
-The checks: `refusal_to_lift`, `refusal_to_follow`. The limits: a fence about the vehicle, the share of its thrust,
-tilt, rates, distance from the reference. What the watchdogs report and what leaves a limit are the faults; each calls
-for a reaction: to hold the position and not to listen, to land, to stop the rotors. A hold ends when all has been well
-for a time, or in a landing when it has lasted too long; a landing and a stop are not taken back.
+`preflight_checks` › `fault_detection` › `fault_reactions` › what the phases may do. A reaction is to hold the position
+and ignore pushes, to land, or to stop the rotors. A hold ends after a time without a fault, or in a landing when it
+lasts too long; a landing and a stop are final.
 """
 
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.constants import GRAVITY
-from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import maximum, where
-from tandemlift.algebra.vector import Nothing, Vec3, dot
-from tandemlift.common.faults import CHECKS
-from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, STOPPED
-from tandemlift.laws.guidance.fault_reactions import HOLDS, LANDS, STOPS, ActiveFaults
-from tandemlift.laws.guidance.phases import PhaseBounds
-from tandemlift.laws.guidance.requests import VehicleStatus
+from tandemlift.algebra.vector import Vec3, total
+from tandemlift.common.phases import HOLD, IDLE, STOPPED
+from tandemlift.laws.guidance.fault_detection import (
+    Fence,
+    LimitTimers,
+    SupervisionLimits,
+    active_faults,
+    expired,
+    update_timers,
+)
+from tandemlift.laws.guidance.fault_reactions import (
+    HOLDS,
+    LANDS,
+    STOPS,
+    ActiveFaults,
+    FaultReaction,
+    strongest_reaction,
+)
+from tandemlift.laws.guidance.phases import PhaseBounds, PhaseState
+from tandemlift.laws.guidance.preflight_checks import (
+    PreflightChecks,
+    SensorStatus,
+    failed_guidance_check,
+    failed_lift_check,
+    sensor_status,
+)
 from tandemlift.laws.mechanics.body import State
-from tandemlift.laws.mechanics.rotation import body_z_axis
-from tandemlift.laws.sensors.watchdog import WELL, WatchdogReport
+from tandemlift.laws.rotors.rotor_faults import efficiency_at
 
-
-class PreflightChecks(NamedTuple):
-    """Before a lift: greatest share of the thrust in hover, least cosine of the tilt, speed [m/s], rates [rad/s].
-
-    Before listening: the payload's mass, as estimated, from `lightest` to `heaviest` [kg].
-    """
-
-    share: Any
-    upright: Any
-    speed: Any
-    rates: Any
-    lightest: Any
-    heaviest: Any
-
-
-class Fence(NamedTuple):
-    """Corners of the box for the reference [m, world axes], and by how much the vehicle may be outside [m].
-
-    `braking_gain` [1/s]: the speed towards a side of the box over the distance that is left.
-    """
-
-    low: Vec3
-    high: Vec3
-    margin: Any
-    braking_gain: Any
-
-
-class SupervisionLimits(NamedTuple):
-    """Greatest share of the thrust, least cosine of the tilt, rates [rad/s], distance from the reference [m].
-
-    Each may be left for a time [s]; `apart_time` is that of joints which disagree, `blank_time` of a state without
-    numbers.
-    """
-
-    thrust: Any
-    upright: Any
-    rates: Any
-    tracking_error: Any
-    thrust_time: Any
-    tilt_time: Any
-    rates_time: Any
-    tracking_error_time: Any
-    apart_time: Any
-    blank_time: Any
+TOUCHDOWN_TIME = 0.2  # s, after which a vehicle above its landing's reference is taken to stand on something
+PHASE, ALARM = 1e6, 1e2  # factors in the code of an event: phase, alarm, failed check
 
 
 class Supervision(NamedTuple):
-    """The numbers of a supervision.
+    """The parameters of supervision.
 
-    Masses as believed [kg]; the rotors' limits [N] and the faults that are known of them; `reactions` to each fault. A
-    hold lasts at most `hold_timeout` [s] and ends once all has been well for `recovery_time` [s]. `blind_descent_depth`
-    [m]: how much farther down a landing ends that cannot know its height; `blind_descent_acceleration` [m/s²]: how one
-    begins that knows no motion at all. `touchdown_gap` [m]: how far above a landing's reference it stands on something.
-    `slots`: numbers of the events, from 0, a set.
+    Nominal masses of vehicle and payload [kg]; the rotors' thrust limits [N] and their known faults; the reaction to
+    each fault. A hold lasts at most `hold_timeout` [s] and ends after `recovery_time` [s] without a fault.
+    `blind_descent_depth` [m]: how much farther down a landing ends without a known height. `blind_descent_acceleration`
+    [m/s²]: of a landing without any known motion. `slots`: numbers of the events, from 0, a set.
     """
 
     mass: Any
@@ -90,228 +63,153 @@ class Supervision(NamedTuple):
     recovery_time: Any
     blind_descent_depth: Any
     blind_descent_acceleration: Any
-    touchdown_gap: Any
     slots: Any
 
 
-class LimitTimers(NamedTuple):
-    """For how long each limit has been left, and a landing has been stuck [s]."""
-
-    apart: Any
-    thrust: Any
-    tilt: Any
-    rates: Any
-    error: Any
-    blank: Any
-    stuck: Any
-
-
 class EventLog(NamedTuple):
-    """Memory of what happened: times [s] and codes, sets; how many; the last code, and the refusal in it."""
+    """Memory of events: their times [s] and codes, sets; their number; the last code, and the failed check in it."""
 
     time: Any
     code: Any
     count: Any
     last: Any
-    refused: Any
+    failed_check: Any
 
 
 class SupervisionState(NamedTuple):
-    """Memory: reaction and alarm, how long it has held and been well [s], timers, the last sound state and reference.
+    """Memory of supervision.
 
-    `refused` and `deaf`: the number of the check that refuses to lift, and to listen (`alarms.CHECKS`, from 1), or 0.
+    Reaction and alarm; for how long it has held, and has been without a fault [s]; timers; the last valid state and the
+    reference [m]; the numbers of the checks that fail before a lift and before pushes are followed, or 0; events.
     """
 
     reaction: Any
     alarm: Any
-    held: Any
-    well: Any
+    hold_time: Any
+    fault_free_time: Any
     timers: LimitTimers
     state: State
     reference: Vec3
-    refused: Any
-    deaf: Any
+    failed_lift_check: Any
+    failed_guidance_check: Any
     events: EventLog
 
 
-class SensorStatus(NamedTuple):
-    """What is known of sensors: the watchdogs' report; 1 if joints disagree, 1 once tared; the payload's mass [kg]."""
-
-    report: WatchdogReport
-    apart: Any
-    armed: Any
-    payload: Any
-
-
 class SupervisionOutput(NamedTuple):
-    """What supervision comes to: bounds of the phases, and 1 if the vehicle's motion is not known at all."""
+    """The bounds of the phases, and 1 if nothing of the vehicle's motion is known, else 0."""
 
     bounds: PhaseBounds
-    blind: Any
+    motion_unknown: Any
 
 
 class SupervisionChannels(NamedTuple):
-    """What a supervision shows."""
+    """The channels of supervision."""
 
     alarm: Any
     failed_check: Any
 
 
-FREE = SupervisionOutput(PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0)
-STUCK = 0.2  # s
+UNSUPERVISED = SupervisionOutput(
+    PhaseBounds(
+        lift_allowed=1.0, guidance_allowed=1.0, hold=0.0, land=0.0, stop=0.0, touched_down=0.0, extra_depth=0.0
+    ),
+    motion_unknown=0.0,
+)
 
 
-@choice
-def sensor_status(sensed: Any, payload: Any) -> Any:
-    """`SensorStatus` from what is sensed; with a payload as believed [kg]."""
+@choice(absent=(UNSUPERVISED, "m"))
+def supervise(k: Any, m: Any, pilot_input: Any, phase: PhaseState, lift_requested: Any, t: Any, dt: Any) -> Any:
+    """(`SupervisionOutput`, the new memory) at time t [s]; `lift_requested` is 1 or 0."""
 
 
-@sensor_status.register(Nothing)
-def _nothing_sensed(sensed, payload):
-    return SensorStatus(WELL, 0.0, 1.0, payload)
-
-
-@law
-def lasting(timer: Any, wrong: Any, dt: Any) -> Any:
-    """For how long something has been wrong [s]; `wrong` is 1 or 0."""
-    return (timer + dt) * wrong
-
-
-@law
-def too_long(timer: Any, most: Any) -> Any:
-    """1 once something has been wrong for a time, else 0."""
-    return where(timer > most, 1.0, 0.0)
-
-
-@law
-def outside(f: Fence, p: Vec3) -> Any:
-    """1 if a position is outside the fence by more than the margin, else 0."""
-    x = maximum(f.low.x - p.x, p.x - f.high.x)
-    y = maximum(f.low.y - p.y, p.y - f.high.y)
-    z = maximum(f.low.z - p.z, p.z - f.high.z)
-    return where(maximum(x, maximum(y, z)) > f.margin, 1.0, 0.0)
-
-
-@law
-def first_check(number: Any, fails: Any, others: Any) -> Any:
-    """The number of a check if it fails (above 0), else that of the first of the others."""
-    return where(fails > 0.0, number, others)
-
-
-def first_failed(before: str, fails: Mapping[str, Any]) -> Any:
-    """The number of the first check before a phase that fails (above 0, by the check's key), or 0."""
-    number = 0.0
-    for check in reversed([c for c in CHECKS if c.before == before]):
-        number = first_check(float(check.number), fails[check.key], number)
-    return number
-
-
-@law
-def refusal_to_lift(k: Supervision, s: SensorStatus, state: State, own: VehicleStatus, reaction: Any, most: Any) -> Any:
-    """The number of the first check that refuses a lift, or 0; `most`: the thrust that the rotors have [N].
-
-    `reaction` is above 0 while a fault, or one that was just there, is reacted to.
-    """
-    r, c = s.report, k.checks
-    ill = r.joints + r.accelerometer + r.gyroscope + r.position + r.velocity + r.attitude + own.blank
-    weight = (k.mass + s.payload - k.payload) * GRAVITY
-    moving = where(dot(state.velocity, state.velocity) > c.speed * c.speed, 1.0, 0.0)
-    turning = where(dot(state.rates, state.rates) > c.rates * c.rates, 1.0, 0.0)
-    fails = {
-        "imu": maximum(r.imu, 1.0 - r.seen),
-        "motion": maximum(r.motion, 1.0 - r.seen),
-        "sensors": ill + s.apart + reaction,
-        "hover": where(weight > c.share * most, 1.0, 0.0),
-        "level": where(body_z_axis(state.attitude).z < c.upright, 1.0, 0.0),
-        "rest": moving + turning,
-        "rotors": own.rotor_lost,
-    }
-    return first_failed("lift", fails)
-
-
-@law
-def refusal_to_follow(k: Supervision, s: SensorStatus) -> Any:
-    """The number of the first check that refuses to listen to a hand, or 0."""
-    c = k.checks
-    plausible = where(s.payload < c.lightest, 0.0, where(s.payload > c.heaviest, 0.0, 1.0))
-    return first_failed("guided", {"tare": 1.0 - s.armed, "payload": 1.0 - plausible, "joints": s.apart})
-
-
-@law
-def timed(
-    k: Supervision,
-    m: SupervisionState,
-    s: SensorStatus,
-    state: State,
-    own: VehicleStatus,
-    share: Any,
-    phase: Any,
-    dt: Any,
-) -> LimitTimers:
-    """For how long limits have been left; those of flight only in flight, thrust and distance not while it lands."""
-    b, t = k.bounds, m.timers
-    flying = where(phase == IDLE, 0.0, where(phase == STOPPED, 0.0, 1.0))
-    landing = where(phase == LAND, 1.0, 0.0)
-    aloft = flying * (1.0 - landing)
-    off = m.reference - state.position
-    return LimitTimers(
-        lasting(t.apart, s.apart, dt),
-        lasting(t.thrust, aloft * where(share > b.thrust, 1.0, 0.0), dt),
-        lasting(t.tilt, flying * where(body_z_axis(state.attitude).z < b.upright, 1.0, 0.0), dt),
-        lasting(t.rates, flying * where(dot(state.rates, state.rates) > b.rates * b.rates, 1.0, 0.0), dt),
-        lasting(t.error, aloft * where(dot(off, off) > b.tracking_error * b.tracking_error, 1.0, 0.0), dt),
-        lasting(t.blank, own.blank, dt),
-        lasting(t.stuck, landing * where(-off.z > k.touchdown_gap, 1.0, 0.0), dt),
+@supervise.register(Supervision)
+def _supervised(
+    k: Supervision, m: SupervisionState, pilot_input: Any, phase: PhaseState, lift_requested: Any, t: Any, dt: Any
+) -> Any:
+    state, status = pilot_input.state, pilot_input.status
+    sensors = sensor_status(pilot_input.sensed, k.payload)
+    available = total(k.limits * efficiency_at(k.known, t))
+    fraction, error = status.thrust / maximum(available, 1e-9), m.reference - state.position
+    timers = update_timers(k.bounds, m.timers, sensors, state, status, error, fraction, phase.phase, dt)
+    idle = where(phase.phase == IDLE, 1.0, 0.0)
+    grounded = maximum(idle, where(phase.phase == STOPPED, 1.0, 0.0))
+    faults = active_faults(k.bounds, k.fence, sensors, timers, state, status, phase.phase)
+    after = update_reaction(k, m, strongest_reaction(faults, k.reactions), idle, dt)
+    mass = k.mass + sensors.payload - k.payload
+    lift = failed_lift_check(k.checks, sensors, state, status, mass, after.reaction, available)
+    guidance = failed_guidance_check(k.checks, sensors)
+    after = after._replace(
+        timers=timers, state=state, failed_lift_check=lift * lift_requested, failed_guidance_check=guidance
     )
+    return supervision_output(k, sensors, after, lift, grounded), after
 
 
 @law
-def active_faults(
-    k: Supervision, s: SensorStatus, timers: LimitTimers, state: State, own: VehicleStatus, phase: Any
-) -> ActiveFaults:
-    """Every fault that is present."""
-    r, b = s.report, k.bounds
-    listening = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, 0.0))
-    no_attitude = where(r.attitude + r.motion > 0.0, where(r.gyroscope + r.imu > 0.0, 1.0, 0.0), 0.0)
-    return ActiveFaults(
-        imu=r.imu,
-        joints=r.joints,
-        accelerometer=r.accelerometer,
-        gyroscope=r.gyroscope,
-        motion=r.motion,
-        position=r.position,
-        velocity=r.velocity,
-        attitude=r.attitude,
-        joints_inconsistent=too_long(timers.apart, b.apart_time),
-        attitude_inconsistent=r.attitude_inconsistent,
-        velocity_inconsistent=r.velocity_inconsistent,
-        state=too_long(timers.blank, b.blank_time),
-        orientation=no_attitude,
-        fence=listening * outside(k.fence, state.position),
-        thrust=too_long(timers.thrust, b.thrust_time),
-        tilt=too_long(timers.tilt, b.tilt_time),
-        rates=too_long(timers.rates, b.rates_time),
-        tracking_error=too_long(timers.error, b.tracking_error_time),
-        rotor=own.rotor_lost,
-        speed_inconsistent=r.speed_inconsistent,
-    )
+def update_reaction(k: Supervision, m: SupervisionState, w: FaultReaction, idle: Any, dt: Any) -> SupervisionState:
+    """The memory with the strongest reaction to the faults that are present; `idle` is 1 on the ground, else 0."""
+    raised = where(w.reaction > m.reaction, 1.0, 0.0)
+    fault_free_time = where(w.reaction > 0.0, 0.0, m.fault_free_time + dt)
+    over = where(fault_free_time < k.recovery_time, 0.0, where(m.reaction > HOLDS, idle, 1.0))
+    reaction = where(raised > 0.0, w.reaction, m.reaction * (1.0 - over))
+    alarm = where(raised > 0.0, w.alarm, m.alarm * (1.0 - over))
+    hold_time = (m.hold_time + dt) * (1.0 - idle) * where(reaction == HOLDS, 1.0, 0.0)
+    reaction = where(hold_time > k.hold_timeout, maximum(reaction, LANDS), reaction)
+    return m._replace(reaction=reaction, alarm=alarm, hold_time=hold_time, fault_free_time=fault_free_time)
 
 
 @law
-def bounds_of(k: Supervision, s: SensorStatus, m: SupervisionState, refused: Any, grounded: Any) -> SupervisionOutput:
-    """What a reaction and refusals come to. `refused`: by the checks before (a lift, listening)."""
+def supervision_output(
+    k: Supervision, s: SensorStatus, m: SupervisionState, lift_check: Any, grounded: Any
+) -> SupervisionOutput:
+    """The output for a memory; `lift_check` is the number of the check that fails before a lift, or 0."""
     r, flying = s.report, 1.0 - grounded
-    unknown = where(r.motion + r.position > 0.0, 1.0, 0.0)
-    unmoved = where(r.motion + r.position + r.velocity > 0.0, where(r.accelerometer + r.imu > 0.0, 1.0, 0.0), 0.0)
+    no_height = where(r.motion + r.position > 0.0, 1.0, 0.0)
+    no_motion = where(r.motion + r.position + r.velocity > 0.0, where(r.accelerometer + r.imu > 0.0, 1.0, 0.0), 0.0)
     return SupervisionOutput(
         PhaseBounds(
-            ready=where(refused[0] > 0.0, 0.0, 1.0),
-            clear=where(refused[1] > 0.0, 0.0, 1.0),
+            lift_allowed=where(lift_check > 0.0, 0.0, 1.0),
+            guidance_allowed=where(m.failed_guidance_check > 0.0, 0.0, 1.0),
             hold=where(m.reaction >= HOLDS, 1.0, 0.0),
             land=where(m.reaction >= LANDS, flying, 0.0),
             stop=where(m.reaction >= STOPS, flying, 0.0),
-            landed=too_long(m.timers.stuck, STUCK),
-            deep=k.blind_descent_depth * unknown,
+            touched_down=expired(m.timers.touchdown, TOUCHDOWN_TIME),
+            extra_depth=k.blind_descent_depth * no_height,
         ),
-        unmoved,
+        no_motion,
     )
+
+
+@elementwise
+def filled_slot(old: Any, slot: Any, count: Any, new: Any, value: Any) -> Any:
+    """A slot of the log, with a value if it is the next one and there is a new event (1)."""
+    return where(new > 0.0, where(slot == count, value, old), old)
+
+
+@law
+def with_event(k: Supervision, m: EventLog, phase: Any, alarm: Any, failed_check: Any, t: Any) -> EventLog:
+    """The log, with one more event if phase or alarm have changed, or another check fails."""
+    changed = where(phase * PHASE + alarm * ALARM == m.last - m.failed_check, 0.0, 1.0)
+    other = where(failed_check > 0.0, where(failed_check == m.failed_check, 0.0, 1.0), 0.0)
+    new = maximum(changed, other)
+    check = where(new > 0.0, failed_check, m.failed_check)
+    code = phase * PHASE + alarm * ALARM + check
+    return EventLog(
+        time=filled_slot(m.time, k.slots, m.count, new, t),
+        code=filled_slot(m.code, k.slots, m.count, new, code),
+        count=m.count + new,
+        last=code,
+        failed_check=check,
+    )
+
+
+@choice(absent=("k", "m"))
+def finish_supervision(k: Any, m: Any, phase: PhaseState, reference: Vec3, t: Any) -> Any:
+    """(`SupervisionChannels`, the new memory) once the phase and the reference [m] are known."""
+
+
+@finish_supervision.register(Supervision)
+def _finished(k: Supervision, m: SupervisionState, phase: PhaseState, reference: Vec3, t: Any) -> Any:
+    waiting = where(phase.phase == HOLD, where(m.reaction > 0.0, 0.0, m.failed_guidance_check), 0.0)
+    failed_check = where(phase.phase == IDLE, m.failed_lift_check, waiting)
+    events = with_event(k, m.events, phase.phase, m.alarm, failed_check, t)
+    return SupervisionChannels(m.alarm, failed_check), m._replace(reference=reference, events=events)

@@ -1,1 +1,1 @@
-"""A person with the vehicle: one who guides it, their tremor, a hand moved from outside, and what a caller adds."""
+"""The person: a model that guides the vehicle, hand tremor, a hand moved from outside, and inputs of a caller."""

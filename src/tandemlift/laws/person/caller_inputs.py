@@ -1,13 +1,13 @@
-"""What the caller of a step adds from outside: a push besides the mission's, and thrusts in place of the pilot's.
+"""Inputs of a caller who steps a flight: a push beside the mission's, and thrusts in place of the pilot's.
 
-Both are held over the step. A flight that nobody steps by hand has `Nothing`.
+Both are held over the step. A flight that nobody steps has `Nothing`.
 """
 
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, elementwise
 from tandemlift.algebra.ops import where
-from tandemlift.algebra.vector import ZERO, Mat3, Vec3, linear, outer, plus
+from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, linear, outer, plus
 from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
 
 
@@ -32,47 +32,47 @@ class AddedPush(NamedTuple):
 
 
 @push_moment.register(AddedPush)
-def _moment(push, attitude):
+def _moment(push: AddedPush, attitude: Quat) -> Vec3:
     return push_moment(PointPush(push.force, push.spread), attitude) + ZERO
 
 
 @choice
-def plus_push(push: Any, force: Vec3, point: Vec3) -> Any:
-    """A push with a force [N, world axes] at a point [m, body axes] besides."""
+def with_force(push: Any, force: Vec3, point: Vec3) -> Any:
+    """A push with a further force [N, world axes] at a point [m, body axes]."""
 
 
-@plus_push.register(CentralPush)
-def _on_central(push, force, point):
+@with_force.register(CentralPush)
+def _on_central(push: CentralPush, force: Vec3, point: Vec3) -> AddedPush:
     return AddedPush(push.force + force, outer(force, point))
 
 
-@plus_push.register(PointPush)
-def _on_points(push, force, point):
+@with_force.register(PointPush)
+def _on_points(push: PointPush, force: Vec3, point: Vec3) -> PointPush:
     return PointPush(push.force + force, push.spread + outer(force, point))
 
 
-@choice(absent="hand")
-def pushed(external: Any, hand: PushSamples) -> Any:
-    """The push of a step with what is added to it."""
+@choice(absent="push")
+def with_caller_push(external: Any, push: PushSamples) -> Any:
+    """The push of a step with that of the caller."""
 
 
-@pushed.register(CallerInput)
-def _with_more(external, hand):
+@with_caller_push.register(CallerInput)
+def _with_force(external: CallerInput, push: PushSamples) -> PushSamples:
     F, r = external.force, external.point
-    return PushSamples(plus_push(hand.start, F, r), plus_push(hand.middle, F, r), plus_push(hand.end, F, r))
+    return PushSamples(with_force(push.start, F, r), with_force(push.middle, F, r), with_force(push.end, F, r))
 
 
 @elementwise
-def overridden(own, given, override):
+def overridden(thrust: Any, given: Any, override: Any) -> Any:
     """The thrust of one rotor [N]."""
-    return where(override > 0.0, given, own)
+    return where(override > 0.0, given, thrust)
 
 
-@choice(absent="own")
-def thrusts_of(external: Any, own: Any) -> Any:
-    """The thrusts [N] that the rotors are commanded, where the pilot wants its own."""
+@choice(absent="thrusts")
+def commanded_thrusts(external: Any, thrusts: Any) -> Any:
+    """The commanded thrusts [N], where the pilot commands `thrusts`."""
 
 
-@thrusts_of.register(CallerInput)
-def _given(external, own):
-    return overridden(own, external.thrusts, external.override)
+@commanded_thrusts.register(CallerInput)
+def _by_caller(external: CallerInput, thrusts: Any) -> Any:
+    return overridden(thrusts, external.thrusts, external.override)

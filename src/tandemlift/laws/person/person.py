@@ -1,28 +1,28 @@
-"""A person who guides the vehicle along a path by pushing it, and who sees it late.
+"""A model of a person who guides the vehicle along a path by pushing it, with visual delay and hand tremor.
 
-what is seen, a while ago → where it will be → the force wanted → the hand's place → muscles → force at the grip
+delayed view → prediction → wanted force → place of the hand → muscles → force at the grip
 
-The person pursues a point ahead on the path: the force wanted is what the speed lacks of the one that is aimed at. The
-hand is where the grip will be, by how it was seen to move, and ahead of that by as much as makes this force; it gets
-there through the muscles' lag, two equal time constants. What is wanted across the path for long, the person comes to
-add by habit: so a wind is met. Between hand and grip are the arm's stiffness and damping,
-which answer at once, whatever is seen. The force is bounded. World axes; the grip is a point of the body.
+Pure pursuit: the person aims at a point ahead on the path, and the wanted force is proportional to the missing speed.
+The hand is placed ahead of the predicted grip by as much as gives this force through the stiffness of the arm; muscles,
+two equal time constants, bring it there. A slow integral of the wanted force across the path, the trim, balances a
+wind. Stiffness and damping of the arm between hand and grip act at once, without the visual delay. The force is
+bounded. World axes; the grip is a point of the body.
 
-Sources: the hand's impedance, Hogan, Impedance control, 1985; delay and neuromuscular lag, McRuer and Jex, A review of
-quasi-linear pilot models, 1967; pursuit of a point ahead, Coulter, Implementation of the pure pursuit path tracking
-algorithm, 1992.
+Sources: impedance of the arm, Hogan, Impedance control, 1985; delay and neuromuscular lag, McRuer and Jex, A review of
+quasi-linear pilot models, 1967; pure pursuit, Coulter, Implementation of the pure pursuit path tracking algorithm,
+1992.
 """
 
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.law import Nothing, choice, law
 from tandemlift.algebra.ops import clip, maximum, minimum, sqrt, where
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, dot, outer
-from tandemlift.laws.guidance.requests import NOBODY, operator_of
+from tandemlift.algebra.vector import ZERO, Vec3, apply, cross, dot, outer
+from tandemlift.laws.guidance.requests import NO_REQUEST, OperatorRequest, operator_request
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import PointPush, PushSamples
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
-from tandemlift.laws.person.tremor import Tremor, TremorState, tremor_step
+from tandemlift.laws.person.tremor import Tremor, TremorNoise, TremorState, tremor_step
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 TINY = 1e-12  # m², N²: guards roots and divisions
@@ -30,10 +30,10 @@ NEAR = 1.0  # m
 
 
 class PathLeg(NamedTuple):
-    """A straight stretch of the path: from `start` to `end` [m, world axes] of what is steered.
+    """A straight leg of the path, from `start` to `end` [m, world axes].
 
-    `heading` [rad] to be had on it; `dwell` [s] at its end, and 1 if the vehicle is to stop there, else 0; `within` [m]
-    of its end it is done; `number`, from 0.
+    `heading` [rad] on it; `dwell` [s] at its end; `stops`: 1 if the vehicle stops there, else 0; `within`: distance [m]
+    from its end at which it is done; `number`, from 0.
     """
 
     start: Vec3
@@ -60,48 +60,47 @@ class PersonView(NamedTuple):
 
 
 class PersonState(NamedTuple):
-    """Memory of a person: what they see, which leg of the path they are on, and where that is.
+    """Memory of a person.
 
-    The hand's place [m] and the couple [N·m] behind the muscles' lag, how far they hold on (0 to 1); the force [N] that
-    they have come to add against what draws the vehicle off the path; for how long they have been at the leg's end [s];
-    1 once they have begun, and once they ask to land; the tremor.
+    Their (delayed) view; the number of the present leg of the path, and that leg; place of the hand [m], couple [N·m]
+    and strength of the grasp (0 to 1) after the muscles; trim [N]; time at the end of the leg [s]; 1 once they have
+    begun, and once they request a landing, else 0; the tremor.
     """
 
-    seen: Any
+    view: Any
     index: Any
     leg: PathLeg
     place: LowPassState
     couple: LowPassState
     grasp: LowPassState
     trim: Vec3
-    waited: Any
+    dwelled: Any
     begun: Any
     landing: Any
     tremor: TremorState
 
 
 class Arm(NamedTuple):
-    """Stiffness [N/m] and damping [N·s/m] between hand and grip, the muscles' lag, tremor; bounds [N, N·m].
+    """Stiffness [N/m] and damping [N·s/m] between hand and grip, muscles, tremor; largest force [N] and couple [N·m].
 
-    `horizon` [s]: delay and lag together, for which the person reckons ahead.
+    `horizon` [s] of the prediction: visual delay and muscles together.
     """
 
     stiffness: Any
     damping: Any
     lag: LowPass
     tremor: Tremor
-    most: Any
-    most_couple: Any
+    max_force: Any
+    max_couple: Any
     horizon: Any
 
 
 class PathFollowing(NamedTuple):
-    """How a person goes along the path.
+    """How a person follows the path.
 
-    Speed aimed at [m/s], force over the speed that lacks [N·s/m], how far ahead they look [m], speed over the way left
-    to a stop [1/s], force [N] below which the vehicle does not move, which is added; how fast they add what is wanted
-    across the path for good [1/s]; speed [m/s] below which they let it land; time [s] and height [m] from which on they
-    push; the number of the last leg.
+    Speed [m/s]; wanted force over missing speed [N·s/m]; look-ahead distance [m]; speed over the distance to a stop
+    [1/s]; force [N] that is added because the vehicle does not move below it; rate of the trim [1/s]; speed [m/s] below
+    which they request the landing; time [s] and height [m] at which they begin; the number of the last leg.
     """
 
     speed: Any
@@ -117,11 +116,11 @@ class PathFollowing(NamedTuple):
 
 
 class PersonSettings(NamedTuple):
-    """How a person leads, as numbers, so that one compiled loop serves them all.
+    """The kind of guidance, as numbers, so that one compiled loop serves every kind.
 
-    `at_grip`: 1 to lead the grip along the path, 0 to lead the centre of mass. Couple of two hands over angle [N·m/rad]
-    and over rate [N·m·s], 0 of one hand. `stays`: 1 for a hand that goes to the ends of the legs and stays there,
-    whatever the vehicle does.
+    `at_grip`: 1 to guide the grip along the path, 0 to guide the centre of mass. Couple of two hands over angle
+    [N·m/rad] and over rate [N·m·s], 0 for one hand. `stays`: 1 for a hand that moves to the ends of the legs and stays
+    there, whatever the vehicle does.
     """
 
     at_grip: Any
@@ -131,16 +130,16 @@ class PersonSettings(NamedTuple):
 
 
 class Person(NamedTuple):
-    """A person: the grip [m, body axes, from the centre of mass], the arm, the walk and the manner."""
+    """A person: the grip [m, body axes, from the centre of mass], the arm, and how they follow the path."""
 
     grip: Vec3
     arm: Arm
-    walk: PathFollowing
-    manner: PersonSettings
+    following: PathFollowing
+    settings: PersonSettings
 
 
 class HandTarget(NamedTuple):
-    """Where the hand is to be [m], the couple that it is to give [N·m], and what of the force wanted is across [N]."""
+    """Target of the hand [m], target couple [N·m], and the wanted force across the path [N]."""
 
     place: Vec3
     couple: Any
@@ -148,15 +147,15 @@ class HandTarget(NamedTuple):
 
 
 class PersonOutput(NamedTuple):
-    """What a step is given of a person: the push with theirs, and their new memory."""
+    """A person's part of a step: the push with theirs, and their new memory."""
 
-    hand: Any
+    push: Any
     memory: Any
 
 
 @law
 def person_view(grip: Vec3, s: State) -> PersonView:
-    """What there is to see of a vehicle in state `s`."""
+    """The view of a vehicle in state `s`, without delay."""
     R = rotation_from_quaternion(s.attitude)
     arm, spin = apply(R, grip), apply(R, s.rates)
     yaw = euler_from_quaternion(s.attitude).angles.z
@@ -164,14 +163,14 @@ def person_view(grip: Vec3, s: State) -> PersonView:
 
 
 @law
-def bounded(v: Vec3, most: Any) -> Vec3:
+def bounded(v: Vec3, limit: Any) -> Vec3:
     """A vector, shortened to a length if it is longer."""
-    return v * minimum(most / sqrt(maximum(dot(v, v), TINY)), 1.0)
+    return v * minimum(limit / sqrt(maximum(dot(v, v), TINY)), 1.0)
 
 
 @law
 def pursue(w: PathFollowing, leg: PathLeg, p: Vec3, v: Vec3) -> Vec3:
-    """The force wanted [N] on what is at p and moves at v, to bring it along a leg."""
+    """The wanted force [N] on a point at p [m] with velocity v [m/s], to guide it along a leg."""
     along, left = leg.end - leg.start, leg.end - p
     square = maximum(dot(along, along), TINY)
     ahead = clip(dot(p - leg.start, along) / square + w.look_ahead / sqrt(square), 0.0, 1.0)
@@ -192,90 +191,95 @@ def across(leg: PathLeg, left: Vec3, force: Vec3) -> Vec3:
 
 
 @law
-def steered(manner: PersonSettings, seen: PersonView) -> Any:
-    """(place [m], velocity [m/s]) of what is led along the path."""
-    grip, centre = manner.at_grip, 1.0 - manner.at_grip
-    return seen.grip * grip + seen.position * centre, seen.grip_velocity * grip + seen.velocity * centre
+def guided_point(settings: PersonSettings, view: PersonView) -> Any:
+    """(place [m], velocity [m/s]) of the point that is guided along the path."""
+    grip, centre = settings.at_grip, 1.0 - settings.at_grip
+    return view.grip * grip + view.position * centre, view.grip_velocity * grip + view.velocity * centre
 
 
 @law
 def aim(k: Person, m: PersonState) -> HandTarget:
-    """What a person intends, by what they see."""
-    seen, ahead, manner = m.seen, k.arm.horizon, k.manner
-    p, v = steered(manner, seen)
+    """The person's target, from their view."""
+    view, ahead, settings = m.view, k.arm.horizon, k.settings
+    p, v = guided_point(settings, view)
     p = p + v * ahead
-    wanted = pursue(k.walk, m.leg, p, v)
-    led = seen.grip + seen.grip_velocity * ahead + bounded(wanted + m.trim, k.arm.most) / k.arm.stiffness
-    off = wrap_angle(m.leg.heading - seen.yaw - seen.yaw_rate * ahead)
-    couple = clip(off * manner.yaw_gain - seen.yaw_rate * manner.yaw_damping, -k.arm.most_couple, k.arm.most_couple)
-    place = m.leg.end * manner.stays + led * (1.0 - manner.stays)
+    wanted = pursue(k.following, m.leg, p, v)
+    moving = view.grip + view.grip_velocity * ahead + bounded(wanted + m.trim, k.arm.max_force) / k.arm.stiffness
+    off = wrap_angle(m.leg.heading - view.yaw - view.yaw_rate * ahead)
+    couple = clip(off * settings.yaw_gain - view.yaw_rate * settings.yaw_damping, -k.arm.max_couple, k.arm.max_couple)
+    place = m.leg.end * settings.stays + moving * (1.0 - settings.stays)
     return HandTarget(place, couple, across(m.leg, m.leg.end - p, wanted))
 
 
 @law
 def push_by(k: Person, m: PersonState, now: PersonView, state: State) -> PointPush:
-    """The push of the hand where it is, on the grip where it is."""
+    """The push of the hand at its present place, on the grip at its present place."""
     reach, slip = m.place.value - now.grip, m.place.rate - now.grip_velocity
     shaken = m.tremor.second * k.arm.tremor.size
-    force = bounded(reach * k.arm.stiffness + slip * k.arm.damping + shaken, k.arm.most) * m.grasp.value
+    force = bounded(reach * k.arm.stiffness + slip * k.arm.damping + shaken, k.arm.max_force) * m.grasp.value
     R = rotation_from_quaternion(state.attitude)
-    across = Vec3(R.x.x, R.y.x, R.z.x)  # two hands along the beam, one pushes and the other pulls
-    couple = clip(m.couple.value, -k.arm.most_couple, k.arm.most_couple)
-    return PointPush(force, outer(force, k.grip) + outer(across, Vec3(0.0, -couple, 0.0)))
+    beam_normal = Vec3(R.x.x, R.y.x, R.z.x)  # two hands along the beam, one pushes and the other pulls
+    couple = clip(m.couple.value, -k.arm.max_couple, k.arm.max_couple)
+    return PointPush(force, outer(force, k.grip) + outer(beam_normal, Vec3(0.0, -couple, 0.0)))
 
 
 @law
-def gone_on(k: Person, m: PersonState, t: Any, dt: Any) -> PersonState:
-    """The memory of how far the person has come, by what they see."""
-    w, seen = k.walk, m.seen
-    begun = maximum(m.begun, where(seen.position.z < w.height, 0.0, where(t < w.start_time, 0.0, 1.0)))
-    p, v = steered(k.manner, seen)
+def advance_on_path(k: Person, m: PersonState, t: Any, dt: Any) -> PersonState:
+    """The memory with the progress along the path, from the person's view."""
+    w, view = k.following, m.view
+    begun = maximum(m.begun, where(view.position.z < w.height, 0.0, where(t < w.start_time, 0.0, 1.0)))
+    p, v = guided_point(k.settings, view)
     left = m.leg.end - p - v * k.arm.horizon
-    stands = dot(seen.velocity, seen.velocity) < w.landing_speed * w.landing_speed
+    stands = dot(view.velocity, view.velocity) < w.landing_speed * w.landing_speed
     there = where(dot(left, left) < m.leg.within * m.leg.within, begun, 0.0)
     on_it = where(m.leg.number == m.index, 1.0, 0.0)
-    waited = (m.waited + dt * maximum(there, where(m.waited > 0.0, 1.0, 0.0))) * on_it
-    over = on_it * where(waited > m.leg.dwell, 1.0, 0.0)
+    dwelled = (m.dwelled + dt * maximum(there, where(m.dwelled > 0.0, 1.0, 0.0))) * on_it
+    over = on_it * where(dwelled > m.leg.dwell, 1.0, 0.0)
     last = where(m.index < w.last, 0.0, 1.0)
     landing = maximum(m.landing, over * last * there * where(stands, 1.0, 0.0))
-    index = m.index + over * (1.0 - last)
-    return PersonState(seen, index, m.leg, m.place, m.couple, m.grasp, m.trim, waited, begun, landing, m.tremor)
+    return m._replace(index=m.index + over * (1.0 - last), dwelled=dwelled, begun=begun, landing=landing)
 
 
 @choice
-def person_step(partner: Any, memory: Any, hand: Any, state: Any, noise: Any, t: Any, dt: Any) -> Any:
-    """What a person adds to the push of a step: `PersonOutput`. `state` is as it is; `noise`: standard normals."""
+def person_step(person: Any, memory: Any, push: Any, state: Any, noise: Any, t: Any, dt: Any) -> Any:
+    """A person's part of a step: `PersonOutput`. `state` is the true one; `noise`: standard normals."""
 
 
 @person_step.register(Nothing)
-def _nobody(partner, memory, hand, state, noise, t, dt):
-    return PersonOutput(hand, memory)
+def _nobody(person: Nothing, memory: Any, push: Any, state: State, noise: Any, t: Any, dt: Any) -> PersonOutput:
+    return PersonOutput(push, memory)
 
 
 @person_step.register(Person)
-def _somebody(partner, memory, hand, state, noise, t, dt):
-    m, now = gone_on(partner, memory, t, dt), person_view(partner.grip, state)
-    intent, holding, lag = aim(partner, m), m.begun * (1.0 - m.landing), partner.arm.lag
-    idle = m.seen.grip + m.seen.grip_velocity * partner.arm.horizon
-    place = low_pass_step(lag, m.place, intent.place * holding + idle * (1.0 - holding))
-    couple, grasp = low_pass_step(lag, m.couple, intent.couple * holding), low_pass_step(lag, m.grasp, holding)
-    trim = bounded(m.trim + intent.across * (partner.walk.trim_rate * dt), partner.arm.most) * holding
-    shaking = tremor_step(partner.arm.tremor, m.tremor, noise)
-    after = PersonState(now, m.index, m.leg, place, couple, grasp, trim, m.waited, m.begun, m.landing, shaking)
-    push = push_by(partner, after, now, state)
-    return PersonOutput(PushSamples(hand.start + push, hand.middle + push, hand.end + push), after)
+def _guiding(
+    person: Person, memory: PersonState, push: Any, state: State, noise: TremorNoise, t: Any, dt: Any
+) -> PersonOutput:
+    m, now, arm = advance_on_path(person, memory, t, dt), person_view(person.grip, state), person.arm
+    target, holding = aim(person, m), m.begun * (1.0 - m.landing)
+    idle = m.view.grip + m.view.grip_velocity * arm.horizon
+    trim = m.trim + target.across * (person.following.trim_rate * dt)
+    after = m._replace(
+        view=now,
+        place=low_pass_step(arm.lag, m.place, target.place * holding + idle * (1.0 - holding)),
+        couple=low_pass_step(arm.lag, m.couple, target.couple * holding),
+        grasp=low_pass_step(arm.lag, m.grasp, holding),
+        trim=bounded(trim, arm.max_force) * holding,
+        tremor=tremor_step(arm.tremor, m.tremor, noise),
+    )
+    more = push_by(person, after, now, state)
+    return PersonOutput(PushSamples(push.start + more, push.middle + more, push.end + more), after)
 
 
 @choice(absent=0.0)
-def asks_to_land(memory: Any) -> Any:
-    """1 once the person asks to land, else 0."""
+def landing_request(memory: Any) -> Any:
+    """1 once the person requests a landing, else 0."""
 
 
-@asks_to_land.register(PersonState)
-def _asks(memory):
+@landing_request.register(PersonState)
+def _at_the_end(memory: PersonState) -> Any:
     return memory.landing
 
 
-@operator_of.register(PersonState)
-def _asks_nothing_else(company):
-    return NOBODY
+@operator_request.register(PersonState)
+def _no_request(person: PersonState) -> OperatorRequest:
+    return NO_REQUEST

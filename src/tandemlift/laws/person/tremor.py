@@ -1,7 +1,7 @@
 """The tremor of a hand: noise in a narrow band about 10 Hz, of a given standard deviation.
 
-White noise goes twice through a first-order low-pass and turns with the band's middle frequency, so its spectrum is
-that of 1/(1 + (f − f₀)²/b²)², 90 % of it between f₀ − 4b/3 and f₀ + 4b/3: from 8 Hz to 12 Hz with f₀ = 10 Hz and
+White noise passes twice through a first-order low-pass that rotates at the middle frequency f₀, so its spectrum is that
+of 1/(1 + (f − f₀)²/b²)², 90 % of it between f₀ − 4b/3 and f₀ + 4b/3: from 8 Hz to 12 Hz with f₀ = 10 Hz and
 b = 1.5 Hz. Source of the band: Elble and Randall, Mechanistic components of normal hand tremor, 1978.
 """
 
@@ -15,7 +15,7 @@ MIDDLE, HALF = 10.0, 1.5  # Hz
 
 
 class Tremor(NamedTuple):
-    """Decay and turn over a step (cosine, sine), what is taken in by each of the two filters, and the size [N]."""
+    """Decay and rotation over a step (cosine, sine), input gains of the two filters, and the standard deviation [N]."""
 
     cosine: Any
     sine: Any
@@ -25,35 +25,35 @@ class Tremor(NamedTuple):
 
 
 class TremorState(NamedTuple):
-    """Memory: both filters, each two vectors at right angles in phase."""
+    """Memory of both filters: in-phase and quadrature vectors."""
 
     first: Vec3
-    first_aside: Vec3
+    first_quadrature: Vec3
     second: Vec3
-    second_aside: Vec3
+    second_quadrature: Vec3
 
 
 class TremorNoise(NamedTuple):
     """Standard normals of a step."""
 
-    along: Vec3
-    aside: Vec3
+    in_phase: Vec3
+    quadrature: Vec3
 
 
 STILL = TremorState(ZERO, ZERO, ZERO, ZERO)
-TWITCH = TremorNoise(ZERO, ZERO)
+NO_TREMOR_NOISE = TremorNoise(ZERO, ZERO)
 
 
 @law
 def tremor_step(k: Tremor, m: TremorState, noise: TremorNoise) -> TremorState:
     """The memory after a step; the tremor is its `second`, of standard deviation 1, times the size."""
-    first = m.first * k.cosine - m.first_aside * k.sine + noise.along * k.first
-    aside = m.first * k.sine + m.first_aside * k.cosine + noise.aside * k.first
+    first = m.first * k.cosine - m.first_quadrature * k.sine + noise.in_phase * k.first
+    quadrature = m.first * k.sine + m.first_quadrature * k.cosine + noise.quadrature * k.first
     return TremorState(
         first,
-        aside,
-        m.second * k.cosine - m.second_aside * k.sine + first * k.second,
-        m.second * k.sine + m.second_aside * k.cosine + aside * k.second,
+        quadrature,
+        m.second * k.cosine - m.second_quadrature * k.sine + first * k.second,
+        m.second * k.sine + m.second_quadrature * k.cosine + quadrature * k.second,
     )
 
 

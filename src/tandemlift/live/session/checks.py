@@ -57,7 +57,7 @@ def check_hands_off(flight: RecordedFlight) -> None:
     if mission.pilot.push == "truth":
         return
     if mission.estimator.tare == "hover":
-        if flight.number("memory", "guidance", "phase", "hovered") < mission.estimator.tare_duration:
+        if flight.number("memory", "guidance", "phase", "hover_time") < mission.estimator.tare_duration:
             raise InputError("hands off until the force sensors are tared, in steady hover")
         return
     if start is None:

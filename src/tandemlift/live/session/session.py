@@ -17,7 +17,7 @@ from tandemlift.algebra.vector import Quat
 from tandemlift.common.errors import InputError
 from tandemlift.common.faults import ALARM_TEXTS
 from tandemlift.common.phases import PHASE_NAMES
-from tandemlift.laws.person.virtual_hand import NOBODY_HOLDS
+from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.live.session.checks import check_may_tare, check_takes_requests, failed_rotors
 from tandemlift.live.session.frame_builder import FrameBuilder
 from tandemlift.live.session.hand_control import HandControl
@@ -76,7 +76,7 @@ class Session:
 
     def _begin(self, mission: Mission, setup: FlightSetup, frames: FrameBuilder) -> None:
         flight = RecordedFlight(mission, self._engine, setup)
-        flight.hold(NOBODY_HOLDS)
+        flight.hold(HAND_RELEASED)
         flight.advance()
         with self._lock:
             self._flight, self._frames = flight, frames

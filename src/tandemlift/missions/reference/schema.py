@@ -92,7 +92,8 @@ def _leaf(annotation: Any, marks: Iterable[Any] = ()) -> Schema:
     if kind is Literal:
         return {"enum": parts}
     if kind in (Union, types.UnionType):
-        return _leaf(parts[0], marks)
+        forms = [_leaf(part, marks) for part in parts]
+        return forms[0] if len(forms) == 1 else {"anyOf": forms}
     spread = next((mark for mark in marks if hasattr(mark, "describe")), None)
     if spread is not None:
         return _spread(spread, annotation)

@@ -1,0 +1,160 @@
+"""Detection of faults: from the watchdogs' report and the limits of a flight; `common.faults.FAULTS` names them."""
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import maximum, where
+from tandemlift.algebra.vector import Vec3, dot
+from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, STOPPED
+from tandemlift.laws.guidance.fault_reactions import ActiveFaults
+from tandemlift.laws.guidance.preflight_checks import SensorStatus
+from tandemlift.laws.guidance.requests import VehicleStatus
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation import body_z_axis
+
+
+class Fence(NamedTuple):
+    """Corners of the box for the reference [m, world axes], and by how much the vehicle may be outside [m].
+
+    `braking_gain` [1/s]: the largest speed towards a side of the box over the distance to it.
+    """
+
+    low: Vec3
+    high: Vec3
+    margin: Any
+    braking_gain: Any
+
+
+class SupervisionLimits(NamedTuple):
+    """Limits of a flight, and the time [s] for which each may be exceeded.
+
+    Largest fraction of the thrust, smallest cosine of the tilt, rates [rad/s], distance from the reference [m].
+    `joints_time`: for which joints may disagree. `invalid_state_time`: for which the state may have no numbers.
+    `touchdown_gap` [m]: height above a landing's reference at which the vehicle must be standing on something.
+    """
+
+    thrust: Any
+    min_upright: Any
+    rates: Any
+    tracking_error: Any
+    thrust_time: Any
+    tilt_time: Any
+    rates_time: Any
+    tracking_error_time: Any
+    joints_time: Any
+    invalid_state_time: Any
+    touchdown_gap: Any
+
+
+class LimitTimers(NamedTuple):
+    """For how long each limit has been exceeded, and for how long a landing has been standing on something [s]."""
+
+    joints: Any
+    thrust: Any
+    tilt: Any
+    rates: Any
+    tracking_error: Any
+    state: Any
+    touchdown: Any
+
+
+NO_TIME = LimitTimers(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@law
+def time_exceeded(timer: Any, exceeded: Any, dt: Any) -> Any:
+    """For how long a limit has been exceeded [s]; `exceeded` is 1 or 0 now."""
+    return (timer + dt) * exceeded
+
+
+@law
+def expired(timer: Any, limit: Any) -> Any:
+    """1 once a timer is above a limit, else 0."""
+    return where(timer > limit, 1.0, 0.0)
+
+
+@law
+def outside(f: Fence, p: Vec3) -> Any:
+    """1 if a position is outside the fence by more than the margin, else 0."""
+    x = maximum(f.low.x - p.x, p.x - f.high.x)
+    y = maximum(f.low.y - p.y, p.y - f.high.y)
+    z = maximum(f.low.z - p.z, p.z - f.high.z)
+    return where(maximum(x, maximum(y, z)) > f.margin, 1.0, 0.0)
+
+
+@law
+def update_timers(
+    b: SupervisionLimits,
+    t: LimitTimers,
+    s: SensorStatus,
+    state: State,
+    status: VehicleStatus,
+    error: Vec3,
+    thrust: Any,
+    phase: Any,
+    dt: Any,
+) -> LimitTimers:
+    """The timers after a sample; limits apply only in flight, those of thrust and distance not in a landing.
+
+    Args:
+        b: the limits.
+        t: the timers before.
+        s: the sensors.
+        state: of the vehicle.
+        status: of the vehicle.
+        error: the reference less the position [m, world axes].
+        thrust: of all rotors, as a fraction of what they have.
+        phase: the number of the phase.
+        dt: since the last sample [s].
+    """
+    flying = where(phase == IDLE, 0.0, where(phase == STOPPED, 0.0, 1.0))
+    landing = where(phase == LAND, 1.0, 0.0)
+    aloft = flying * (1.0 - landing)
+    far = where(dot(error, error) > b.tracking_error * b.tracking_error, 1.0, 0.0)
+    return LimitTimers(
+        joints=time_exceeded(t.joints, s.joints_inconsistent, dt),
+        thrust=time_exceeded(t.thrust, aloft * where(thrust > b.thrust, 1.0, 0.0), dt),
+        tilt=time_exceeded(t.tilt, flying * where(body_z_axis(state.attitude).z < b.min_upright, 1.0, 0.0), dt),
+        rates=time_exceeded(t.rates, flying * where(dot(state.rates, state.rates) > b.rates * b.rates, 1.0, 0.0), dt),
+        tracking_error=time_exceeded(t.tracking_error, aloft * far, dt),
+        state=time_exceeded(t.state, status.state_invalid, dt),
+        touchdown=time_exceeded(t.touchdown, landing * where(-error.z > b.touchdown_gap, 1.0, 0.0), dt),
+    )
+
+
+@law
+def active_faults(
+    b: SupervisionLimits,
+    fence: Fence,
+    s: SensorStatus,
+    timers: LimitTimers,
+    state: State,
+    status: VehicleStatus,
+    phase: Any,
+) -> ActiveFaults:
+    """Every fault that is present: 1, or the number of its symptom; else 0."""
+    r = s.report
+    fenced = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, 0.0))
+    no_attitude = where(r.attitude + r.motion > 0.0, where(r.gyroscope + r.imu > 0.0, 1.0, 0.0), 0.0)
+    return ActiveFaults(
+        imu=r.imu,
+        joints=r.joints,
+        accelerometer=r.accelerometer,
+        gyroscope=r.gyroscope,
+        motion=r.motion,
+        position=r.position,
+        velocity=r.velocity,
+        attitude=r.attitude,
+        joints_inconsistent=expired(timers.joints, b.joints_time),
+        attitude_inconsistent=r.attitude_inconsistent,
+        velocity_inconsistent=r.velocity_inconsistent,
+        state=expired(timers.state, b.invalid_state_time),
+        orientation=no_attitude,
+        fence=fenced * outside(fence, state.position),
+        thrust=expired(timers.thrust, b.thrust_time),
+        tilt=expired(timers.tilt, b.tilt_time),
+        rates=expired(timers.rates, b.rates_time),
+        tracking_error=expired(timers.tracking_error, b.tracking_error_time),
+        rotor=status.rotor_failed,
+        speed_inconsistent=r.speed_inconsistent,
+    )

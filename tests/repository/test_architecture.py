@@ -1,0 +1,73 @@
+"""docs/architecture.md draws what stands: its floors are those of the import contracts, and each name in it exists."""
+
+import importlib
+import re
+import tomllib
+
+import pytest
+from repository import ROOT
+
+import tandemlift as tl
+
+TEXT = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+PACKAGE = ROOT / "src" / "tandemlift"
+CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]["contracts"]
+DRAWINGS = re.findall(r"^```\n(.*?)^```", TEXT, flags=re.M | re.S)
+ROOMS = sorted(p.stem for p in PACKAGE.iterdir() if p.is_dir() or p.suffix == ".py")
+DOTTED = sorted(set(re.findall(rf"`((?:{'|'.join(ROOMS)})(?:\.\w+)+)`", TEXT)))
+PATHS = sorted(set(re.findall(r"`(\w+/(?:\w+/)*\w+\.py)`", TEXT)))
+WALK = re.findall(r"^\| \d+ \| .* \| (.*) \| (.*) \|$", TEXT, flags=re.M)
+
+
+def floors_drawn(drawing):
+    """The rooms of a drawing, a set for each floor."""
+    return [{line.split()[0] for line in floor.splitlines()} for floor in drawing.strip().split("\n\n")]
+
+
+def floors_held(container):
+    """The layers of the contract about a package, a set for each; `__main__`, which only starts, left out."""
+    (layers,) = [c["layers"] for c in CONTRACTS if c.get("containers") == [container]]
+    return [set(re.split(r" [:|] ", layer)) for layer in layers if layer != "__main__"]
+
+
+def found(name):
+    """What a dotted name below `tandemlift` names."""
+    *modules, last = ["tandemlift", *name.split(".")]
+    try:
+        return importlib.import_module(".".join([*modules, last]))
+    except ModuleNotFoundError:
+        return getattr(importlib.import_module(".".join(modules)), last)
+
+
+@pytest.mark.parametrize(("number", "container"), [(0, "tandemlift"), (1, "tandemlift.laws")])
+def test_each_drawing_has_the_floors_that_the_import_contract_holds(number, container):
+    assert floors_drawn(DRAWINGS[number]) == floors_held(container)
+
+
+@pytest.mark.parametrize("name", DOTTED)
+def test_each_dotted_name_exists(name):
+    assert found(name) is not None
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_each_file_exists(path):
+    assert (PACKAGE / path).is_file()
+
+
+def test_the_walk_of_a_push_names_a_function_and_a_type_at_each_station():
+    assert len(WALK) == 17
+    for function, handed_on in WALK:
+        names = re.findall(r"`([\w.]+)`", function)
+        assert names
+        assert all(callable(found(name)) for name in names), function
+        types = re.findall(r"`([\w.]+)`", handed_on)
+        assert all(isinstance(found(name), type) for name in types), handed_on
+
+
+def test_a_push_walks_from_the_mission_to_the_rotors_and_into_the_flight():
+    changes = {"mission.duration": 1.0, "phases.lift_start": 20.0, "pushes": []}
+    push = {"force": [2.0, 0.0, 0.0], "time": 0.5, "sigma": 0.1}
+    still, pushed = (tl.fly(tl.load_mission("hover", {**changes, "pushes": pushes})) for pushes in ([], [push]))
+    assert abs(pushed["push_force"] - still["push_force"]).max() == pytest.approx(2.0, rel=1e-3)
+    for station in ("admittance_position", "reference_position", "moment", "rotor_thrusts", "position"):
+        assert abs(pushed[station] - still[station]).max() > 1e-6, station

@@ -1,0 +1,37 @@
+"""A copy of the package that a test edits as a recipe of CONTRIBUTING.md says, and flies in a process of its own."""
+
+import os
+import shutil
+import sys
+
+from patience import completed
+
+import tandemlift
+
+
+class EditedPackage:
+    """A copy of the package in a folder; what is changed in it changes nothing else."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.source = shutil.copytree(os.path.dirname(tandemlift.__file__), folder / "tandemlift")
+
+    def write(self, path, text):
+        """A new file."""
+        assert not (self.folder / "tandemlift" / path).exists()
+        (self.folder / "tandemlift" / path).write_text(text, "utf-8")
+
+    def insert(self, path, after, text):
+        """Put text after a piece that a file has once."""
+        file = self.folder / "tandemlift" / path
+        before = file.read_text("utf-8")
+        assert before.count(after) == 1, f"{path} has {after!r} {before.count(after)} times"
+        file.write_text(before.replace(after, after + text), "utf-8")
+
+    def run(self, program):
+        """What a Python program prints that imports the copy."""
+        options = {"cwd": self.folder, "capture_output": True, "text": True}
+        environment = os.environ | {"PYTHONPATH": str(self.folder)}
+        ended = completed([sys.executable, "-c", program], env=environment, **options)
+        assert ended.returncode == 0, ended.stderr
+        return ended.stdout
