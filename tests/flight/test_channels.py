@@ -9,7 +9,7 @@ from tandemlift.algebra.vector import Nothing
 from tandemlift.flight.channel_tables import with_tables
 from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
-from tandemlift.laws.guidance.guidance import HandGuidanceChannels
+from tandemlift.laws.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.laws.guidance.supervision import SupervisionChannels
 from tandemlift.loop.estimate_channels import EstimatedChannels, MeasuredChannels
 from tandemlift.loop.log_sample import (

@@ -62,6 +62,7 @@ def test_a_mission_with_another_controller_is_valid(controller):
         'extends = "paper"\n[[pushes]]\nforce = [1.0, 0.0, 0.0]',  # without time and sigma
         'extends = "paper"\n[pushes]\nforce = [1.0, 0.0, 0.0]\ntime = 1.0\nsigma = 1.0',  # one bracket too few
         'extends = "paper"\n[controller]\nname = "pid"\nslope = 3.0',  # of another controller
+        'extends = "paper"\n[[sensor_faults]]\nsensor = "imu"\nkind = "stail"\ntime = 1.0',
         "extends = 3",
         '[mission]\nname = "alone"\nduration = 3.0',  # and nothing else
     ],

@@ -19,7 +19,6 @@ KNOWN_LOGIC: list[str] = []
 KNOWN_HELPERS = ["tests/live/test_fuzzed_flight.py: _follows", "tests/live/wire/test_page_messages.py: _read"]
 KNOWN_HIDDEN = ["src/tandemlift/algebra/ops.py"]  # the functions of traced numbers, of a room above
 KNOWN_COPIES = [
-    "src/tandemlift/laws/estimation/rotor_loss_detection.py: DetectionState",
     "src/tandemlift/laws/person/virtual_hand.py: VirtualHandState",
     "src/tandemlift/laws/sensors/watchdog.py: Inconsistency",
     "src/tandemlift/pilot/rotor_loss_detection.py: DecisionRules",

@@ -1,4 +1,4 @@
-"""What the tests of allocation within limits share: vehicles, wrenches, the solver, two other ways to the optimum."""
+"""Shared by tests of allocation within limits: vehicles, wrenches, the solver, and two other ways to the optimum."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ EVERY = pytest.mark.parametrize(("count", "layout"), VEHICLES)
 
 
 class Craft(NamedTuple):
-    """A vehicle, its effect B, what the pseudo-inverse asks for a wrench, and the weighted problem."""
+    """A vehicle, its matrix B, the pseudo-inverse solution for a wrench, and the weighted problem."""
 
     vehicle: Vehicle
     B: np.ndarray
@@ -48,7 +48,7 @@ class Craft(NamedTuple):
 
 
 class Problem(NamedTuple):
-    """A wanted wrench, what the pseudo-inverse asks for it, and the limits."""
+    """A desired wrench, the pseudo-inverse solution for it, and the limits."""
 
     wanted: np.ndarray
     unlimited: np.ndarray
@@ -99,16 +99,16 @@ def set_of(values: Any) -> Any:
 
 
 def asked(c: Craft, p: Problem) -> BoundedProblem:
-    """What is minimised, as values."""
+    """The terms of the cost, as values."""
     rows = Mixer(*map(set_of, c.rows))
     return BoundedProblem(rows, wrench_of(c.weights), wrench_of(p.wanted), set_of(p.unlimited), set_of(p.limits))
 
 
 class Code:
-    """The solver of so many rotors in machine code: as it flies, `solve`, for lanes of problems, and `search`, counted.
+    """The solver for a number of rotors in machine code: `solve`, as in flight, for lanes of problems, and `search`.
 
-    `search` takes at most so many steps, and gives their number; otherwise it is the same. Sets of `rolls_from` rotors
-    or more are loops, none if it is 0.
+    `search` takes at most a given number of steps and returns the number taken; otherwise it is the same. Sets of
+    `rolls_from` rotors or more are loops, none if it is 0.
     """
 
     def __init__(self, bounded: BoundedProblem, lanes: int, rolls_from: int) -> None:
@@ -143,7 +143,7 @@ class Code:
         f.end("i64 %step")
 
     def numbers(self, bounded: BoundedProblem, held: AllocationState) -> np.ndarray:
-        """A problem, where its search begins, and room for its flags."""
+        """A problem, the start of its search, and memory for its flags."""
         return np.array([*flat(bounded), *flat(held), 0.0, 0.0, 0.0])
 
 
@@ -198,7 +198,7 @@ def fractions(values: Any) -> list[Fraction]:
 
 
 def exact_optimum(c: Craft, p: Problem, active: np.ndarray) -> np.ndarray:
-    """The optimum by exact arithmetic, proven by the conditions of Karush, Kuhn and Tucker; `active`: where to look.
+    """The optimum by exact arithmetic, proven by the Karush–Kuhn–Tucker conditions; `active`: the initial active set.
 
     The cost is strictly convex, so thrusts within limits that are f₀ + Cᵀλ clipped to them, with γλ = W(τ − B f), are
     the only optimum.
@@ -221,7 +221,7 @@ def exact_optimum(c: Craft, p: Problem, active: np.ndarray) -> np.ndarray:
 
 
 def bounded_least_squares(c: Craft, p: Problem) -> np.ndarray:
-    """The optimum by SciPy, of the rotors that have any limit."""
+    """The optimum by SciPy for the rotors that have a limit."""
     live, root = p.limits > 0.0, np.sqrt(GAMMA)
     A = np.vstack([c.rows[:, live], root * np.eye(live.sum())])
     b = np.hstack([c.weights * p.wanted, root * p.unlimited[live]])

@@ -1,4 +1,4 @@
-"""The live page in Debian's Chromium: what a person does there, and what one who only watches sees."""
+"""The live page in Debian's Chromium: actions of a person, and the view of a second viewer."""
 
 import contextlib
 import io
@@ -44,7 +44,7 @@ MS = 1e3 * PATIENCE
 
 
 class Live:
-    """`tandemlift live`, as a person starts it but for its patience, and what it shows to one who only watches."""
+    """`tandemlift live`, started as usual but with longer timeouts, and the messages to a second viewer."""
 
     def __init__(self, out, program=patient_server.__file__):
         settings = [f"--set={key}={value}" for key, value in SETTINGS.items()]
@@ -58,7 +58,7 @@ class Live:
             raise
 
     def begin(self, out):
-        """See what it shows."""
+        """Connect the second viewer."""
         self.address = said(self.process, r"http://\S+")[0]
         self.out, self.scene, self.frame, self.frames, self.status = out, None, None, 0, {}
         self.watching = threading.Thread(target=self.watch, name="who watches", daemon=True)
@@ -66,7 +66,7 @@ class Live:
         self.until(lambda: self.scene and self.frame and self.status, "a scene, a frame and a status")
 
     def watch(self):
-        """Keep what is told last."""
+        """Keep the last messages."""
         where = {"uri": self.address.replace("http", "ws") + "ws", "origin": self.address.rstrip("/")}
         patient = {"open_timeout": PATIENCE, "ping_timeout": None}
         with contextlib.suppress(ConnectionClosed), connect(**where, **patient) as socket:
@@ -75,9 +75,9 @@ class Live:
                     self.frame = told
                     self.frames += 1
                 else:
-                    self.heed(json.loads(told))
+                    self.handle(json.loads(told))
 
-    def heed(self, told):
+    def handle(self, told):
         if told["type"] == "scene":
             self.scene = told
         elif told["type"] == "status":
@@ -89,7 +89,7 @@ class Live:
         return {name: value[0] for name, value in read_frames(fields, self.frame).items()}
 
     def until(self, true, what):
-        """As `until`, as long as it is told anything."""
+        """As `until`, while messages come."""
 
         def found():
             assert self.watching.is_alive(), f"the server hung up before {what} came"
@@ -104,7 +104,7 @@ class Live:
         self.until(lambda: true(self.status), what)
 
     def wait_frames(self, count):
-        """Wait for so many frames of now; what is seen in the last one."""
+        """Wait for a number of new frames; the last one."""
         end = self.frames + count
         self.until(lambda: self.frames >= end, f"{count} frames")
         return self.look()
@@ -124,7 +124,7 @@ def launched():
 
 
 def opened(browser, address, prepare=lambda page: None, **options):
-    """A page, and the list of what went wrong on it; `prepare` is done to it before it opens the address."""
+    """A page, and the list of its errors; `prepare(page)` runs before it opens the address."""
     page = browser.new_context(viewport=SIZE, **options).new_page()
     page.set_default_timeout(MS)
     prepare(page)
@@ -137,7 +137,7 @@ def opened(browser, address, prepare=lambda page: None, **options):
 
 
 def middle_of_the_beam(page):
-    """Where on the page the middle of the wooden beam is: the middle of what has its colour."""
+    """The middle of the wooden beam on the page, found by its colour."""
 
     def seen():
         box = page.locator("#surface canvas").bounding_box()
@@ -154,7 +154,7 @@ def rests(seen):
 
 
 def panel(page, key):
-    """The box of a setting, its group opened."""
+    """The input of a setting, in its opened group."""
     if page.get_attribute("#show-panel", "aria-pressed") != "true":
         page.click("#show-panel")
     box = page.locator(f"[data-key='{key}']")
@@ -165,7 +165,7 @@ def panel(page, key):
 
 
 def grabbed(page, live):
-    """The beam held at its middle; where on the page that is."""
+    """Grab the beam at its middle; the place on the page."""
     live.wait(rests, "rest")
     x, y = middle_of_the_beam(page)
     page.mouse.move(x, y)

@@ -1,4 +1,4 @@
-"""Operations as IEEE 754 has them: exact rationals, rounded once to the nearest double, ties to even."""
+"""Operations by IEEE 754: exact rationals, rounded once to the nearest double, ties to even."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Flights to export, of random numbers in every channel that there is, and the messages that were made of them."""
+"""Flights to export, with random numbers in every channel, and the messages written from them."""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -15,7 +15,7 @@ SAMPLES = 40
 
 
 def anything(name, count, rng):
-    """Numbers for a channel of a vehicle of so many quadrotors."""
+    """Random numbers for a channel of a vehicle with `count` quadrotors."""
     columns = CHANNELS[name].columns(count, 4 * count)
     if name.endswith("attitude"):
         q = rng.standard_normal((SAMPLES, 4))
@@ -24,7 +24,7 @@ def anything(name, count, rng):
 
 
 def flight_of(mission, **changes):
-    """A flight with every channel that there is, of random numbers: no two columns can be mistaken for each other."""
+    """A flight with random numbers in every channel, so that no two columns are equal."""
     tables = tables_of(tl.load_mission(mission))
     rng = np.random.default_rng(7)
     channels = {name: anything(name, len(tables["vehicle"]["quadrotors"]), rng) for name in CHANNELS}
@@ -34,7 +34,7 @@ def flight_of(mission, **changes):
 
 
 def eventful():
-    """Of two quadrotors, with events, a sensor that fails, and an end before its time."""
+    """A flight of two quadrotors with events, a failing sensor, and an early end."""
     events = [[0.0, "idle"], [0.05, "no lift: not level"], [0.1, "lift"], [0.123456, "rotor failed -> land"]]
     made = flight_of("iris", results={"events": events}, divergence=Divergence("roll [deg]", 0.48, 91.0, "must be"))
     made.channels["measured_velocity"][3] = np.nan
@@ -59,7 +59,7 @@ def mcap_of(path):
 
 
 def numbers(messages, *paths):
-    """The numbers at some paths of all messages of a topic, a row for each."""
+    """The numbers at some paths of all messages of a topic, one row per message."""
     return np.array([[leaves[path] for path in paths] for _, _, leaves in messages])
 
 
@@ -68,5 +68,5 @@ def xyz(path, last=""):
 
 
 def stamps(times):
-    """Times as stamps: a second later, to the nearest nanosecond, without any rounding on the way."""
+    """Times as stamps: one second later, rounded once to the nearest nanosecond."""
     return [10**9 + round(Fraction(float(t)) * 10**9) for t in times]

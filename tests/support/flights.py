@@ -1,4 +1,4 @@
-"""Flights that differ from lane to lane, and what tells two flights apart."""
+"""Flights that differ from lane to lane, and the differences between two flights."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ IDEAL = 1000.0  # times as much is needed, where thrusts have no limit
 
 
 def lanes(name, **changes):
-    """Eight variations on a mission: short, in the air early, each with its own troubles."""
+    """Eight variations of a mission: short, in the air early, each with other disturbances."""
     mission = tl.load_mission(name)
     short = {"mission.duration": 2.5, "mission.log_interval": 0.005, "phases.lift_start": 0.1}
     made = []
@@ -32,7 +32,7 @@ def lanes(name, **changes):
 
 
 def different(a, b):
-    """In what two flights differ, apart from the time they took."""
+    """Names of the metrics and channels in which two flights differ, without wall time."""
     metrics = [{k: v for k, v in f.metrics().items() if k != "wall_s"} for f in (a, b)]
     found = [key for key in metrics[0].keys() | metrics[1].keys() if metrics[0].get(key) != metrics[1].get(key)]
     found += [n for n in sorted({*a, *b}) if n not in a or n not in b or a[n].tobytes() != b[n].tobytes()]

@@ -1,4 +1,4 @@
-"""Messages that no page sends: from a seed, so that a failure can be had again."""
+"""Messages that no page sends, from a seed, so that a failure can be repeated."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ WAYS: list[tuple[Callable[[random.Random], str], int]] = [
 
 
 def hostile(count: int, seed: int) -> Iterator[str]:
-    """So many messages; a few of them happen to be good."""
+    """A number of random messages; a few are valid."""
     r = random.Random(seed)
     ways, weights = zip(*WAYS, strict=True)
     for way in r.choices(ways, weights, k=count):
@@ -105,7 +105,7 @@ def hostile(count: int, seed: int) -> Iterator[str]:
 
 
 def rude(count: int, seed: int) -> Iterator[str]:
-    """So many messages that are allowed, as no page sends them: the farthest, the strongest, and all at once."""
+    """A number of valid messages with extreme values, and many at once."""
     r = random.Random(seed)
 
     def far(most: float) -> list[float]:

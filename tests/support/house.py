@@ -1,4 +1,4 @@
-"""What the rules about the source read, and how they treat what main does not hold yet."""
+"""Shared by the tests of rules about the source: its files, and lists of known exceptions."""
 
 import ast
 import functools
@@ -17,7 +17,7 @@ def python_files(folder: Path) -> dict[str, tuple[int, ast.Module]]:
 
 
 def assert_none_but(known, found, advice):
-    """No offender is found but the known ones, and each of those is still one: the list can only shrink."""
+    """All exceptions are known, and all known ones are still exceptions: the list can only shrink."""
     new, gone = sorted(set(found) - set(known)), sorted(set(known) - set(found))
     assert new == [], f"{advice}\n" + "\n".join(new)
     assert gone == [], "these keep the rule now: take them out of KNOWN\n" + "\n".join(gone)

@@ -1,4 +1,4 @@
-"""What the tests of the laws share: random values, and the way between value types and arrays."""
+"""Shared by the tests of laws: random values, and conversion between value types and arrays."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ PI = float(np.pi)
 
 
 def numbers(size: float = 3.0) -> Any:
-    """Floats within ±size, whole ones and zero included."""
+    """Floats within ±size, with integers and zero."""
     return st.floats(-size, size, allow_subnormal=False)
 
 

@@ -1,4 +1,4 @@
-"""What the tests of the live page share: a page, a server in a thread of its own, raw sockets, good viewers."""
+"""Shared by the tests of the live page: a page, a server in its own thread, raw sockets, well-behaved viewers."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ PAGE = {
 
 
 def put_page(folder):
-    """Write a page to a folder, and beside the folder what must not be served."""
+    """Write a page to a folder, and beside the folder a file that must not be served."""
     folder.mkdir(parents=True)
     for name, content in PAGE.items():
         (folder / name).write_bytes(content)
@@ -69,7 +69,7 @@ class Running:
         joined(self._thread)
 
     def soon(self, do: Callable[..., object], *args: object) -> None:
-        """Let something be done in the server's own thread."""
+        """Run a function in the server's thread."""
         self._loop.call_soon_threadsafe(do, *args)
 
     def get(self, path: str = "/", method: str = "GET", **headers: str) -> tuple[int, dict[str, str], bytes]:
@@ -86,14 +86,14 @@ class Running:
             connection.close()
 
     def send(self, request: bytes) -> bytes:
-        """All that comes back for the bytes of a request."""
+        """The whole answer to the bytes of a request."""
         with socket.create_connection(("127.0.0.1", self.port), PATIENCE) as s:
             s.sendall(request)
             return b"".join(pieces(s))
 
     @contextlib.contextmanager
     def viewer(self, **headers: str) -> Iterator[Good]:
-        """A page that behaves well."""
+        """A viewer that follows the protocol."""
         with connect(
             f"ws://127.0.0.1:{self.port}/ws",
             origin=f"http://127.0.0.1:{self.port}",
@@ -107,12 +107,12 @@ class Running:
             yield Good(connection)
 
     def raw(self) -> Raw:
-        """A page that may do anything."""
+        """A viewer that can violate the protocol."""
         return Raw(self.port)
 
 
 def pieces(of: socket.socket) -> Iterator[bytes]:
-    """What comes through a socket until the other side hangs up, which it must."""
+    """The bytes from a socket until the other side closes it, which it must."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end:
         of.settimeout(max(0.1, end - time.monotonic()))
@@ -124,7 +124,7 @@ def pieces(of: socket.socket) -> Iterator[bytes]:
 
 
 class Good:
-    """A viewer that speaks the protocol."""
+    """A viewer that follows the protocol."""
 
     def __init__(self, connection: ClientConnection) -> None:
         self.connection, self.seq = connection, 0
@@ -138,18 +138,18 @@ class Good:
         self.say(type="grab", point=[0.0, 0.0, 0.0], target=target, at="point")
 
     def heard(self) -> Iterator[str | bytes]:
-        """What it is told, for so long as a test has patience."""
+        """The messages that it receives, within a test's timeout."""
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             yield self.connection.recv(max(0.1, end - time.monotonic()))
         raise TimeoutError(f"what was waited for was not said within {PATIENCE:g} s")
 
     def texts(self) -> Iterator[dict[str, Any]]:
-        """The texts that it is told."""
+        """The texts that it receives."""
         return (json.loads(got) for got in self.heard() if isinstance(got, str))
 
     def text(self, kind: str, **wanted: Any) -> dict[str, Any]:
-        """The next text of a kind that says what is wanted."""
+        """The next text of a kind with the given fields."""
         return next(t for t in self.texts() if t["type"] == kind and all(t[k] == v for k, v in wanted.items()))
 
     def frame(self) -> bytes:
@@ -158,7 +158,7 @@ class Good:
 
 
 class Raw:
-    """A WebSocket made by hand, whose client may send what no client would."""
+    """A WebSocket made by hand, whose client can violate the protocol."""
 
     def __init__(self, port: int) -> None:
         self.socket = socket.create_connection(("127.0.0.1", port), PATIENCE)
@@ -184,13 +184,13 @@ class Raw:
         self.socket.sendall(b"".join(masked(text, opcode) for text in texts))
 
     def skip(self) -> None:
-        """Read what has come by now: who reads nothing is cut off."""
+        """Read all that has arrived; a viewer that does not read is disconnected."""
         while select.select([self.socket], [], [], 0.0)[0]:
             if not self.socket.recv(65_536):
                 raise ConnectionError("the server hung up")
 
     def hear(self, text: bytes) -> None:
-        """Read until the server has said something."""
+        """Read until a message has arrived."""
         last = b""
         for piece in pieces(self.socket):
             last = last[-len(text) :] + piece
@@ -199,7 +199,7 @@ class Raw:
         raise ConnectionError(f"the server hung up before it said {text!r}")
 
     def closed(self) -> int:
-        """Read until the server hangs up; the code of its good-bye, 0 without one."""
+        """Read until the server closes; the code of its close frame, 0 without one."""
         data = b""
         with contextlib.suppress(ConnectionError):
             for piece in pieces(self.socket):
@@ -217,7 +217,7 @@ class Raw:
         return code
 
     def kill(self) -> None:
-        """Be gone without a good-bye, as when a process is killed."""
+        """Disconnect without a close frame, as a killed process does."""
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         self.socket.close()
 

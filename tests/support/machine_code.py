@@ -1,4 +1,4 @@
-"""Laws as machine code, for tests: a step of one's own in a loop, and any function over rows of numbers."""
+"""Laws as machine code, for tests: a step in a loop, and any function over rows of numbers."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ STEPS = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_int64)
 
 
 def fused_copy(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A function as laws are traced, whether it is marked as one or not."""
+    """A function as a law is traced, marked as one or not."""
     return fused(function) if isinstance(function, FunctionType) else function
 
 
 def answers(function: Callable[..., Any], arguments: tuple[Any, ...], rows: Any = None, lanes: int = 1) -> np.ndarray:
-    """What machine code of a function makes of rows of numbers (rows × numbers), of its arguments' own without any."""
+    """Results of a function's machine code for rows of numbers (rows × numbers); without rows, for the arguments."""
     table = np.array([[x for a in arguments for x in flat(a)]] if rows is None else rows, dtype=float)
     return compiled(fused_copy(function), *arguments, lanes=lanes)(table)
 
 
 class Loop:
-    """A step in a loop of machine code: (shown, moving after) of (fixed, moving, given).
+    """A step in a loop of machine code: (fixed, moving, given) → (shown, next moving).
 
     Args:
         step: of values, fused as a law is.
-        fixed: a value like that which stays.
-        moving: one like that which a step hands to the next.
-        given: one like that which every step gets a row of.
+        fixed: a value of the type that is constant.
+        moving: a value of the type that a step passes to the next.
+        given: a value of the type of which every step gets a row.
     """
 
     def __init__(self, step: Callable[..., Any], fixed: Any, moving: Any, given: Any, level: Level = BEST) -> None:
@@ -68,7 +68,7 @@ class Loop:
         self.run = STEPS(self.code.addresses["steps"])
 
     def __call__(self, fixed: Any, moving: Any, given: Any) -> np.ndarray:
-        """What the steps show (steps × numbers), a step for every row of `given` (steps × numbers)."""
+        """What the steps show (steps × numbers), one step per row of `given` (steps × numbers)."""
         arrays = [np.array(flat(fixed)), np.array(flat(moving)), np.ascontiguousarray(given, dtype=float)]
         assert arrays[2].shape[1:] == (self.given,)
         shown = np.zeros((len(arrays[2]), self.width))

@@ -1,4 +1,4 @@
-"""Malformed missions: each with what its refusal must say."""
+"""Malformed missions, each with pieces of its error message."""
 
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ GUST = "wind.gusts = [{start = 1, %s}]"
 
 
 class Case(NamedTuple):
-    """A line or more of TOML on top of a built-in mission, and pieces that the one message must have."""
+    """Lines of TOML on top of a built-in mission, and pieces of the one error message."""
 
     name: str
     toml: str

@@ -1,6 +1,6 @@
 """A ROS message as a flat table of its numbers and texts; and, run as a program, a ROS 1 bag read by ROS's own reader.
 
-Run by the Python that ROS belongs to: no package of ours, nor NumPy.
+Run by the Python of ROS, so without our packages and NumPy.
 """
 
 import json

@@ -29,6 +29,7 @@ EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and
     "wind": {"model": "air", "gusts": [{"velocity": [1.0, 0.0, 0.0], "start": 15.0, "rise": 1.0}]},
     "pilot": {"guidance": "hand"},
     "requests": [{"time": 60.0, "action": "land"}],
+    "sensors": {"additional": [{"name": "altimeter"}]},
     "sensor_faults": [{"sensor": "joints", "quadrotor": 1, "kind": "bias", "time": 60.0, "until": 61.0}],
     "walls": [{"start": [20.0, -3.0], "end": [20.0, 3.0]}],
     "person": {"path": [{"point": [1.0, 0.0], "heading": 0.0}]},

@@ -1,4 +1,4 @@
-"""Payload, quadrotors and joints by Newton and Euler as one linear system in NumPy, apart from the package's laws."""
+"""Newton–Euler equations of payload, quadrotors and joints as one linear system in NumPy; no law of the package."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Parts(NamedTuple):
 
 
 class Given(NamedTuple):
-    """What acts at an instant: thrusts (N) and torques (N × 3) of quadrotors, the push [N, world] at a point of the
+    """The loads at an instant: thrusts (N) and torques (N × 3) of quadrotors, the push [N, world] at a point of the
     payload (body axes), winds (N × 3, world) on the quadrotors."""
 
     thrusts: np.ndarray
@@ -111,13 +111,13 @@ def quat(R: Rotation) -> Quat:
 
 
 def unit(R: Rotation, w: np.ndarray, answer: Answer, fresh: float = 1.0) -> ImuReading:
-    """What a perfect on-board unit says."""
+    """The reading of a perfect IMU."""
     f = felt(R, answer)
     return ImuReading(f.specific_force, vec3(w), f.joint_force, f.joint_torque, quat(R), fresh)
 
 
 def state(p: Parts, R: Rotation, w: np.ndarray, position: np.ndarray, velocity: np.ndarray) -> State:
-    """Of the system's centre of mass, from position and velocity of the payload's centre."""
+    """The state of the system's centre of mass from position and velocity of the payload's centre."""
     r = p.centre
     return State(vec3(position + R.apply(r)), vec3(velocity + R.apply(np.cross(w, r))), quat(R), vec3(w))
 

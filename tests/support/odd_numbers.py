@@ -1,4 +1,4 @@
-"""Numbers of every size and kind, and their bits."""
+"""Numbers of every magnitude and kind, and their bits."""
 
 import math
 import random
@@ -19,5 +19,5 @@ def any_number(chance: random.Random) -> float:
 
 
 def bits(values: np.ndarray) -> np.ndarray:
-    """Numbers as integers; all that are none alike."""
+    """Bits of numbers as integers; all NaNs are the same."""
     return np.where(np.isnan(values), np.nan, values).view(np.int64)

@@ -1,7 +1,7 @@
-"""How long tests wait before they give up, and what waits for them.
+"""Timeouts of tests, and functions that wait.
 
-Nothing here measures speed: on any machine what is sound comes sooner, and what never comes is a failure. The timeout
-in pyproject.toml is for what waits without any of this.
+These do not measure speed: correct code is faster on any machine. The timeout in pyproject.toml is for waits that do
+not use them.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ T = TypeVar("T")
 
 
 def until(true: Callable[[], T], what: str = "what was waited for", patience: float = PATIENCE) -> T:
-    """What `true()` gives, once that counts as true."""
+    """The value of `true()`, once it is true."""
     end = time.monotonic() + patience
     while not (found := true()):
         assert time.monotonic() < end, f"{what} did not come within {patience:g} s"
@@ -30,12 +30,12 @@ def until(true: Callable[[], T], what: str = "what was waited for", patience: fl
 
 
 def completed(command: list[str], **options: Any) -> subprocess.CompletedProcess[Any]:
-    """A process that has ended, as of `subprocess.run`; one that goes on for ever is killed, and fails the test."""
+    """`subprocess.run` with a timeout, after which the process is killed and the test fails."""
     return subprocess.run(command, **{"timeout": COMPILING, **options})
 
 
 def said(process: subprocess.Popen[str], pattern: str, patience: float = COMPILING) -> re.Match[str]:
-    """Where a pattern is in the first line of a process's output that has it; one that stays silent is killed."""
+    """The first match of a pattern in a line of a process's output; after a timeout the process is killed."""
     assert process.stdout
     watch = threading.Timer(patience, process.kill)
     watch.start()
@@ -50,7 +50,7 @@ def said(process: subprocess.Popen[str], pattern: str, patience: float = COMPILI
 
 
 def ended(process: subprocess.Popen[Any], number: int | None = signal.SIGINT, patience: float = PATIENCE) -> int:
-    """Exit status of a process, once it has been sent a signal, if any; one that does not end is killed, and fails."""
+    """The exit status of a process after a signal, if any; after a timeout it is killed and the test fails."""
     if number is not None:
         process.send_signal(number)
     try:

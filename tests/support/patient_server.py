@@ -1,4 +1,4 @@
-"""A server that is as patient as a test: on a busy machine a viewer may be silent for longer than a person's page may.
+"""A server with the timeouts of tests: on a busy machine a viewer may be silent for longer than a page.
 
 As a program: `tandemlift` with such a server.
 """
@@ -14,7 +14,7 @@ from tandemlift.live import server, viewers
 
 
 def make_patient(put: Callable[[Any, str, Any], None] = setattr) -> None:
-    """Let silence and pings that are not answered end nothing; `put` as `setattr`."""
+    """Disable disconnection after silence or unanswered pings; `put` is `setattr` or its like."""
     serve = server.serve
     put(viewers, "SILENT", PATIENCE)
     put(server, "serve", lambda *args, **options: serve(*args, **{**options, "ping_timeout": None}))

@@ -1,4 +1,4 @@
-"""A flight's truth through sensors and estimators, in one compiled loop: what the tests of both estimators share."""
+"""Sensors and estimators on a flight's true motion in one compiled loop; shared by the tests of both estimators."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ READ = readings_of(SENSING)
 
 
 class Happening(NamedTuple):
-    """The truth of a step."""
+    """The true values of a step."""
 
     state: State
     felt: PerfectReadings
@@ -47,7 +47,7 @@ class Onboard(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """What a step shows."""
+    """The outputs of a step."""
 
     push: PushEstimate
     state: State
@@ -63,7 +63,7 @@ SEEN = Seen(_push, _state, READ, _navigation)
 
 
 def step(x: Onboard, truth: Any, hiss: Any, t: Any) -> Any:
-    """(what a step shows, Onboard after it); nothing is delayed."""
+    """(outputs, next Onboard) of a step, without delay."""
     readings, sensing = sense(x.sensors, x.sensing, truth.state, truth.felt, truth.state.attitude, hiss)
     push, push_memory = estimate(x.pushes, x.push_memory, readings.imu, t)
     state, navigation = navigate(x.observer, x.navigation, readings)
@@ -72,7 +72,7 @@ def step(x: Onboard, truth: Any, hiss: Any, t: Any) -> Any:
 
 
 class Given(NamedTuple):
-    """What a step of a flight is given."""
+    """The inputs of a step."""
 
     truth: Happening
     hiss: Any
@@ -96,7 +96,7 @@ def onboard(
     observer: Navigator = OBSERVER,
     believed: State | None = None,
 ) -> Onboard:
-    """Sensors and estimators before the first step; the observer begins at `believed`, or at the truth."""
+    """Sensors and estimators before the first step; the observer starts at `believed`, or at the true state."""
     start = first.state if believed is None else believed
     sensing = start_sensing(devices, first.state, first.felt, start.attitude)
     return Onboard(
@@ -127,5 +127,5 @@ def rows(v: Any) -> np.ndarray:
 
 
 def happening(row: np.ndarray) -> Happening:
-    """The truth of a step from its row of numbers."""
+    """The true values of a step from its row of numbers."""
     return unflat(row, LIKE)

@@ -1,4 +1,4 @@
-"""A plugin that stands in for Gazebo's: a rigid body in NumPy and SciPy, led over UDP, on a network that may be bad."""
+"""A stand-in for Gazebo's plugin: a rigid body in NumPy and SciPy, commanded over UDP, on an unreliable network."""
 
 import socket
 import struct
@@ -17,7 +17,7 @@ DOWN = np.array([0.0, 0.0, -9.81])
 
 
 class RigidBody:
-    """The vehicle as one body; what its joints pass on is what moves the quadrotors as it does."""
+    """The vehicle as one body; joint loads are those that move the quadrotors with it."""
 
     def __init__(self, vehicle):
         self.vehicle, self.N = vehicle, vehicle.count
@@ -33,7 +33,7 @@ class RigidBody:
         return np.array([*self.x, *self.v, w, x, y, z, *self.w])
 
     def step(self, numbers, dt):
-        """Move by a step; what was felt at its start."""
+        """Advance by a step; the readings at its start."""
         N, vehicle = self.N, self.vehicle
         thrusts, central, on_payload, on_quadrotors = np.split(numbers, [4 * N, 4 * N + 6, 4 * N + 12])
         thrusts, on_quadrotors = thrusts.reshape(N, 4), on_quadrotors.reshape(2, 3, N)
@@ -79,10 +79,9 @@ class RigidBody:
 
 
 class Plugin:
-    """Answers a pilot as the plugin does, in a thread, until closed.
+    """Answers a pilot as the plugin does, in a thread, until it is closed.
 
-    `network(message)` says what becomes of a message on its way in, and of one on its way out: a list of those that
-    arrive now.
+    `network(message)` returns the list of messages that arrive now, for incoming and outgoing ones.
     """
 
     def __init__(self, body, dt, *, version=1, network=lambda message: [message], mass=None, port=0):
@@ -166,7 +165,7 @@ class Plugin:
 
 
 class BadNetwork:
-    """Loses, doubles, delays and spoils messages, each with this chance."""
+    """Loses, duplicates, delays and corrupts messages, each with this probability."""
 
     def __init__(self, seed, chance=0.1):
         self.rng, self.chance, self.late = np.random.default_rng(seed), chance, []

@@ -1,4 +1,4 @@
-"""What somebody does with the node in ROS 1: run by the Python that rospy belongs to, and prints what came of it."""
+"""A client of the node in ROS 1, run by the Python of rospy; it prints its results."""
 
 import json
 import sys
@@ -21,7 +21,7 @@ def note(message):
 
 
 def until(what):
-    """Wait for something that comes true."""
+    """Wait until a condition is true."""
     end = time.monotonic() + PATIENCE
     while not what():
         if time.monotonic() > end:
@@ -56,7 +56,7 @@ def place():
 
 
 def moved():
-    """How far it has come, pushed for a while more; a flight on a busy machine is slow."""
+    """The distance moved after pushing for some time; a flight on a busy machine is slow."""
     push(publisher, "base_world", (1.5, 0.0, 0.0), 1.5)
     return place() - here
 

@@ -1,4 +1,4 @@
-"""The node as a process of its own, and others beside it."""
+"""The node as a process, and other processes of ROS."""
 
 import json
 import os
@@ -18,7 +18,7 @@ def started(*command, log, **more):
 
 
 def node(log, *options, environment):
-    """`tandemlift ros`, once it flies."""
+    """A process of `tandemlift ros` that flies."""
     path = {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
     command = [sys.executable, "-m", "tandemlift", "ros", "hover", *SETTINGS, *options]
     process = started(*command, log=log, env=environment | path)

@@ -1,4 +1,4 @@
-"""A front whose middleware is dictionaries and whose clock is the test: what it says, and what is said to it."""
+"""A node whose middleware is dictionaries and whose clock the test advances: its messages in and out."""
 
 import types as plain
 from collections import defaultdict
@@ -13,7 +13,7 @@ STORE = get_typestore(Stores.ROS2_HUMBLE)
 
 
 def message_class(name):
-    """A class of a message whose fields can be given by name, and are otherwise zero."""
+    """A message class whose fields are given by name, and are zero otherwise."""
     _, fields = STORE.fielddefs[modern(name)]
 
     def make(*values, **named):
@@ -80,7 +80,7 @@ UP = 2.0  # s
 
 
 class Trial:
-    """A front whose flight goes on when it is told to."""
+    """A node whose flight advances on command."""
 
     def __init__(self, mission, folder, middleware=None):
         self.session, self.middleware = Session(mission, out=folder), middleware or Middleware()
@@ -99,7 +99,7 @@ class Trial:
         return self.middleware.channels[topic].sent
 
     def said(self):
-        """Words of `/diagnostics` about events."""
+        """Texts of `/diagnostics` about events."""
         self.front.diagnostics.flush()
         told = [status for array in self.sent("/diagnostics") for status in array.status]
         return [status.message for status in told if status.name == "tandemlift: pilot"]

@@ -1,4 +1,4 @@
-"""A screen that nobody sees, and what is on it."""
+"""A virtual screen and its picture."""
 
 import signal
 import subprocess
@@ -10,9 +10,9 @@ HEAD, COLOURS = (0, 19), 12  # of an XWD dump: words for its length and for its 
 
 
 class Screen:
-    """An X server without a screen, which writes what it shows to a file.
+    """An X server without a display, which writes its picture to a file.
 
-    `folder` is for that file; `name` is what DISPLAY is to be.
+    `folder` is the folder of that file; `name` is the value of DISPLAY.
     """
 
     def __init__(self, program, folder):
@@ -27,7 +27,7 @@ class Screen:
         self.name = f":{said(self._server, '[0-9]+')[0]}"
 
     def picture(self):
-        """What is shown: red, green and blue (height, width, 3), 0 to 255."""
+        """The picture: red, green and blue (height, width, 3), 0 to 255."""
         data = self._dump.read_bytes()
         words = np.frombuffer(data, ">u4", 25)
         head, colours = (int(words[i]) for i in HEAD)

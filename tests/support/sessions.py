@@ -1,4 +1,4 @@
-"""Sessions that tests move themselves, not by the clock."""
+"""Sessions that tests advance, instead of the clock."""
 
 import tandemlift as tl
 from tandemlift.live.session.session import Session

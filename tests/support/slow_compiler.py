@@ -1,6 +1,6 @@
-"""A compiler that takes long.
+"""A slow compiler.
 
-As a program: `tandemlift`, whose compiler works on until there is a file of the name that COMPILES_UNTIL holds.
+As a program: `tandemlift`, whose compiler waits until the file named by COMPILES_UNTIL exists.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ quick = machine.compiled
 
 
 def compiled(text: str, level: machine.Level = machine.BEST) -> bytes:
-    """The object code of a module, once it may be there."""
+    """The object code of a module, once the file exists."""
     while not Path(os.environ["COMPILES_UNTIL"]).exists():
         time.sleep(0.01)
     return quick(text, level)
 
 
 def make_slow() -> None:
-    """Let this process compile so."""
+    """Use this compiler in this process."""
     machine.compiled = compiled
 
 

@@ -1,4 +1,4 @@
-"""A flight that stands in for a live one: a damped mass on the spring of a hand, in a thread of its own."""
+"""A stand-in for a live flight: a damped mass on the spring of a hand, in its own thread."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ STEP, MASS, DAMPING = 0.002, 2.0, 6.0
 
 
 class StandIn:
-    """Applies messages for the beam, one parameter, a reset and a save; notes every message that reaches it."""
+    """Handles messages for the beam, one parameter, reset and save; records every message."""
 
     def __init__(self, mission: str = "hover", *, wait: threading.Event | None = None) -> None:
         self.mission = load_mission(mission)

@@ -1,8 +1,8 @@
-"""A mission with everything in it, and the mission in calm: one compiled loop serves the tests of whole flights.
+"""A mission with all parts, and the same mission in calm: one compiled loop for the tests of whole flights.
 
-Two unlike quadrotors off the beam's axes, delays on every line, a floor, two walls, wind with turbulence and a gust, a
-fault that the pilot learns of, a tare, a push off the centre, and a pilot that it guides, with an observer. In `CALM`
-the same parts are there with nothing to say: no wind, walls out of reach, a fault after the end, perfect sensors.
+Two different quadrotors off the beam's axes, delays of all signals, a floor, two walls, wind with turbulence and a
+gust, a fault that the pilot knows, a tare, a push off the centre, guidance by hand and an observer. `CALM` has the same
+parts without effect: no wind, walls out of reach, a fault after the end, perfect sensors.
 """
 
 from typing import Any
@@ -16,7 +16,7 @@ UNIT, MOTION, COMMAND = 3, 10, 10  # steps of delay
 
 
 def quadrotors() -> list[dict[str, Any]]:
-    """Two of them, unlike in place and mass, so that the inertia tensor is full."""
+    """Two quadrotors that differ in position and mass, so that the inertia tensor is full."""
     iris = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(mode="json", exclude_none=True)
     return [{**iris, "position": p, "mass": m} for p, m in (([0.05, 1.0, 0.075], 1.4), ([-0.04, -0.95, 0.09], 1.6))]
 
@@ -67,17 +67,17 @@ CALM: dict[str, Any] = {
 
 
 def storm(changes: dict[str, Any] | None = None, **keywords: Any) -> Any:
-    """The mission with everything in it, changed."""
+    """The mission with all parts, with changes."""
     return tl.load_mission("iris", STORM | (changes or {}), **keywords)
 
 
 def calm(changes: dict[str, Any] | None = None) -> Any:
-    """The mission in calm, changed."""
+    """The mission in calm, with changes."""
     return tl.load_mission("iris", CALM | (changes or {}))
 
 
 def storms(count: int) -> list[Any]:
-    """Missions that differ in everything that may differ within one compiled loop."""
+    """Missions that differ in all that can differ within one compiled loop."""
     rng = np.random.default_rng(4)
     return [
         storm(

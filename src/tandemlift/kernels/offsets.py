@@ -19,7 +19,7 @@ NONE = LeafSpan(0, 0)
 
 
 class DelayedSpans(tuple[LeafSpan, ...]):
-    """The delayed parts of a flight, as spans in the order of `loop.delays.DelayLines`, additional sensors last.
+    """The delayed parts of a flight, in the order of `loop.delays.DelayLines`; additional sensors one by one.
 
     Each is a span of the flight's numbers, empty without delay. A row of the delay lines holds them one after another.
     """
@@ -47,14 +47,14 @@ def delayed_spans(flying: Any) -> DelayedSpans:
     late = flying.delays
     if isinstance(late, Nothing):
         return DelayedSpans()
-    ends: list[tuple[str, ...]] = [
+    paths: list[tuple[str, ...]] = [
         ("readings", "imu"),
         ("readings", "motion"),
         ("rotors", "arriving"),
         ("person", "view"),
     ]
-    ends += [("readings", "additional", name) for name in getattr(late.additional, "_fields", ())]
+    paths += [("readings", "additional", name) for name in late.additional._fields]
     return DelayedSpans(
-        NONE if isinstance(mark, Nothing) else leaf_offset(flying, "moving", *end)
-        for mark, end in zip((*late[:-1], *late.additional), ends, strict=True)
+        NONE if isinstance(delay, Nothing) else leaf_offset(flying, "moving", *path)
+        for delay, path in zip((*late[:-1], *late.additional), paths, strict=True)
     )

@@ -12,7 +12,7 @@ from tandemlift.loop.perception import Estimates
 
 
 class MeasuredChannels(NamedTuple):
-    """The latest readings that the pilot has."""
+    """The last readings that the pilot has; `additional`: those of additional sensors, `measured_NAME`."""
 
     measured_position: Vec3
     measured_velocity: Vec3
@@ -25,7 +25,7 @@ class MeasuredChannels(NamedTuple):
 
 
 class EstimatedChannels(NamedTuple):
-    """The estimates made of them."""
+    """The estimates from them."""
 
     estimated_position: Vec3
     estimated_velocity: Vec3

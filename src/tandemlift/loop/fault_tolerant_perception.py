@@ -1,4 +1,4 @@
-"""Sensors that fail, and perception under watchdogs: only what can be used reaches estimators and pilot."""
+"""Faulty sensors, and perception with watchdogs: only usable readings reach the estimators and the pilot."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from tandemlift.laws.estimation.navigation import centre_of_mass
 from tandemlift.laws.estimation.push_estimate import PushEstimate
 from tandemlift.laws.guidance.preflight_checks import SensorStatus, sensor_status
 from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.sensors.health import WatchdogReport
 from tandemlift.laws.sensors.readings import Readings, Sensors, SensorState, sense
 from tandemlift.laws.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults
-from tandemlift.laws.sensors.watchdog import PredictedReadings, Watchdog, WatchdogReport, WatchdogState, watchdog_step
+from tandemlift.laws.sensors.substitutes import PredictedReadings
+from tandemlift.laws.sensors.watchdog import Watchdog, WatchdogState, watchdog_step
 from tandemlift.loop.estimate_channels import estimated_channels
 from tandemlift.loop.perception import (
     Estimates,
@@ -31,7 +33,7 @@ from tandemlift.loop.perception import (
 
 
 class FaultySensors(NamedTuple):
-    """Sensors, and the faults that they will have."""
+    """Sensors, and their faults."""
 
     sensors: Sensors
     faults: SensorFaults
@@ -45,7 +47,7 @@ class FaultySensorsState(NamedTuple):
 
 
 class WatchedEstimators(NamedTuple):
-    """Watchdogs, and the estimators behind them."""
+    """Watchdogs, and the estimators that use the readings after them."""
 
     watchdog: Watchdog
     estimators: Estimators
@@ -54,12 +56,12 @@ class WatchedEstimators(NamedTuple):
 class WatchedEstimatorsState(NamedTuple):
     """Memory of both."""
 
-    watching: WatchdogState
-    remembered: EstimatorState
+    watchdog: WatchdogState
+    estimators: EstimatorState
 
 
 class CheckedEstimates(NamedTuple):
-    """What is estimated, as `Estimates`; the readings that can be used, and what is wrong with the sensors."""
+    """The `Estimates`, the usable readings, and what is wrong with the sensors."""
 
     push: PushEstimate
     state: State
@@ -69,9 +71,7 @@ class CheckedEstimates(NamedTuple):
 
 
 @measure.register(FaultySensors)
-def _sensed_and_spoiled(
-    sensors: FaultySensors, memory: Any, state: State, felt: Any, believed: Quat, noise: Any
-) -> Any:
+def _with_faults(sensors: FaultySensors, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
     readings, sensing = sense(sensors.sensors, memory.sensing, state, felt, believed, noise)
     given, faults = apply_faults(sensors.faults, memory.faults, readings)
     return given, FaultySensorsState(sensing, faults)
@@ -79,27 +79,27 @@ def _sensed_and_spoiled(
 
 @law
 def predicted(k: Estimators, m: EstimatorState) -> PredictedReadings:
-    """What the navigator expects."""
+    """The prediction of the navigator."""
     return PredictedReadings(centre_of_mass(k.state, m.state), m.state.gyroscope_bias, m.state.accelerometer_bias)
 
 
 @law
 def trusted_push(p: PushEstimate, r: WatchdogReport) -> PushEstimate:
-    """The push, trusted only where joints and accelerometer can be."""
-    well = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0)
-    return p._replace(trusted=p.trusted * well, usable=p.usable * well)
+    """The push, trusted only while joints and accelerometer are sound."""
+    sound = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0)
+    return p._replace(trusted=p.trusted * sound, usable=p.usable * sound)
 
 
 @law
-def at_best(s: State, readings: Readings, r: WatchdogReport, rates: Vec3) -> State:
-    """The estimate of the state, or the readings where the sensors that it rests on are lost; `rates`: as they turn."""
-    no_force, no_turn = maximum(r.accelerometer, r.imu), maximum(r.gyroscope, r.imu)
+def best_state(s: State, readings: Readings, r: WatchdogReport, rates: Vec3) -> State:
+    """The estimated state, or readings where the sensors of the estimate are lost; `rates`: measured or substituted."""
+    no_accelerometer, no_gyroscope = maximum(r.accelerometer, r.imu), maximum(r.gyroscope, r.imu)
     v = readings.motion
     return State(
-        chosen(no_force, v.position, s.position),
-        chosen(no_force, v.velocity, s.velocity),
-        chosen(no_turn, v.attitude, s.attitude),
-        chosen(no_turn, rates, s.rates),
+        chosen(no_accelerometer, v.position, s.position),
+        chosen(no_accelerometer, v.velocity, s.velocity),
+        chosen(no_gyroscope, v.attitude, s.attitude),
+        chosen(no_gyroscope, rates, s.rates),
     )
 
 
@@ -110,10 +110,13 @@ def _tare_watched(estimators: WatchedEstimators, guidance: Any, t: Any) -> Any:
 
 @estimate_all.register(WatchedEstimators)
 def _watched(k: WatchedEstimators, m: Any, readings: Any, t: Any, dt: Any) -> Any:
-    clean, report, watching = watchdog_step(k.watchdog, m.watching, readings, predicted(k.estimators, m.remembered), dt)
-    known, remembered = estimate_all(k.estimators, m.remembered, clean, t, dt)
-    push, state = trusted_push(known.push, report), at_best(known.state, clean, report, watching.rates)
-    return CheckedEstimates(push, state, known.vehicle, clean, report), WatchedEstimatorsState(watching, remembered)
+    usable_readings, report, watchdog = watchdog_step(
+        k.watchdog, m.watchdog, readings, predicted(k.estimators, m.estimators), dt
+    )
+    known, estimators = estimate_all(k.estimators, m.estimators, usable_readings, t, dt)
+    push, state = trusted_push(known.push, report), best_state(known.state, usable_readings, report, watchdog.rates)
+    checked = CheckedEstimates(push, state, known.vehicle, usable_readings, report)
+    return checked, WatchedEstimatorsState(watchdog, estimators)
 
 
 @usable.register(CheckedEstimates)
@@ -128,14 +131,14 @@ def _shown_checked(known: CheckedEstimates) -> Any:
 
 @choice
 def reported_by(known: Any) -> Any:
-    """`SensorStatus` of what is known."""
+    """The `SensorStatus` of estimates."""
 
 
 @reported_by.register(CheckedEstimates)
 def _reported(known: CheckedEstimates) -> Any:
     p, r = known.push, known.report
-    apart = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0 - p.trusted)
-    return SensorStatus(r, apart, p.armed, p.payload_mass)
+    inconsistent = where(r.joints + r.accelerometer + r.imu > 0.0, 0.0, 1.0 - p.trusted)
+    return SensorStatus(r, inconsistent, p.armed, p.payload_mass)
 
 
 @sensor_status.register(PerceptionData)

@@ -15,7 +15,8 @@ from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
 from tandemlift.engines.compiled_contact import DistantFloor
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
 from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
-from tandemlift.laws.guidance.guidance import HandGuidanceChannels, thrust_fraction
+from tandemlift.laws.guidance.guidance import thrust_fraction
+from tandemlift.laws.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.mechanics.clearance import clearance
 from tandemlift.laws.mechanics.contact import Floor

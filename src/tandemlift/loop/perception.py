@@ -1,4 +1,4 @@
-"""What the pilot perceives: sensors' readings, what is estimated from them, and which of them it reads."""
+"""Perception: the readings of the sensors, the estimates from them, and which of both the pilot uses."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from tandemlift.laws.sensors.readings import Readings, Sensors, sense
 
 
 class TruthSource(NamedTuple):
-    """The pilot reads what is true."""
+    """The pilot uses the true values."""
 
 
 class MeasurementSource(NamedTuple):
-    """The pilot reads what sensors measure."""
+    """The pilot uses the measured values."""
 
 
 class EstimateSource(NamedTuple):
-    """The pilot reads what is estimated."""
+    """The pilot uses the estimates."""
 
 
 class PushWrench(NamedTuple):
@@ -34,24 +34,24 @@ class PushWrench(NamedTuple):
 
 
 class PerceptionData(NamedTuple):
-    """What sensors read and what estimators know."""
+    """The readings, and the estimates from them."""
 
     readings: Any
     known: Any
 
 
 class PilotSources(NamedTuple):
-    """What the pilot reads of the state, and of the push."""
+    """The source of the state that the pilot uses, and that of the push."""
 
     state: Any
     push: Any
 
 
 class NominalVehicle(NamedTuple):
-    """What is believed of the vehicle.
+    """The nominal vehicle.
 
-    The payload's centre of mass from the system's [m, body axes], and linear drag, which the joints feel as they feel a
-    push: of force on world velocity [N·s/m], of moment on body rates [N·m·s].
+    The payload's centre of mass from the system's [m, body axes], and linear drag, which loads the joints like a push:
+    of force on world velocity [N·s/m], of moment on body rates [N·m·s].
     """
 
     payload: Vec3
@@ -60,7 +60,7 @@ class NominalVehicle(NamedTuple):
 
 
 class Estimators(NamedTuple):
-    """Of the push, and of the state; what is believed of the vehicle; when to tare."""
+    """The estimators of push and state, the nominal vehicle, and when the tare begins."""
 
     push: PushEstimator
     state: Navigator
@@ -84,7 +84,7 @@ class EstimatorState(NamedTuple):
 
 
 class Estimates(NamedTuple):
-    """What is estimated; and what is believed of the vehicle."""
+    """The estimates of push and state, and the nominal vehicle."""
 
     push: PushEstimate
     state: State
@@ -128,7 +128,7 @@ def _tare(estimators: Estimators, guidance: Any, t: Any) -> Any:
 
 @choice(absent=("estimators", "memory"))
 def estimate_all(estimators: Any, memory: Any, readings: Any, t: Any, dt: Any) -> Any:
-    """(what is known from readings, the estimators' memory) at time t [s]."""
+    """(the estimates from readings, the estimators' memory) at time t [s]."""
 
 
 @estimate_all.register(Estimators)
@@ -150,7 +150,7 @@ def _as_given(known: Estimates, readings: Any) -> Any:
 
 @choice
 def read_state(reads: Any, true: State, readings: Any, known: Any) -> Any:
-    """The state as the pilot reads it."""
+    """The state that the pilot uses."""
 
 
 @read_state.register(TruthSource)
@@ -171,7 +171,7 @@ def _estimated_state(reads: EstimateSource, true: State, readings: Any, known: A
 
 @choice
 def read_push(reads: Any, true: Any, state: State, known: Any) -> Any:
-    """The push as the pilot reads it, a `PushWrench`, in a state that it believes in. `true`: as it is."""
+    """The push that the pilot uses, a `PushWrench`, with the state that it uses; `true`: the true push."""
 
 
 @read_push.register(TruthSource)
@@ -182,29 +182,29 @@ def _true_push(reads: TruthSource, true: Any, state: State, known: Any) -> Any:
 @read_push.register(MeasurementSource)
 def _measured_push(reads: MeasurementSource, true: Any, state: State, known: Any) -> Any:
     p = known.push
-    return true_push(known.vehicle, state, p.measured, p.measured_moment, p.trusted * p.armed)
+    return push_without_drag(known.vehicle, state, p.measured, p.measured_moment, p.trusted * p.armed)
 
 
 @read_push.register(EstimateSource)
 def _estimated_push(reads: EstimateSource, true: Any, state: State, known: Any) -> Any:
     p = known.push
-    return true_push(known.vehicle, state, p.force, p.moment, p.trusted * p.armed)
+    return push_without_drag(known.vehicle, state, p.force, p.moment, p.trusted * p.armed)
 
 
 @law
-def true_push(vehicle: NominalVehicle, state: State, force: Vec3, moment: Vec3, heard: Any) -> PushWrench:
-    """A push on the payload, less what drag does, about the system's centre of mass; nothing if not `heard` (0).
+def push_without_drag(vehicle: NominalVehicle, state: State, force: Vec3, moment: Vec3, usable: Any) -> PushWrench:
+    """A push on the payload, less the drag, about the system's centre of mass; zero if it is not `usable` (0).
 
     `force` [N, world axes]; `moment` [N·m, body axes] is about the payload's centre of mass.
     """
     push = force + vehicle.drag_force * state.velocity
     arm = cross(vehicle.payload, apply_transposed(rotation_from_quaternion(state.attitude), push))
-    return PushWrench(push * heard, (moment + vehicle.drag_moment * state.rates + arm) * heard)
+    return PushWrench(push * usable, (moment + vehicle.drag_moment * state.rates + arm) * usable)
 
 
 @choice(absent="readings")
 def all_sensed(readings: Any, known: Any) -> Any:
-    """What is sensed, or `Nothing`."""
+    """`PerceptionData`, or `Nothing` without sensors."""
 
 
 @all_sensed.register(Readings)

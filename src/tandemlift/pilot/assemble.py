@@ -9,7 +9,8 @@ from typing import Any
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.controllers import controller
 from tandemlift.laws.guidance.admittance import Admittance, AdmittanceState, HardGate, SoftGate
-from tandemlift.laws.guidance.guidance import AlwaysRunning, RunningInFlight, ScheduledGuidance
+from tandemlift.laws.guidance.guidance import AlwaysRunning, RunningInFlight
+from tandemlift.laws.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.rotors.allocation import (
     AllocationState,

@@ -10,7 +10,7 @@ from tandemlift.common.phases import IDLE
 from tandemlift.laws.guidance.admittance import Admittance
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
 from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState
-from tandemlift.laws.guidance.guidance import HandGuidance, HandGuidanceState
+from tandemlift.laws.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.laws.guidance.phases import SETTLING_TIME, PhaseSettings, PhaseState
 from tandemlift.laws.guidance.yaw_compliance import FixedHeading, YawCompliance, YawState
 from tandemlift.laws.signals.low_pass import LowPassState, low_pass

@@ -8,7 +8,7 @@ import numpy as np
 
 from tandemlift.algebra.vector import Nothing, each
 from tandemlift.laws.estimation.fault_decision import DecisionRules, DecisionState
-from tandemlift.laws.estimation.rotor_loss_detection import FOUR, FRESH, DetectionState, RotorLossDetection
+from tandemlift.laws.estimation.rotor_loss_detection import FOUR, START_SCATTER, DetectionState, RotorLossDetection
 from tandemlift.laws.mechanics.inertia import inertia_value
 from tandemlift.laws.rotors.allocation import Mixer
 from tandemlift.laws.signals.low_pass import LowPassState, low_pass
@@ -69,6 +69,6 @@ def _at_start(mission: Mission, vehicle: Vehicle, k: RotorLossDetection) -> Dete
         momentum=LowPassState(momentum, nought),
         others=LowPassState(_four([-vehicle.weight, 0.0, 0.0, 0.0]), nought),
         mean=LowPassState(nought, nought),
-        scatter=LowPassState(k.bound * FRESH, nought),
+        scatter=LowPassState(k.bound * START_SCATTER, nought),
         verdict=DecisionState(lost=none, since=0.0, named=0.0, above=none, alive=0.0),
     )

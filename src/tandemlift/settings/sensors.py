@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field
 
-from tandemlift.common.sensors import DEVICES, SENSORS, sensors_on
+from tandemlift.common.sensors import ADDITIONAL, DEVICES, SENSORS, sensors_on
 from tandemlift.settings.facts import key
 from tandemlift.settings.leaves import Axes3, Delay, NonNegative, Positive, Size, Table, must
 
@@ -31,7 +31,7 @@ DRIFT = "growth of the error, a random walk"
 STEP = "step of quantisation"
 RANGE = "largest reading, either way"
 FINE = f"0 for none, or at least {FINEST:g}"
-THE_SENSORS = "the sensor's"
+THE_SENSORS = "the sensor's unit"
 STEPS = "at most 10,000 steps"
 
 
@@ -89,13 +89,23 @@ class MotionSensor(Table):
     )
 
 
+AdditionalName: TypeAlias = Literal[tuple(ADDITIONAL)] | str  # type: ignore[valid-type]
+
+
 class AdditionalSensorTable(Table):
     """`[[sensors.additional]]`: sensors beyond those that the pilot needs, one table each, with a clock of their own.
 
     Their samples are recorded in channel `measured_NAME`. CONTRIBUTING.md tells how to add a sensor.
     """
 
-    name: str = key(..., None, 'name of the sensor, such as "altimeter"', example="altimeter")
+    name: AdditionalName = key(
+        ...,
+        None,
+        "name of the sensor",
+        rule="or another one that is registered",
+        example="altimeter",
+        choices={sensor.name: sensor.meaning for sensor in ADDITIONAL.values()},
+    )
     noise: Size = key(0.0, THE_SENSORS, NOISE)
     bias: Size = key(0.0, THE_SENSORS, BIAS)
     drift: Size = key(0.0, f"{THE_SENSORS}/√s", DRIFT)
@@ -141,9 +151,9 @@ class SensorsTable(Table):
     additional: tuple[AdditionalSensorTable, ...] = ()
 
 
-SensorName = Literal[(*DEVICES, *SENSORS)] | str  # type: ignore[valid-type]
+SensorName: TypeAlias = Literal[(*DEVICES, *SENSORS)] | str  # type: ignore[valid-type]
 SENSOR_CHOICES = {
-    **{device: f"the device with {', '.join(s.name for s in sensors_on(device))}" for device in DEVICES},
+    **{device: f"the device with {' and '.join(s.name for s in sensors_on(device))}" for device in DEVICES},
     **{sensor.name: sensor.meaning for sensor in SENSORS.values()},
 }
 

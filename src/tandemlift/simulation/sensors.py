@@ -1,4 +1,4 @@
-"""The sensors of a mission and the estimators on board."""
+"""The sensors of a mission, and the estimators of its pilot."""
 
 from __future__ import annotations
 
@@ -85,14 +85,14 @@ def _additional(s: AdditionalSensorTable, step: float, chance: np.random.Generat
 
 
 def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
-    """The windage of a vehicle as it is believed to be, with a low-pass of a bandwidth [rad/s]."""
+    """The windage of the nominal vehicle, with a low-pass of a bandwidth [rad/s]."""
     beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
     quadrotors = np.sum([np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
     return PayloadDrag(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
 
 
 def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings: Any) -> tuple[Any, Any]:
-    """The estimators of a mission and their memory at t = 0, as the vehicle is believed to be; or `Nothing`."""
+    """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Nothing`."""
     if isinstance(readings, Nothing):
         return Nothing(), Nothing()
     e, s, step = mission.estimator, mission.sensors, mission.mission.step

@@ -1,4 +1,4 @@
-"""The watchdogs of a mission, and the faults that its sensors will have."""
+"""The watchdogs of a mission, and the faults of its sensors."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def _limits(mission: Mission) -> PerSensor:
 
 
 def with_watchdogs(mission: Mission, estimators: Any, memory: Any, readings: Any) -> tuple[Any, Any]:
-    """Estimators and their memory, behind the watchdogs of a mission if it has any."""
+    """Estimators and their memory, with the watchdogs of a mission before them if it has any."""
     if mission.supervision.model == "none" or isinstance(estimators, Nothing):
         return estimators, memory
     w, step = mission.supervision.watchdog, mission.mission.step

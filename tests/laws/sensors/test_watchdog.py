@@ -29,7 +29,8 @@ from tandemlift.laws.sensors.sensor_faults import (
     apply_faults,
     sensor_fault,
 )
-from tandemlift.laws.sensors.watchdog import PredictedReadings, Watchdog, start_watchdog, watchdog_step
+from tandemlift.laws.sensors.substitutes import PredictedReadings
+from tandemlift.laws.sensors.watchdog import Watchdog, start_watchdog, watchdog_step
 
 DT, NEVER = 0.005, 1e18
 LEVEL, TWO = Quat(1.0, 0.0, 0.0, 0.0), each(2)

@@ -1,18 +1,18 @@
-"""What acts on the vehicle besides its rotors, its weight and the person: a disturbance observer.
+"""A disturbance observer: it estimates the loads on the vehicle besides its rotors, its weight and the person.
 
-A copy of the vehicle's equations of motion runs beside it, driven by the thrusts that the allocation could give,
-through a model of the rotors, so nothing winds up where they are at their limits. What the copy lacks to keep up with
-the measured velocity and rates is the disturbance: per axis, with the error e and the disturbance's acceleration d,
+A model of the vehicle is integrated with the thrusts that the allocation could give, through a model of the rotors, so
+nothing winds up while they are at their limits. The disturbance is what keeps the model at the measured velocity and
+rates: per axis, with the error e and the disturbance's acceleration d,
 
     ė = d_true − d − 2 λ e,   ḋ = λ² e       while |λ² e| ≤ L,
     ė = d_true − d − 2 √(L |e|) sgn e,   ḋ = L sgn e   beyond.
 
 Near zero this is a linear extended-state observer of bandwidth λ (Han, From PID to active disturbance rejection
 control, 2009), which averages noise; beyond, it is the super-twisting observer (Levant, Robust exact differentiation
-via sliding mode technique, 1998; Moreno and Osorio, 2012) whose estimate follows no faster than L, so that a lost rotor
-does not throw it. The two meet continuously. L without bound leaves the linear one.
+via sliding mode technique, 1998; Moreno and Osorio, 2012) whose estimate changes no faster than L, so that a lost rotor
+does not upset it. The two meet continuously; an infinite L gives the linear one.
 
-The person's push goes into the copy as it is measured, so it is no disturbance.
+The model includes the measured push of the person, so that is no disturbance.
 """
 
 from typing import Any, NamedTuple
@@ -29,14 +29,14 @@ from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_ste
 
 
 class DisturbanceFilter(NamedTuple):
-    """How three axes follow: bandwidth λ [1/s], and the steepest slope L of the disturbance [unit of e/s²]."""
+    """Of three axes: bandwidth λ [1/s], and the largest slope L of the disturbance [unit of e/s²]."""
 
     bandwidth: Vec3
     slope: Vec3
 
 
 class DisturbanceObserver(NamedTuple):
-    """The vehicle as it is believed to be, a low-pass that stands for its rotors, and how the observer follows."""
+    """The nominal vehicle, low-passes that model its rotors, and the filters of force and moment."""
 
     mass: Any
     inertia: Any
@@ -51,10 +51,10 @@ class DisturbanceObserver(NamedTuple):
 
 
 class ObserverState(NamedTuple):
-    """Memory: the modelled rotors' wrench; velocity [m/s] and rates [rad/s] of the copy; both disturbances.
+    """Memory: the modelled rotors' wrench; velocity [m/s] and rates [rad/s] of the model; both disturbances.
 
-    Disturbances are accelerations [m/s², world axes] and angular accelerations [rad/s², body axes]; what is left of
-    them besides is the residual.
+    Disturbances are accelerations [m/s², world axes] and angular accelerations [rad/s², body axes]; the
+    residuals are the corrections besides them.
     """
 
     thrust: LowPassState
@@ -68,10 +68,10 @@ class ObserverState(NamedTuple):
 
 
 class DisturbanceEstimate(NamedTuple):
-    """The disturbance: force [N, world axes], moment [N·m, body axes]; and how far the copy lags behind the vehicle.
+    """The disturbance: force [N, world axes], moment [N·m, body axes]; and the estimation errors.
 
-    The residuals [m/s², rad/s²] are what the disturbance would have to change by, as far as the copy can tell: the
-    ‖δ − δ̂‖ of the paper's condition on λ₂.
+    The residuals [m/s², rad/s²] estimate the error δ − δ̂ of the disturbance; by the paper's condition it must stay
+    below λ₂.
     """
 
     force: Vec3
@@ -85,7 +85,7 @@ NONE = DisturbanceEstimate(ZERO, ZERO, ZERO, ZERO)
 
 @elementwise
 def correction(e: Any, bandwidth: Any, slope: Any) -> Any:
-    """How fast the copy is drawn to the vehicle: 2 λ e, or 2 √(L |e|) sgn e where that is less."""
+    """The rate of the model's correction towards the measurement: 2 λ e, or 2 √(L |e|) sgn e where that is less."""
     near = 2.0 * bandwidth * e
     far = 2.0 * sqrt(slope * absolute(e))
     return clip(near, -far, far)
@@ -93,21 +93,21 @@ def correction(e: Any, bandwidth: Any, slope: Any) -> Any:
 
 @elementwise
 def growth(e: Any, bandwidth: Any, slope: Any) -> Any:
-    """How fast the estimate of the disturbance changes: λ² e, or L sgn e where that is less."""
+    """The rate of the disturbance's estimate: λ² e, or L sgn e where that is less."""
     return clip(bandwidth * bandwidth * e, -slope, slope)
 
 
 @choice(absent=(NONE, "memory"))
 def observer_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, learning: Any, dt: Any) -> Any:
-    """(what is `DisturbanceEstimate`, the new memory) at a sample.
+    """(`DisturbanceEstimate`, the new memory) at a sample.
 
     Args:
         k: the observer, or `Nothing`.
         memory: its memory.
-        heard: what the pilot is told.
+        heard: the input of the pilot.
         thrusts: of all rotors [N], as allocated at the last sample.
         active: 1 in flight; 0 on the ground, where nothing is estimated.
-        learning: 1; 0 to keep what was found, where feet may press on the floor, which is no disturbance.
+        learning: 1; 0 holds the estimate while feet may touch the floor, whose force is no disturbance.
         dt: since the last sample [s].
     """
 
@@ -147,7 +147,7 @@ def _observed(
 
 @law
 def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
-    """What is known from the memory."""
+    """The estimate in a memory."""
     return DisturbanceEstimate(
         m.acceleration * k.mass, apply_inertia(k.inertia, m.turning), m.residual, m.turning_residual
     )
@@ -155,7 +155,7 @@ def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
 
 @choice(absent=NONE)
 def last_known(k: Any, memory: Any) -> Any:
-    """What was `DisturbanceEstimate` at the last sample."""
+    """The `DisturbanceEstimate` at the last sample."""
 
 
 @last_known.register(DisturbanceObserver)

@@ -1,4 +1,4 @@
-"""Which rotor is to be named lost, from the evidence for each: the rules of `laws.estimation.rotor_loss_detection`."""
+"""The decision which rotor is lost, from the evidence for each: the rules of `rotor_loss_detection`."""
 
 from typing import Any, NamedTuple
 
@@ -6,16 +6,16 @@ from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import clip, greatest, where
 from tandemlift.algebra.vector import total
 
-LEAST, MOST = 0.5, 1.5  # share of a thrust that is gone
-FAITH = 10.0  # evidence that a rotor has beforehand that was named
+LEAST, MOST = 0.5, 1.5  # fraction of a thrust that is lost
+PRIOR = 10.0  # evidence added for the rotor that is declared lost already
 
 
 class DecisionRules(NamedTuple):
-    """When a rotor is named, or restored.
+    """When a rotor is declared lost, or restored.
 
-    `threshold` over none and `isolation_margin` over the next, as twice a log-likelihood ratio;
-    `unexplained_fraction`: of |r|², that may stay unexplained; `dwell` [s]; for how long a named rotor is tried again,
-    `retest_time` [s]; 1/spread².
+    `threshold` against no fault and `isolation_margin` to the next rotor, as twice a log-likelihood ratio;
+    `unexplained_fraction`: of |r|², that may stay unexplained; `dwell` [s]: for which all of it must hold;
+    `retest_time` [s]: for which a lost rotor is tried again; `per_spread`: 1/spread².
     """
 
     threshold: Any
@@ -27,9 +27,9 @@ class DecisionRules(NamedTuple):
 
 
 class DecisionState(NamedTuple):
-    """Which rotor is lost (1, else 0; a set), since when [s], how often one was named; timers [s] of the test.
+    """Which rotor is lost (1, else 0; a set), since when [s], how often one was declared lost; timers [s] of the test.
 
-    `above`: for how long each rotor has been the one to name (a set); `alive`: for how long none has.
+    `above`: for how long each rotor has met the rules (a set); `alive`: for how long the lost one has shown thrust.
     """
 
     lost: Any
@@ -41,31 +41,31 @@ class DecisionState(NamedTuple):
 
 @elementwise
 def share_gone(fit: Any, size: Any, per_spread: Any) -> Any:
-    """The share of its thrust that a rotor has most likely lost."""
+    """The most likely fraction of its thrust that a rotor has lost."""
     return clip((fit + per_spread) / (size + per_spread), LEAST, MOST)
 
 
 @elementwise
 def support(share: Any, fit: Any, size: Any, per_spread: Any) -> Any:
-    """The evidence for a rotor with this share of its thrust gone."""
+    """The evidence for the loss of this fraction of a rotor's thrust."""
     return share * (2.0 * fit - share * size) - (1.0 - share) * (1.0 - share) * per_spread
 
 
 @elementwise
 def but(value: Any, best: Any) -> Any:
-    """A value, or far less than any if it is the best."""
+    """A value, or one far below all others if it is the best."""
     return where(value < best, value, -1e18)
 
 
 @elementwise
 def counted(timer: Any, evidence: Any, best: Any, sure: Any, dt: Any) -> Any:
-    """For how long [s] a rotor has been the one to name."""
+    """For how long [s] a rotor has met the rules."""
     return where(evidence < best, 0.0, (timer + dt) * sure)
 
 
 @elementwise
 def is_named(lost: Any, above: Any, dwell: Any, renamed: Any) -> Any:
-    """1 for the rotor that is lost, given that one is `renamed` (1) or not (0)."""
+    """1 for the rotor that is lost, else 0; `renamed` is 1 if another one is declared lost now."""
     return where(renamed > 0.0, where(above < dwell, 0.0, 1.0), lost)
 
 
@@ -73,11 +73,11 @@ def is_named(lost: Any, above: Any, dwell: Any, renamed: Any) -> Any:
 def decision_step(
     k: DecisionRules, v: DecisionState, evidence: Any, square: Any, active: Any, t: Any, dt: Any
 ) -> DecisionState:
-    """The verdict after a sample with this evidence for every rotor; `square`: |r|² in units of the scatter.
+    """The decision after a sample with this evidence for every rotor; `square`: |r|² with each component over its σ.
 
-    `active` is 0 while it is to stay as it is, else 1.
+    `active` is 0 while the decision must not change, else 1.
     """
-    held = evidence + v.lost * FAITH
+    held = evidence + v.lost * PRIOR
     best = greatest(held)
     clear = where(best - greatest(but(held, best)) > k.isolation_margin, active, 0.0)
     sure = where(best > k.threshold, where(square - best > k.unexplained_fraction * square, 0.0, clear), 0.0)

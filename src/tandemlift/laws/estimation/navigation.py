@@ -7,9 +7,9 @@ obeys e₊ = (1 − ℓ)(e + T b), b₊ = b − (1 − z)²/T (e + T b) from one
 z = exp(−ω T) for ℓ = 1 − z². Position has one.
 
 The attitude is exact for constant rates, velocity and position for an acceleration that changes linearly. Constant
-biases leave no error. What is estimated is the state at the time of the IMU's last sample; a motion measurement that
-comes `age` later than the IMU's, by a longer delay, is compared with the state of so long ago. Delays that are not
-told of leave the errors ω δ, v δ and a δ for a relative delay δ, and the state as late as the IMU is.
+biases leave no error. The estimate is of the state at the time of the IMU's last sample; a motion sample that is older
+by `age`, because its delay is longer, is compared with the state at that time. Without `age`, a relative delay δ leaves
+the errors ω δ, v δ and a δ; the state is as late as the IMU is.
 
 Method: P. D. Groves, Principles of GNSS, inertial, and multisensor integrated navigation systems, 2nd ed., chapter 5;
 bias by integral action on the attitude: R. Mahony, T. Hamel and J.-M. Pflimlin, IEEE Trans. Automatic Control 53, 2008.
@@ -74,24 +74,22 @@ class Innovation(NamedTuple):
 
 
 @law
-def carried(k: Navigator, m: NavigationState, imu: ImuReading) -> NavigationState:
-    """The estimate carried on to the IMU's sample, if that is fresh."""
+def propagated(k: Navigator, m: NavigationState, imu: ImuReading) -> NavigationState:
+    """The estimate propagated to the IMU's sample, if that is fresh."""
     T = k.interval * imu.fresh * m.started
     rates = (m.measured_rates + imu.rates) * 0.5 - m.gyroscope_bias
     attitude = rotated_by(m.attitude, rates * T)
     new = apply(rotation_from_quaternion(attitude), imu.specific_force - m.accelerometer_bias) - UP * GRAVITY
     acceleration = (m.acceleration + new) * 0.5
     smoothed = m.rates + (imu.rates - m.gyroscope_bias - m.rates) * (k.rates * imu.fresh)
-    return NavigationState(
-        m.position + m.velocity * T + (m.acceleration * 2.0 + new) * (T * T * (1.0 / 6.0)),
-        m.velocity + acceleration * T,
-        where(imu.fresh > 0.0, new, m.acceleration),
-        attitude,
-        imu.rates,
-        smoothed,
-        m.gyroscope_bias,
-        m.accelerometer_bias,
-        maximum(m.started, imu.fresh),
+    return m._replace(
+        position=m.position + m.velocity * T + (m.acceleration * 2.0 + new) * (T * T * (1.0 / 6.0)),
+        velocity=m.velocity + acceleration * T,
+        acceleration=where(imu.fresh > 0.0, new, m.acceleration),
+        attitude=attitude,
+        measured_rates=imu.rates,
+        rates=smoothed,
+        started=maximum(m.started, imu.fresh),
     )
 
 
@@ -104,7 +102,7 @@ def centre_of_mass(k: Navigator, m: NavigationState) -> State:
 
 @law
 def innovation(k: Navigator, m: NavigationState, motion: MotionReading) -> Innovation:
-    """What a motion sample says less what the estimate was `age` before."""
+    """The innovation of a motion sample: its values less the estimate at its time, `age` before."""
     s, ago = centre_of_mass(k, m), k.age
     return Innovation(
         rotation_between(s.attitude, motion.attitude) + s.rates * ago,
@@ -117,24 +115,20 @@ def innovation(k: Navigator, m: NavigationState, motion: MotionReading) -> Innov
 def corrected(k: Navigator, m: NavigationState, motion: MotionReading) -> NavigationState:
     """The estimate after a motion sample, if that is fresh."""
     off, fresh = innovation(k, m, motion), motion.fresh
-    drawn = apply_transposed(rotation_from_quaternion(m.attitude), off.velocity)
-    return NavigationState(
-        m.position + off.position * (k.position * fresh),
-        m.velocity + off.velocity * (k.velocity * fresh),
-        m.acceleration,
-        normalised(rotated_by(m.attitude, off.turn * (k.attitude * fresh))),
-        m.measured_rates,
-        m.rates,
-        m.gyroscope_bias - off.turn * (k.gyroscope * fresh),
-        m.accelerometer_bias - drawn * (k.accelerometer * fresh),
-        m.started,
+    velocity_body = apply_transposed(rotation_from_quaternion(m.attitude), off.velocity)
+    return m._replace(
+        position=m.position + off.position * (k.position * fresh),
+        velocity=m.velocity + off.velocity * (k.velocity * fresh),
+        attitude=normalised(rotated_by(m.attitude, off.turn * (k.attitude * fresh))),
+        gyroscope_bias=m.gyroscope_bias - off.turn * (k.gyroscope * fresh),
+        accelerometer_bias=m.accelerometer_bias - velocity_body * (k.accelerometer * fresh),
     )
 
 
 @law
 def navigate(k: Navigator, memory: NavigationState, readings: Readings) -> Any:
     """(State of the system's centre of mass at the IMU's last sample, the new memory)."""
-    after = corrected(k, carried(k, memory, readings.imu), readings.motion)
+    after = corrected(k, propagated(k, memory, readings.imu), readings.motion)
     return centre_of_mass(k, after), after
 
 
@@ -159,7 +153,7 @@ def navigator(
         position_bandwidth: of the correction of position [rad/s].
         velocity_bandwidth: of velocity and the accelerometer's bias [rad/s]; position's if not given.
         attitude_bandwidth: of attitude and the gyroscope's bias [rad/s].
-        rates_bandwidth: of a first-order low-pass on the rates that are given out [rad/s]; none if infinite.
+        rates_bandwidth: of a first-order low-pass on the estimated rates [rad/s]; none if infinite.
         age: by how much the motion measurement's delay exceeds the IMU's [s].
     """
     T, interval = step * motion_period, step * imu_period

@@ -6,11 +6,11 @@ a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_
 Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
 
 In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
-identified (`laws.estimation.tare`). What wind puts on the payload may be taken off (`wind_compensation`).
+identified (`laws.estimation.tare`). The wind on the payload may be subtracted (`laws.mechanics.air_drag`).
 
-Of what acts on quadrotor i from outside, f_i + m_i s_i with s_i its specific force, thrust is only in z. So its x and y
-are wind, or an error of the sensors; where they differ from quadrotor to quadrotor, the push is not trusted. Errors in
-z, of torques, and of all sensors alike do not show.
+The external force on quadrotor i is f_i + m_i s_i, with s_i its specific force. Thrust is only in z, so x and y are
+wind or sensor error; where they differ between quadrotors, the push is not trusted. Errors in z, of torques, and errors
+that are equal at all joints are not detected.
 
 One low-pass in body axes serves F and M, so that the point of application, x × F = M on the beam's axis y, is exact
 however the force changes and the vehicle turns.
@@ -36,7 +36,7 @@ NOTHING = Nothing()
 
 
 class PushEstimator(NamedTuple):
-    """What the estimator knows of the vehicle, and its numbers; body axes.
+    """The nominal vehicle and the numbers of the estimator; body axes.
 
     Payload: `mass` [kg] and `inertia` [kg·m²]. From its centre of mass [m]: `joints` and the `quadrotors`' centres of
     mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length. `per_interval`: samples of the IMU
@@ -101,14 +101,14 @@ class PushEstimate(NamedTuple):
 
 @law
 def moment_on_payload(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
-    """What the joints do not explain of the payload's turning: M [N·m, body axes], about its centre of mass."""
+    """The moment M on the payload besides those of the joints [N·m, body axes], about its centre of mass."""
     joints = imu.joint_torque + cross(k.joints, imu.joint_force)
     return apply_inertia(k.inertia, angular) - gyroscopic(k.inertia, imu.rates) - sum_over_set(joints)
 
 
 @law
-def from_outside(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
-    """What acts on every quadrotor from outside, horizontally in body axes [N]."""
+def external_forces(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
+    """The external horizontal force on every quadrotor [N], body axes."""
     a, w = imu.specific_force, imu.rates
     turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
     x = imu.joint_force.x + add_to_each(turn.x, a.x) * k.quadrotor_mass
@@ -118,15 +118,15 @@ def from_outside(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces
 
 @law
 def less_mean(k: PushEstimator, outside: SideForces) -> SideForces:
-    """By how much that differs from its mean over the quadrotors [N]."""
+    """These forces less their mean over the quadrotors [N]."""
     x, y = outside
     return SideForces(add_to_each(x, -total(x) * k.share), add_to_each(y, -total(y) * k.share))
 
 
 @law
 def sides(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
-    """What acts on every quadrotor from outside, horizontally in body axes, less its mean [N]."""
-    return less_mean(k, from_outside(k, imu, angular))
+    """The external horizontal force on every quadrotor, less its mean [N], body axes."""
+    return less_mean(k, external_forces(k, imu, angular))
 
 
 @law
@@ -148,7 +148,7 @@ def estimate(k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: A
     """(Push, the new memory) from a reading of the IMU at time t [s]."""
     a, f = imu.specific_force, sum_over_set(imu.joint_force)
     angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
-    moment, outside = moment_on_payload(k, imu, angular), from_outside(k, imu, angular)
+    moment, outside = moment_on_payload(k, imu, angular), external_forces(k, imu, angular)
     unequal = less_mean(k, outside)
     begun = where(t < k.tare_start, 0.0, 1.0)
     taken = begun * where(t < k.tare_end, imu.fresh, 0.0)

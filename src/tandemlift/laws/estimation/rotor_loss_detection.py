@@ -1,20 +1,21 @@
-"""Which rotor was lost, from the vehicle's momentum: what the rotors as modelled do not explain of how it moves.
+"""Detection of a lost rotor from the vehicle's momentum: the residual that the modelled rotors do not explain.
 
-With p = (m v_z, J ω) the momentum and f the modelled thrusts, r = ṗ − (what acts besides) − B f is low-passed: the
-derivative is then free, as the rate of the low-pass (the momentum observer of De Luca and Mattone, ICRA 2003). A slow
-mean of r is wind, a wrong mass or drag, and is taken off. Rotor i lost would leave −f_i B_i of it. So, with the scatter
-σ of each component and the share α of the thrust that is gone, taken as 1 ± `spread` beforehand, the evidence for rotor
-i over none is the log-likelihood ratio (twice), at the α that explains most:
+With p = (m v_z, J ω) the momentum and f the modelled thrusts, the residual r = ṗ − (other loads) − B f is low-passed;
+its derivative is the rate of the low-pass (the momentum observer of De Luca and Mattone, ICRA 2003). The slow mean of r
+is wind, drag or a wrong mass, and is subtracted. The loss of rotor i leaves −f_i B_i. With the standard deviation σ of
+each component and the fraction α of the thrust that is lost, 1 ± `spread` a priori, the evidence for rotor i against no
+fault is twice the log-likelihood ratio at the most likely α:
 
     E_i = |r|² − |r + α f_i B_i|² − (1 − α)²/spread²,   |·| with each component over its σ.
 
-A rotor is named when it has explained most for a while: by enough over none, by enough over any other, and nearly all
-of r. All rotors are modelled as if they lived, a lost one under the trial command that it still gets. So the same test
-goes on: it names another rotor that explains better, and restores one that turns, until the trial is over.
+A rotor is declared lost once its evidence has been the largest for a time, by a margin over no fault and over any other
+rotor, and explains nearly all of r. All rotors are modelled as sound, a lost one under the trial command that it still
+gets. So the test continues until the trial is over: it may declare another rotor that explains r better, and restores
+one that turns.
 (Basseville and Nikiforov, Detection of abrupt changes, 1993, chapters 2 and 7.)
 
-σ grows with what r has scattered over the last second, so that a badly modelled vehicle is watched with less zeal, and
-one just lifted not at all. Nor is one that is held from below, by a floor. One rotor is looked for.
+σ grows with the scatter of r over the last second: the test is less sensitive on a poorly modelled vehicle, and off
+just after the lift, and while a floor supports the vehicle. One lost rotor is looked for.
 """
 
 from typing import Any, NamedTuple
@@ -31,12 +32,12 @@ from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_ste
 
 FOUR = each(4)
 UPRIGHT = 0.3  # least cosine of the tilt
-FRESH = 4.0  # scatter² of a vehicle just lifted, over its `bound`
-HELD = 0.15  # of the weight: the force from below with which it counts as standing
+START_SCATTER = 4.0  # scatter² just after the lift, over its `bound`
+SUPPORTED = 0.15  # of the weight: the force of a floor from which on the vehicle counts as standing
 
 
 class RotorLossDetection(NamedTuple):
-    """The vehicle as it is believed to be, low-passes, rules.
+    """The nominal vehicle, low-passes, and the rules of the decision.
 
     `rotors`: stands for their lag and delay; `quick` for the residual; `bias_filter` for its mean, `scatter_filter` for
     its scatter. Sets of thrust [N], roll, pitch, yaw [N·m]: `scatter`² of a well modelled vehicle, `bound`² on what a
@@ -77,7 +78,7 @@ def detection_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, t
     Args:
         k: `RotorLossDetection` or `Nothing`.
         memory: its memory.
-        heard: what the pilot is told.
+        heard: the input of the pilot.
         thrusts: of all rotors [N], as allocated at the last sample.
         active: 1 in flight, else 0.
         t: time [s].
@@ -124,20 +125,17 @@ def followed(k: RotorLossDetection, m: DetectionState, heard: Any, thrusts: Any,
     turning, about = apply_inertia(k.inertia, s.rates), heard.moment + gyroscopic(k.inertia, s.rates)
     momentum = FOUR(s.velocity.z * k.mass, turning.x, turning.y, turning.z)
     others = FOUR(heard.push.z - k.mass * GRAVITY, about.x, about.y, about.z)
-    return DetectionState(
-        rotors,
-        low_pass_step(k.quick, m.thrusts, rotors.value),
-        low_pass_step(k.quick, m.momentum, momentum),
-        low_pass_step(k.quick, m.others, others),
-        m.mean,
-        m.scatter,
-        m.verdict,
+    return m._replace(
+        rotors=rotors,
+        thrusts=low_pass_step(k.quick, m.thrusts, rotors.value),
+        momentum=low_pass_step(k.quick, m.momentum, momentum),
+        others=low_pass_step(k.quick, m.others, others),
     )
 
 
 @law
 def weighed(k: RotorLossDetection, thrusts: Any, weights: Any) -> Mixer:
-    """What each rotor's loss leaves of the residual, by rows, each over the variance of its component."""
+    """The residual that the loss of each rotor leaves, by rows, each over the variance of its component."""
     b, w = k.effect, weights
     return Mixer(
         b.thrust * thrusts * -w[0], b.roll * thrusts * -w[1], b.pitch * thrusts * -w[2], b.yaw * thrusts * -w[3]
@@ -154,9 +152,9 @@ def evidence_for(k: RotorLossDetection, thrusts: Any, off: Any, weights: Any) ->
 
 
 @elementwise
-def variance(scatter: Any, habit: Any) -> Any:
-    """σ² of a component: of a well modelled vehicle, and of what it has been seen to scatter."""
-    return scatter + maximum(habit, 0.0)
+def variance(scatter: Any, observed: Any) -> Any:
+    """σ² of a component: that of a well modelled vehicle, plus the observed scatter of the residual."""
+    return scatter + maximum(observed, 0.0)
 
 
 @elementwise
@@ -166,14 +164,14 @@ def kept_or(value: Any, other: Any, active: Any) -> Any:
 
 
 @law
-def unheld(k: RotorLossDetection, r: Any, active: Any) -> Any:
-    """1 if the vehicle flies and nothing holds it from below, else 0; r: the residual."""
-    return where(r[0] > HELD * GRAVITY * k.mass, 0.0, active)
+def flies_free(k: RotorLossDetection, r: Any, active: Any) -> Any:
+    """1 if the vehicle flies and no floor supports it, else 0; r: the residual."""
+    return where(r[0] > SUPPORTED * GRAVITY * k.mass, 0.0, active)
 
 
 @law
 def explained_by(k: RotorLossDetection, verdict: DecisionState, thrusts: Any) -> Any:
-    """What the rotor named lost leaves of the residual; a set of four."""
+    """The residual that the loss of the rotor declared lost leaves; a set of four."""
     gone = wrench(k.effect, verdict.lost * thrusts)
     return FOUR(-gone.thrust, -gone.moment.x, -gone.moment.y, -gone.moment.z)
 
@@ -185,7 +183,7 @@ def _watched(k: RotorLossDetection, memory: Any, heard: Any, thrusts: Any, activ
     off = r - m.mean.value
     deviation = variance(k.scatter, m.scatter.value)
     weights = FOUR(1.0 / deviation[0], 1.0 / deviation[1], 1.0 / deviation[2], 1.0 / deviation[3])
-    free = unheld(k, r, active)
+    free = flies_free(k, r, active)
     judging = free * (1.0 - confirmed(k, m.verdict, t))
     verdict = decision_step(
         k.rules, m.verdict, evidence_for(k, f, off, weights), total(off * off * weights), judging, t, dt
@@ -194,16 +192,8 @@ def _watched(k: RotorLossDetection, memory: Any, heard: Any, thrusts: Any, activ
     left = rest - m.mean.value
     mean = low_pass_step(k.bias_filter, m.mean, rest)
     scatter = low_pass_step(k.scatter_filter, m.scatter, minimum(left * left, k.bound))
-    still = kept_or(scatter.value, k.bound * FRESH, free)
-    return DetectionState(
-        m.rotors,
-        m.thrusts,
-        m.momentum,
-        m.others,
-        mean,
-        LowPassState(still, scatter.rate * free),
-        verdict,
-    )
+    still = kept_or(scatter.value, k.bound * START_SCATTER, free)
+    return m._replace(mean=mean, scatter=LowPassState(still, scatter.rate * free), verdict=verdict)
 
 
 @choice(absent=0.0)
@@ -218,13 +208,13 @@ def _lost(k: RotorLossDetection, memory: Any, t: Any) -> Any:
 
 @elementwise
 def allotted(lost: Any) -> Any:
-    """The share of its thrust that a rotor is allotted."""
+    """The fraction of its largest thrust that the allocation may use."""
     return 1.0 - lost
 
 
 @choice(absent=1.0)
 def left_of(k: Any, memory: Any) -> Any:
-    """The share of its most that each rotor may be allotted, as far as detection knows: a set, or 1."""
+    """The fraction of its largest thrust that each rotor may be allocated, by the detection: a set, or 1."""
 
 
 @left_of.register(RotorLossDetection)

@@ -1,7 +1,7 @@
-"""The tare: what the sensors read in hover, over a window, is their bias; and the payload's mass, if it is identified.
+"""The tare: the bias of the sensors from their mean in hover over a window; and the payload's mass, if identified.
 
-The means of the force F and the moment M that a person would exert are taken as bias, after the payload's mass
-m = Σ f·a / Σ a·a. Bias of the joints' force along gravity and mass cannot be told apart there.
+The means of the force F and the moment M on the payload are the bias, with the mass m = Σ f·a / Σ a·a. In hover a bias
+of the joints' force along gravity cannot be distinguished from an error of the mass.
 """
 
 from typing import Any, NamedTuple
@@ -58,7 +58,7 @@ def summed(sums: TareSums, begun: Any, taken: Any, f: Vec3, a: Vec3, moment: Vec
 
 @law
 def tare_of(mass: Any, identify: Any, sums: TareSums, armed: Any) -> Tare:
-    """What the sums amount to once the tare is over (`armed` 1); before, the mass as believed [kg] and no bias.
+    """The tare from its sums once it is over (`armed` 1); before, the nominal mass [kg] and no bias.
 
     `identify` is 1 to identify the payload's mass, else 0.
     """

@@ -11,7 +11,7 @@ from tandemlift.common.faults import CHECKS
 from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.rotation import body_z_axis
-from tandemlift.laws.sensors.watchdog import WELL, WatchdogReport
+from tandemlift.laws.sensors.health import WELL, WatchdogReport
 
 
 class PreflightChecks(NamedTuple):

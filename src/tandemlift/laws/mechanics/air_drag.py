@@ -36,7 +36,7 @@ def quadratic_drag(k: Vec3, v: Vec3) -> Vec3:
 @law
 def air_loads(drag: AirDrag, frame: PartsLayout, s: State, air: Vec3) -> PartLoads:
     """Drag of every part, quadratic in the velocity of its centre of mass through the air; no moments about it."""
-    # sets are the left factors of products: a CasADi number on the left would take them for its own
+    # sets are the left factors of products: a CasADi number on the left does not know them
     R = rotation_from_quaternion(s.attitude)
     v, turn = apply_transposed(R, s.velocity - air), -cross(frame.quadrotors, s.rates)
     payload = apply(R, quadratic_drag(drag.payload, v + cross(s.rates, frame.payload)))

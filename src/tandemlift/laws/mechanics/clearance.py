@@ -65,10 +65,7 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
     edge = offset(near.edge, beam_point(a, point_by_edge(a, half, near.edge)))
     other = offset(near.other_edge, beam_point(a, point_by_edge(a, half, near.other_edge)))
     top = offset_from_top(near.topped, beam_point(a, point_by_top(a, half, near.topped)))
-    length = minimum(
-        minimum(gap(edge, beam.radius), gap(other, beam.radius)),
-        gap(top, beam.radius),
-    )
+    length = minimum(minimum(gap(edge, beam.radius), gap(other, beam.radius)), gap(top, beam.radius))
     return BeamClearance(gap(offset(near.ends, beam_point(a, beam.ends)), beam.radius), length)
 
 

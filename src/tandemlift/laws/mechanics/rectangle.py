@@ -49,9 +49,9 @@ def fraction_along(
 
 
 @elementwise
-def coordinate_offset(p: Number, start: Number, along: Number, share: Number) -> Number:
+def coordinate_offset(p: Number, start: Number, along: Number, fraction: Number) -> Number:
     """One coordinate of the offset of p from a point of a wall."""
-    return p - start - along * share
+    return p - start - along * fraction
 
 
 @elementwise
@@ -63,10 +63,10 @@ def height_above_top(z: Number, top: Number) -> Number:
 @law
 def offset(wall: Wall, p: Vec3) -> Vec3:
     """Offset of p from the nearest point of a wall [m]."""
-    share = fraction_along(p.x, p.y, wall.x, wall.y, wall.along_x, wall.along_y, wall.per_square)
+    fraction = fraction_along(p.x, p.y, wall.x, wall.y, wall.along_x, wall.along_y, wall.per_square)
     return Vec3(
-        coordinate_offset(p.x, wall.x, wall.along_x, share),
-        coordinate_offset(p.y, wall.y, wall.along_y, share),
+        coordinate_offset(p.x, wall.x, wall.along_x, fraction),
+        coordinate_offset(p.y, wall.y, wall.along_y, fraction),
         height_above_top(p.z, wall.top),
     )
 

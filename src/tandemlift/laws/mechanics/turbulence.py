@@ -19,9 +19,7 @@ from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 
 FOOT = 0.3048  # m
-
 LOWEST, HIGHEST = 10.0, 1000.0  # ft, between which the standard's low-altitude model holds
-
 ROOT_3 = 1.7320508075688772
 
 

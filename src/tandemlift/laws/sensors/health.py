@@ -68,6 +68,29 @@ class SampleChecks(NamedTuple):
     identical: Any
 
 
+class WatchdogReport(NamedTuple):
+    """What is wrong: 1 or 0, or what is wrong with a sensor (`SYMPTOMS`, from 1; 0 for nothing).
+
+    `imu` and `motion`: stale. `seen`: 1 once both devices have sent a sample.
+    """
+
+    imu: Any
+    motion: Any
+    joints: Any
+    accelerometer: Any
+    gyroscope: Any
+    position: Any
+    velocity: Any
+    attitude: Any
+    attitude_inconsistent: Any
+    velocity_inconsistent: Any
+    speed_inconsistent: Any
+    seen: Any
+
+
+WELL = WatchdogReport._make([*[0.0] * 11, 1.0])
+
+
 @elementwise
 def not_finite(x: Any) -> Any:
     """1 where a value is not finite, else 0."""

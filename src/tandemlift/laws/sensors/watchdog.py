@@ -6,36 +6,38 @@ been invalid for a time, or identical too often although noise is expected, or o
 time. The substitute for a lost accelerometer is the reading of a vehicle that does not accelerate; for a lost gyroscope
 it is the low-passed derivative of the measured attitude, for a lost velocity that of the measured position. While the
 navigator runs without the motion measurement, it uses the mean of its bias estimates, which is less noisy than the last
-one.
-
-Redundant measurements are compared over a window: the rotation by gyroscope and by attitude, the displacement by
-velocity and by position, the change of velocity by accelerometer and by velocity. With ε the difference between two of
-them from one motion sample to the next, d ← λ d + ε forgets over the window τ = T / (1 − λ): a jump shows in full, a
-constant error b as b τ.
+one (`substitutes`). Redundant measurements are compared with each other (`consistency`).
 """
 
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
-from tandemlift.algebra.ops import clip, maximum, where
+from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.selection import chosen
-from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, dot
-from tandemlift.laws.mechanics.body import UP, State
-from tandemlift.laws.mechanics.rotation import rotated_by, rotation_between, rotation_from_quaternion
+from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation import rotation_between
+from tandemlift.laws.sensors.consistency import Inconsistency, exceeds, inconsistency_after
 from tandemlift.laws.sensors.health import (
     FROZEN,
     PerSensor,
     SensorHealth,
+    WatchdogReport,
     any_component,
     is_valid,
     judge,
     not_finite,
 )
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
-
-SETTLING_TIME = 2.0  # s: before bias estimates are averaged
-AVERAGING_TIME = 5.0  # s: of their mean
+from tandemlift.laws.sensors.substitutes import (
+    SETTLING_TIME,
+    MeanBiases,
+    PredictedReadings,
+    mean_after,
+    substituted_imu,
+    substituted_motion,
+    valid_imu,
+)
 
 
 class Watchdog(NamedTuple):
@@ -59,29 +61,6 @@ class Watchdog(NamedTuple):
     motion_rate: Any
 
 
-class Inconsistency(NamedTuple):
-    """Memory of the differences of redundant measurements: attitude [rad, body axes], position [m], velocity [m/s].
-
-    And of what is compared with the next motion sample: the integrals of the rates, the velocity and the acceleration
-    since the last one.
-    """
-
-    attitude: Vec3
-    position: Vec3
-    velocity: Vec3
-    integrated_attitude: Quat
-    integrated_position: Vec3
-    integrated_velocity: Vec3
-
-
-class MeanBiases(NamedTuple):
-    """Means of the bias estimates [rad/s, m/s²], and for how long they were averaged, less `SETTLING_TIME` [s]."""
-
-    gyroscope: Vec3
-    accelerometer: Vec3
-    time: Any
-
-
 class WatchdogState(NamedTuple):
     """Memory: the last readings, the last valid ones, the health of the sensors, and of each device its age.
 
@@ -102,117 +81,11 @@ class WatchdogState(NamedTuple):
     inconsistency: Inconsistency
 
 
-class WatchdogReport(NamedTuple):
-    """What is wrong: 1 or 0, or what is wrong with a sensor (`SYMPTOMS`, from 1; 0 for nothing).
-
-    `imu` and `motion`: stale. `seen`: 1 once both devices have sent a sample.
-    """
-
-    imu: Any
-    motion: Any
-    joints: Any
-    accelerometer: Any
-    gyroscope: Any
-    position: Any
-    velocity: Any
-    attitude: Any
-    attitude_inconsistent: Any
-    velocity_inconsistent: Any
-    speed_inconsistent: Any
-    seen: Any
-
-
-WELL = WatchdogReport._make([*[0.0] * 11, 1.0])
-
-
-class PredictedReadings(NamedTuple):
-    """The prediction of the navigator: the state, and the bias of both inertial sensors [rad/s, m/s²]."""
-
-    state: State
-    gyroscope_bias: Vec3
-    accelerometer_bias: Vec3
-
-
 @law
 def lost(k: Watchdog, h: SensorHealth, limits: Any) -> Any:
     """What is wrong with a sensor that is lost (`SYMPTOMS`, from 1), or 0."""
     invalid = where(h.invalid_time >= k.invalid_time, h.failure, 0.0)
     return where(h.failure > 0.0, invalid, where(h.identical >= limits.frozen_samples, FROZEN, 0.0))
-
-
-@law
-def valid_imu(last: ImuReading, imu: ImuReading, h: PerSensor) -> ImuReading:
-    """The IMU's sample with the last valid value in place of each that is invalid."""
-    joints = is_valid(h.joints)
-    return imu._replace(
-        specific_force=chosen(is_valid(h.accelerometer), imu.specific_force, last.specific_force),
-        rates=chosen(is_valid(h.gyroscope), imu.rates, last.rates),
-        joint_force=chosen(joints, imu.joint_force, last.joint_force),
-        joint_torque=chosen(joints, imu.joint_torque, last.joint_torque),
-    )
-
-
-@law
-def substituted_imu(
-    imu: ImuReading, r: WatchdogReport, rates: Vec3, p: PredictedReadings, mean: MeanBiases
-) -> ImuReading:
-    """The IMU's sample with substitutes for lost sensors.
-
-    While the navigator cannot estimate a bias, its sensor's reading is moved so that the mean bias is taken off.
-    """
-    at_rest = apply_transposed(rotation_from_quaternion(p.state.attitude), UP * GRAVITY) + p.accelerometer_bias
-    no_attitude = maximum(r.motion, r.attitude)
-    no_motion = maximum(r.motion, maximum(r.position, r.velocity))
-    specific_force = imu.specific_force + chosen(no_motion, p.accelerometer_bias - mean.accelerometer, ZERO)
-    measured_rates = imu.rates + chosen(no_attitude, p.gyroscope_bias - mean.gyroscope, ZERO)
-    return imu._replace(
-        specific_force=chosen(maximum(r.accelerometer, r.imu), at_rest, specific_force),
-        rates=chosen(maximum(r.gyroscope, r.imu), rates + p.gyroscope_bias, measured_rates),
-    )
-
-
-@law
-def substituted_motion(
-    v: MotionReading, h: PerSensor, r: WatchdogReport, velocity: Vec3, p: PredictedReadings
-) -> MotionReading:
-    """A motion sample with the prediction in place of what is invalid or lost; `velocity`: from the position."""
-    position = maximum(maximum(r.position, h.position.failure), r.motion)
-    no_velocity = maximum(maximum(r.velocity, h.velocity.failure), r.motion)
-    attitude = maximum(maximum(r.attitude, h.attitude.failure), r.motion)
-    any_left = where(position > 0.0, where(no_velocity > 0.0, where(attitude > 0.0, 0.0, 1.0), 1.0), 1.0)
-    return MotionReading(
-        chosen(position, p.state.position, v.position),
-        chosen(no_velocity, chosen(position, p.state.velocity, velocity), v.velocity),
-        chosen(attitude, p.state.attitude, v.attitude),
-        v.fresh * any_left,
-    )
-
-
-@law
-def inconsistency_after(
-    k: Watchdog, m: Inconsistency, imu: ImuReading, v: MotionReading, invalid: Any, dt: Any
-) -> Inconsistency:
-    """The differences after a step of dt [s]; while a measurement is `invalid` (1), nothing is compared."""
-    attitude, position = rotated_by(m.integrated_attitude, imu.rates * dt), m.integrated_position + v.velocity * dt
-    acceleration = apply(rotation_from_quaternion(v.attitude), imu.specific_force) - UP * GRAVITY
-    velocity = m.integrated_velocity + acceleration * dt
-    restart = maximum(v.fresh, invalid)
-    keep = (1.0 - k.forgetting * v.fresh) * (1.0 - invalid)
-    compared = v.fresh * (1.0 - invalid)
-    return Inconsistency(
-        attitude=m.attitude * keep + rotation_between(attitude, v.attitude) * compared,
-        position=m.position * keep + (v.position - position) * compared,
-        velocity=m.velocity * keep + (v.velocity - velocity) * compared,
-        integrated_attitude=chosen(restart, v.attitude, attitude),
-        integrated_position=chosen(restart, v.position, position),
-        integrated_velocity=chosen(restart, v.velocity, velocity),
-    )
-
-
-@law
-def exceeds(difference: Vec3, gap: Any) -> Any:
-    """1 if a difference is larger than the gap that is allowed, else 0."""
-    return where(dot(difference, difference) > gap * gap, 1.0, 0.0)
 
 
 @law
@@ -250,18 +123,6 @@ def substitute_velocity(k: Watchdog, m: WatchdogState, v: MotionReading, h: PerS
 
 
 @law
-def mean_after(m: MeanBiases, p: PredictedReadings, wrong: Any, dt: Any) -> MeanBiases:
-    """The means with the present bias estimates, unless something is `wrong` (1)."""
-    time = m.time + dt * (1.0 - wrong)
-    gain = dt / clip(time, dt, AVERAGING_TIME) * (1.0 - wrong)
-    return MeanBiases(
-        m.gyroscope + (p.gyroscope_bias - m.gyroscope) * gain,
-        m.accelerometer + (p.accelerometer_bias - m.accelerometer) * gain,
-        time,
-    )
-
-
-@law
 def any_invalid(h: PerSensor) -> Any:
     """1 if the last sample of any sensor that is compared was invalid, else 0."""
     motion = is_valid(h.attitude) * is_valid(h.position) * is_valid(h.velocity)
@@ -294,7 +155,7 @@ def watchdog_step(k: Watchdog, m: WatchdogState, readings: Readings, p: Predicte
     wrong, velocity = maximum(any_invalid(health), any_lost(before)), substitute_velocity(k, m, v, health, before)
     mean = mean_after(m.mean, p, wrong, dt)
     imu, motion = substituted_imu(kept, before, rates, p, mean), substituted_motion(v, health, before, velocity, p)
-    difference = inconsistency_after(k, m.inconsistency, imu, motion, wrong, dt)
+    difference = inconsistency_after(k.forgetting, m.inconsistency, imu, motion, wrong, dt)
     position = chosen(is_valid(health.position), v.position, m.valid.motion.position)
     after = m._replace(
         last=readings,

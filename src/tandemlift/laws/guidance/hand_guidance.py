@@ -1,0 +1,203 @@
+"""Guidance by hand: phases with entry conditions, a compliance, and a heading that a person can turn."""
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.law import law
+from tandemlift.algebra.ops import maximum, sqrt, where
+from tandemlift.algebra.vector import Vec3, apply, dot
+from tandemlift.common.phases import LAND
+from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
+from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
+from tandemlift.laws.guidance.energy_tank import passivity_damping
+from tandemlift.laws.guidance.guidance import (
+    Guidance,
+    PilotInput,
+    ThrustFraction,
+    checked_input,
+    guide,
+)
+from tandemlift.laws.guidance.phases import (
+    PhaseOutput,
+    PhaseSettings,
+    PhaseState,
+    exceeds,
+    is_in,
+    lift_request,
+    phase_output,
+    reached,
+    update_phase,
+)
+from tandemlift.laws.guidance.requests import (
+    requests_until,
+    with_operator,
+)
+from tandemlift.laws.guidance.supervised_reference import fenced, usable_input, with_blind_descent
+from tandemlift.laws.guidance.supervision import finish_supervision, supervise
+from tandemlift.laws.guidance.yaw_compliance import HeadingReference, yaw_step
+from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
+from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.laws.signals.trajectories import Reference, Trajectory
+
+
+class HandGuidance(NamedTuple):
+    """Guidance by hand. `mass` [kg]; `max_thrust` [N] that may be used; `tangent` of the largest tilt.
+
+    `moment`: low-pass of the push's moment, which the controller compensates with a lead time of `moment_lead` [s].
+    """
+
+    phasing: PhaseSettings
+    compliance: Compliance
+    tank: Any
+    heading: Any
+    moment: LowPass
+    moment_lead: Any
+    mass: Any
+    max_thrust: Any
+    tangent: Any
+    supervision: Any
+
+
+class HandGuidanceState(NamedTuple):
+    """Memory of the parts of a guidance by hand."""
+
+    phase: PhaseState
+    compliance: ComplianceState
+    tank: Any
+    heading: Any
+    moment: LowPassState
+    supervision: Any
+
+
+class HandGuidanceChannels(NamedTuple):
+    """The channels of a guidance by hand."""
+
+    phase: Any
+    push_filtered: Vec3
+    push_active: Vec3
+    added_damping: Any
+    reference_yaw_rate: Any
+    supervised: Any
+
+
+@checked_input.register(HandGuidance)
+def _checked(
+    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, thrust: Any, rotor_failed: Any
+) -> PilotInput:
+    usable = usable_input(g.supervision, m.supervision, pilot_input, thrust, rotor_failed)
+    return pilot_input._replace(state=usable.state, push=usable.push, moment=usable.moment, status=usable.status)
+
+
+@law
+def available_acceleration(g: HandGuidance, disturbance: DisturbanceEstimate) -> Any:
+    """The horizontal acceleration [m/s²] that rotors and tilt can give beside weight and disturbance."""
+    d = disturbance.force
+    up = maximum(g.mass * GRAVITY - d.z, 0.0)
+    thrust = sqrt(maximum(g.max_thrust * g.max_thrust - up * up, 0.0))
+    across = sqrt(maximum(d.x * d.x + d.y * d.y, 1e-24))
+    limit = where(thrust < up * g.tangent, thrust, up * g.tangent)
+    return maximum(limit - across, 0.0) / g.mass
+
+
+@law
+def grounded_at(phase: PhaseOutput, m: ComplianceState, state: State) -> ComplianceState:
+    """The compliance's memory; on the ground the reference stays with the vehicle, at rest."""
+    on = phase.grounded
+    off = 1.0 - on
+    return m._replace(
+        output=LowPassState(m.output.value * off, m.output.rate * off),
+        position=state.position * on + m.position * (1.0 - on),
+        velocity=m.velocity * off,
+        acceleration=m.acceleration * off,
+        jerk=m.jerk * off,
+        anchor=state.position * on + m.anchor * off,
+    )
+
+
+@law
+def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) -> Trajectory:
+    """The desired trajectory: T_r with the ramps of lift and landing."""
+    lift, land, end = phase.lift, phase.land, phase.end
+    z = T.position.z + g.phasing.height * lift.value - end
+    dz = T.velocity.z + g.phasing.height * lift.rate
+    ddz = T.acceleration.z + g.phasing.height * lift.curvature
+    up = 1.0 - land.value
+    return Trajectory(
+        Vec3(T.position.x, T.position.y, z * up + end),
+        Vec3(T.velocity.x, T.velocity.y, dz * up - z * land.rate),
+        Vec3(T.acceleration.x, T.acceleration.y, ddz * up - 2.0 * dz * land.rate - z * land.curvature),
+    )
+
+
+@law
+def presses_on_ground(m: PhaseState, height: Any) -> Any:
+    """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0."""
+    return is_in(m, LAND) * where(height < m.ground, 1.0, 0.0)
+
+
+@law
+def channels_from(
+    phase: PhaseOutput, m: ComplianceState, damping: Any, heading: HeadingReference, supervision: Any
+) -> HandGuidanceChannels:
+    """The channels of a step; `supervision`: those of supervision."""
+    push = m.filtered.value - m.band.bias
+    return HandGuidanceChannels(phase.phase, push, m.band.active, damping, heading.rate, supervision)
+
+
+@law
+def supervised_phase(
+    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, rotor_failed: Any, t: Any, dt: Any
+) -> Any:
+    """(the phase, `SupervisionOutput`, the memory of supervision) at time t [s]."""
+    k, operator = g.phasing, pilot_input.operator
+    requests = with_operator(
+        requests_until(k.requests, t), operator, reached(t, k.lift_start), reached(t, k.land_start)
+    )
+    land = maximum(maximum(pilot_input.land, rotor_failed), exceeds(requests.lands, m.phase.handled_lands))
+    lift = lift_request(k, m.phase, requests, operator.lift, land)
+    output, memory = supervise(g.supervision, m.supervision, pilot_input, m.phase, lift, t, dt)
+    phase = update_phase(k, m.phase, pilot_input.state, requests, (lift, land), output.bounds, t, dt)
+    return phase, output, memory
+
+
+@guide.register(HandGuidance)
+def _by_hand(
+    g: HandGuidance,
+    m: HandGuidanceState,
+    pilot_input: PilotInput,
+    disturbance: DisturbanceEstimate,
+    rotor_failed: Any,
+    t: Any,
+    dt: Any,
+) -> Any:
+    state = pilot_input.state
+    phase, supervised, memory = supervised_phase(g, m, pilot_input, rotor_failed, t, dt)
+    allowed = phase_output(g.phasing, phase, t)
+    before = grounded_at(allowed, m.compliance, state)
+    dissipated = dot(before.velocity * g.compliance.admittance.damping, before.velocity)
+    damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
+    compliance = fenced(g.supervision, g.compliance, before, g.phasing.height * allowed.lift.value)
+    horizontal = available_acceleration(g, disturbance)
+    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, dt)
+    about_vertical = apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z
+    yaw = euler_from_quaternion(state.attitude).angles.z
+    heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)
+    moment = low_pass_step(g.moment, m.moment, pilot_input.moment)
+    motion = Trajectory(before.position, before.velocity, after.acceleration)
+    target, blind = with_lift_and_landing(g, motion, allowed), supervised.motion_unknown
+    target = with_blind_descent(g.supervision, target, state, blind, is_in(phase, LAND), allowed.land.value)
+    shown, memory = finish_supervision(g.supervision, memory, phase, target.position, t)
+    lead = after.jerk * g.compliance.reference_lead
+    guidance = Guidance(
+        force=after.output.value,
+        admittance=motion,
+        reference=Reference(target, heading.angle, heading.rate, heading.acceleration, lead),
+        push=compensated_push(g.compliance, after) * allowed.compensating,
+        moment=(moment.value + moment.rate * g.moment_lead) * allowed.compensating,
+        running=ThrustFraction(allowed.running),
+        flying=allowed.flying * (1.0 - blind),
+        learning=1.0 - presses_on_ground(phase, target.position.z),
+        channels=channels_from(allowed, after, damping, heading, shown),
+    )
+    return guidance, HandGuidanceState(phase, after, tank, turned, moment, memory)
