@@ -102,8 +102,8 @@ def test_the_command_writes_the_mission_of_a_flight(run, tmp_path):
     [
         (("iris", "--out", "iris.urdf"), "iris.urdf: must end in .mcap"),
         (("nowhere", "--out", "x.sdf"), "nowhere"),
-        (("iris", "--out", "iris.csv", "--set", "mission.duration=5"), "--set changes a mission"),
-        (("saved", "--out", "iris.sdf", "--set", "mission.duration=5"), "--set changes a mission"),
+        (("iris", "--out", "iris.csv", "--set", "mission.duration=5"), "--set is for a mission"),
+        (("saved", "--out", "iris.sdf", "--set", "mission.duration=5"), "--set is for a mission"),
         (("iris", "--out", "iris.sdf", "--set", "mission.duration"), "--set mission.duration: must be KEY=VALUE"),
         (("iris", "--out", "iris.sdf", "--set", "mission.lenght=5"), "mission.lenght"),
         (("iris", "--out", "iris.sdf", "--plugin", "0"), "plugin = 0: must be a port"),

@@ -20,7 +20,6 @@ KNOWN_HELPERS = ["tests/live/test_fuzzed_flight.py: _follows", "tests/live/wire/
 KNOWN_HIDDEN = ["src/tandemlift/algebra/ops.py"]  # the functions of traced numbers, of a room above
 KNOWN_COPIES = [
     "src/tandemlift/laws/person/virtual_hand.py: VirtualHandState",
-    "src/tandemlift/laws/sensors/watchdog.py: Inconsistency",
     "src/tandemlift/pilot/rotor_loss_detection.py: DecisionRules",
 ]
 

@@ -12,7 +12,7 @@ import tandemlift as tl
 from tandemlift.cli.main import main
 from tandemlift.common.errors import InputError
 from tandemlift.missions import tables_of
-from tandemlift.studies.engine_comparison import apart, fly_in, most_apart
+from tandemlift.studies.engine_comparison import differences, fly_in, largest_differences
 
 pytest.importorskip("mujoco")
 SHORT = {"mission.duration": 2.0}
@@ -45,9 +45,9 @@ def test_attitudes_are_apart_by_the_angle_of_the_rotation_between_them():
     between = Rotation.from_quat(a["attitude"], scalar_first=True).inv() * Rotation.from_quat(
         b["attitude"], scalar_first=True
     )
-    assert apart(a, b)["attitude"] == pytest.approx(between.magnitude())
+    assert differences(a, b)["attitude"] == pytest.approx(between.magnitude())
     other = made(1, attitude=-a["attitude"])  # the same attitudes
-    assert most_apart(a, other)["attitude"] == 0.0
+    assert largest_differences(a, other)["attitude"] == 0.0
 
 
 def test_a_known_difference_is_found_and_joints_are_looked_at_once_settled():
@@ -56,7 +56,7 @@ def test_a_known_difference_is_found_and_joints_are_looked_at_once_settled():
     moved[20] += [0.3, 0.4, 0.0]
     force[5, 1, 2] += 7.0  # at 0.05 s
     force[30, 0, 1] -= 0.25
-    found = most_apart(made(3, position=moved, joint_force=force), a)
+    found = largest_differences(made(3, position=moved, joint_force=force), a)
     assert found["position"] == pytest.approx(0.5)
     assert found["joint_force"] == pytest.approx(0.25)
     assert "push_estimate" not in found
@@ -65,7 +65,7 @@ def test_a_known_difference_is_found_and_joints_are_looked_at_once_settled():
 def test_a_flight_that_ended_early_is_compared_as_far_as_it_came():
     a, b = made(4), made(4)
     short = tl.Flight(b.time[:20], {n: v[:20] for n, v in b.channels.items()}, b.mission, {})
-    assert most_apart(short, a) == {"position": 0.0, "attitude": 0.0, "joint_force": 0.0}
+    assert largest_differences(short, a) == {"position": 0.0, "attitude": 0.0, "joint_force": 0.0}
 
 
 def test_a_mission_is_flown_in_each_engine_and_the_page_and_numbers_say_so(run, tmp_path):

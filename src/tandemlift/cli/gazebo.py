@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,11 +19,11 @@ from tandemlift.cli.run import DIVERGED, load, print_report_path, print_summary,
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from tandemlift.flight.record import Flight
-    from tandemlift.gazebo_app.flying import GazeboSession, Photo
+    from tandemlift.gazebo_app.flying import GazeboSession
     from tandemlift.missions import Mission
+
+Photographs = list[tuple[str, bytes]]
 
 
 @click.command()
@@ -98,8 +98,8 @@ def _has_display() -> bool:
     return has_display()
 
 
-def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Figure | None]:
-    """Fly a mission to its end; the flight, and its photographs if requested."""
+def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Photographs]:
+    """Fly a mission to its end; the flight, and its photographs if requested, each with its title."""
     from tandemlift.gazebo_app.camera_views import views_from
     from tandemlift.gazebo_app.flying import running_gazebo
     from tandemlift.simulation.fly import fly
@@ -115,18 +115,10 @@ def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool)
                     progress(done, total)
 
             flight = fly(mission, "gazebo", progress=take_photographs)
-        return flight, _photographs(gazebo.photos) if pictures else None
+        return flight, [(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in gazebo.photos]
 
 
-def _photographs(photos: Sequence[Photo]) -> Figure | None:
-    from tandemlift.figures.views import draw
-
-    if not photos:
-        return None
-    return draw([(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in photos])
-
-
-def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
+def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:
     """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
     from tandemlift.gazebo_app.flying import running_gazebo
     from tandemlift.live.session.interactive_mission import interactive_mission
@@ -139,7 +131,7 @@ def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, None]:
         echo("  Ctrl-C ends it")
         while not (stopped() or recorded.over):
             recorded.advance()
-        return recorded.snapshot().alone(), None
+        return recorded.snapshot().alone(), []
 
 
 @contextmanager

@@ -15,8 +15,6 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
 
@@ -72,7 +70,7 @@ def _check_writable(folder: Path, files: Sequence[str]) -> None:
         raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
 
 
-def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Figure | None = None) -> None:
+def write_flight(flight: Flight, folder: Path, *, figures: bool, photographs: Sequence[tuple[str, bytes]] = ()) -> None:
     """Write the files of a flight into the folder, with a progress bar for the figures."""
     from tandemlift.report.flight_files import write_flight_files
 

@@ -28,7 +28,7 @@ NAMES = "tracking, observers, draws, losses, triggers, persons or yaw"
 def validate(engine: str, draws: int | None, chapters: tuple[str, ...], out: str | None) -> None:
     """Measure the performance of the pilot, and print it beside its targets.
 
-    The measurements fly thousands of missions, in chapters; all of them take minutes.
+    The measurements are in chapters; together they fly more than a thousand missions.
 
     \b
     Examples:

@@ -32,6 +32,7 @@ from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.laws.rotors.allocation import Mixer, mixer_from, wrench
 from tandemlift.models.parts_layout import parts_layout_from
+from tandemlift.models.surroundings import floor_from, walls_from
 from tandemlift.settings import Mission, VehicleTable
 from tandemlift.vehicle import Vehicle
 
@@ -118,6 +119,11 @@ def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> C
         moment=vec3(mission.disturbance.moment),
     )
     return CompiledPlant(_effect(mission.vehicle), body, parts_layout_from(vehicle), floor, walls)
+
+
+def plant_from(mission: Mission, vehicle: Vehicle) -> CompiledPlant:
+    """The body of a mission with its floor and its walls, each `Nothing` if the mission has none."""
+    return start_plant(mission, vehicle, floor_from(mission, vehicle), walls_from(mission, vehicle))
 
 
 def start_state(mission: Mission) -> State:

@@ -14,7 +14,7 @@ from tandemlift.loop.step import FlightModel, StepInputs
 from tandemlift.trace import machine
 from tandemlift.trace.code import Code, Written
 from tandemlift.trace.compile_events import always
-from tandemlift.trace.key import key_of
+from tandemlift.trace.store import key_of
 
 
 class Kernels:

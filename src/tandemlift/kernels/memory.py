@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.common.types import Array
+from tandemlift.algebra.layout import flat
 from tandemlift.kernels.context import AT, WORDS, aligned
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
 from tandemlift.laws.mechanics.rectangle import WALL
 from tandemlift.laws.person.person import PATH_LEG
-from tandemlift.trace import flat
 from tandemlift.trace.code import Code
 
+Numbers = NDArray[np.float64]
 IDLE = InputTables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL, PATH_LEG)  # rows without effect
 COUNTS = ("push_count", "gust_count", "wall_count", "leg_count")
 
@@ -23,10 +23,10 @@ COUNTS = ("push_count", "gust_count", "wall_count", "leg_count")
 class FlightStart(NamedTuple):
     """A flight at its first step: numbers, tables, delay lines (rows × numbers), and the key of its random numbers."""
 
-    numbers: Array
+    numbers: Numbers
     tables: InputTables
-    ring: Array
-    keys: Array
+    ring: Numbers
+    keys: Numbers
 
 
 class TimeGrid(NamedTuple):
@@ -98,14 +98,14 @@ class FlightMemory:
         return slice(at * lanes, (at + size) * lanes)
 
 
-def _interleaved(rows: Sequence[Any]) -> Array:
+def _interleaved(rows: Sequence[Any]) -> Numbers:
     """The numbers of all lanes, interleaved."""
     woven = aligned(len(rows) * len(rows[0]))
     woven.reshape(-1, len(rows))[:] = np.stack(rows, axis=1)
     return woven
 
 
-def _table(tables: Sequence[Array], idle: Any) -> Array:
+def _table(tables: Sequence[Numbers], idle: Any) -> Numbers:
     """A table of all lanes: row i holds row i of every lane's table, an idle row where a lane has fewer."""
     lanes, numbers = len(tables), flat(idle)
     woven = aligned(max(map(len, tables)) * len(numbers) * lanes)

@@ -16,7 +16,7 @@ import numpy as np
 
 from tandemlift.trace import Function, Graph, Module
 from tandemlift.trace.code import Code, Written
-from tandemlift.trace.key import PACKAGE, key_of
+from tandemlift.trace.store import PACKAGE, key_of
 
 LANES = 8  # columns that one instruction serves
 RAMP = f"<{', '.join(f'i64 {j}' for j in range(LANES))}>"

@@ -12,7 +12,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.report.controller_comparison import html_figures, html_setup, html_versions
 from tandemlift.report.flight_report import DASH, html_table, number
 from tandemlift.report.page import COMPARISON, STYLE
-from tandemlift.studies.engine_comparison import QUANTITIES, SETTLED, engine_summary, most_apart, speed
+from tandemlift.studies.engine_comparison import QUANTITIES, SETTLED, engine_summary, largest_differences, speed
 
 NOTE = f"""The same mission, pilot and random numbers; only the engine of the body differs. Differences are the largest
 of any sample, against the first engine; those of joints from {SETTLED:g} s on. Steps a second include the pilot, on the
@@ -20,7 +20,7 @@ machine that wrote this page."""
 
 
 def _row(name: str, flight: Flight, first: Flight) -> str:
-    found = most_apart(flight, first) if flight is not first else {}
+    found = largest_differences(flight, first) if flight is not first else {}
     cells = "".join(f"<td>{number(found[q]) if q in found else DASH}</td>" for q in QUANTITIES)
     end = flight.metrics().get("final_position_m") or ()
     place = ", ".join(f"{v + 0.0:.3f}".replace("-", "−") for v in end) or DASH

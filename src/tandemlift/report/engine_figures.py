@@ -19,7 +19,7 @@ from tandemlift.figures.drawing.series import decimate
 from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, LIGHT_BLUE, PAGE, VERMILLION, styled
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
-from tandemlift.studies.engine_comparison import QUANTITIES, apart
+from tandemlift.studies.engine_comparison import QUANTITIES, differences
 
 CAPTIONS = {
     "flights": Caption(
@@ -96,7 +96,7 @@ def draw_over_each_other(flights: Mapping[str, Flight]) -> Figure:
 def draw_differences(flights: Mapping[str, Flight]) -> Figure:
     """Draw how far each flight is from the first, a panel for each quantity, over time."""
     first, *others = flights.values()
-    apart_by = [apart(flight, first) for flight in others]
+    apart_by = [differences(flight, first) for flight in others]
     shown = [name for name in QUANTITIES if all(name in found for found in apart_by)]
     figure = Figure(figsize=(PAGE, 0.5 + ROW * len(shown)), layout="constrained")
     axes = figure.subplots(len(shown), 1, squeeze=False)[:, 0]

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Progress
-from tandemlift.figures.registry import VIEWS, captions, save_figure, save_figures
+from tandemlift.figures.registry import captions, save_figures, save_photographs
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import write_report
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def write_flight_files(
@@ -22,7 +19,7 @@ def write_flight_files(
     folder: Path,
     *,
     figures: bool = True,
-    photographs: Figure | None = None,
+    photographs: Sequence[tuple[str, bytes]] = (),
     progress: Progress | None = None,
 ) -> None:
     """Write mission.toml, flight.npz, metrics.json, figures/ and report.html; figures of an earlier flight are removed.
@@ -31,7 +28,7 @@ def write_flight_files(
         flight: a flight, also one that diverged.
         folder: an existing folder.
         figures: whether to draw the figures.
-        photographs: the photographs of a flight in Gazebo, if there are any.
+        photographs: title and JPEG of each photograph of a flight in Gazebo.
         progress: called after each figure with (figures written, figures in all).
     """
     with atomic_write(folder / "mission.toml") as partial:
@@ -45,5 +42,5 @@ def write_flight_files(
     if figures:
         save_figures(flight, folder / "figures", progress)
     if photographs:
-        save_figure(photographs, folder / "figures" / f"{VIEWS}.png")
+        save_photographs(photographs, folder / "figures")
     write_report(flight, folder / "figures", folder / "report.html")

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing
-from tandemlift.engines.compiled import readings_at_rest, start_plant, start_state
+from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.mechanics.clearance import clearance
 from tandemlift.laws.mechanics.contact import start_foot_grip
@@ -23,7 +23,6 @@ from tandemlift.loop.delays import Delayed, DelayLines
 from tandemlift.loop.perception import READS, PilotSources
 from tandemlift.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
 from tandemlift.loop.step import FlightModel, FlightState, StepInputs, StepNoise
-from tandemlift.models.surroundings import floor_from, walls_from
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.settings import Mission
 from tandemlift.simulation.actuators import start_rotors
@@ -96,8 +95,8 @@ def assemble(mission: Mission) -> AssembledFlight:
     vehicle = Vehicle.from_settings(mission.vehicle)
     chance = np.random.default_rng(mission.mission.seed)
     pilot, memory = start_pilot(mission, vehicle)
-    state, floor, walls = start_state(mission), floor_from(mission, vehicle), walls_from(mission, vehicle)
-    plant = start_plant(mission, vehicle, floor, walls)
+    state, plant = start_state(mission), plant_from(mission, vehicle)
+    floor, walls = plant.floor, plant.walls
     grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
     delays = delays_from(mission)
     rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, delayed=bool(delays[2]))

@@ -1,4 +1,4 @@
-"""Rows about how the vehicle yields in yaw."""
+"""Rows about the compliance in yaw."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ LONG = {"mission.duration": 40.0, "phases.land_start": 39.0, "mission.log_interv
 
 
 def held(force: float, start: float, end: float, rate: float = 0.0) -> list[dict[str, object]]:
-    """Pushes across the beam at its end that together hold a force [N] from one time to another [s], near enough.
+    """Pushes at the beam's end, across it, whose sum is nearly a constant force [N] between two times [s].
 
-    `rate` [rad/s]: how fast the beam turns, which they are to stay across of, once it does.
+    `rate` [rad/s]: the yaw rate of the beam, which the pushes follow.
     """
     sigma, spacing = 0.4, 0.2  # s: the sum of such Gaussians is even
     peak = force * spacing / (sigma * np.sqrt(2.0 * np.pi))
@@ -37,13 +37,13 @@ def held(force: float, start: float, end: float, rate: float = 0.0) -> list[dict
 
 
 def heading(flight: Flight) -> np.ndarray:
-    """Yaw of reference less that of the vehicle [deg], the short way round."""
+    """Yaw error [deg]: reference minus vehicle, within ±180°."""
     error = flight["reference_euler"][:, 2] - flight["euler"][:, 2]
     return np.degrees((error + np.pi) % (2.0 * np.pi) - np.pi)
 
 
 def yaw(bench: Bench) -> Iterator[Row]:
-    """1 N at the beam's end; and more than the rotors can carry."""
+    """Rows about 1 N at the beam's end, and about more than the rotors can carry."""
     steady, strong = bench.fly(
         [mission({**LONG, "pushes": held(1.0, 16.0, 28.0, STEADY)}), mission({**LONG, "pushes": held(3.0, 16.0, 18.0)})]
     )

@@ -1,4 +1,4 @@
-"""One mission flown with several controllers, and what tells them apart: docs/controllers.md says how it is scored."""
+"""Comparison of controllers on one mission; docs/controllers.md describes the scores."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from tandemlift.simulation.fly import fly, fly_many
 
 Mask = NDArray[np.bool_]
 
-PUSHED = 1e-6  # N: a person who gives less does not push yet
-LEAST = {  # what is physical: a smaller value is as good as zero, a smaller difference is a tie
+PUSHED = 1e-6  # N, below which there is no push
+LEAST = {  # physical resolution: a smaller value counts as zero, a smaller difference as a tie
     "position_rmse_m": 1e-6,
     "position_max_error_m": 1e-6,
     "effort_n_m": 1e-3,
@@ -30,7 +30,7 @@ LEAST = {  # what is physical: a smaller value is as good as zero, a smaller dif
 
 
 class ScoredPart(NamedTuple):
-    """A part of a mission that is scored on its own: what it is called, and its times first <= t < last [s]."""
+    """A part of a mission that is scored separately: its name, and its times first <= t < last [s]."""
 
     name: str
     first: float
@@ -38,13 +38,13 @@ class ScoredPart(NamedTuple):
 
     @property
     def words(self) -> str:
-        """What it is called, with the time of the first push where there is one."""
+        """The name, with the time of the first push if there is one."""
         times = [time for time in (self.first, self.last) if 0.0 < time < math.inf]
         return f"{self.name} ({times[0]:.4g} s)" if times else self.name
 
 
 class Entrant(NamedTuple):
-    """A controller in a comparison: its name, and the mission with it, or why it cannot fly it."""
+    """A controller in a comparison: its name, and its mission, or why it cannot fly the mission."""
 
     name: str
     mission: Mission | None
@@ -52,7 +52,7 @@ class Entrant(NamedTuple):
 
 
 class Entry(NamedTuple):
-    """What came of a controller: its flight, or why it did not fly."""
+    """The result of a controller: its flight, or why it did not fly."""
 
     name: str
     flight: Flight | None
@@ -63,10 +63,10 @@ def entrants(name: str, changes: Mapping[str, Any], chosen: Sequence[Controller]
     """The missions of a comparison, one for each controller.
 
     Args:
-        name: of a built-in mission, or path of a TOML file.
-        changes: values by dotted key; those of `controller` are for the mission's own controller alone.
-        chosen: the controllers; if None the mission's own and then all others by name, of which one that lacks
-            settings is refused on its own.
+        name: name of a built-in mission, or path of a TOML file.
+        changes: values by dotted key; those of `controller` apply to the mission's own controller only.
+        chosen: the controllers; if None, the mission's own and then all others by name. Of these, one that lacks
+            settings is refused, and the others fly.
 
     Raises:
         InputError: the mission cannot be loaded, or a chosen controller cannot fly it.
@@ -89,21 +89,21 @@ def entrants(name: str, changes: Mapping[str, Any], chosen: Sequence[Controller]
 
 
 def compare(entered: Sequence[Entrant], engine: str = "compiled", progress: Progress | None = None) -> list[Entry]:
-    """Fly all that can, in the order given.
+    """Fly every entrant that has a mission, in the order given.
 
     Args:
         entered: from `entrants`.
-        engine: name of the body's engine.
+        engine: name of the engine.
         progress: called with (flights flown, flights in all).
 
     Raises:
-        InputError: the engine is not known, or a controller of one's own fails.
+        InputError: the engine is unknown, or a user's controller fails.
     """
     compiled = not engine_named(engine).load
     missions = [e.mission for e in entered if e.mission]
     try:
         if compiled:
-            flights = fly_many(missions, threads=1, progress=progress)  # one after another: their speed is compared
+            flights = fly_many(missions, threads=1, progress=progress)  # on one thread, because their speed is compared
         else:
             flights = _one_by_one(missions, engine, progress)
     except InputError:
@@ -124,7 +124,7 @@ def _one_by_one(missions: Sequence[Mission], engine: str, progress: Progress | N
 
 
 def _explained(error: Exception, entered: Sequence[Entrant]) -> Exception:
-    """The failure of a controller of one's own with the line of its file; any other error as it is."""
+    """The error of a user's controller, with the line of its file; any other error unchanged."""
     files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)}
     for own in (controller(e.name) for e in entered):
         if not own.start.__module__.startswith("tandemlift.") and file_of(own) in files:
@@ -133,7 +133,7 @@ def _explained(error: Exception, entered: Sequence[Entrant]) -> Exception:
 
 
 def airborne(flight: Flight) -> Mask:
-    """Which samples (T,) lie in the air: from the first to the last in which the floor carries nothing."""
+    """Mask (T,) of the samples in the air: from the first to the last without floor contact."""
     if "contact_force" not in flight:
         return np.ones(len(flight.time), np.bool_)
     free = np.flatnonzero(flight["contact_force"][:, 2] == 0.0)
@@ -144,11 +144,11 @@ def airborne(flight: Flight) -> Mask:
 
 
 def parts_of(flights: Iterable[Flight]) -> tuple[ScoredPart, ...]:
-    """The parts in which flights of one mission are scored, the one that counts first.
+    """The scored parts of flights of one mission, the decisive part first.
 
-    Where a person pushes, they are the time from the first push on, and the time before it: take-off, or a disturbed
-    start. Where nobody pushes, the whole flight is the only part. The first push is the earliest sample of any flight,
-    in the air, in which the norm of the person's force exceeds `PUSHED`.
+    With pushes, the parts are the time from the first push on, and the time before it (take-off, or a disturbed start).
+    Without pushes, the whole flight is the only part. The first push is the earliest sample of any flight in the air in
+    which the norm of the person's force exceeds `PUSHED`.
     """
     pushed = [f.time[airborne(f) & (np.linalg.norm(f["push_force"], axis=1) > PUSHED)] for f in flights]
     first = min((float(times[0]) for times in pushed if len(times)), default=0.0)
@@ -158,25 +158,25 @@ def parts_of(flights: Iterable[Flight]) -> tuple[ScoredPart, ...]:
 
 
 def scored(flight: Flight, part: ScoredPart) -> Mask:
-    """Which samples (T,) of a flight count in a part: those in the air, as the floor holds what stands on it."""
+    """Mask (T,) of the samples of a part that are scored: those in the air."""
     return airborne(flight) & (flight.time >= part.first) & (flight.time < part.last)
 
 
 def moving_axes(flights: Iterable[Flight], part: ScoredPart) -> list[bool]:
-    """Along which of x, y, z the position error of any flight is physical somewhere in a part."""
+    """For x, y, z: whether the position error of any flight exceeds the physical resolution in a part."""
     errors = [np.abs(f["position_error"][scored(f, part)]) for f in flights]
     return [any(np.any(error[:, i] >= LEAST["position_max_error_m"]) for error in errors) for i in range(3)]
 
 
 def scores(flight: Flight, part: ScoredPart) -> dict[str, Any]:
-    """What a part of a flight is compared by, from the logged samples: flat, SI, the unit at the end of each name.
+    """The scores of a part of a flight, from the logged samples; SI, with the unit at the end of each name.
 
     Returns:
         position_rmse_m: root mean square of desired minus actual position, along x, y, z.
         position_max_error_m: the largest absolute value of any of them.
         effort_n_m: mean norm of the commanded moments.
 
-        None where there is no sample, or a number that is not finite.
+        None without samples, or where a number is not finite.
     """
     mask = scored(flight, part)
     if not mask.any():
@@ -196,7 +196,7 @@ def _finite(value: Any) -> Any:
 
 
 def run_of(flight: Flight) -> dict[str, Any]:
-    """What a whole flight is compared by: how much its rotors saturate, how long a step takes, and how it ended."""
+    """Scores of a whole flight: rotor saturation, time per step, and divergence."""
     metrics = flight.metrics()
     return {
         "rotor_saturated_share": metrics["rotor_saturated_share"],
@@ -206,11 +206,11 @@ def run_of(flight: Flight) -> dict[str, Any]:
 
 
 def best_of(values: Sequence[float | None], least: float) -> list[bool]:
-    """Which values win: those by less than `least` above the lowest; none if all that are known do.
+    """Which values are best: those less than `least` above the lowest; none if all known values are.
 
     Args:
-        values: one for each controller, None for one that does not take part.
-        least: difference that is physical, in the unit of the values.
+        values: one for each controller, or None.
+        least: physical resolution, in the unit of the values.
     """
     known = [value for value in values if value is not None]
     wins = [value is not None and value - min(known) < least for value in values]
@@ -223,9 +223,9 @@ def controller_summary(name: str) -> str:
 
 
 def summary_of(entries: Sequence[Entry]) -> list[dict[str, Any]]:
-    """The comparison for a strict JSON text, an object for each controller.
+    """The comparison as JSON, an object for each controller.
 
-    Its scores are of the part that counts, from `from_s` on; those of the other part are in `before_first_push`.
+    Its scores are those of the decisive part, from `from_s` on; those of the other part are in `before_first_push`.
     """
     parts = parts_of(e.flight for e in entries if e.flight)
     rows = []

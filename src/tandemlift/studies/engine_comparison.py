@@ -1,4 +1,4 @@
-"""How far flights of one mission are apart, sample by sample: bodies that live in several engines, with one pilot."""
+"""Comparison of engines: the differences between flights of one mission, sample by sample."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly
 
 QUANTITIES = {"position": "m", "attitude": "rad", "joint_force": "N", "joint_torque": "N m", "push_estimate": "N"}
-SETTLED = 0.1  # s: joints are looked at from then on, as some engines close the gaps that a swift start tears
+SETTLED = 0.1  # s, from which on joints are compared: some engines first correct joint errors of a fast start
 
 
 def fly_in(mission: Mission, engines: Sequence[str], progress: Progress | None = None) -> dict[str, Flight]:
-    """A mission flown in several engines.
+    """Fly a mission in several engines.
 
     Args:
         mission: from `load_mission`.
-        engines: their names, each once.
+        engines: names of the engines, without repetition.
         progress: called with (flights flown, flights in all).
 
     Returns:
         The flights by the engine's name, in the order given.
 
     Raises:
-        InputError: fewer than two engines are named, one is not known, or cannot fly the mission.
+        InputError: fewer than two engines are named, or one is unknown or cannot fly the mission.
     """
     if len(set(engines)) < 2 or len(set(engines)) < len(engines):
-        raise InputError(f"engines = {', '.join(engines)}: must be two or more, each once")
+        raise InputError(f"engines = {', '.join(engines)}: must be two or more, without repetition")
     for name in engines:
         engine_named(name)
     flights = {}
@@ -44,14 +44,14 @@ def fly_in(mission: Mission, engines: Sequence[str], progress: Progress | None =
     return flights
 
 
-def turned(a: Array, b: Array) -> Array:
+def angles_between(a: Array, b: Array) -> Array:
     """Angles (T,) [rad] between two series of quaternions (T, 4)."""
     same = np.where(np.sum(a * b, axis=1) < 0.0, -1.0, 1.0)[:, None]
     return 4.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(a - same * b, axis=1), 0.0, 1.0))
 
 
-def apart(flight: Flight, first: Flight) -> dict[str, Array]:
-    """How far a flight is from another at each sample that both have, by quantity (`QUANTITIES`), of what both have.
+def differences(flight: Flight, first: Flight) -> dict[str, Array]:
+    """Differences of two flights at their common samples, for each common quantity of `QUANTITIES`.
 
     Distance of positions [m], angle of attitudes [rad], largest component of the difference of forces [N] and torques
     [N·m].
@@ -67,14 +67,14 @@ def apart(flight: Flight, first: Flight) -> dict[str, Array]:
 
 def _distance(name: str, a: Array, b: Array) -> Array:
     if name == "attitude":
-        return turned(a, b)
+        return angles_between(a, b)
     return np.linalg.norm(a - b, axis=1) if name == "position" else np.abs(a - b).max(axis=1)
 
 
-def most_apart(flight: Flight, first: Flight) -> dict[str, float]:
-    """The largest of each of `apart`; of joints from `SETTLED` on."""
+def largest_differences(flight: Flight, first: Flight) -> dict[str, float]:
+    """The largest value of each of `differences`; for joints from `SETTLED` on."""
     found = {}
-    for name, values in apart(flight, first).items():
+    for name, values in differences(flight, first).items():
         late = first.time[: len(values)] > SETTLED if name.startswith("joint") else slice(None)
         found[name] = float(np.nanmax(values[late], initial=0.0))
     return found
@@ -86,12 +86,12 @@ def engine_summary(name: str) -> str:
 
 
 def summary_of(flights: Mapping[str, Flight]) -> list[dict[str, Any]]:
-    """The comparison for a strict JSON text, an object for each engine; differences are from the first."""
+    """The comparison as JSON, an object for each engine; differences are relative to the first."""
     first = next(iter(flights.values()))
     return [
         {
             "engine": name,
-            "apart": most_apart(flight, first),
+            "apart": largest_differences(flight, first),
             "final_position_m": flight.metrics()["final_position_m"],
             "steps_per_s": speed(flight),
             "diverged": str(flight.divergence) if flight.divergence else None,
@@ -102,6 +102,6 @@ def summary_of(flights: Mapping[str, Flight]) -> list[dict[str, Any]]:
 
 
 def speed(flight: Flight) -> float:
-    """Steps a second, with the pilot."""
+    """Steps per second, with the pilot."""
     metrics = flight.metrics()
     return float(metrics["steps"] / metrics["wall_s"])

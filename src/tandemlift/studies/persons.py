@@ -1,8 +1,8 @@
-"""Rows about the corridors: led through by the mission's person, and by random ones, at what effort.
+"""Rows about the corridors, with the mission's person and with random persons: success and effort.
 
-Each random person's gains, arm, speed and lag are the mission's times 0.7 to 1.3, each on its own; they see the vehicle
-0.1 s to 0.3 s late (in steps of 20 ms, so that blocks fill), tremble by up to 0.1 N, hold on anywhere on the beam,
-and a wind of up to 1 N that the pilot does not know of comes from anywhere.
+Gains, arm, speed and lag of a random person are those of the mission times independent factors of 0.7 to 1.3. The
+visual delay is 0.1 s to 0.3 s (in steps of 20 ms, so that blocks fill), the tremor up to 0.1 N, the grip anywhere on
+the beam. A wind of up to 1 N, unknown to the pilot, comes from a random direction.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ SCALED = (
     *("stiffness", "damping", "lag", "gain", "speed"),
     *("look_ahead", "approach_gain", "trim_rate", "yaw_gain", "yaw_damping"),
 )
-LONGER = 1.6  # times the mission's duration: some persons are slow
-NEAR, STANDS = 1.2, 0.02  # m: of the path's end, and of the height at which it stood
-LEAST = {"zigzag": 0.0, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m of clearance
+LONGER = 1.6  # times the mission's duration, because some persons are slow
+NEAR, STANDS = 1.2, 0.02  # m, tolerance of the path's end and of the final height
+LEAST = {"zigzag": 0.0, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m, smallest clearance
 
 
 def random_persons(name: str, count: int, seed: int = 1) -> list[Mission]:
-    """A mission with random persons."""
+    """A mission with `count` random persons."""
     mission, rng = load_mission(name), np.random.default_rng(seed)
     drawn = []
     for i in range(count):
@@ -46,20 +46,20 @@ def random_persons(name: str, count: int, seed: int = 1) -> list[Mission]:
     return drawn
 
 
-def through(mission: Mission, metrics: dict[str, Any]) -> bool:
-    """Whether a flight came to the end of its path, stands there, and touched no wall."""
+def succeeded(mission: Mission, metrics: dict[str, Any]) -> bool:
+    """Whether a flight reached the end of its path, landed there, and touched no wall."""
     end = ([w.point for w in mission.person.path] or list(mission.corridor.centreline))[-1]
     x, y, z = metrics["final_position_m"] or [np.nan] * 3
     there = np.hypot(x - end[0], y - end[1]) < NEAR
     return bool(there and abs(z - mission.initial.position[2]) < STANDS and not metrics["wall_contact"])
 
 
-def alone(bench: Bench) -> Iterator[Row]:
-    """Every corridor, led by its own person."""
+def own_persons(bench: Bench) -> Iterator[Row]:
+    """Rows about every corridor with its own person."""
     missions = [load_mission(name) for name in LEAST]
     for mission, m in zip(missions, bench.metrics(missions), strict=True):
         name = mission.mission.name
-        least, passed = m["clearance_min_m"], through(mission, m)
+        least, passed = m["clearance_min_m"], succeeded(mission, m)
         limit = f"through, ≥ {LEAST[name]:g} m" if LEAST[name] else "through"
         said = f"{'through' if passed else 'not through'}, {least:.2f} m"
         yield Row(f"`{name}`: landed at its end, smallest clearance", limit, said, passed and least >= LEAST[name])
@@ -70,11 +70,11 @@ def alone(bench: Bench) -> Iterator[Row]:
 
 
 def persons(bench: Bench) -> Iterator[Row]:
-    """Every corridor, and random persons in the wide one."""
-    yield from alone(bench)
+    """Rows about every corridor, and about random persons in `zigzag`."""
+    yield from own_persons(bench)
     missions = random_persons("zigzag", bench.draws)
     flown = bench.metrics(missions)
-    passed = sum(through(m, f) for m, f in zip(missions, flown, strict=True))
+    passed = sum(succeeded(m, f) for m, f in zip(missions, flown, strict=True))
     what = f"`zigzag`, {bench.draws} random persons: reached the end, touched nothing, landed"
     yield Row(what, f"{bench.draws} of {bench.draws}", f"{passed} of {bench.draws}", passed == bench.draws)
     clear = np.quantile([f["clearance_min_m"] for f in flown], [0.5, 0.05, 0.0])

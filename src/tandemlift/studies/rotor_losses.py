@@ -1,8 +1,8 @@
-"""Rows about a lost rotor: it is found, and the vehicle lands.
+"""Rows about rotor-loss detection and emergency landing.
 
-The paper's pushes, from a start tilted in the air above a floor. Any of the eight rotors stops at a random moment, in
-calm air and in wind. Then flights in which none stops, in wind, 0.3 kg too heavy, with rotors that lag by 50 ms, a
-delay of 20 ms, and an inertia of 0.8 or 1.2 times what is believed: nothing is to be found. All is one compiled loop.
+The flights have the paper's pushes and a tilted start in the air above a floor. One of the eight rotors stops at a
+random time, in calm air and in wind. In further flights no rotor stops, and none may be reported: in wind, 0.3 kg too
+heavy, with a rotor lag of 50 ms, a delay of 20 ms, and an inertia of 0.8 or 1.2 times the assumed one.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from tandemlift.missions import Mission
 from tandemlift.studies.rows import Row, below
 from tandemlift.studies.scenarios import STEADY, TURBULENCE, Bench, Changes, mission, wind
 
-FLOOR, DROP = -0.5, 0.36  # m: low enough for a start that is tilted; how far below the start the landing ends
+FLOOR, DROP = -0.5, 0.36  # m, height of the floor, and of the landing below the start
 TRIAL: Changes = {
     "mission.log_interval": 0.004,
     "initial.position": [0.3, -0.3, 0.0],
@@ -29,7 +29,7 @@ TRIAL: Changes = {
 }
 CALM, WIND = "calm", "wind"
 NEVER = 1e6  # s
-FIRST, LAST = 3.0, 70.0  # s, when a rotor may be lost: before, the tilted start makes the residual unusable
+FIRST, LAST = 3.0, 70.0  # s, range of the time of a loss; before, the tilted start makes the residual unusable
 TARGETS = {CALM: (0.5, 8.0, 1.5), WIND: (1.0, 15.0, 1.5)}  # m/s, °, m
 SLOW: Changes = {"lag_up": 0.05, "lag_down": 0.05}
 
@@ -40,27 +40,27 @@ def air(kind: str, fleet: Changes | None = None) -> Changes:
 
 
 def fault(rotor: int, time: float) -> Changes:
-    """A rotor, numbered from 0, that stops at a time [s]."""
+    """The fault of a rotor, numbered from 0, that stops at a time [s]."""
     return {"faults": [{"quadrotor": rotor // 4 + 1, "rotor": rotor % 4 + 1, "time": time}]}
 
 
 def lost(kind: str, count: int) -> Iterator[tuple[int, float, Mission]]:
-    """(Rotor from 0, time [s], mission) of flights in which a rotor is lost, each rotor as often as the others."""
+    """(Rotor from 0, time [s], mission) of flights with a rotor loss, each rotor equally often."""
     chance = np.random.default_rng(0)
     for i in range(count):
         time = round(float(chance.uniform(FIRST, LAST)), 3)
         yield i % 8, time, mission({**TRIAL, **air(kind), **fault(i % 8, time), "mission.seed": i})
 
 
-def sound(count: int) -> Iterator[Mission]:
-    """Flights in which no rotor is lost, of a vehicle that is not as believed."""
+def intact(count: int) -> Iterator[Mission]:
+    """Flights without a rotor loss, of a vehicle that differs from the pilot's model."""
     for i in range(count):
         wrong = {"actuators.delay": 0.02, "plant.mass_scale": 3.8 / 3.5, "plant.inertia_scale": (0.8, 1.2)[i % 2]}
         yield mission({**TRIAL, **air(WIND, SLOW), **fault(0, NEVER), **wrong, "mission.seed": 1000 + i})
 
 
-def landed(flight: Flight, rotor: int, time: float) -> dict[str, Any]:
-    """What became of a flight in which a rotor was lost at a time [s]."""
+def outcome_of(flight: Flight, rotor: int, time: float) -> dict[str, Any]:
+    """The outcome of a flight with a rotor loss at a time [s]."""
     m = flight.metrics()
     after = np.flatnonzero(flight.time >= time)
     touched = after[np.abs(flight["contact_force"][after, 2]) > 0.0]
@@ -104,11 +104,11 @@ def rows_of(kind: str, outcomes: list[dict[str, Any]]) -> Iterator[Row]:
 
 
 def losses(bench: Bench) -> Iterator[Row]:
-    """A rotor lost at any moment; and flights in which none is."""
+    """Rows about flights with a rotor loss, and without."""
     for kind in (CALM, WIND):
         drawn = list(lost(kind, bench.draws))
         flights = bench.fly(m for *_, m in drawn)
-        yield from rows_of(kind, [landed(f, r, t) for f, (r, t, _) in zip(flights, drawn, strict=True)])
+        yield from rows_of(kind, [outcome_of(f, r, t) for f, (r, t, _) in zip(flights, drawn, strict=True)])
     count = max(1, bench.draws // 2)
-    alarms = sum(m["rotors_taken_for_lost"] > 0.0 for m in bench.metrics(sound(count)))
+    alarms = sum(m["rotors_taken_for_lost"] > 0.0 for m in bench.metrics(intact(count)))
     yield Row(f"no rotor lost, {count} flights: false alarms", "0", str(alarms), alarms == 0)

@@ -1,4 +1,4 @@
-"""A row of the table, and what is measured of a flight for it."""
+"""Rows of the validation table, and measurements on flights."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tandemlift.flight.record import LATE, Flight
 
 
 class Row(NamedTuple):
-    """One line: what is measured, what it is to be, what it is, and whether that is so (None: only reported)."""
+    """A row: what is measured, its target, its value, and whether the target is met (None: without target)."""
 
     what: str
     target: str
@@ -20,7 +20,7 @@ class Row(NamedTuple):
 
     @property
     def mark(self) -> str:
-        """Met, missed, or nothing."""
+        """The text of the last column."""
         return {True: "met", False: "**missed**", None: ""}[self.met]
 
 
@@ -30,7 +30,7 @@ def triple(values: Any, digits: int = 1) -> str:
 
 
 def below(what: str, values: Any, limits: Any, unit: str, digits: int = 1) -> Row:
-    """A row of numbers that are to be at most these."""
+    """A row whose target is that no value exceeds its limit."""
     values, limits = np.atleast_1d(values), np.atleast_1d(limits)
     met = bool(np.all(values <= limits))
     return Row(what, f"≤ {' / '.join(f'{x:g}' for x in limits)} {unit}", f"{triple(values, digits)} {unit}", met)
@@ -48,7 +48,7 @@ def rms(values: Array) -> Array:
 
 
 def true_yielding(flight: Flight) -> Array:
-    """Where an unfiltered soft-gate admittance of the true push would be [m] (T, 3), at the logged times."""
+    """Position [m] (T, 3) of an unfiltered soft-gate admittance under the true push, at the logged times."""
     a, step = flight.mission["admittance"], flight.mission["mission"]["step"]
     steps = round(flight.time[-1] / step) + 1
     t = np.arange(steps) * step

@@ -1,4 +1,4 @@
-"""What is flown for the table: mission iris with sensors that only hiss, from a tilted start in the air.
+"""The missions of the validation table: mission iris with sensor noise only, from a tilted start in the air.
 
 IRIS rotors with lag 12.5/25 ms and 10 ms of delay; the joints' sensors with 0.05 N; the state as measured, with 3 mm,
 2 mrad, 0.01 m/s and 0.01 rad/s. Wind acts on the quadrotors, whose drag is made so large that it comes to the force
@@ -39,11 +39,11 @@ STEADY, TURBULENCE = 4.16, 4.7  # m/s: mean wind on each axis, and wind at 20 ft
 AREA = 0.1  # m², of each quadrotor
 
 
-FEW = 64  # flights at once, for the memory that their logs take
+FEW = 64  # flights at once, limited by the memory of their logs
 
 
 class Bench(NamedTuple):
-    """Where it is flown, and how many draws of what is drawn."""
+    """The engine of the validation, and the number of random draws."""
 
     engine: str = "compiled"
     draws: int = 200
@@ -65,18 +65,18 @@ class Bench(NamedTuple):
 
 
 def quadrotors(**changes: Any) -> list[dict[str, Any]]:
-    """The quadrotors of mission iris, changed alike."""
+    """The quadrotors of mission iris, each with the same changes."""
     fleet = load_mission("iris").model_dump(mode="json", exclude_none=True)["vehicle"]["quadrotors"]
     return [{**quadrotor, **changes} for quadrotor in fleet]
 
 
 def mission(changes: Changes | None = None, base: Changes = BASE) -> Mission:
-    """The mission of the table, changed."""
+    """The base mission of the table with changes."""
     return load_mission("iris", {**base, **(changes or {})})
 
 
 def wind(velocity: Any, turbulence: float, fleet: Changes | None = None) -> Changes:
-    """Wind [m/s] on the quadrotors alone, and their other changes."""
+    """Wind [m/s] on the quadrotors only, with further changes of them."""
     return {
         "wind.model": "air",
         "wind.velocity": [float(v) for v in velocity],
@@ -93,7 +93,7 @@ REGULAR = [[DIAGONAL, -DIAGONAL], [-DIAGONAL, DIAGONAL], [DIAGONAL, DIAGONAL], [
 
 
 def drawn(rng: np.random.Generator, number: int) -> Mission:
-    """All of it at once: lag, delay, inertia, mass, wind, gusts, grip, noise and layout at random."""
+    """A mission with random lag, delay, inertia, mass, wind, gusts, grip, noise and layout."""
     lag = float(rng.uniform(0.0125, 0.05))
     fleet: Changes = {"lag_up": lag, "lag_down": min(0.05, lag * float(rng.uniform(1.0, 2.0)))}
     if rng.random() < 0.5:
@@ -111,9 +111,9 @@ def drawn(rng: np.random.Generator, number: int) -> Mission:
         "pushes": [{**p, "point": [0.0, grip * (i % 2), below]} for i, p in enumerate(pushes)],
         "sensors.joints.force_noise": 0.05 * noise,
         "sensors.gyroscope.noise": 0.01 * noise,
-        **{f"sensors.motion.{k}_noise": v * noise for k, v in HISS.items()},
+        **{f"sensors.motion.{k}_noise": v * noise for k, v in NOISE.items()},
     }
     return mission(changes)
 
 
-HISS = {"position": 0.003, "velocity": 0.01, "attitude": 0.002}
+NOISE = {"position": 0.003, "velocity": 0.01, "attitude": 0.002}

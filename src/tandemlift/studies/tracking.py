@@ -1,4 +1,4 @@
-"""Rows about how well the reference is followed."""
+"""Rows about tracking of the reference."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ASIDE = 0.1  # m, of the payload's centre of mass
 
 
 def nominal(bench: Bench) -> Iterator[Row]:
-    """Calm air, wind, wrong beliefs, slow rotors."""
+    """Rows about calm air, wind, model errors, slow rotors."""
     calm, real, wind, slow, heavy, aside = bench.fly(
         [
             mission(),
@@ -27,26 +27,28 @@ def nominal(bench: Bench) -> Iterator[Row]:
         ]
     )
     yield below("calm: RMSE x / y / z against the pilot's reference", rms(errors(calm)), (4.0, 4.0, 1.0), "mm", 2)
-    yield below("calm: x / y against the unfiltered admittance of the true push", truly(calm), (28.0, 25.0), "mm")
+    yield below(
+        "calm: x / y against the unfiltered admittance of the true push", admittance_error(calm), (28.0, 25.0), "mm"
+    )
     yield real_row(real)
     yield below("3 + 3 N of wind, gusts of 1 N rms: RMSE x / y / z", rms(errors(wind)), (18.0, 18.0, 2.0), "mm", 2)
     yield below("the same: mean offset", np.abs(errors(wind).mean(axis=0)), (3.0, 3.0, 3.0), "mm", 2)
     yield below("rotor lag 50 ms, delay 20 ms: RMSE x / y / z", rms(errors(slow)), (5.0, 5.0, 1.0), "mm", 2)
-    yield from wrong_belief(heavy, f"payload {HEAVIER} kg heavier than assumed")
+    yield from model_error(heavy, f"payload {HEAVIER} kg heavier than assumed")
     mass = heavy["payload_mass_estimate"][-1]
     yield below("the same: error of the estimated mass", abs(mass / (0.5 + HEAVIER) - 1.0) * 100.0, 2.0, "%", 2)
-    yield from wrong_belief(aside, f"payload's centre of mass off by {ASIDE} m")
+    yield from model_error(aside, f"payload's centre of mass off by {ASIDE} m")
     yield from saturated(real, calm, wind)
 
 
-def truly(flight: Flight) -> np.ndarray:
-    """RMS distance from what an unfiltered admittance of the true push would do [mm], x and y."""
+def admittance_error(flight: Flight) -> np.ndarray:
+    """RMS distance [mm] from an unfiltered admittance under the true push, x and y."""
     part = flight.time > LATE
     return 1000.0 * rms((true_yielding(flight) - flight["position"])[part])[:2]
 
 
 def real_row(flight: Flight) -> Row:
-    """Mission iris as it is: biases, drift, misalignment, its own state estimate, from the floor and back to it."""
+    """Mission iris unchanged: biases, drift, misalignment, its own state estimate, from the floor and back."""
     lifted, landing = flight.mission["phases"]["lift_start"], flight.mission["phases"]["land_start"]
     values = rms(errors(flight, max(LATE, lifted), landing))
     return below(
@@ -58,15 +60,15 @@ def real_row(flight: Flight) -> Row:
     )
 
 
-def wrong_belief(flight: Flight, what: str) -> Iterator[Row]:
-    """How far off the height is, five seconds after the lift."""
+def model_error(flight: Flight, what: str) -> Iterator[Row]:
+    """The error of the height from five seconds after the lift on."""
     p = flight.mission["phases"]
     off = np.abs(errors(flight, p["lift_start"] + p["lift_duration"] + 5.0, p["land_start"])[:, 2])
     yield below(f"{what}: largest z error from 5 s after the lift", off.max(), 3.0, "mm", 2)
 
 
 def saturated(real: Flight, calm: Flight, wind: Flight) -> Iterator[Row]:
-    """Steps with a rotor at a limit."""
+    """Rows about steps with a rotor at its limit."""
     names = ("`iris` unchanged", "calm, from the tilted start", "wind, from the tilted start")
     for flight, name, limit in zip((real, calm, wind), names, (0.1, 0.1, 2.0), strict=True):
         share = 100.0 * flight.metrics()["rotor_saturated_share"]
@@ -74,7 +76,7 @@ def saturated(real: Flight, calm: Flight, wind: Flight) -> Iterator[Row]:
 
 
 def observers(bench: Bench) -> Iterator[Row]:
-    """What the observers are worth, and why it is super-twisting: RMSE x / y / z where nothing else differs."""
+    """Rows that compare the observers: RMSE x / y / z, all else equal."""
     kinds = ("none", "extended-state", "super-twisting")
     places: tuple[tuple[str, Changes], ...] = (("calm", {}), ("wind", WINDY), ("slow rotors", SLOW))
     missions = [mission({**changes, "observer.model": kind}) for kind in kinds for _, changes in places]
@@ -85,7 +87,7 @@ def observers(bench: Bench) -> Iterator[Row]:
 
 
 def draws(bench: Bench) -> Iterator[Row]:
-    """All of it at once, at random."""
+    """Rows about random missions with all deviations together."""
     rng = np.random.default_rng(4)
     flights = bench.fly([drawn(rng, number) for number in range(bench.draws)])
     failed = sum(flight.divergence is not None for flight in flights)

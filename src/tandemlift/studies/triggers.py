@@ -1,10 +1,10 @@
-"""Rows about what is taken for a hand: wind is not to be, and a hand is to be heard at once.
+"""Rows about push detection in wind: no false triggers, and fast detection of pushes.
 
-IRIS quadrotors hover with a beam in a mean wind along x, across the beam, with Dryden turbulence of that wind at 20 ft,
-thresholds 0.3, 0.3 and 0.4 N (of vertical gusts the quadrotors tell nothing), and nobody pushes: every push that is
-heard is counted, after the first seconds, in ten-minute flights. Then pushes of 0.6 N in steps, every three seconds:
-how long after the step, whose middle is when the push exceeds the threshold, it is heard. Without compensation of the
-wind its bandwidth is next to nothing, so that all is one loop.
+IRIS quadrotors hover with a beam in a mean wind along x, across the beam, with Dryden turbulence of that wind at 20 ft
+and thresholds of 0.3, 0.3 and 0.4 N (the quadrotors cannot measure vertical gusts). Nobody pushes in ten-minute
+flights; every detected push after the first seconds is a false trigger. Then a step push of 0.6 N every three seconds
+measures the detection time. Without wind compensation, its bandwidth is nearly zero, so that all flights share one
+loop.
 """
 
 from __future__ import annotations
@@ -45,14 +45,14 @@ def windy(wind: float, bandwidth: float, seed: int, changes: Changes) -> Mission
 
 
 def step(force: np.ndarray, start: float) -> list[dict[str, Any]]:
-    """A push that rises to a force [N] at a time [s] and lasts, as a sum of narrow Gaussians."""
+    """A step push to a force [N] at a time [s], as a sum of narrow Gaussians."""
     apart = 1.5 * EDGE
     peak = (force * apart / (EDGE * np.sqrt(2.0 * np.pi))).tolist()
     return [{"force": peak, "time": start + apart * (i + 0.5), "sigma": EDGE} for i in range(round(LASTS / apart))]
 
 
 def pushed(wind: float, bandwidth: float, seed: int) -> Mission:
-    """A flight with steps along x and y in turn, either way."""
+    """A flight with step pushes along ±x and ±y in turn."""
     pushes: list[dict[str, Any]] = []
     for i in range(PUSHES):
         force = np.eye(3)[i % 2] * PUSH * (1.0 if i % 4 < 2 else -1.0)
@@ -62,7 +62,7 @@ def pushed(wind: float, bandwidth: float, seed: int) -> Mission:
 
 
 def delays(flight: Flight) -> list[float]:
-    """From each step to when it is heard [s]; infinite where it is not, before its end."""
+    """Detection time of each step push [s]; infinite for an undetected one."""
     found = []
     for i in range(PUSHES):
         start = FIRST + EVERY * i
@@ -73,7 +73,7 @@ def delays(flight: Flight) -> list[float]:
 
 
 def triggers(bench: Bench) -> Iterator[Row]:
-    """Wind taken for a hand, and a hand in the wind."""
+    """Rows about false triggers and about detection times."""
     for wind, bandwidth, asked in CASES:
         how = "with compensation" if bandwidth == WITH else "without compensation"
         count = max(1, round(bench.draws * MINUTES * 60.0 / LENGTH))

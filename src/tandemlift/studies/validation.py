@@ -1,4 +1,4 @@
-"""What the pilot is held to, measured: each row of the table is flown, in either engine, and put beside its target.
+"""Validation of the pilot: every row of the table is a measurement on flights, beside its target.
 
 `tandemlift validate` prints it; docs/validation.md holds it with the machine and the versions.
 """
@@ -17,7 +17,7 @@ __all__ = ["CHAPTERS", "Bench", "Chapter", "Row", "chosen", "rows_of", "table"]
 
 
 class Chapter(NamedTuple):
-    """Rows that belong together: what they are about, and how they are measured."""
+    """A chapter of the table: its summary, and the function that measures its rows."""
 
     summary: str
     rows: Callable[[Bench], Iterator[Row]]
@@ -25,19 +25,19 @@ class Chapter(NamedTuple):
 
 CHAPTERS: dict[str, Chapter] = {
     "tracking": Chapter(
-        "the reference followed: calm, in wind, with wrong beliefs, with slow rotors", tracking.nominal
+        "tracking of the reference: calm, in wind, with model errors, with slow rotors", tracking.nominal
     ),
-    "observers": Chapter("what an observer of the disturbance is worth", tracking.observers),
-    "draws": Chapter("all of it at once, drawn at random", tracking.draws),
-    "losses": Chapter("a rotor lost at any moment: found, and landed with", rotor_losses.losses),
-    "triggers": Chapter("wind that is not to be taken for a hand, and a hand that is", triggers.triggers),
-    "persons": Chapter("corridors, led through by a person; random persons", persons.persons),
-    "yaw": Chapter("a push at the beam's end turns the vehicle", compliance.yaw),
+    "observers": Chapter("comparison of disturbance observers", tracking.observers),
+    "draws": Chapter("random missions with all deviations together", tracking.draws),
+    "losses": Chapter("rotor-loss detection and emergency landing", rotor_losses.losses),
+    "triggers": Chapter("push detection in wind", triggers.triggers),
+    "persons": Chapter("corridors with a person; random persons", persons.persons),
+    "yaw": Chapter("compliance in yaw", compliance.yaw),
 }
 
 
 def chosen(names: list[str]) -> list[str]:
-    """The chapters of these names, all of them if there is none.
+    """The names of the chapters to run: those given, or all.
 
     Raises:
         InputError: there is no such chapter.
@@ -48,11 +48,11 @@ def chosen(names: list[str]) -> list[str]:
     return names or list(CHAPTERS)
 
 
-def rows_of(bench: Bench, names: list[str], told: Callable[[str], None] = lambda _: None) -> list[Row]:
-    """Every row of some chapters, measured; `told` is given each chapter's name as it begins."""
+def rows_of(bench: Bench, names: list[str], report: Callable[[str], None] = lambda _: None) -> list[Row]:
+    """Measure all rows of some chapters; `report` is called with the name of each chapter as it begins."""
     rows = []
     for name in chosen(names):
-        told(name)
+        report(name)
         rows += list(CHAPTERS[name].rows(bench))
     return rows
 

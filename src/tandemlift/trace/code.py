@@ -64,7 +64,7 @@ class Code:
     """The functions of a module; each takes the address of a context and returns an integer.
 
     Args:
-        key: hash of everything that determines the code (`trace.key`).
+        key: hash of everything that determines the code (`trace.store.key_of`).
         names: names of its functions.
         write: returns the module as text; called only if no code is on disk.
         best: optimisation level of optimised code.

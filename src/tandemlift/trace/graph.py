@@ -2,6 +2,8 @@
 
 A node is (operation, arguments, type). Equal nodes are one node, so nothing is computed twice. Types: `f` a double, `b`
 a truth, `i` a 64-bit integer. A large set of numbers is one node with a count.
+
+Leaf i of lane l of `lanes` interleaved values (`algebra.layout`) is a[i * lanes + l].
 """
 
 from __future__ import annotations
@@ -10,8 +12,8 @@ import struct
 from collections.abc import Container, Iterable
 from typing import Any
 
+from tandemlift.algebra.layout import is_value, leaves
 from tandemlift.algebra.vector import each, is_set
-from tandemlift.trace.layout import is_value, leaves
 from tandemlift.trace.refusal import refused_here
 from tandemlift.trace.symbol import Symbol
 

@@ -1,7 +1,4 @@
-"""Nested values as flat arrays of numbers, depth first.
-
-Leaf i of lane l of `lanes` interleaved values is a[i * lanes + l].
-"""
+"""Nested values (NamedTuples of numbers and NamedTuples) as flat arrays of numbers, depth first."""
 
 from __future__ import annotations
 
