@@ -157,32 +157,32 @@ def expected(name: str) -> np.ndarray:
     return np.array([evaluated(name, map(float, column)) for column in inputs(name).T]).T
 
 
-def agree(found: Any, wanted: np.ndarray) -> None:
+def assert_agreement(found: Any, wanted: np.ndarray) -> None:
     """To 1e-12 of the largest number of a law's answer."""
     assert np.abs(np.broadcast_to(found, wanted.shape) - wanted).max() < 1e-12 * (1.0 + np.abs(wanted).max())
 
 
 @EACH
 def test_numpy_broadcasts_the_law(name):
-    agree(np.array([np.broadcast_to(row, BATCH) for row in evaluated(name, inputs(name))]), expected(name))
+    assert_agreement(np.array([np.broadcast_to(row, BATCH) for row in evaluated(name, inputs(name))]), expected(name))
 
 
 @EACH
 def test_jax_evaluates_the_law(name, jax):
     rows = evaluated(name, list(jax.numpy.asarray(inputs(name))))
-    agree(np.array([np.broadcast_to(row, BATCH) for row in rows]), expected(name))
+    assert_agreement(np.array([np.broadcast_to(row, BATCH) for row in rows]), expected(name))
 
 
 @EACH
 def test_casadi_traces_the_law(name, casadi):
     symbols = casadi.SX.sym("numbers", len(inputs(name)))
     outputs = casadi.vertcat(*evaluated(name, casadi.vertsplit(symbols)))
-    agree(np.array(casadi.Function("law", [symbols], [outputs])(inputs(name))), expected(name))
+    assert_agreement(np.array(casadi.Function("law", [symbols], [outputs])(inputs(name))), expected(name))
 
 
 @EACH
 def test_machine_code_of_the_law(name):
     law, arguments = LAWS[name]
     alone, block = (answers(law, arguments, inputs(name).T, lanes) for lanes in (1, 8))
-    agree(alone.T, expected(name))
+    assert_agreement(alone.T, expected(name))
     assert np.array_equal(alone, block)

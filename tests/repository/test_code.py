@@ -4,8 +4,8 @@ import ast
 from collections import Counter
 
 import pytest
-from code_rules import copies_by_position, hidden_imports, logic, public_classes, without_docstring
-from house import PACKAGE, assert_none_but, python_files
+from code_rules import asserting_helpers, copies_by_position, hidden_imports, logic, public_classes, without_docstring
+from house import PACKAGE, TESTS, assert_none_but, python_files
 
 TREES = {name: tree for name, (_, tree) in python_files(PACKAGE).items()}
 FACE = "src/tandemlift/__init__.py"  # which loads what is asked for
@@ -58,6 +58,13 @@ def test_nothing_is_copied_field_by_field():
 def test_every_public_module_function_and_class_has_a_docstring():
     found = {name: lacking for name, tree in TREES.items() if (lacking := without_docstring(tree))}
     assert found == {}, "say in a docstring what it is for, with shapes, units, frames and errors"
+
+
+def test_a_helper_of_tests_that_asserts_says_so_by_its_name():
+    tests = {name: tree for name, (_, tree) in python_files(TESTS).items() if "/support/" not in name}
+    assert len(tests) > 100
+    found = [f"{name}: {helper}" for name, tree in tests.items() for helper in asserting_helpers(tree)]
+    assert_none_but(KNOWN_HELPERS, found, "name it assert_… or check_…, or raise where it only guards itself")
 
 
 # ---- A breach is found
@@ -115,6 +122,12 @@ def test_an_import_in_a_string_is_found(line, found):
 )
 def test_logic_in_an_init_file_is_found(text, found):
     assert logic(ast.parse(text)) == found
+
+
+def test_helpers_that_assert_are_found():
+    text = "def f():\n    assert a\ndef check_g():\n    assert a\ndef test_h():\n    assert a\ndef k():\n    return a\n"
+    text += "class Page:\n    def closed(self):\n        assert a\n@pytest.fixture()\ndef page():\n    assert a\n"
+    assert asserting_helpers(ast.parse(text)) == ["closed", "f"]
 
 
 def test_what_has_no_docstring_is_found():

@@ -111,10 +111,13 @@ def named(rotor, at):
 
 
 def test_a_rotor_that_was_named_but_turns_on_trial_is_restored():
-    assert watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(4, 0.0))[0] == [(0.0, 5), (seen_at(4), 0)]
+    assert watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(4, 0.0))[0] == [
+        (0.0, 5),
+        (check_seen(4), 0),
+    ]
 
 
-def seen_at(rotor):
+def check_seen(rotor):
     """When a rotor is restored that never stopped."""
     seen, _ = watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(rotor, 0.0))
     assert 0.01 < seen[1][0] < 0.1

@@ -67,12 +67,12 @@ class Surroundings(NamedTuple):
 
     world: World
     table: Any
-    nowhere: Any
+    no_walls_near: Any
 
 
 @law
 def look(fixed, state):
-    near = fixed.nowhere
+    near = fixed.no_walls_near
     for one in fixed.table:
         near = nearest_with(fixed.world.walls, one, near, fixed.world.frame, state)
     return near
