@@ -18,13 +18,14 @@ import numpy as np
 from machine import describe, heading, number, pin, save, table
 
 import tandemlift as tl
+from tandemlift.algebra.layout import flat, leaves
 from tandemlift.algebra.vector import Vec3, each
 from tandemlift.kernels.limit_solver import write_solver
 from tandemlift.kernels.traced_step import TracedSolver
 from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, search_step, start_search
-from tandemlift.trace import Function, Module, double, flat, leaves
+from tandemlift.trace import Function, Module, double
 from tandemlift.trace.functions import compiled
 from tandemlift.trace.machine import BEST, Loaded
 from tandemlift.trace.machine import compiled as machine_code

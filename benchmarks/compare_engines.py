@@ -15,12 +15,13 @@ import numpy as np
 from machine import describe, heading, table
 
 import tandemlift as tl
+from tandemlift.algebra.layout import flat, unflat
 from tandemlift.algebra.vector import ZERO, Nothing, each
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.registry import engine_named
 from tandemlift.laws.mechanics.push import CentralPush, PushSamples
-from tandemlift.studies.engine_comparison import apart, fly_in, turned
-from tandemlift.trace import flat, traced, unflat
+from tandemlift.studies.engine_comparison import angles_between, differences, fly_in
+from tandemlift.trace import traced
 from tandemlift.trace.functions import compiled
 from tandemlift.vehicle import Vehicle
 
@@ -114,7 +115,7 @@ def open_loop(engine: str, count: int) -> dict[str, float]:
         state, felt = moved.state, np.abs(np.array(flat(moved.readings)) - body.readings)
         found = {name: felt[part].max() * looked_at(engine, k * h) for name, part in joints.items()}
         found["position"] = np.abs(np.array(state.position) - body.state[:3]).max()
-        found["attitude"] = turned(np.array([state.attitude]), body.state[None, 6:10])[0]
+        found["attitude"] = angles_between(np.array([state.attitude]), body.state[None, 6:10])[0]
         largest = {name: max(largest[name], float(found[name])) for name in largest}
     return largest
 
@@ -130,9 +131,9 @@ def both(engine: str, name: str, changes: dict[str, Any]) -> tuple[tl.Flight, tl
     return a, b
 
 
-def differences(a: tl.Flight, b: tl.Flight, part: Any = slice(None)) -> dict[str, float]:
+def largest_difference(a: tl.Flight, b: tl.Flight, part: Any = slice(None)) -> dict[str, float]:
     """The largest difference of each quantity between two flights, over some samples."""
-    found, joints = apart(b, a), looked_at(b.version["engine"], a.time[part])
+    found, joints = differences(b, a), looked_at(b.version["engine"], a.time[part])
     parts = {name: found[name][part] for name in QUANTITIES}
     return {name: float((x[joints] if name.startswith("joint") else x).max()) for name, x in parts.items()}
 
@@ -153,12 +154,12 @@ def with_floor(engine: str, name: str) -> Iterator[Row]:
     standing = (a.time > SETTLED) & (a.time < a.mission["phases"]["lift_start"])
     flying = (a.time > max(off, other_off) + 1.0) & (a.time < min(down, other_down))
     height = float(np.abs(a["position"] - b["position"])[standing, 2].max())
-    carried = differences(a, b, standing)["joint_force"]
+    carried = largest_difference(a, b, standing)["joint_force"]
     yield Row(f"{title}, standing", "height [m]", height, HEIGHT)
     yield Row(f"{title}, standing", "joint force [N]", carried, CARRIED)
     yield Row(title, "time of take-off [s]", abs(off - other_off), TIME[engine])
     yield Row(title, "time of touch-down [s]", abs(down - other_down), TIME[engine])
-    yield from rows_of(f"{title}, in the air", differences(a, b, flying), FELT[engine])
+    yield from rows_of(f"{title}, in the air", largest_difference(a, b, flying), FELT[engine])
 
 
 def all_rows(engine: str) -> Iterator[Row]:
@@ -173,7 +174,7 @@ def all_rows(engine: str) -> Iterator[Row]:
         "`four`, 30 s": ("four", {}),
     }
     for title, (name, changes) in flown.items():
-        yield from rows_of(title, differences(*both(engine, name, HALF_MINUTE | changes)), free)
+        yield from rows_of(title, largest_difference(*both(engine, name, HALF_MINUTE | changes)), free)
     yield from with_floor(engine, "iris")
     yield from with_floor(engine, "gusts")
 

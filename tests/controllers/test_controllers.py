@@ -7,9 +7,9 @@ import pytest
 from repository import ROOT
 
 import tandemlift as tl
+from tandemlift.algebra.layout import flat
 from tandemlift.controllers import CONTROLLERS, controller, load_controller
 from tandemlift.controllers import control as control_law
-from tandemlift.trace import flat
 
 GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
 FILES = dict(re.findall(r"<!-- (\S+) -->\n```python\n(.*?)```", GUIDE, re.DOTALL))

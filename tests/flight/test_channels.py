@@ -5,6 +5,7 @@ import pytest
 from repository import ROOT
 
 import tandemlift as tl
+from tandemlift.algebra.layout import leaves
 from tandemlift.algebra.vector import Nothing
 from tandemlift.flight.channel_tables import with_tables
 from tandemlift.flight.channels import CHANNELS, DERIVED
@@ -23,7 +24,6 @@ from tandemlift.loop.log_sample import (
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of
-from tandemlift.trace import leaves
 
 GROUPS = {
     "actuators": ActuatorChannels,

@@ -11,9 +11,9 @@ from law_values import flat, rebuilt
 from machine_code import answers
 
 import tandemlift as tl
+from tandemlift.algebra.layout import leaves
 from tandemlift.loop.step import FlightModel, StepInputs, step_flight
 from tandemlift.simulation.assemble import assemble
-from tandemlift.trace import leaves
 
 IDEAL: dict[str, dict[str, Any]] = {
     "tanh, hard gate, zero derivatives, exact rates, exact tilt, cubic, diagonal inertia, central pushes": {},

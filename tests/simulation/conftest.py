@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
 from tandemlift.kernels import COMMAND
-from tandemlift.trace import flat, leaves, unflat
 from tandemlift.trace.functions import compiled
 
 SIZE = leaves(COMMAND)

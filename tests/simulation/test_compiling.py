@@ -16,7 +16,7 @@ from tandemlift.algebra.law import LAWS
 from tandemlift.kernels import LANES
 from tandemlift.missions import built_in
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.trace import key, machine
+from tandemlift.trace import machine, store
 from tandemlift.trace.store import key_of, sources
 
 PACKAGE = Path(tl.__file__).parent
@@ -65,13 +65,13 @@ print(len(made), flight["thrust"].sum().hex(), tl.__file__)
 
 def test_an_edit_of_any_source_changes_the_key(monkeypatch):
     value = FlightPlan(tl.load_mission("one-push")).flying
-    before, content = key_of(value), key.content
+    before, content = key_of(value), store.content
     assert len(sources(value)) > 80
     for path in sources(value):
         edit = lambda p, edited=path: content(p) + b"#" * (p == edited)  # noqa: E731
-        monkeypatch.setattr(key, "content", edit)
+        monkeypatch.setattr(store, "content", edit)
         assert key_of(value) != before
-    monkeypatch.setattr(key, "content", content)
+    monkeypatch.setattr(store, "content", content)
     assert key_of(value) == before
 
 
@@ -100,7 +100,7 @@ def test_other_versions_another_processor_and_another_layout_have_other_keys(mon
     keys = [key_of(paper), key_of(other), key_of(paper, "loop", 8)]
     monkeypatch.setattr(machine, "processor", lambda: ("another", "+fma"))
     keys.append(key_of(paper))
-    monkeypatch.setattr(key.metadata, "version", lambda name: "0.0.0")
+    monkeypatch.setattr(store.metadata, "version", lambda name: "0.0.0")
     keys.append(key_of(paper))
     assert len(set(keys)) == len(keys)
 

@@ -7,6 +7,7 @@ import pytest
 from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 
 import tandemlift as tl
+from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.algebra.vector import ZERO
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN
 from tandemlift.laws.mechanics.push import PushSamples, push_at
@@ -19,7 +20,6 @@ from tandemlift.laws.signals.random_numbers import normals
 from tandemlift.loop.step import StepInputs, finish_step, run_pilot, with_person
 from tandemlift.pilot.pilot import with_allocation
 from tandemlift.simulation.assemble import assemble
-from tandemlift.trace import leaves, unflat
 
 
 def different(a: tl.Flight, b: tl.Flight) -> list[str]:

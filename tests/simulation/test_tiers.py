@@ -8,10 +8,11 @@ from flights import different, lanes
 from patience import COMPILING
 
 import tandemlift as tl
+from tandemlift.algebra.layout import leaves
 from tandemlift.kernels import LANES, FlightMemory
 from tandemlift.simulation import fly, plan
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.trace import code, leaves, store
+from tandemlift.trace import code, store
 
 
 @pytest.fixture

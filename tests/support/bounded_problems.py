@@ -13,6 +13,7 @@ import pytest
 from law_values import BEAM, quadrotor
 from scipy.optimize import lsq_linear
 
+from tandemlift.algebra.layout import flat
 from tandemlift.algebra.vector import each, vec3
 from tandemlift.kernels.limit_solver import write_solver
 from tandemlift.kernels.traced_step import TracedSolver
@@ -20,7 +21,7 @@ from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.laws.rotors.normal_equations import GAMMA
 from tandemlift.laws.rotors.thrust_limits import BoundedProblem
-from tandemlift.trace import Function, Module, Place, flat
+from tandemlift.trace import Function, Module, Place
 from tandemlift.trace.machine import BEST, QUICK, Loaded
 from tandemlift.trace.machine import compiled as object_code
 from tandemlift.vehicle import Vehicle

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.trace import Function, Graph, Module, flat, leaves, rebuilt, symbols
+from tandemlift.algebra.layout import flat, leaves, rebuilt
+from tandemlift.trace import Function, Graph, Module, symbols
 from tandemlift.trace.functions import compiled
 from tandemlift.trace.fused import fused
 from tandemlift.trace.machine import BEST, Level, Loaded

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.algebra.layout import leaves
 from tandemlift.algebra.vector import ZERO
 from tandemlift.laws.mechanics.push import SUPPORT, GaussianPush
 from tandemlift.laws.mechanics.wind import Gust
-from tandemlift.trace import leaves
 
 LANES = 8
 SPAN = 16  # steps

@@ -6,6 +6,7 @@ one part to the next, and the values that are constant within a flight, which ar
 
 from __future__ import annotations
 
+from tandemlift.algebra.layout import leaves
 from tandemlift.kernels.context import AT, MEMORY, POINTERS, ScratchLayout
 from tandemlift.kernels.external_inputs import HALVES, SPAN
 from tandemlift.kernels.limit_solver import write_limits, write_solver
@@ -14,7 +15,7 @@ from tandemlift.kernels.precompute import write_draw, write_gust, write_push, wr
 from tandemlift.kernels.scratch import ScratchValues, steady
 from tandemlift.kernels.step_output import write_next_state, write_sample
 from tandemlift.kernels.traced_step import Symbols, TracedStep
-from tandemlift.trace import Function, Module, Place, Symbol, double, leaves
+from tandemlift.trace import Function, Module, Place, Symbol, double
 
 ARGUMENTS = "ptr %c, ptr %flying, ptr %work"
 UNIFORM = ("t", "dt", "when", "opens", "closes", "number")

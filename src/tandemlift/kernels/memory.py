@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.algebra.layout import flat
 from tandemlift.kernels.context import AT, WORDS, aligned
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
 from tandemlift.laws.mechanics.rectangle import WALL
 from tandemlift.laws.person.person import PATH_LEG
-from tandemlift.trace import flat
 from tandemlift.trace.code import Code
 
 Numbers = NDArray[np.float64]

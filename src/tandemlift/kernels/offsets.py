@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.algebra.layout import leaves
 from tandemlift.algebra.vector import Nothing
-from tandemlift.trace import leaves
 
 
 class LeafSpan(NamedTuple):

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from tandemlift.algebra.layout import flat, leaves
 from tandemlift.kernels.context import MEMORY
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, HALVES, SPAN
 from tandemlift.kernels.offsets import leaf_offset
 from tandemlift.kernels.traced_step import Symbols
 from tandemlift.laws.mechanics.rectangle import WALL
 from tandemlift.laws.person.person import PATH_LEG
-from tandemlift.trace import Function, Place, double, flat, leaves
+from tandemlift.trace import Function, Place, double
 
 if TYPE_CHECKING:
     from tandemlift.kernels.loops import LoopWriter

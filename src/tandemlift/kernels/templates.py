@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.algebra.layout import zeroed
 from tandemlift.algebra.vector import ZERO, Nothing, Quat
 from tandemlift.controllers import Command, Measured, Reference, control
 from tandemlift.laws.mechanics.body import State, Wrench
@@ -11,7 +12,6 @@ from tandemlift.laws.person.person import Person
 from tandemlift.laws.rotors.allocation import ConstrainedAllocation
 from tandemlift.laws.signals.trajectories import Trajectory
 from tandemlift.loop.step import FlightModel, StepInputs, actuate, advance, finish_sample, run_pilot, with_person
-from tandemlift.trace import zeroed
 
 COMMAND = Command(Wrench(0.0, ZERO), ZERO)
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any, NamedTuple
 
+from tandemlift.algebra.layout import leaves
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, layout, total
 from tandemlift.controllers import control
@@ -39,7 +40,7 @@ from tandemlift.loop.step import (
     with_person,
 )
 from tandemlift.pilot.pilot import control_input, with_allocation, with_command, with_thrusts
-from tandemlift.trace import Graph, Symbol, TraceError, leaves, refused, symbols, traced, written_out
+from tandemlift.trace import Graph, Symbol, TraceError, refused, symbols, traced, written_out
 
 Symbols = list[Symbol]
 MANY = 5  # quadrotors from which on sets are arrays in memory, and operations on them loops

@@ -11,13 +11,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.algebra.layout import flat, rebuilt
 from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.common.types import Array
 from tandemlift.rendering.camera import View
 from tandemlift.rendering.light import HAZE, SKYLIGHT, SUN, SUNLIGHT, ZENITH, Shadow
 from tandemlift.rendering.mesh import linear
 from tandemlift.rendering.pixels import LANES, Pixels, array, columns, store_where
-from tandemlift.trace import Function, Graph, flat, rebuilt
+from tandemlift.trace import Function, Graph
 from tandemlift.trace.elementary import exp, maximum, minimum, sqrt, to_integer, where
 from tandemlift.trace.elementary import floor as rounded_down
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.algebra.layout import flat, leaves
 from tandemlift.algebra.vector import ZERO, Nothing, mat3, spread, vec3
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
 from tandemlift.laws.mechanics.air_drag import AirDrag
@@ -19,7 +20,6 @@ from tandemlift.laws.mechanics.wind import Gust, Wind
 from tandemlift.laws.person.person import PATH_LEG, PathLeg
 from tandemlift.loop.wind_loads import WindModel
 from tandemlift.settings import Mission
-from tandemlift.trace import flat, leaves
 from tandemlift.vehicle import Vehicle
 
 LEAST_AIRSPEED = 0.5  # m/s, at which turbulence passes in still air

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Literal
 
+from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
 from tandemlift.engines.registry import engine_named
@@ -22,7 +23,6 @@ from tandemlift.simulation.parameter_changes import changes_in_flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
 from tandemlift.simulation.stepping import body_in, fly_stepwise
-from tandemlift.trace import leaves, unflat
 from tandemlift.trace.compile_events import Stopped, always
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.algebra.layout import flat, leaves
 from tandemlift.algebra.vector import Nothing, layout
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
@@ -21,7 +22,6 @@ from tandemlift.missions import in_turn
 from tandemlift.missions.recording import read_recording
 from tandemlift.settings import Mission
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.trace import flat, leaves
 
 STEADY = {"changes": ()}
 LATER = "is chosen before a flight begins, and cannot be changed in flight"

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from tandemlift.algebra.layout import flat, leaves
 from tandemlift.algebra.vector import ZERO, Nothing, Quat
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
@@ -18,7 +19,6 @@ from tandemlift.laws.mechanics.body import State
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.pilot.pilot import PilotInput
 from tandemlift.settings import Mission
-from tandemlift.trace import flat, leaves
 from tandemlift.trace.code import Code
 from tandemlift.trace.store import key_of
 from tandemlift.vehicle import Vehicle

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.algebra.layout import flat
 from tandemlift.algebra.vector import ZERO, each, layout
 from tandemlift.controllers import NoMemory, control
 from tandemlift.flight.record import LATE
@@ -15,7 +16,6 @@ from tandemlift.kernels import FlightStart, Kernels, PythonController, TimeGrid
 from tandemlift.laws.person.caller_inputs import CallerInput
 from tandemlift.settings import Mission
 from tandemlift.simulation.assemble import assemble
-from tandemlift.trace import flat
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 

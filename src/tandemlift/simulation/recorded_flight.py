@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Array
@@ -29,7 +30,6 @@ from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_c
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_in
-from tandemlift.trace import flat, leaves, unflat
 
 MISSION, HAND, FLIGHT = "recorded.toml", "hand.npz", "flight.npz"
 

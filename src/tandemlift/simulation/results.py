@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
 from tandemlift.common.phases import IDLE, PHASE_NAMES
@@ -25,7 +26,6 @@ from tandemlift.loop.step import FAR, SIN_ROLL_LIMIT, FlightModel, FlightState
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.trace import flat, leaves, unflat
 
 
 @dataclass

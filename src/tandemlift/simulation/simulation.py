@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
@@ -23,7 +24,6 @@ from tandemlift.settings import Mission
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, channels_of, divergence_of, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_in
-from tandemlift.trace import leaves, unflat
 
 FORCE, POINT, THRUSTS = (
     slice(0, 3),

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.algebra.vector import layout
 from tandemlift.common.types import Array, Progress
 from tandemlift.controllers import control
@@ -20,7 +21,6 @@ from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, take_metrics
-from tandemlift.trace import flat, leaves, unflat
 from tandemlift.trace.compile_events import Stopped, always
 from tandemlift.vehicle import Vehicle
 

@@ -1,13 +1,13 @@
 """The compiler of the laws: it traces them into a graph and makes machine code of the graph.
 
-`symbol` and `graph` build the graph, and turn nested values into flat arrays; `fused` makes the copy of a law that is
-traced; `elementary` has the functions without a machine instruction; `llvm` writes the graph as text; `machine`
-compiles the text; `code` manages machine code in two tiers; `store` keeps it on disk.
+`symbol` and `graph` build the graph; `fused` makes the copy of a law that is traced; `elementary` has the functions
+without a machine instruction; `llvm` writes the graph as text; `machine` compiles the text; `code` manages machine code
+in two tiers; `store` keeps it on disk.
 """
 
 from tandemlift.trace import elementary  # `ops` imports it for symbols
 from tandemlift.trace.fused import traced
-from tandemlift.trace.graph import LEAVES, Graph, flat, is_value, leaves, rebuilt, symbols, unflat, written_out, zeroed
+from tandemlift.trace.graph import LEAVES, Graph, symbols, written_out
 from tandemlift.trace.llvm import Function
 from tandemlift.trace.refusal import TraceError, refused
 from tandemlift.trace.rolled import Place
@@ -24,14 +24,8 @@ __all__ = [
     "TraceError",
     "double",
     "elementary",
-    "flat",
-    "is_value",
-    "leaves",
-    "rebuilt",
     "refused",
     "symbols",
     "traced",
-    "unflat",
     "written_out",
-    "zeroed",
 ]

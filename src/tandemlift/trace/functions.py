@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.algebra.layout import leaves
 from tandemlift.common.types import Array
 from tandemlift.trace import machine
 from tandemlift.trace.fused import traced
-from tandemlift.trace.graph import Graph, leaves, symbols
+from tandemlift.trace.graph import Graph, symbols
 from tandemlift.trace.llvm import Function
 from tandemlift.trace.rolled import Place
 from tandemlift.trace.text import Module

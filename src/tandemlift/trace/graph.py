@@ -3,8 +3,7 @@
 A node is (operation, arguments, type). Equal nodes are one node, so nothing is computed twice. Types: `f` a double, `b`
 a truth, `i` a 64-bit integer. A large set of numbers is one node with a count.
 
-A nested value (a NamedTuple of numbers and NamedTuples) has its numbers in a flat array, depth first. Leaf i of lane l
-of `lanes` interleaved values is a[i * lanes + l].
+Leaf i of lane l of `lanes` interleaved values (`algebra.layout`) is a[i * lanes + l].
 """
 
 from __future__ import annotations
@@ -13,42 +12,13 @@ import struct
 from collections.abc import Container, Iterable
 from typing import Any
 
+from tandemlift.algebra.layout import is_value, leaves
 from tandemlift.algebra.vector import each, is_set
 from tandemlift.trace.refusal import refused_here
 from tandemlift.trace.symbol import Symbol
 
 MOST_NODES = 1_000_000
 LEAVES = ("const", "in")
-
-
-def is_value(x: Any) -> bool:
-    """Whether x is a nested value rather than a number."""
-    return hasattr(x, "_fields")
-
-
-def flat(value: Any) -> list[float]:
-    """The numbers of a nested value, depth first."""
-    return [number for part in value for number in flat(part)] if is_value(value) else [float(value)]
-
-
-def leaves(value: Any) -> int:
-    """Number of leaves of a nested value."""
-    return sum(map(leaves, value)) if is_value(value) else 1
-
-
-def zeroed(value: Any) -> Any:
-    """The same nested value with every number 0.0: the layout alone."""
-    return type(value)(*map(zeroed, value)) if is_value(value) else 0.0
-
-
-def unflat(numbers: Any, like: Any) -> Any:
-    """A nested value laid out like `like` with these numbers, as Python floats."""
-    return rebuilt(map(float, numbers), like)
-
-
-def rebuilt(leaves: Any, like: Any) -> Any:
-    """A nested value laid out like `like`, made of the next leaves of an iterator."""
-    return type(like)(*[rebuilt(leaves, part) for part in like]) if is_value(like) else next(leaves)
 
 
 class Graph:

@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import LAWS
-from tandemlift.trace.graph import is_value
+from tandemlift.algebra.layout import is_value
 from tandemlift.trace.refusal import is_ours
 
 MAGIC = b"tandemlift machine code 1\n"

@@ -10,13 +10,13 @@ from law_values import flat, random_state, random_vec3, rebuilt
 from newton_euler import paper_parts
 from perceived import HISS, STEP, Happening, Onboard, onboard, perceived, step
 
+from tandemlift.algebra.layout import flat as floats
 from tandemlift.algebra.vector import ZERO, spread
 from tandemlift.laws.estimation.navigation import navigator
 from tandemlift.laws.estimation.push_estimate import push_estimator
 from tandemlift.laws.mechanics.loads import PerfectReadings
 from tandemlift.laws.sensors.noise_bias_drift import SensorGrade
 from tandemlift.laws.sensors.readings import sensors
-from tandemlift.trace import flat as floats
 
 BATCH = 6
 P = paper_parts()

@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
+from tandemlift.algebra.layout import flat, unflat
 from tandemlift.algebra.ops import sqrt
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, rigid_body_motion
@@ -32,7 +33,6 @@ from tandemlift.laws.mechanics.contact import (
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, resultant
 from tandemlift.laws.mechanics.push import CentralPush
 from tandemlift.models.parts_layout import parts_layout_from
-from tandemlift.trace import flat, unflat
 from tandemlift.vehicle import Vehicle
 
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.algebra.layout import flat
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples, push_moment
 from tandemlift.laws.person.caller_inputs import CallerInput, commanded_thrusts, with_caller_push
 from tandemlift.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.trace import flat
 
 FORCE, POINT = Vec3(1.0, -2.0, 0.5), Vec3(0.1, 0.8, -0.06)
 TILTED = Quat(0.8, 0.36, -0.48, 0.0)

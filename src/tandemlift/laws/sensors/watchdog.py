@@ -184,7 +184,14 @@ def start_watchdog(readings: Readings) -> WatchdogState:
         rates=ZERO,
         velocity=v.velocity,
         mean=MeanBiases(ZERO, ZERO, -SETTLING_TIME),
-        inconsistency=Inconsistency(ZERO, ZERO, ZERO, v.attitude, v.position, v.velocity),
+        inconsistency=Inconsistency(
+            attitude=ZERO,
+            position=ZERO,
+            velocity=ZERO,
+            integrated_attitude=v.attitude,
+            integrated_position=v.position,
+            integrated_velocity=v.velocity,
+        ),
     )
 
 

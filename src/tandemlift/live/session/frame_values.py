@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.algebra.layout import leaves
 from tandemlift.common.phases import GUIDED, LAND, LIFT
 from tandemlift.common.types import Array
 from tandemlift.simulation.results import channels_of
-from tandemlift.trace import leaves
 
 MIN_PUSH = 1e-9  # N, below which a push has no point of action
 CHANNELS = {  # of each field: the channels that it may come from, the best first

@@ -1,0 +1,35 @@
+"""Nested values (NamedTuples of numbers and NamedTuples) as flat arrays of numbers, depth first."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def is_value(x: Any) -> bool:
+    """Whether x is a nested value rather than a number."""
+    return hasattr(x, "_fields")
+
+
+def flat(value: Any) -> list[float]:
+    """The numbers of a nested value, depth first."""
+    return [number for part in value for number in flat(part)] if is_value(value) else [float(value)]
+
+
+def leaves(value: Any) -> int:
+    """Number of leaves of a nested value."""
+    return sum(map(leaves, value)) if is_value(value) else 1
+
+
+def zeroed(value: Any) -> Any:
+    """The same nested value with every number 0.0: the layout alone."""
+    return type(value)(*map(zeroed, value)) if is_value(value) else 0.0
+
+
+def unflat(numbers: Any, like: Any) -> Any:
+    """A nested value laid out like `like` with these numbers, as Python floats."""
+    return rebuilt(map(float, numbers), like)
+
+
+def rebuilt(leaves: Any, like: Any) -> Any:
+    """A nested value laid out like `like`, made of the next leaves of an iterator."""
+    return type(like)(*[rebuilt(leaves, part) for part in like]) if is_value(like) else next(leaves)
