@@ -12,14 +12,11 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.cli.main import main
 from tandemlift.common.phases import PHASE_NAMES
-from tandemlift.figures.drawing.style import save
-from tandemlift.figures.registry import save_figures
-from tandemlift.figures.views import draw
 from tandemlift.gazebo_app.camera_views import views_from
 from tandemlift.missions import tables_of
 from tandemlift.models.cameras import FixedCamera, add_cameras
 from tandemlift.models.sdf import world
-from tandemlift.report.flight_report import write_report
+from tandemlift.report.flight_files import write_flight_files
 
 STANDS, FLIES, LANDS = 5.0, 25.0, 30.0  # s
 
@@ -90,14 +87,14 @@ def picture(color):
 
 def test_pictures_are_drawn_side_by_side_and_come_first_in_the_report(flight, tmp_path):
     colors = ("red", "lime", "blue", "yellow")
-    path = save(draw([(f"view {c}", picture(c)) for c in colors]), tmp_path / "views.png")
+    whole = tl.fly(tl.load_mission("paper", {"mission.duration": 1.0}))
+    write_flight_files(whole, tmp_path, photographs=[(f"view {c}", picture(c)) for c in colors])
+    path = tmp_path / "figures" / "views.png"
     drawn = matplotlib.image.imread(path)[:, :, :3]
     high, wide = drawn.shape[:2]
     middles = [drawn[int(y * high), int(x * wide)] for y in (0.3, 0.8) for x in (0.25, 0.75)]
     assert np.array(middles) == pytest.approx(np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0]]), abs=0.03)
-    whole = tl.fly(tl.load_mission("paper", {"mission.duration": 1.0}))
-    save_figures(whole, tmp_path)
-    text = write_report(whole, tmp_path, tmp_path / "report.html").read_text("utf-8")
+    text = (tmp_path / "report.html").read_text("utf-8")
     assert text.index("Figure 1. Photographs") < text.index("Figure 2. Reference")
 
 

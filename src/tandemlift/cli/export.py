@@ -49,7 +49,9 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
     model = exporting.is_model(path)
     _, saved = flight_file(flight_or_mission)
     if settings and (saved or not model):
-        raise InputError("--set changes a mission that is written to FILE.sdf or FILE.xml; a flight stays as it was")
+        raise InputError(
+            "--set is for a mission that is written to FILE.sdf or FILE.xml; a saved flight stays as it was"
+        )
     if not saved and not model:
         raise InputError(f"{flight_or_mission} is no saved flight: give flight.npz or the folder of a run")
     what = _flight(saved) if saved else load(flight_or_mission, settings)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,7 +20,7 @@ from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
-    from tandemlift.gazebo_app.flying import GazeboSession, Photo
+    from tandemlift.gazebo_app.flying import GazeboSession
     from tandemlift.missions import Mission
 
 Photographs = list[tuple[str, bytes]]
@@ -99,7 +99,7 @@ def _has_display() -> bool:
 
 
 def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool) -> tuple[Flight, Photographs]:
-    """Fly a mission to its end; the flight, and its photographs if requested."""
+    """Fly a mission to its end; the flight, and its photographs if requested, each with its title."""
     from tandemlift.gazebo_app.camera_views import views_from
     from tandemlift.gazebo_app.flying import running_gazebo
     from tandemlift.simulation.fly import fly
@@ -115,12 +115,7 @@ def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool)
                     progress(done, total)
 
             flight = fly(mission, "gazebo", progress=take_photographs)
-        return flight, _titled(gazebo.photos)
-
-
-def _titled(photos: Sequence[Photo]) -> Photographs:
-    """Title and JPEG of each photograph."""
-    return [(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in photos]
+        return flight, [(f"{p.view.title}, {p.view.time:.0f} s", p.jpeg) for p in gazebo.photos]
 
 
 def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:

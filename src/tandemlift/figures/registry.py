@@ -6,6 +6,7 @@ The drawing library is loaded when the figures are asked for, not when this file
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -81,3 +82,10 @@ def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progr
         if progress:
             progress(done, len(drawn))
     return written
+
+
+def save_photographs(photographs: Sequence[tuple[str, bytes]], folder: Path) -> Path:
+    """Write photographs, title and JPEG of each, as one figure in a folder, which is made if it does not exist."""
+    from tandemlift.figures import views
+
+    return save_figure(views.draw(photographs), folder / f"{VIEWS}.png")

@@ -23,7 +23,6 @@ from tandemlift.live.session.scene_builder import scene_of_tables
 from tandemlift.live.wire.frames import RATE, layout_for, pack_frames
 from tandemlift.live.wire.scene import FlightScene, SceneReplay
 from tandemlift.rendering.stage import FlightStage
-from tandemlift.vehicle import Vehicle
 
 MAX_FRAMES = 36_000  # ten minutes at the full rate; a longer flight has fewer frames a second
 OFFLINE = (
@@ -41,13 +40,12 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
         InputError: nothing of the flight can be shown.
     """
     stage = FlightStage(flight)
-    vehicle = Vehicle.from_mission(flight.mission)
     shown = np.flatnonzero(np.isin(flight.time, stage.time))
     shown = shown[:: _stride(flight.time[shown])]
     channels = {name: flight[name][shown] for name in flight.channels}
     values = field_values(channels, flight.time[shown], flight.mission["phases"])
-    frames = pack_frames(layout_for(vehicle.rotor_count), values, len(shown))
-    scene = scene_of_tables(flight.mission, vehicle, flight.version.get("engine", ""), stage.floor)
+    frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(shown))
+    scene = scene_of_tables(flight.mission, stage.vehicle, flight.version.get("engine", ""), stage.floor)
     scene["replay"] = SceneReplay(start=float(flight.time[shown[0]]), end=float(flight.time[shown[-1]]), speed=1)
     return scene, frames
 

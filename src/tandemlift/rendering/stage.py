@@ -36,6 +36,7 @@ class FlightStage:
         name: of the flight.
         path: of the centre of mass at these times (T, 3) [m].
         floor: its height z [m].
+        vehicle: that is seen.
         reach: of the vehicle from its centre of mass [m].
 
     Raises:
@@ -52,10 +53,10 @@ class FlightStage:
         self.path, self._attitudes = flight["position"][sound], _unbroken(flight["attitude"][sound])
         self._pushes, self._moments = flight["push_force"][sound], flight["push_moment"][sound]
         self._strongest = float(np.linalg.norm(self._pushes, axis=1).max())
-        vehicle = Vehicle.from_mission(flight.mission)
-        self._aircraft = aircraft(vehicle)
+        self.vehicle = Vehicle.from_mission(flight.mission)
+        self._aircraft = aircraft(self.vehicle)
         self.reach = self._aircraft.reach
-        self.floor = self._floor_of(flight.mission, vehicle)
+        self.floor = self._floor_of(flight.mission, self.vehicle)
         self._walls = [_wall(w, self.floor) for w in wall_tables(flight.mission)]
 
     def _floor_of(self, mission: dict[str, Any], vehicle: Vehicle) -> float:

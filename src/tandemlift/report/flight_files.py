@@ -5,11 +5,10 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Progress
-from tandemlift.figures.registry import VIEWS, captions, save_figure, save_figures
+from tandemlift.figures.registry import captions, save_figures, save_photographs
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import write_report
@@ -43,11 +42,5 @@ def write_flight_files(
     if figures:
         save_figures(flight, folder / "figures", progress)
     if photographs:
-        save_figure(_drawn(photographs), folder / "figures" / f"{VIEWS}.png")
+        save_photographs(photographs, folder / "figures")
     write_report(flight, folder / "figures", folder / "report.html")
-
-
-def _drawn(photographs: Sequence[tuple[str, bytes]]) -> Any:
-    from tandemlift.figures.views import draw
-
-    return draw(photographs)
