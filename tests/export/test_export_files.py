@@ -149,7 +149,7 @@ def test_what_cannot_be_written_leaves_what_was_there(ending, flight, tmp_path, 
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(bags, "_write", full)
-    monkeypatch.setattr("tandemlift.export.table.headings", full)
+    monkeypatch.setattr("tandemlift.export.csv_file.headings", full)
     assert "cannot be written: No space left on device" in refusal(flight, old)
     assert old.read_text() == "mine"
     assert sorted(p.name for p in tmp_path.iterdir()) == [f"folder.{ending}", old.name]

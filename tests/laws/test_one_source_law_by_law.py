@@ -25,13 +25,13 @@ from tandemlift.algebra.vector import (
     outer,
 )
 from tandemlift.controllers import equations_of_motion, sliding_surface
-from tandemlift.laws.estimation import fault_decision, rotor_loss_detection, wind_compensation
+from tandemlift.laws.estimation import rotor_loss_decision, rotor_loss_detection, wind_compensation
 from tandemlift.laws.guidance import admittance, guidance
 from tandemlift.laws.mechanics import contact, loads, parts, rotation, tilt, walls
-from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, motion
 from tandemlift.laws.mechanics.inertia import gyroscopic
 from tandemlift.laws.mechanics.push import PointPush
-from tandemlift.laws.mechanics.rectangle import Wall
+from tandemlift.laws.mechanics.rigid_body import RigidBody, State, Wrench, motion
+from tandemlift.laws.mechanics.wall_geometry import Wall
 from tandemlift.laws.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
 from tandemlift.laws.signals import low_pass, trajectories
 
@@ -62,10 +62,10 @@ ROTORS = rotors.Rotors(
 FOURS, LOW = each(4)(*[0.0] * 4), low_pass.LowPass(*[0.0] * 4)
 SMOOTH, SMOOTHS = low_pass.LowPassState(FOURS, FOURS), low_pass.LowPassState(EIGHT, EIGHT)
 DETECTION = rotor_loss_detection.RotorLossDetection(
-    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, fault_decision.DecisionRules(*[0.0] * 6)
+    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, rotor_loss_decision.DecisionRules(*[0.0] * 6)
 )
 WATCHING = rotor_loss_detection.DetectionState(
-    *[SMOOTHS] * 2, *[SMOOTH] * 4, fault_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
+    *[SMOOTHS] * 2, *[SMOOTH] * 4, rotor_loss_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
 )
 HEARD = guidance.PilotInput(STATE, V, V, 0.0, Nothing())
 BLOWN = wind_compensation.PayloadDragState(V, 0.0, low_pass.LowPassState(V, V))

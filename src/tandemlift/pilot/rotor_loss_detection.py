@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.vector import Nothing, each
-from tandemlift.laws.estimation.fault_decision import DecisionRules, DecisionState
+from tandemlift.laws.estimation.rotor_loss_decision import DecisionRules, DecisionState
 from tandemlift.laws.estimation.rotor_loss_detection import FOUR, START_SCATTER, DetectionState, RotorLossDetection
 from tandemlift.laws.mechanics.inertia import inertia_value
 from tandemlift.laws.rotors.allocation import Mixer

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from tandemlift.common.types import Array
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, quaternions, to_world
+from tandemlift.export.coordinate_frames import ALIGNED, BASE, WORLD, quaternions, to_world
 from tandemlift.export.messages import MessageTypes
 from tandemlift.live.session.frame_values import points_of
 from tandemlift.models.visuals import PUSH_COLOR, VisualShape, payload_shapes, quadrotor_shapes, wall_shape
-from tandemlift.ros.drawing import MARKERS, MarkerWriter
+from tandemlift.ros.markers import MARKERS, MarkerWriter
 from tandemlift.vehicle import Vehicle
 
 GROUND, LINE = "#ffffff", "#c3c9d1"

@@ -10,7 +10,7 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, vec3
 from tandemlift.laws.estimation.rotor_loss_detection import confirmed, detection_step, left_of, with_trials
 from tandemlift.laws.guidance.guidance import PilotInput
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.rotors.allocation import mixer_from
 from tandemlift.missions import load_mission
 from tandemlift.pilot.rotor_loss_detection import start_detection

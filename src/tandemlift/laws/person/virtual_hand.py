@@ -15,8 +15,8 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, Vec3, outer
 from tandemlift.laws.guidance.requests import OperatorRequest, operator_request
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import PointPush, PushSamples
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.person import PersonOutput, bounded, landing_request, person_step, person_view
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 

@@ -9,7 +9,7 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Vec3, dot, each
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
 
 
@@ -23,7 +23,7 @@ class Mixer(NamedTuple):
 
 
 class ConstrainedAllocation(NamedTuple):
-    """Allocation within limits: the pseudo-inverse, and the problem that `thrust_limits` solves where it exceeds them.
+    """Allocation within limits: the pseudo-inverse, and the problem of `thrust_limit_solver` where it exceeds them.
 
     `rows` and `weights` of the weighted problem, `limits` [N] of all rotors, and the faults `known` to the pilot.
     """
