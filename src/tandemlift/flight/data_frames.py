@@ -7,15 +7,47 @@ import importlib.util
 import itertools
 import json
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from tandemlift.common.errors import InputError
-
-if TYPE_CHECKING:
-    from tandemlift.flight.channels import Channel
-    from tandemlift.flight.record import Flight
+from tandemlift.common.types import Array
+from tandemlift.flight.channels import Channel
 
 NUMBERED = ("rotor", "quadrotor")  # dimensions whose labels are numbers that say nothing alone
+
+
+class LoggedFlight(Protocol):
+    """What a table takes of a `Flight`."""
+
+    @property
+    def name(self) -> str:
+        """The mission's name."""
+
+    @property
+    def time(self) -> Array:
+        """Times of the samples [s] (T,)."""
+
+    @property
+    def channels(self) -> dict[str, Array]:
+        """The channels by name."""
+
+    @property
+    def mission(self) -> dict[str, Any]:
+        """The tables of the resolved mission."""
+
+    @property
+    def divergence(self) -> Any:
+        """Why the flight ended early, or None."""
+
+    @property
+    def version(self) -> dict[str, str]:
+        """Versions of what flew it."""
+
+    def info(self, name: str) -> Channel:
+        """Unit, frame and meaning of a channel."""
+
+    def metrics(self) -> dict[str, Any]:
+        """The metrics of the flight."""
 
 
 class Dimension(NamedTuple):
@@ -54,7 +86,7 @@ def _components(frame: str, width: int) -> tuple[Dimension, ...]:
     return (Dimension("component", tuple(range(1, width + 1))),)
 
 
-def columns(flight: Flight) -> Iterator[tuple[str, Channel, Any]]:
+def columns(flight: LoggedFlight) -> Iterator[tuple[str, Channel, Any]]:
     """Name, channel and values (T,) of every number of every channel."""
     for name, values in flight.channels.items():
         info = flight.info(name)
@@ -71,7 +103,7 @@ def _part(dimension: str, label: Any) -> str:
     return f"{dimension}_{label}" if dimension in NUMBERED else str(label)
 
 
-def to_pandas(flight: Flight) -> Any:
+def to_pandas(flight: LoggedFlight) -> Any:
     """See `Flight.to_pandas`."""
     pandas = _package("pandas", "to_pandas")
     found = list(columns(flight))
@@ -87,7 +119,7 @@ def to_pandas(flight: Flight) -> Any:
     return frame
 
 
-def to_xarray(flight: Flight) -> Any:
+def to_xarray(flight: LoggedFlight) -> Any:
     """See `Flight.to_xarray`."""
     xarray = _package("xarray", "to_xarray")
     variables = dict[str, Any]()
@@ -107,7 +139,7 @@ def _attributes(info: Channel) -> dict[str, str]:
     return {name: text for name, text in given.items() if text}
 
 
-def _record(flight: Flight) -> dict[str, str]:
+def _record(flight: LoggedFlight) -> dict[str, str]:
     """What a flight holds besides channels, as texts: mission, metrics and versions in JSON."""
     tables = {"mission": flight.mission, "metrics": flight.metrics(), "version": flight.version}
     texts = {name: json.dumps(table, allow_nan=False) for name, table in tables.items()}

@@ -21,7 +21,7 @@ from tandemlift.algebra.law import LAWS, Choice, Elementwise
 from tandemlift.algebra.ops import PRIMITIVES
 from tandemlift.common.errors import InputError
 from tandemlift.trace.refusal import is_ours, refused
-from tandemlift.trace.symbol import fma
+from tandemlift.trace.symbol import Symbol, fma
 
 FMA = "_fma_"
 ONE_AT_A_TIME = threading.RLock()
@@ -112,9 +112,7 @@ def fused(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _elementary(name: str) -> Callable[..., Any]:
-    from tandemlift.trace import elementary  # which uses fused functions itself
-
-    return getattr(elementary, name)
+    return getattr(Symbol.functions, name)
 
 
 PRIMITIVE = {operation: operation.__name__[1:] for operation in PRIMITIVES}

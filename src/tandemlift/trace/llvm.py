@@ -12,9 +12,9 @@ from contextlib import contextmanager
 from typing import Any
 
 from tandemlift.trace.graph import LEAVES, Graph
-from tandemlift.trace.rolled import Place, Sets
+from tandemlift.trace.rolled import GraphText, Place, Sets
 from tandemlift.trace.symbol import Symbol
-from tandemlift.trace.text import BASE, Module, Text, constant
+from tandemlift.trace.text import BASE, Module, constant
 
 BINARY = frozenset(["fadd", "fsub", "fmul", "fdiv", "add", "sub", "mul", "and", "or", "xor", "shl", "ashr"])
 INTRINSICS = {"fma": "fma", "sqrt": "sqrt", "fabs": "fabs", "floor": "floor"}
@@ -22,7 +22,7 @@ CYCLES = {"fma": 4, "fmul": 3, "fadd": 3, "fsub": 3, "fdiv": 13, "sqrt": 20, "se
 Read = Callable[[int], "str | Place"]
 
 
-class Function(Text):
+class Function(GraphText):
     """One function over the nodes of a graph.
 
     Args:

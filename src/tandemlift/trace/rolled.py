@@ -7,15 +7,14 @@ without loops.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from tandemlift.trace.graph import Graph
 from tandemlift.trace.symbol import Symbol
-from tandemlift.trace.text import BASE, constant, double
-
-if TYPE_CHECKING:
-    from tandemlift.trace.llvm import Function
+from tandemlift.trace.text import BASE, Text, constant, double
 
 WIDEST = 8  # values of a set per instruction in a flight alone
 
@@ -28,7 +27,47 @@ class Place(NamedTuple):
     stride: int = 1
 
 
-def stages(f: Function, nodes: Iterable[int]) -> dict[int, int]:
+class GraphText(Text):
+    """The text of a function over the nodes of a graph, as sets need it; `llvm.Function` writes it.
+
+    Attributes:
+        graph: the graph.
+        read: for each kind of input, a function from its index to its text or place.
+        kept: nodes computed elsewhere before, each with a function to its text or place.
+        sets: large sets of numbers.
+    """
+
+    graph: Graph
+    read: dict[str, Callable[[int], str | Place]]
+    kept: dict[int, Callable[[], str | Place]]
+    sets: Sets
+
+    @abstractmethod
+    def values(self, symbols: Iterable[Symbol]) -> list[str]:
+        """The values of symbols in all lanes, as text."""
+
+    @abstractmethod
+    def operand(self, node: int) -> str:
+        """A number already computed in this function, in all lanes."""
+
+    @abstractmethod
+    def is_leaf(self, node: int) -> bool:
+        """Whether a node is available without its arguments."""
+
+    @abstractmethod
+    def write(self, roots: list[int]) -> None:
+        """Compute nodes and all their arguments."""
+
+    @abstractmethod
+    def write_number(self, node: int) -> None:
+        """Compute a number whose arguments are already computed."""
+
+    @abstractmethod
+    def instruction(self, node: int, kind_of: Callable[[str], str], x: list[str]) -> str:
+        """The instruction that computes a node from operands; `kind_of`: LLVM's name for a type of the graph."""
+
+
+def stages(f: GraphText, nodes: Iterable[int]) -> dict[int, int]:
     """The stage of each node: a number computed from a set comes one stage after it."""
     g, found = f.graph, dict[int, int]()
     for node in nodes:
@@ -41,7 +80,7 @@ def stages(f: Function, nodes: Iterable[int]) -> dict[int, int]:
     return found
 
 
-def width_of(f: Function, count: int) -> int:
+def width_of(f: GraphText, count: int) -> int:
     """Values of a set per instruction; 1 in a block, whose lanes fill the vectors already."""
     if f.lanes > 1:
         return 1
@@ -51,7 +90,7 @@ def width_of(f: Function, count: int) -> int:
 class Loop:
     """The loop over the values of sets of one size; an iteration handles `width` values from `i` on."""
 
-    def __init__(self, f: Function, count: int, i: str) -> None:
+    def __init__(self, f: GraphText, count: int, i: str) -> None:
         self.f, self.i, self.width = f, i, width_of(f, count)
         self.values: dict[int, str] = {}
 
@@ -118,7 +157,7 @@ class Loop:
 
 
 @contextmanager
-def loop_over(f: Function, count: int) -> Iterator[Loop]:
+def loop_over(f: GraphText, count: int) -> Iterator[Loop]:
     """A loop over the values of sets of one size."""
     width = width_of(f, count)
     with f.repeat(count // width) as i:
@@ -141,7 +180,7 @@ class Sets:
         room: allocates memory for a set of a number of values.
     """
 
-    def __init__(self, f: Function) -> None:
+    def __init__(self, f: GraphText) -> None:
         self.f, self.places = f, dict[int, Place]()
         self.room: Callable[[int], Place] = lambda count: Place(f.own_memory(count), 0)
 
@@ -216,7 +255,7 @@ class Sets:
         return to
 
     def put(self, base: str, at: str | int, symbols: Sequence[Symbol], kind: str = "") -> None:
-        """See `Function.put`."""
+        """See `llvm.Function.put`."""
         f = self.f
         parts = [part for part in self._parts(symbols) if not self._stays(part, kind)]
         values = f.values(Symbol(f.graph, part.node, "f") for part in parts if not part.size)

@@ -9,15 +9,36 @@ import math
 import operator
 from fractions import Fraction
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
 from tandemlift.algebra.vector import is_set
 from tandemlift.trace.refusal import refused_here
 
-if TYPE_CHECKING:
-    from tandemlift.trace.graph import Graph
-
 NAMES = {"f": "a number", "b": "a truth", "i": "an integer"}
+
+
+class Nodes(Protocol):
+    """What a symbol needs of the `Graph` that holds its node; each method gives the number of a node."""
+
+    counts: list[int]
+
+    def node(self, op: str, args: tuple[Any, ...], kind: str, count: int = -1) -> int:
+        """The node of an operation."""
+
+    def pack(self, values: Any) -> int:
+        """The node of a set of numbers and symbols."""
+
+    def take(self, source: int, first: int, step: int, count: int) -> int:
+        """The node of some values of a set."""
+
+    def get(self, source: int, at: int) -> int:
+        """The node of one value of a set."""
+
+    def constant(self, value: Any) -> int:
+        """The node of a constant."""
+
+    def number(self, value: Any) -> int:
+        """The node of a value as a double."""
 
 
 class Symbol:
@@ -28,7 +49,7 @@ class Symbol:
     __array_ufunc__ = None  # a NumPy scalar on the left defers to our operators
     __hash__ = object.__hash__
 
-    def __init__(self, graph: Graph, node: int, type: str) -> None:
+    def __init__(self, graph: Nodes, node: int, type: str) -> None:
         self.graph, self.node, self.type = graph, node, type
 
     @property
@@ -144,7 +165,7 @@ class Symbol:
         raise refused_here("takes a number apart as if it were a vector")
 
 
-def _graph_of(*values: Any) -> Graph:
+def _graph_of(*values: Any) -> Nodes:
     return next(v.graph for v in values if isinstance(v, Symbol))
 
 
@@ -153,7 +174,7 @@ def _is_integer(value: Any) -> bool:
     return value.type == "i" if isinstance(value, Symbol) else type(value) is int
 
 
-def _node_of(graph: Graph, value: Any) -> int:
+def _node_of(graph: Nodes, value: Any) -> int:
     """The node of a value in its own type."""
     if isinstance(value, tuple):
         return graph.pack(value)
@@ -186,7 +207,7 @@ def _arithmetic(op: str, whole: str, a: Any, b: Any) -> Any:
     return _made(graph, op, a, b)
 
 
-def _made(graph: Graph, op: str, *values: Any) -> Symbol:
+def _made(graph: Nodes, op: str, *values: Any) -> Symbol:
     """A new double from doubles."""
     return Symbol(graph, graph.node(op, tuple([graph.number(v) for v in values]), "f"), "f")
 
