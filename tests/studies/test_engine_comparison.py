@@ -106,5 +106,5 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp
 
 
 def test_an_engine_may_not_be_named_twice():
-    with pytest.raises(InputError, match="each once"):
+    with pytest.raises(InputError, match="without repetition"):
         fly_in(tl.load_mission("paper", SHORT), ["compiled", "compiled"])
