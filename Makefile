@@ -1,4 +1,4 @@
-# Every target sets up what it needs, in .venv; only test-gazebo needs root.
+# Every target installs what it needs into .venv; only test-gazebo needs root.
 PYTHON ?= python3
 BIN := .venv/bin
 # pip shows its progress on a terminal; elsewhere a line before each step is enough
@@ -7,7 +7,7 @@ GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
 .PHONY: run live page test lint types imports tests test-pythons test-gazebo bench compare-engines bench-peers lock clean help
 
-help:            ## say what there is
+help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
 
 run: .venv/run   ## fly the paper's mission and write out/paper
@@ -42,7 +42,7 @@ imports: .venv/dev  ## imports go downward only
 tests: .venv/dev ## all tests
 	$(BIN)/pytest -n auto
 
-test-pythons:    ## the fast tests under each Python from 3.11 to 3.13 that is there
+test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons
 
 test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and RViz; installs them, as root

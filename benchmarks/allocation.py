@@ -20,11 +20,11 @@ from machine import describe, heading, number, pin, save, table
 import tandemlift as tl
 from tandemlift.algebra.layout import flat, leaves
 from tandemlift.algebra.vector import Vec3, each
-from tandemlift.kernels.limit_solver import write_solver
+from tandemlift.kernels.compiled_limit_solver import write_solver
 from tandemlift.kernels.traced_step import TracedSolver
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
-from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, search_step, start_search
+from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
 from tandemlift.trace import Function, Module, double
 from tandemlift.trace.functions import compiled
 from tandemlift.trace.machine import BEST, Loaded

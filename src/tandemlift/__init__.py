@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from tandemlift.common.errors import FlightWarning, InputError
-    from tandemlift.controllers.loading import load_controller
+    from tandemlift.controllers.user_controller import load_controller
     from tandemlift.flight.record import Flight
     from tandemlift.missions import load_mission
     from tandemlift.settings import Mission

@@ -29,7 +29,7 @@ from tandemlift.algebra.ops import (
 )
 from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, dot, each, mat3, vec3
 from tandemlift.controllers.sliding_surface import Cubic, switching
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 
 A, B = Vec3(1.0, -2.0, 3.0), Vec3(0.5, 4.0, -1.0)
 Q = Quat(1.0, 0.0, 0.0, 0.0)

@@ -56,7 +56,7 @@ def run(tmp_path, monkeypatch, capsys):
     return call
 
 
-def refused(outcome: tuple[int, str, str]) -> str:
+def check_refused(outcome: tuple[int, str, str]) -> str:
     """The one message of a refusal."""
     code, out, err = outcome
     assert (code, out) == (2, "")
@@ -127,7 +127,7 @@ def test_the_version_is_told(run):
     ids=" ".join,
 )
 def test_bad_input_is_refused_with_a_hint_and_nothing_is_written(arguments, pieces, run, tmp_path):
-    message = refused(run(*arguments))
+    message = check_refused(run(*arguments))
     assert [piece for piece in pieces if piece not in message] == []
     assert list(tmp_path.iterdir()) == []
 
@@ -208,7 +208,7 @@ def test_a_folder_that_cannot_take_the_results_is_refused_before_the_flight(out,
     (tmp_path / "drawn").mkdir()
     (tmp_path / "drawn" / "figures").write_text("mine")
     monkeypatch.setattr("tandemlift.simulation.fly.fly", lambda *_, **__: pytest.fail("flown"))
-    message = refused(run("run", "hover", "--out", out))
+    message = check_refused(run("run", "hover", "--out", out))
     assert [piece for piece in pieces if piece not in message] == []
     assert (tmp_path / "file").read_text() == "mine"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["drawn", "file", "taken"]
@@ -218,7 +218,7 @@ def test_a_folder_that_cannot_take_the_results_is_refused_before_the_flight(out,
 def test_a_folder_without_permission_is_refused_before_the_flight(run, tmp_path, monkeypatch):
     (tmp_path / "closed").mkdir()
     monkeypatch.setattr(os, "access", lambda path, mode: False)  # root may write anywhere
-    assert "--out closed: the folder cannot be written to" in refused(run("run", "hover", "--out", "closed"))
+    assert "--out closed: the folder cannot be written to" in check_refused(run("run", "hover", "--out", "closed"))
     assert list((tmp_path / "closed").iterdir()) == []
 
 
@@ -236,7 +236,7 @@ def test_a_flight_that_fails_leaves_no_folder_behind(run, tmp_path):
         "def start(s, vehicle, step):\n"
         "    return Gains(), None\n"
     )
-    message = refused(run("run", "hover", "--controller", "bad.py", "--out", "deep/er"))
+    message = check_refused(run("run", "hover", "--controller", "bad.py", "--out", "deep/er"))
     assert "controller 'bad' fails: bad.py, line 8: ZeroDivisionError: float division by zero" in message
     assert [path.name for path in tmp_path.iterdir()] == ["bad.py"]
 

@@ -51,7 +51,8 @@ def told(terminal: int, pattern: bytes) -> bytes:
     """What a process tells a terminal, until a pattern is in it."""
     text, end = b"", time.monotonic() + COMPILING
     while not re.search(pattern, text, re.DOTALL):
-        assert select.select([terminal], [], [], max(0.0, end - time.monotonic()))[0], f"after {text!r} it is silent"
+        if not select.select([terminal], [], [], max(0.0, end - time.monotonic()))[0]:
+            raise TimeoutError(f"after {text!r} it is silent")
         text += os.read(terminal, 4096)  # an OSError, if it has ended
     return text
 

@@ -55,7 +55,7 @@ class Begun:
             env=environment,
         )
 
-    def shows(self, start):
+    def check_shown(self, start):
         """Wait until a line of its errors begins like this."""
         assert any(line.startswith(start) for line in iter(self.process.stderr.readline, ""))
 
@@ -97,7 +97,7 @@ def test_at_any_moment_it_ends_with_one_line(verb, begin, tmp_path):
     for i in range(6):
         begun = begin(tmp_path / str(i), "-m", "tandemlift", *verb)
         if verb[0] == "validate":
-            begun.shows("flying")
+            begun.check_shown("flying")
         else:
             until((begun.folder / "out").exists, "its folder")
         time.sleep(chance.uniform(0.0, 2.5))  # wherever it is by then
@@ -110,7 +110,7 @@ def test_at_any_moment_it_ends_with_one_line(verb, begin, tmp_path):
 @pytest.mark.parametrize("verb", VERBS, ids=lambda verb: verb[0])
 def test_while_it_compiles_it_ends_at_once_and_leaves_nothing(verb, begin, tmp_path):
     begun = begin(tmp_path, slow_compiler.__file__, *verb)
-    begun.shows("Compiling")
+    begun.check_shown("Compiling")
     status, out, lines, seconds = begun.interrupted()
     assert (status, out, lines) == (130, "", [STOPPED])
     assert made(begun.folder) == []
@@ -119,7 +119,7 @@ def test_while_it_compiles_it_ends_at_once_and_leaves_nothing(verb, begin, tmp_p
 
 def test_an_interrupted_compile_is_told_of_again_by_the_next_start(begin, tmp_path):
     begun = begin(tmp_path, slow_compiler.__file__, "run", "hover")
-    begun.shows("Compiling")
+    begun.check_shown("Compiling")
     begun.interrupted()
     command = [sys.executable, "-m", "tandemlift", "run", "hover", "--no-figures", "--set", "mission.duration=0.5"]
     environment = {**os.environ, "TANDEMLIFT_CACHE": str(tmp_path / "cache")}
@@ -142,7 +142,7 @@ def test_a_script_is_interrupted_while_it_compiles_and_ends_once_the_compiler_do
     assert begun.process.stdout.readline() == "ready\n"
     time.sleep(2.0)
     begun.process.send_signal(signal.SIGINT)
-    begun.shows("KeyboardInterrupt")
+    begun.check_shown("KeyboardInterrupt")
     begun.goes_on.touch()
     begun.process.communicate(timeout=PATIENCE)
     assert begun.process.returncode == -signal.SIGINT
@@ -151,7 +151,7 @@ def test_a_script_is_interrupted_while_it_compiles_and_ends_once_the_compiler_do
 def test_a_live_page_that_still_compiles_ends_at_once(begin, tmp_path):
     begun = begin(tmp_path, slow_compiler.__file__, "live", "hover", "--no-browser", "--port=0")
     assert "http://" in begun.process.stdout.readline()
-    begun.shows("Compiling")
+    begun.check_shown("Compiling")
     status, out, lines, _ = begun.interrupted()
     assert (status, lines) == (0, [])
     assert out.splitlines()[-1] == "stopped"

@@ -19,7 +19,7 @@ def clock(monkeypatch):
     return now
 
 
-def told(capsys):
+def check_lines(capsys):
     out, err = capsys.readouterr()
     assert out == ""
     return err.splitlines()
@@ -35,7 +35,7 @@ def test_a_loop_is_told_of_with_its_time_and_what_took_no_time_is_not(clock, cap
     with watching(CompileNotices()):
         compile_for(clock, 0.62)
         compile_for(clock, 0.01)
-    assert told(capsys) == ["Compiled the flight loop in 0.6 s; it is kept for next time."]
+    assert check_lines(capsys) == ["Compiled the flight loop in 0.6 s; it is kept for next time."]
 
 
 def test_several_are_told_of_in_one_line_at_the_end(clock, capsys):
@@ -43,8 +43,8 @@ def test_several_are_told_of_in_one_line_at_the_end(clock, capsys):
     with watching(teller), teller.together():
         for _ in range(3):
             compile_for(clock, 0.5)
-        assert told(capsys) == []
-    assert told(capsys) == ["Compiled 3 flight loops in 1.5 s; they are kept for next time."]
+        assert check_lines(capsys) == []
+    assert check_lines(capsys) == ["Compiled 3 flight loops in 1.5 s; they are kept for next time."]
 
 
 def test_what_is_compiled_at_the_same_time_counts_once(clock, capsys):
@@ -54,20 +54,20 @@ def test_what_is_compiled_at_the_same_time_counts_once(clock, capsys):
         clock[0] += 1.0
         compile_for(clock, 1.0, LOOP._replace(what="drawing loop"))
         publish(LOOP)
-    assert told(capsys) == ["Compiled 2 loops in 2.0 s; they are kept for next time."]
+    assert check_lines(capsys) == ["Compiled 2 loops in 2.0 s; they are kept for next time."]
 
 
 def test_a_cache_that_cannot_be_written_is_told_of(clock, capsys):
     with watching(CompileNotices()):
         compile_for(clock, 1.0, LOOP._replace(is_kept=False))
-    assert told(capsys) == ["Compiled the flight loop in 1.0 s; the cache cannot be written (TANDEMLIFT_CACHE)."]
+    assert check_lines(capsys) == ["Compiled the flight loop in 1.0 s; the cache cannot be written (TANDEMLIFT_CACHE)."]
 
 
 def test_what_could_not_be_compiled_is_not_said_to_be(clock, capsys):
     with watching(CompileNotices()):
         compile_for(clock, 1.0, Compiled("flight loop"))
         compile_for(clock, 1.0)
-    assert [line[:8] for line in told(capsys)] == ["Compiled"]
+    assert [line[:8] for line in check_lines(capsys)] == ["Compiled"]
 
 
 def test_what_takes_long_is_told_of_before_its_end(monkeypatch, capsys):
@@ -77,11 +77,11 @@ def test_what_takes_long_is_told_of_before_its_end(monkeypatch, capsys):
     with watching(CompileNotices()):
         publish(None)
         assert said.wait(30.0)
-        assert told(capsys) == ["Compiling for this machine …"]
+        assert check_lines(capsys) == ["Compiling for this machine …"]
         publish(LOOP)
 
 
 def test_nobody_is_told_who_does_not_watch(capsys):
     publish(None)
     publish(LOOP)
-    assert not re.search("ompil", "".join(told(capsys)))
+    assert not re.search("ompil", "".join(check_lines(capsys)))

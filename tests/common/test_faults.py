@@ -84,7 +84,7 @@ faults.ALARM_TEXTS = faults._alarm_texts()
 
 import tandemlift as tl
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
-from tandemlift.missions.reference.markdown import keys_page
+from tandemlift.missions.key_reference.markdown import keys_page
 from tandemlift.live.session.scene_builder import scene_of
 
 mission = tl.load_mission("iris", {"pilot.guidance": "hand", "supervision.model": "watch",

@@ -13,7 +13,7 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.controllers import CONTROLLERS, Disturbance, Measured, Reference, control, controller
 from tandemlift.controllers.lqr import LQRSettings, integrator_chain, regulator
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
 from tandemlift.laws.signals.trajectories import Trajectory
 

@@ -36,7 +36,7 @@ def plain(folder):
 
 
 @pytest.mark.parametrize("name", REGISTERED)
-@pytest.mark.parametrize("mission", ["hover", "one-push"])
+@pytest.mark.parametrize("mission", ["hover", "one-push"])  # the baselines are tuned for ideal rotors and sensors
 def test_a_registered_controller_flies_and_ends_where_the_reference_does(name, mission):
     flight = tl.fly(tl.load_mission(mission, controller=name))
     assert flight.divergence is None

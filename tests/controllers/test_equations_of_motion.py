@@ -16,8 +16,8 @@ from tandemlift.controllers.equations_of_motion import (
     expanded_dynamics,
     response,
 )
-from tandemlift.laws.mechanics.body import State, Wrench, motion
 from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.mechanics.rigid_body import State, Wrench, motion
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, quaternion_from_euler
 
 NO_PUSH = CentralPush(ZERO)

@@ -51,7 +51,7 @@ class Axis:
     def surface(self, t: float, y: np.ndarray) -> float:
         return sliding_surface(self.k, float(y[0]), float(y[1]))
 
-    def until(self, level: float, e: float, de: float, longest: float) -> float:
+    def check_time(self, level: float, e: float, de: float, longest: float) -> float:
         """The time at which |S| has come down to a level."""
 
         def down(t, y):
@@ -71,7 +71,7 @@ def test_the_surface_is_reached_at_the_reaching_time(k, e):
     de = 0.2
     S0 = sliding_surface(k, e, de)
     expected = reaching_time(k.lambda_1, k.lambda_2, S0, 0.0)
-    assert Axis(k).until(0.0, e, de, 2.0 * expected) == pytest.approx(expected, rel=1e-8)
+    assert Axis(k).check_time(0.0, e, de, 2.0 * expected) == pytest.approx(expected, rel=1e-8)
 
 
 @AXES
@@ -80,8 +80,8 @@ def test_a_constant_disturbance_at_its_worst_makes_the_reaching_time_longer_as_s
     S0 = sliding_surface(k, e, de)
     against = -share * k.lambda_2  # δ < 0 drives S > 0 further up
     expected = reaching_time(k.lambda_1, k.lambda_2, S0, against)
-    assert Axis(k, against).until(0.0, e, de, 2.0 * expected) == pytest.approx(expected, rel=1e-8)
-    assert Axis(k, -against).until(0.0, e, de, 2.0 * expected) < reaching_time(k.lambda_1, k.lambda_2, S0, 0.0)
+    assert Axis(k, against).check_time(0.0, e, de, 2.0 * expected) == pytest.approx(expected, rel=1e-8)
+    assert Axis(k, -against).check_time(0.0, e, de, 2.0 * expected) < reaching_time(k.lambda_1, k.lambda_2, S0, 0.0)
 
 
 @pytest.mark.parametrize("a", [1.0, 1.5, 2.0, 5.0])
@@ -89,7 +89,7 @@ def test_the_reaching_time_does_not_depend_on_the_exponent(a):
     k = Surface(2.0, 0.5, Power(a), 0.7, 1.3, Sign())
     S0 = sliding_surface(k, -0.8, 0.4)
     expected = reaching_time(k.lambda_1, k.lambda_2, S0, 0.0)
-    assert Axis(k).until(0.0, -0.8, 0.4, 2.0 * expected) == pytest.approx(expected, rel=1e-8)
+    assert Axis(k).check_time(0.0, -0.8, 0.4, 2.0 * expected) == pytest.approx(expected, rel=1e-8)
 
 
 @AXES
@@ -98,7 +98,7 @@ def test_a_boundary_layer_is_reached_within_the_reaching_time(k):
     k = k._replace(switching=Saturation(1.0 / width))
     S0 = sliding_surface(k, e, 0.0)
     whole = reaching_time(k.lambda_1, k.lambda_2, S0, 0.0)
-    reached = Axis(k).until(width, e, 0.0, 2.0 * whole)
+    reached = Axis(k).check_time(width, e, 0.0, 2.0 * whole)
     assert reached < whole
     assert reached == pytest.approx(whole - reaching_time(k.lambda_1, k.lambda_2, width, 0.0), rel=1e-7)
 

@@ -30,7 +30,7 @@ from tandemlift.controllers.nftsmc import (
     position_law,
 )
 from tandemlift.controllers.sliding_surface import Saturation, sliding_surface, switching, wanted_acceleration
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import (
     euler_from_quaternion,
     euler_rates_from_rates,

@@ -31,7 +31,7 @@ from tandemlift.controllers.sliding_surface import (
     terminal_slope,
     wanted_acceleration,
 )
-from tandemlift.laws.mechanics.body import RigidBody
+from tandemlift.laws.mechanics.rigid_body import RigidBody
 
 EXPONENTS = [1.0, 1.5, 2.0, 3.0, 5.0]
 XI, ETA = Vec3(4.0, 2.0, 11.0), Vec3(0.2, 0.1, 0.7)

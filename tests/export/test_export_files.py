@@ -26,7 +26,7 @@ def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("exported")
 
 
-def table_of(path):
+def check_table_of(path):
     """A table as Python's reader of such files has it: heading → numbers."""
     with path.open(encoding="ascii", newline="") as file:
         head, *rows = csv.reader(file)
@@ -35,7 +35,7 @@ def table_of(path):
 
 
 def test_a_table_has_every_number_of_every_channel_to_the_last_bit(flight, folder):
-    table = table_of(export(flight, folder / "flight.csv"))
+    table = check_table_of(export(flight, folder / "flight.csv"))
     time, *columns = table.values()
     assert time.tobytes() == flight.time.tobytes()
     every = np.hstack([np.reshape(a, (SAMPLES, -1)) for a in flight.channels.values()])
@@ -43,7 +43,7 @@ def test_a_table_has_every_number_of_every_channel_to_the_last_bit(flight, folde
 
 
 def test_the_columns_of_a_table_are_named_by_channel_unit_and_component(flight, folder):
-    table = table_of(export(flight, folder / "names.csv"))
+    table = check_table_of(export(flight, folder / "names.csv"))
     for heading, values in {
         "time[s]": flight.time,
         "position[m].z": flight["position"][:, 2],
@@ -63,7 +63,7 @@ def test_the_columns_of_a_table_are_named_by_channel_unit_and_component(flight, 
 def test_a_channel_that_is_not_ours_is_in_the_table_too(folder):
     flight = flight_of("iris")
     flight.channels["mine"] = np.ones((SAMPLES, 2))
-    assert list(table_of(export(flight, folder / "mine.csv")))[-2:] == ["mine.1", "mine.2"]
+    assert list(check_table_of(export(flight, folder / "mine.csv")))[-2:] == ["mine.1", "mine.2"]
 
 
 def test_messages_lie_in_a_bag_in_the_order_of_time(flight, folder):
@@ -149,7 +149,7 @@ def test_what_cannot_be_written_leaves_what_was_there(ending, flight, tmp_path, 
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(bags, "_write", full)
-    monkeypatch.setattr("tandemlift.export.table.headings", full)
+    monkeypatch.setattr("tandemlift.export.csv_file.headings", full)
     assert "cannot be written: No space left on device" in refusal(flight, old)
     assert old.read_text() == "mine"
     assert sorted(p.name for p in tmp_path.iterdir()) == [f"folder.{ending}", old.name]
@@ -173,7 +173,7 @@ def run(tmp_path, monkeypatch, capsys):
 def test_a_saved_flight_is_exported_by_its_file_or_its_folder(given, flight, run, tmp_path):
     flight.save(tmp_path / "saved" / "flight.npz")
     assert run("export", given, "--out", "there/it.csv") == (0, f"iris: {Path('there/it.csv')} (0.1 MB)\n", "")
-    np.testing.assert_array_equal(table_of(tmp_path / "there" / "it.csv")["time[s]"], flight.time)
+    np.testing.assert_array_equal(check_table_of(tmp_path / "there" / "it.csv")["time[s]"], flight.time)
 
 
 @pytest.mark.parametrize(

@@ -38,7 +38,7 @@ while True:
 """
 
 
-def plain_pilot():
+def check_plain_pilot():
     """The pilot in plain rospy that the documentation shows."""
     (code,) = re.findall(r"```python\n(import rospy\n.*?)```", DOCS.read_text("utf-8"), re.DOTALL)
     assert "tandemlift." not in code
@@ -159,7 +159,7 @@ def test_thrusts_alone_fly_to_the_last_bit_as_with_loads_of_nothing(over_ros):
 def test_a_pilot_of_ten_lines_flies_in_lock_step(over_ros, another, listen):
     over_ros.wire().close()  # where it stands, rotors off
     pilots, states = listen("pilot", "std_msgs/Header"), listen("state", "sensor_msgs/MultiDOFJointState")
-    pilot = another(plain_pilot())
+    pilot = another(check_plain_pilot())
     until(lambda: any(p.frame_id == "/plain_pilot" for p in pilots))
     begun = len(states)
     until(lambda: len(states) > begun + 600)
@@ -167,14 +167,14 @@ def test_a_pilot_of_ten_lines_flies_in_lock_step(over_ros, another, listen):
     flown = {stamp(s): s.twist[0].linear.z for s in states[begun + 50 : begun + 600]}  # one that is told twice, once
     step = round(1e9 * over_ros.dt)
     assert set(np.diff(list(flown))) == {step}
-    thrust = float(re.search(r"effort=\[([\d.]+)\]", plain_pilot())[1])
+    thrust = float(re.search(r"effort=\[([\d.]+)\]", check_plain_pilot())[1])
     climb = 8 * thrust / over_ros.vehicle.mass - GRAVITY
     np.testing.assert_allclose(np.diff(list(flown.values())), climb * over_ros.dt, rtol=0.0, atol=1e-9)
 
 
 def test_a_second_pilot_is_not_heard_until_it_says_that_it_leads(over_ros, another):
     sound, wire = fly(over_ros.wire(), 300), over_ros.wire()
-    another(plain_pilot())
+    another(check_plain_pilot())
     until(lambda: (wire.keep_alive(), "/plain_pilot is not heard" in over_ros.server.last_output())[1])
     assert np.array_equal(fly(wire, 300), sound)
     over_ros.ros("rostopic", "pub", "-1", f"{ROOT}/lead", "std_msgs/Empty")

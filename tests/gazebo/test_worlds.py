@@ -28,7 +28,7 @@ def check(seen):
     return completed(shell_command(root(), script), capture_output=True, text=True, check=False).stdout
 
 
-@pytest.mark.parametrize("name", ["paper", "four", "heavy-payload", "zigzag"])
+@pytest.mark.parametrize("name", ["paper", "four", "heavy-payload", "zigzag"])  # all are read in tests/models
 @pytest.mark.parametrize("plugin", [None, 19110, "ros"])
 def test_gazebo_finds_no_fault_with_a_world(name, plugin, folder):
     path, seen = folder

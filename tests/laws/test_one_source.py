@@ -93,7 +93,7 @@ class Case:
         step = rebuilt(numbers, self.like)
         return flat(step_flight(step.model, step.given, T, DT))
 
-    def agrees(self, found: Any) -> None:
+    def assert_agreement(self, found: Any) -> None:
         """Every number is that of plain Python to 1e-12 of the largest in its row."""
         difference = np.abs(np.broadcast_to(found, self.expected.shape) - self.expected)
         size = 1.0 + np.abs(self.expected).max(axis=1, keepdims=True)
@@ -120,7 +120,7 @@ def test_variants_differ_in_type():
 
 def test_numpy_broadcasts_the_step(case):
     rows = case.step(case.numbers)
-    case.agrees(np.array([np.broadcast_to(row, BATCH) for row in rows]))
+    case.assert_agreement(np.array([np.broadcast_to(row, BATCH) for row in rows]))
 
 
 def test_jax_traces_and_evaluates_the_step(case, jax):
@@ -128,20 +128,20 @@ def test_jax_traces_and_evaluates_the_step(case, jax):
         return jax.numpy.stack([jax.numpy.broadcast_to(row, BATCH) for row in case.step(list(numbers))])
 
     assert jax.make_jaxpr(step)(case.numbers).eqns
-    case.agrees(np.asarray(step(jax.numpy.asarray(case.numbers))))  # XLA would compile the longest for minutes
+    case.assert_agreement(np.asarray(step(jax.numpy.asarray(case.numbers))))  # XLA needs minutes for the longest
 
 
 def test_casadi_traces_the_step(case, casadi):
     symbols = casadi.SX.sym("numbers", len(case.numbers))
     outputs = casadi.vertcat(*case.step(casadi.vertsplit(symbols)))
-    case.agrees(np.array(casadi.Function("step", [symbols], [outputs])(case.numbers)))
+    case.assert_agreement(np.array(casadi.Function("step", [symbols], [outputs])(case.numbers)))
 
 
 def test_casadi_traces_the_step_of_a_vehicle_whose_parameters_are_numbers(case, casadi):
     symbols, constant = casadi.SX.sym("numbers", len(case.numbers)), np.ptp(case.numbers, axis=1) == 0.0
     choices = zip(constant, casadi.vertsplit(symbols), case.numbers[:, 0], strict=True)
     outputs = casadi.vertcat(*case.step([float(number) if known else symbol for known, symbol, number in choices]))
-    case.agrees(np.array(casadi.Function("step", [symbols], [outputs])(case.numbers)))
+    case.assert_agreement(np.array(casadi.Function("step", [symbols], [outputs])(case.numbers)))
 
 
 def compiled_step(model, given):
@@ -151,4 +151,4 @@ def compiled_step(model, given):
 @pytest.mark.parametrize("lanes", [1, 8])
 def test_machine_code_of_the_step(case, lanes):
     assert len(case.numbers) == leaves(case.like)
-    case.agrees(answers(compiled_step, tuple(case.like), case.numbers.T, lanes).T)
+    case.assert_agreement(answers(compiled_step, tuple(case.like), case.numbers.T, lanes).T)

@@ -25,13 +25,13 @@ from tandemlift.algebra.vector import (
     outer,
 )
 from tandemlift.controllers import equations_of_motion, sliding_surface
-from tandemlift.laws.estimation import fault_decision, rotor_loss_detection, wind_compensation
+from tandemlift.laws.estimation import rotor_loss_decision, rotor_loss_detection, wind_compensation
 from tandemlift.laws.guidance import admittance, guidance
 from tandemlift.laws.mechanics import contact, loads, parts, rotation, tilt, walls
-from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, motion
 from tandemlift.laws.mechanics.inertia import gyroscopic
 from tandemlift.laws.mechanics.push import PointPush
-from tandemlift.laws.mechanics.rectangle import Wall
+from tandemlift.laws.mechanics.rigid_body import RigidBody, State, Wrench, motion
+from tandemlift.laws.mechanics.wall_geometry import Wall
 from tandemlift.laws.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
 from tandemlift.laws.signals import low_pass, trajectories
 
@@ -62,10 +62,10 @@ ROTORS = rotors.Rotors(
 FOURS, LOW = each(4)(*[0.0] * 4), low_pass.LowPass(*[0.0] * 4)
 SMOOTH, SMOOTHS = low_pass.LowPassState(FOURS, FOURS), low_pass.LowPassState(EIGHT, EIGHT)
 DETECTION = rotor_loss_detection.RotorLossDetection(
-    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, fault_decision.DecisionRules(*[0.0] * 6)
+    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, rotor_loss_decision.DecisionRules(*[0.0] * 6)
 )
 WATCHING = rotor_loss_detection.DetectionState(
-    *[SMOOTHS] * 2, *[SMOOTH] * 4, fault_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
+    *[SMOOTHS] * 2, *[SMOOTH] * 4, rotor_loss_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
 )
 HEARD = guidance.PilotInput(STATE, V, V, 0.0, Nothing())
 BLOWN = wind_compensation.PayloadDragState(V, 0.0, low_pass.LowPassState(V, V))
@@ -157,32 +157,32 @@ def expected(name: str) -> np.ndarray:
     return np.array([evaluated(name, map(float, column)) for column in inputs(name).T]).T
 
 
-def agree(found: Any, wanted: np.ndarray) -> None:
+def assert_agreement(found: Any, wanted: np.ndarray) -> None:
     """To 1e-12 of the largest number of a law's answer."""
     assert np.abs(np.broadcast_to(found, wanted.shape) - wanted).max() < 1e-12 * (1.0 + np.abs(wanted).max())
 
 
 @EACH
 def test_numpy_broadcasts_the_law(name):
-    agree(np.array([np.broadcast_to(row, BATCH) for row in evaluated(name, inputs(name))]), expected(name))
+    assert_agreement(np.array([np.broadcast_to(row, BATCH) for row in evaluated(name, inputs(name))]), expected(name))
 
 
 @EACH
 def test_jax_evaluates_the_law(name, jax):
     rows = evaluated(name, list(jax.numpy.asarray(inputs(name))))
-    agree(np.array([np.broadcast_to(row, BATCH) for row in rows]), expected(name))
+    assert_agreement(np.array([np.broadcast_to(row, BATCH) for row in rows]), expected(name))
 
 
 @EACH
 def test_casadi_traces_the_law(name, casadi):
     symbols = casadi.SX.sym("numbers", len(inputs(name)))
     outputs = casadi.vertcat(*evaluated(name, casadi.vertsplit(symbols)))
-    agree(np.array(casadi.Function("law", [symbols], [outputs])(inputs(name))), expected(name))
+    assert_agreement(np.array(casadi.Function("law", [symbols], [outputs])(inputs(name))), expected(name))
 
 
 @EACH
 def test_machine_code_of_the_law(name):
     law, arguments = LAWS[name]
     alone, block = (answers(law, arguments, inputs(name).T, lanes) for lanes in (1, 8))
-    agree(alone.T, expected(name))
+    assert_agreement(alone.T, expected(name))
     assert np.array_equal(alone, block)

@@ -105,7 +105,7 @@ def test_after_a_hundred_thousand_hostile_messages_it_flies_on_and_follows_a_han
             {"type": "enable", "on": True},
         ):
             good.say(**message)
-        _follows(good, seen)
+        _check_follows(good, seen)
 
 
 def _check_heard(messages):
@@ -118,7 +118,7 @@ def _check_heard(messages):
         assert read_message(json.dumps(data if data.get("key", "") is not None else {**data, "key": "x"}))
 
 
-def _follows(good, seen):
+def _check_follows(good, seen):
     """That the vehicle flies, in one flight or after a reset, and comes when it is pulled."""
     status = good.text("status")
     assert status["phase"] in ("guided", "hold", "lift", "land", "idle", "stopped", "over"), status

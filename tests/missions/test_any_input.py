@@ -31,7 +31,7 @@ lists = st.sampled_from([3, 4, 6]).flatmap(lambda n: st.lists(numbers, min_size=
 keys = st.sampled_from(sorted(SCHEMA)) | st.text(max_size=12)
 
 
-def taken_or_refused(make):
+def check_taken_or_refused(make):
     """The mission that `make` gives, after a round trip through TOML and built as for a flight; None if refused."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -53,17 +53,17 @@ def taken_or_refused(make):
 
 @given(st.dictionaries(keys, values | lists, max_size=3))
 def test_any_change_is_taken_or_refused(changes):
-    taken_or_refused(lambda: load_mission("paper", changes))
+    check_taken_or_refused(lambda: load_mission("paper", changes))
 
 
 @given(st.dictionaries(st.sampled_from(sorted(SCHEMA)), numbers | lists, min_size=1, max_size=2))
 def test_any_numbers_are_taken_or_refused(changes):
-    taken_or_refused(lambda: load_mission("four", changes))
+    check_taken_or_refused(lambda: load_mission("four", changes))
 
 
 @given(st.dictionaries(st.sampled_from(sorted(SCHEMA)), numbers | lists, min_size=1, max_size=2))
 def test_any_numbers_are_taken_or_refused_by_a_mission_that_has_everything(changes):
-    taken_or_refused(lambda: load_mission("iris", EVERYTHING | changes))
+    check_taken_or_refused(lambda: load_mission("iris", EVERYTHING | changes))
 
 
 @pytest.mark.parametrize("key", sorted(SCHEMA))
@@ -71,12 +71,12 @@ def test_any_edge_is_taken_or_refused(key):
     sizes = [int(n) for n in re.findall(r"list of (\d)", allowed(SCHEMA[key].annotation, SCHEMA[key].metadata))]
     for edge in (0.0, 5e-324, 1e-155, 1e15, 1e155, 1.7976931348623157e308, -1.0):
         for value in (edge, *([edge] * n for n in sizes)):
-            taken_or_refused(lambda value=value: load_mission("iris", EVERYTHING | {key: value}))
+            check_taken_or_refused(lambda value=value: load_mission("iris", EVERYTHING | {key: value}))
 
 
 @given(st.dictionaries(st.sampled_from(["mission", "vehicle", "pushes", "controller"]) | st.text(max_size=5), values))
 def test_any_tables_are_refused(tables):
-    assert taken_or_refused(lambda: check(tables)) is None
+    assert check_taken_or_refused(lambda: check(tables)) is None
 
 
 @given(st.text(max_size=30))
@@ -93,4 +93,4 @@ def test_any_setting_is_taken_or_refused(text):
 def test_any_file_is_refused(tmp_path_factory, content):
     file = tmp_path_factory.getbasetemp() / "any.toml"
     file.write_bytes(content)
-    assert taken_or_refused(lambda: load_mission(file)) is None
+    assert check_taken_or_refused(lambda: load_mission(file)) is None

@@ -16,10 +16,10 @@ import tandemlift as tl
 from tandemlift.cli.main import cli
 from tandemlift.missions import built_in, check, load_mission, merge, tables_of
 from tandemlift.missions.bounds import plain
-from tandemlift.missions.reference.explaining import explained, index, plain_name
-from tandemlift.missions.reference.markdown import keys_page
-from tandemlift.missions.reference.sections import is_of_the_package, sections
-from tandemlift.missions.reference.template import template_text
+from tandemlift.missions.key_reference.explaining import explained, index, plain_name
+from tandemlift.missions.key_reference.markdown import keys_page
+from tandemlift.missions.key_reference.sections import is_of_the_package, sections
+from tandemlift.missions.key_reference.template import template_text
 from tandemlift.missions.surroundings_checks import standing_of
 from tandemlift.missions.values import value_at
 from tandemlift.settings import Mission

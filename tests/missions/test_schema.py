@@ -13,8 +13,8 @@ from pydantic import ValidationError
 import tandemlift as tl
 from tandemlift.cli.main import cli
 from tandemlift.missions import DATA, built_in, load_mission, merge, tables_of
-from tandemlift.missions.reference.schema import mission_schema
-from tandemlift.missions.reference.template import template_text
+from tandemlift.missions.key_reference.schema import mission_schema
+from tandemlift.missions.key_reference.template import template_text
 from tandemlift.missions.values import MISSING, value_at
 from tandemlift.settings import Mission
 

@@ -70,35 +70,37 @@ def test_the_paper_mission_leaves_out_only_what_it_has_no_part_of():
     assert all(q["spins"] == [1, -1, 1, -1] for q in rest["vehicle"]["quadrotors"])
 
 
+QUADROTOR = {
+    "mass": 1.5,
+    "inertia": [0.029125, 0.029125, 0.055225],
+    "layout": "+",
+    "arm": 0.25,
+    "thrust_constant": 5.84e-6,
+    "max_speed": 1100.0,
+    "torque_per_thrust": 0.06,
+    "lag_up": 0.0125,
+    "lag_down": 0.025,
+}
+BEAM = {"mass": 0.5, "length": 2.0, "radius": 0.05}
+PUSHES = [
+    ("z", 14, 1.5, 0.5),
+    ("x", 22, 3, 0.6),
+    ("y", 28, 2, 0.6),
+    ("x", 34, 3, 0.6),
+    ("y", 40, -3, 0.8),
+    ("x", 46, 3, 0.6),
+    ("y", 52, 2, 0.6),
+    ("x", 58, 3, 0.6),
+]
+
+
 def test_the_paper_mission_has_the_paper_s_numbers():
-    quadrotor = {
-        "mass": 1.5,
-        "inertia": [0.029125, 0.029125, 0.055225],
-        "layout": "+",
-        "arm": 0.25,
-        "thrust_constant": 5.84e-6,
-        "max_speed": 1100.0,
-        "torque_per_thrust": 0.06,
-        "lag_up": 0.0125,
-        "lag_down": 0.025,
-    }
-    beam = {"mass": 0.5, "length": 2.0, "radius": 0.05}
-    pushes = [
-        ("z", 14, 1.5, 0.5),
-        ("x", 22, 3, 0.6),
-        ("y", 28, 2, 0.6),
-        ("x", 34, 3, 0.6),
-        ("y", 40, -3, 0.8),
-        ("x", 46, 3, 0.6),
-        ("y", 52, 2, 0.6),
-        ("x", 58, 3, 0.6),
-    ]
     said = tomllib.loads((DATA / "missions" / "paper.toml").read_text("utf-8"))
     assert common(tables_of(load_mission("paper")), said) == {
         "mission": {"name": "paper", "duration": 90.0, "step": 0.001, "log_interval": 0.01, "seed": 0},
         "vehicle": {
-            "payload": beam,
-            "quadrotors": [quadrotor | {"position": [0.0, y, 0.075]} for y in (1.0, -1.0)],
+            "payload": BEAM,
+            "quadrotors": [QUADROTOR | {"position": [0.0, y, 0.075]} for y in (1.0, -1.0)],
             "drag": {"force": [0.006] * 3, "moment": [0.006] * 3},
         },
         "controller": {
@@ -130,7 +132,7 @@ def test_the_paper_mission_has_the_paper_s_numbers():
         "phases": {"lift_start": 2.0, "lift_duration": 6.0, "height": 1.0, "land_start": 70.0, "land_duration": 12.0},
         "pushes": [
             {"force": [A * (axis == other) for other in "xyz"], "time": t, "sigma": sigma}
-            for axis, t, A, sigma in pushes
+            for axis, t, A, sigma in PUSHES
         ],
         "actuators": {"model": "ideal"},
     }

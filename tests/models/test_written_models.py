@@ -18,7 +18,7 @@ def test_the_same_mission_gives_the_same_bytes_and_so_does_its_flight(ending, mu
     assert first.read_bytes() == second.read_bytes()
 
 
-def refusal(what, path, **options):
+def check_refused(what, path, **options):
     """Why something is not exported; what was there stays, and nothing is added."""
     before = {p: p.is_file() and p.read_bytes() for p in path.parent.iterdir()}
     with pytest.raises(tl.InputError) as caught:
@@ -31,19 +31,19 @@ def refusal(what, path, **options):
 def test_a_true_vehicle_that_leaves_no_payload_is_refused_by_its_keys(ending, mujoco, tmp_path):
     (tmp_path / f"x.{ending}").write_text("mine")
     light = tl.load_mission("paper", {"plant.mass_scale": 0.8})
-    assert "plant.mass_scale = 0.8" in refusal(light, tmp_path / f"x.{ending}")
+    assert "plant.mass_scale = 0.8" in check_refused(light, tmp_path / f"x.{ending}")
     thin = tl.load_mission("paper", {"plant.inertia_scale": [0.97, 1.4, 1.1]})
-    assert "principal moments of" in refusal(thin, tmp_path / f"x.{ending}")
+    assert "principal moments of" in check_refused(thin, tmp_path / f"x.{ending}")
 
 
 def test_endings_and_ports_that_do_not_fit_are_refused(tmp_path):
     mission = tl.load_mission("paper")
     for name in ("world.urdf", "world", "world.sdf.gz", ".sdf"):
-        assert ".sdf (Gazebo world) or .xml (MuJoCo model)" in refusal(mission, tmp_path / name)
-    assert "'paper' is no flight" in refusal(mission, tmp_path / "paper.csv")
-    assert "only a world, .sdf, has a plugin" in refusal(mission, tmp_path / "paper.xml", plugin=7000)
+        assert ".sdf (Gazebo world) or .xml (MuJoCo model)" in check_refused(mission, tmp_path / name)
+    assert "'paper' is no flight" in check_refused(mission, tmp_path / "paper.csv")
+    assert "only a world, .sdf, has a plugin" in check_refused(mission, tmp_path / "paper.xml", plugin=7000)
     for port in (0, -1, 65536):
-        assert f"plugin = {port}: must be a port" in refusal(mission, tmp_path / "paper.sdf", plugin=port)
+        assert f"plugin = {port}: must be a port" in check_refused(mission, tmp_path / "paper.sdf", plugin=port)
 
 
 def test_without_mujoco_its_model_is_refused_and_a_world_is_not(tmp_path, monkeypatch):
@@ -51,7 +51,7 @@ def test_without_mujoco_its_model_is_refused_and_a_world_is_not(tmp_path, monkey
     for name in ("tandemlift.models.mujoco_bodies", "tandemlift.models.mjcf"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     mission = tl.load_mission("paper")
-    assert "pip install 'tandemlift[mujoco]'" in refusal(mission, tmp_path / "paper.xml")
+    assert "pip install 'tandemlift[mujoco]'" in check_refused(mission, tmp_path / "paper.xml")
     assert export(mission, tmp_path / "paper.sdf").exists()
 
 
@@ -64,7 +64,7 @@ def test_a_model_that_cannot_be_written_leaves_what_was_there(ending, mujoco, tm
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "write_text", full)
-    assert "cannot be written: No space left on device" in refusal(tl.load_mission("paper"), path)
+    assert "cannot be written: No space left on device" in check_refused(tl.load_mission("paper"), path)
 
 
 @pytest.fixture

@@ -6,10 +6,10 @@ import math
 import re
 import shutil
 import tomllib
-from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from html_page import check_page
 from patience import completed
 
 import tandemlift as tl
@@ -20,42 +20,6 @@ from tandemlift.report.flight_files import write_flight_files
 from tandemlift.report.flight_report import number, split_unit, write_report
 
 HOSTILE = "<script>alert('x')</script>\"&<img src=http://evil.example/x.png>"
-VOID = {"meta", "img", "br"}
-
-
-class Page(HTMLParser):
-    """A parsed page: its elements with their attributes, the rows of its tables, and whether every tag is closed."""
-
-    def __init__(self, path):
-        super().__init__()
-        self.elements, self.rows, self.open = [], [], []
-        self.text = path.read_text("utf-8")
-        self.feed(self.text)
-        self.close()
-        assert self.open == []
-
-    def handle_starttag(self, tag, attrs):
-        self.elements.append((tag, dict(attrs)))
-        if tag == "tr":
-            self.rows.append([])
-        if tag in ("td", "th"):
-            self.rows[-1].append("")
-        if tag == "sup":
-            self.rows[-1][-1] += "^"
-        if tag == "br" and self.rows:
-            self.rows[-1][-1] += "\n"
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        if {"td", "th"} & set(self.open):
-            self.rows[-1][-1] += data
-
-    def all(self, tag):
-        return [attributes for name, attributes in self.elements if name == tag]
 
 
 @pytest.fixture(scope="module")
@@ -92,12 +56,12 @@ def report(paper, figures, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def page(report):
-    return Page(report)
+    return check_page(report)
 
 
 @pytest.fixture
 def write(tmp_path):
-    return lambda flight, figures=(): Page(write_report(flight, figures, tmp_path / "report.html"))
+    return lambda flight, figures=(): check_page(write_report(flight, figures, tmp_path / "report.html"))
 
 
 def value_of(text):

@@ -2,6 +2,7 @@
 
 import re
 import shlex
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -96,3 +97,11 @@ def test_the_table_of_metrics_names_every_metric():
 def test_the_package_and_the_changelog_and_the_citation_are_of_one_version():
     for name in ("CHANGELOG.md", "CITATION.cff"):
         assert tl.__version__ in (ROOT / name).read_text("utf-8")
+
+
+def test_the_modules_that_the_changelog_moves_imports_to_are_there():
+    rows = re.findall(
+        r"^  \| `.*\| `(tandemlift\.[\w.]+)`.* \|$", (ROOT / "CHANGELOG.md").read_text("utf-8"), flags=re.M
+    )
+    assert len(rows) == 7
+    assert [name for name in rows if find_spec(name) is None] == []

@@ -6,7 +6,7 @@ from ros_trial import UP, Middleware, wrench
 from scipy.spatial.transform import Rotation
 
 from tandemlift.export import topics
-from tandemlift.export.frames import fixed
+from tandemlift.export.coordinate_frames import fixed
 from tandemlift.live.session.scene_builder import scene_of
 from tandemlift.missions import load_mission
 from tandemlift.ros.scenery import still

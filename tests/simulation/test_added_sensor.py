@@ -16,8 +16,8 @@ from tandemlift.algebra.vector import Nothing, Vec3
 from tandemlift.common.errors import InputError
 from tandemlift.common.sensors import DEVICES, SENSORS, additional, sensors_on
 from tandemlift.flight.channels import CHANNELS
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.health import PerSensor
 from tandemlift.laws.sensors.readings import ImuChannels, ImuReading, MotionChannels, MotionReading, Readings
 from tandemlift.laws.sensors.sensor_registry import register_sensor

@@ -6,8 +6,8 @@ from scipy.integrate import solve_ivp
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, hamilton
-from tandemlift.laws.mechanics.body import State, motion
 from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.mechanics.rigid_body import State, motion
 from tandemlift.laws.rotors.allocation import wrench
 from tandemlift.pilot.pilot import PilotInput, decide
 from tandemlift.simulation.assemble import assemble

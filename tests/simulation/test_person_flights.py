@@ -10,6 +10,7 @@ from tandemlift.algebra.vector import vec3
 from tandemlift.figures.drawing.clearances import clearances
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.person.person import PersonView
+from tandemlift.missions import built_in
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper, fly_stepwise
 
@@ -51,6 +52,10 @@ def assert_through_and_landed(metrics: dict[str, Any], mission: tl.Mission) -> N
     assert metrics["wall_contact"] is False
     assert np.hypot(x - end[-1][0], y - end[-1][1]) < 0.6 + (mission.person.model == "pull")  # led by its end
     assert z == pytest.approx(mission.initial.position[2], abs=0.01)
+
+
+def test_every_built_in_mission_with_a_person_is_flown():
+    assert set(LEAST) == {name for name in built_in() if tl.load_mission(name).person.model != "none"}
 
 
 @pytest.mark.parametrize("name", LEAST)

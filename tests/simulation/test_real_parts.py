@@ -11,7 +11,7 @@ from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.algebra.vector import ZERO
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN
 from tandemlift.laws.mechanics.push import PushSamples, push_at
-from tandemlift.laws.mechanics.rectangle import WALL
+from tandemlift.laws.mechanics.wall_geometry import WALL
 from tandemlift.laws.mechanics.walls import nearest_with
 from tandemlift.laws.mechanics.wind import gust_velocity
 from tandemlift.laws.rotors.allocation import AllocationState
@@ -155,7 +155,7 @@ def test_its_first_steps_are_those_of_plain_python():
     samples = in_plain_python(storm(changes), 120)
     commands = flight["rotor_commands"]
     assert commands.min() > 0.0
-    assert commands.max() < 7.06  # N: no limit is met, so laws.rotors.thrust_limits has nothing to do
+    assert commands.max() < 7.06  # N: no limit is met, so laws.rotors.thrust_limit_solver has nothing to do
     assert flight["contact_force"][:, 0].min() < -0.1
     assert flight["contact_force"][:, 2].max() > 0.1
     for name in flight:

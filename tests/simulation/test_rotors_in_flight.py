@@ -25,7 +25,7 @@ def flown():
     return mission, tl.fly(mission)
 
 
-def ground_ratios(mission, flight):
+def check_ground_ratios(mission, flight):
     """Thrust over thrust in free air of every rotor (T, 4N), by Cheeseman and Bennett."""
     vehicle = tl.Vehicle.from_settings(mission.vehicle)
     floor = assemble(mission).model.plant.floor.height
@@ -65,7 +65,7 @@ def test_thrusts_are_the_delayed_commands_through_lag_fault_and_ground_as_scipy_
     acting = slice(first + COMMAND, None)
     share = np.ones_like(commands)
     share[flight.time[acting] >= FAULT - 1e-9, 6] = LEFT
-    ratios = ground_ratios(mission, flight)[acting]
+    ratios = check_ground_ratios(mission, flight)[acting]
     expected = mean_thrusts(commands, mission.vehicle.quadrotors[0].thrust_constant) * share * ratios
     assert ratios.max() > 1.01
     np.testing.assert_allclose(flight["rotor_thrusts"][acting], expected, rtol=1e-9, atol=1e-9)
@@ -97,7 +97,7 @@ def test_no_command_and_no_thrust_ever_leaves_its_limits():
         assert flight["rotor_commands"].min() >= 0.0
         assert flight["rotor_commands"].max() <= most * (1.0 + 1e-12)
         assert flight["rotor_thrusts"].min() >= 0.0
-        assert np.all(flight["rotor_thrusts"] <= most * ground_ratios(mission, flight) * (1.0 + 1e-12))
+        assert np.all(flight["rotor_thrusts"] <= most * check_ground_ratios(mission, flight) * (1.0 + 1e-12))
         assert np.all(flight["allocation_fraction"] <= 1.0)
 
 

@@ -22,7 +22,7 @@ def step_by_step(mission):
     return flight_of(p, fly_stepwise(p, p.steps // p.every + 1, p.every))
 
 
-def check(missions):
+def check_same_bits(missions):
     """Fly them alone, in a block, and four of them step by step; the flights."""
     assert [len(places) for places, _ in _jobs(missions)] == [LANES]
     together = tl.fly_many(missions)
@@ -36,7 +36,7 @@ def check(missions):
 
 @pytest.mark.parametrize("name", built_in())
 def test_a_built_in_mission_flies_alone_in_a_block_and_step_by_step_with_the_same_bits(name):
-    flights = check(lanes(name))
+    flights = check_same_bits(lanes(name))
     ends = {str(flights[i].divergence) for i in LOST}
     assert len(ends) == 2
     assert any(flights[i].divergence for i in LOST)
@@ -48,4 +48,4 @@ def test_any_number_of_quadrotors_flies_so_with_rotors_lost_in_flight(count):
     one = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(mode="json", exclude_none=True)
     places = np.linspace(1.0, -1.0, count) if count > 1 else [0.0]
     quadrotors = [{**one, "position": [0.02 * i, float(y), 0.075]} for i, y in enumerate(places)]
-    check(lanes("rotor-loss", **{"vehicle.quadrotors": quadrotors}))
+    check_same_bits(lanes("rotor-loss", **{"vehicle.quadrotors": quadrotors}))

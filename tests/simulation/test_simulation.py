@@ -13,7 +13,7 @@ import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO
 from tandemlift.controllers import CONTROLLERS, Command, control, register
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.settings import ControllerTable
 
 FREE = {"vehicle.drag.force": 0.0, "vehicle.drag.moment": 0.0, "mission.log_interval": 0.001}

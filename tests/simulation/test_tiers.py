@@ -23,7 +23,7 @@ def empty(tmp_path, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_OPTIMISE", "0")
 
 
-def optimised(mission, count):
+def check_optimised(mission, count):
     """The code of a mission's loop, once the optimised one is in its place."""
     found = FlightPlan(mission).kernels.loop(count)
     assert not found.is_best
@@ -35,12 +35,12 @@ def optimised(mission, count):
     return found
 
 
-@pytest.mark.parametrize("name", ["paper", "four", "iris", "rotor-loss", "zigzag"])
+@pytest.mark.parametrize("name", ["paper", "four", "iris", "rotor-loss", "zigzag"])  # to optimise one takes seconds
 def test_optimised_code_gives_the_bits_of_quick_code(name, empty):
     missions = lanes(name)
     quick = [tl.fly(missions[1]), *tl.fly_many(missions)]
     for count in (1, LANES):
-        optimised(missions[1], count)
+        check_optimised(missions[1], count)
     best = [tl.fly(missions[1]), *tl.fly_many(missions)]
     for a, b in zip(quick, best, strict=True):
         assert different(a, b) == []
@@ -52,7 +52,7 @@ def test_code_is_exchanged_in_the_middle_of_a_flight(empty):
     p = FlightPlan(mission)
     memory = FlightMemory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
     assert memory.fly(700) == 700
-    optimised(mission, 1)
+    check_optimised(mission, 1)
     assert memory.fly(p.steps + 1) == p.steps
     assert np.array_equal(memory.log[0][:, 1:], log_of(p))
     assert whole.divergence is None

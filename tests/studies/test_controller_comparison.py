@@ -4,10 +4,10 @@ import json
 import re
 import sys
 import warnings
-from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from html_page import check_page
 
 import tandemlift as tl
 from tandemlift.cli.main import main
@@ -29,7 +29,6 @@ from tandemlift.studies.controller_comparison import (
 SHORT = ("--set", "mission.duration=0.6")
 WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")  # of nftsmc
 TWO = ("--controllers", "nftsmc,pid")
-VOID = {"meta", "img", "br"}
 
 
 @pytest.fixture
@@ -44,38 +43,6 @@ def run(tmp_path, monkeypatch, capsys):
         return ended.value.code or 0, *capsys.readouterr()
 
     return call
-
-
-class Page(HTMLParser):
-    """A parsed page: its elements with their attributes, the cells of its tables, and whether every tag is closed."""
-
-    def __init__(self, path):
-        super().__init__()
-        self.elements, self.rows, self.open = [], [], []
-        self.text = path.read_text("utf-8")
-        self.feed(self.text)
-        self.close()
-        assert self.open == []
-
-    def handle_starttag(self, tag, attrs):
-        self.elements.append((tag, dict(attrs)))
-        if tag == "tr":
-            self.rows.append([])
-        if tag in ("td", "th"):
-            self.rows[-1].append("")
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        if {"td", "th"} & set(self.open):
-            self.rows[-1][-1] += data
-
-    def row(self, name):
-        """The row of a controller in the first table."""
-        return next(row for row in self.rows if row and row[0] == name)
 
 
 def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_path):
@@ -96,7 +63,7 @@ def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_p
 
 def test_the_page_needs_nothing_but_itself_and_has_a_row_and_the_settings_of_each(run, tmp_path):
     assert run("compare", "hover", *TWO, "--set", "mission.duration=2.0", "--out", "here")[0] == 0
-    page = Page(tmp_path / "here" / "compare.html")
+    page = check_page(tmp_path / "here" / "compare.html")
     assert not [a for _, a in page.elements if "href" in a or not a.get("src", "data:").startswith("data:")]
     assert len([tag for tag, _ in page.elements if tag == "img"]) == 2
     for name in ("nftsmc", "pid"):
@@ -113,7 +80,7 @@ def test_a_controller_that_diverges_is_a_row_that_says_when_and_why(run, tmp_pat
     assert re.search(r"nftsmc: diverged at 31\.2\S* s: distance", err)
     assert "pid:" not in err
     assert "diverged at" in out
-    page = Page(tmp_path / "out" / "paper" / "compare.html")
+    page = check_page(tmp_path / "out" / "paper" / "compare.html")
     assert page.row("nftsmc")[-1].startswith("diverged at ")
     assert page.row("pid")[-1] == "flown to the end"
     found = json.loads((tmp_path / "out" / "paper" / "compare.json").read_text("utf-8"))
@@ -178,7 +145,7 @@ def test_a_controller_has_the_settings_of_the_mission_that_is_extended(tmp_path)
 def test_a_controller_that_is_refused_is_a_row_of_the_page(tmp_path):
     entered = entrants("hover", {"mission.duration": 0.2}, [CONTROLLERS["pid"]])
     entries = [*compare(entered), Entry("other", None, "lacks <everything>")]
-    page = Page(write_comparison(entries, tmp_path / "compare.html"))
+    page = check_page(write_comparison(entries, tmp_path / "compare.html"))
     assert page.row("other") == ["other", "–", "lacks <everything>"]
 
 
@@ -304,7 +271,7 @@ def test_who_wins_a_column_wins_by_what_is_physical(values, best):
 def test_the_page_has_no_winner_below_a_micrometre_and_prints_none_of_its_digits(tmp_path):
     errors = {"a": 3e-8, "b": 1e-9, "c": 0.0}
     path = write_comparison([Entry(name, made([e, e, e])) for name, e in errors.items()], tmp_path / "compare.html")
-    page = Page(path)
+    page = check_page(path)
     assert "<td><b>" not in page.text
     assert page.row("a")[1] == page.row("b")[1] == "< 0.001"
     assert page.row("c")[1] == "0"

@@ -15,12 +15,12 @@ from scipy.optimize import lsq_linear
 
 from tandemlift.algebra.layout import flat
 from tandemlift.algebra.vector import each, vec3
-from tandemlift.kernels.limit_solver import write_solver
+from tandemlift.kernels.compiled_limit_solver import write_solver
 from tandemlift.kernels.traced_step import TracedSolver
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.laws.rotors.normal_equations import GAMMA
-from tandemlift.laws.rotors.thrust_limits import BoundedProblem
+from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem
 from tandemlift.trace import Function, Module, Place
 from tandemlift.trace.machine import BEST, QUICK, Loaded
 from tandemlift.trace.machine import compiled as object_code

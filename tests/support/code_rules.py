@@ -96,3 +96,16 @@ def copies_by_position(tree):
             if len(given) >= MANY_ARGUMENTS and 2 * max(sources.values(), default=0) >= len(given):
                 found.append(ast.unparse(node.func))
     return found
+
+
+def asserting_helpers(tree):
+    """Functions and methods that assert, and are neither tests nor fixtures nor named `assert_…` or `check_…`."""
+    classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
+    functions = [f for part in (tree, *classes) for f in part.body if isinstance(f, ast.FunctionDef)]
+    names = set()
+    for f in functions:
+        fixture = any("fixture" in ast.unparse(decorator) for decorator in f.decorator_list)
+        says_so = f.name.lstrip("_").startswith(("test", "assert_", "check_"))
+        if not fixture and not says_so and any(isinstance(node, ast.Assert) for node in ast.walk(f)):
+            names.add(f.name)
+    return sorted(names)

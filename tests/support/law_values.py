@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, vec3
 from tandemlift.laws.mechanics.air_drag import AirDrag
-from tandemlift.laws.mechanics.body import RigidBody, State
 from tandemlift.laws.mechanics.inertia import inertia_value
+from tandemlift.laws.mechanics.rigid_body import RigidBody, State
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.settings import Payload, Quadrotor
 from tandemlift.vehicle import Vehicle

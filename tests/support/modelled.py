@@ -6,6 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
+from tandemlift.missions import built_in
 from tandemlift.vehicle import Vehicle
 
 PLACES = [[0.1, 1.0, 0.2], [-0.2, -1.1, 0.15], [0.9, 0.1, 0.1], [-0.8, 0.2, -0.1]]
@@ -21,14 +22,11 @@ def fleet(count):
     return {"vehicle.quadrotors": quadrotors, "initial.position": 0.0, "initial.euler": 0.0}
 
 
-MISSIONS = {
+MISSIONS = {  # all that are built in, and vehicles unlike theirs
+    **{name: (name, {}) for name in built_in()},
     "one": ("paper", {**fleet(1), "vehicle.quadrotors.0.position": [0.0, 0.0, 0.2]}),
-    "two": ("paper", {}),
     "unlike": ("paper", {**fleet(4), **TILTED}),
-    "plate": ("four", {}),
-    "heavier": ("heavy-payload", {}),
     "as it really is": ("paper", LIGHTER),
-    "corridor": ("zigzag", {}),
     "walls": ("iris", WALLED),
 }
 

@@ -9,8 +9,8 @@ from law_values import flat
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Quat, spread, vec3
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.readings import ImuReading
 
 G = 9.81

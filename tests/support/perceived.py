@@ -12,8 +12,8 @@ from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
 from tandemlift.laws.estimation.navigation import NavigationState, Navigator, navigate, navigator, start_navigation
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.readings import Readings, Sensors, readings_of, sense, sensors, start_sensing, zero_noise
 
 STEP = 1e-3

@@ -16,7 +16,7 @@ from tandemlift.trace.functions import compiled as machine_code
 COUNT = 4000
 
 
-def compiled(name: str, arguments: int = 1) -> Callable[..., np.ndarray]:
+def check_compiled(name: str, arguments: int = 1) -> Callable[..., np.ndarray]:
     """Machine code of an operation, over arrays; eight numbers at once give the bits of each alone."""
     alone, block = (machine_code(getattr(ops, name), *[0.0] * arguments, lanes=lanes) for lanes in (1, 8))
 
@@ -31,8 +31,8 @@ def compiled(name: str, arguments: int = 1) -> Callable[..., np.ndarray]:
 
 @pytest.fixture(scope="module")
 def f() -> dict[str, Callable[..., np.ndarray]]:
-    found = {name: compiled(name) for name in ("exp", "tanh", "log", "sin", "cos", "sqrt")}
-    return found | {name: compiled(name, 2) for name in ("atan2", "power")}
+    found = {name: check_compiled(name) for name in ("exp", "tanh", "log", "sin", "cos", "sqrt")}
+    return found | {name: check_compiled(name, 2) for name in ("atan2", "power")}
 
 
 def ulps(found: np.ndarray, exact: Callable[..., Any], *arrays: np.ndarray) -> float:

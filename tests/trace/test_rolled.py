@@ -102,6 +102,7 @@ def same(a, b):
     return all(np.array_equal(a[name], b[name]) for name in a)
 
 
+# Each compiles two loops for seconds: these have, together, every part that is mapped over quadrotors.
 @pytest.mark.parametrize(("mission", "count"), [("iris", 5), ("iris", 8), ("paper", 6), ("gusts", 6), ("zigzag", 5)])
 def test_many_quadrotors_fly_alike_in_loops_and_written_out(mission, count, monkeypatch, tmp_path):
     missions = fleet(mission, count, **{"mission.duration": 6.0})

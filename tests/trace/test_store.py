@@ -45,7 +45,7 @@ def started(code=FLY):
     return subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
-def said(process):
+def check_output(process):
     out, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, errors) == (0, "")
     return out
@@ -54,7 +54,7 @@ def said(process):
 OPTIMISED = """import os; os.environ["TANDEMLIFT_OPTIMISE"] = "1"; from tandemlift.trace import code; code.PAYS = 0.0"""
 
 
-def entries(cache):
+def check_entries(cache):
     """The files of machine code in the cache; each of all files is a whole one."""
     files = sorted((cache / "code").iterdir())
     for file in files:
@@ -82,9 +82,9 @@ def right():
 
 def test_processes_that_compile_the_same_at_once_all_fly_and_leave_one_good_file(cache, right):
     processes = [started() for _ in range(3)]
-    assert [said(process) for process in processes] == [right] * 3
-    assert len(entries(cache)) == 1
-    assert said(started()) == right
+    assert [check_output(process) for process in processes] == [right] * 3
+    assert len(check_entries(cache)) == 1
+    assert check_output(started()) == right
 
 
 def test_after_a_process_is_killed_at_any_moment_the_next_one_flies(cache, right, monkeypatch):
@@ -92,7 +92,7 @@ def test_after_a_process_is_killed_at_any_moment_the_next_one_flies(cache, right
     monkeypatch.delenv("TANDEMLIFT_OPTIMISE")
     chance = random.Random(1)
     began = time.monotonic()
-    said(started())
+    check_output(started())
     whole, after = time.monotonic() - began, 0
     for i in range(50):
         if i % 2:  # compiled anew every other time
@@ -104,7 +104,7 @@ def test_after_a_process_is_killed_at_any_moment_the_next_one_flies(cache, right
         process.communicate(timeout=PATIENCE)
         after += process.returncode == 0
         if i % 5 == 4:
-            assert said(started()) == right
+            assert check_output(started()) == right
         else:
             assert np.array_equal(here()["thrust"], here.first["thrust"])
     assert after < 40  # most of them were killed
@@ -213,7 +213,7 @@ WAYS += ["a link to nowhere", "a bit of its code", "a bit of its checksum", "its
 @pytest.mark.parametrize("way", WAYS)
 def test_an_entry_that_cannot_be_trusted_is_made_anew(way, cache, monkeypatch):
     first = here()
-    (file,) = entries(cache)
+    (file,) = check_entries(cache)
     damaged(file, way)
     made, compiled = [], machine.compiled
     monkeypatch.setattr(machine, "compiled", lambda *given: made.append(given) or compiled(*given))
@@ -239,7 +239,7 @@ def test_a_module_on_disk_that_cannot_be_trusted_is_traced_again(way, cache):
 
 def test_a_folder_in_the_place_of_an_entry_is_left_alone(cache):
     first = here()
-    (file,) = entries(cache)
+    (file,) = check_entries(cache)
     damaged(file, "a folder")
     assert np.array_equal(here()["thrust"], first["thrust"])
 
@@ -324,7 +324,7 @@ def test_a_flight_flies_without_a_cache_and_heals_it(where, number, cache, right
         flight = here()
     assert not list(cache.glob("code/*"))
     assert np.array_equal(here()["thrust"], flight["thrust"])
-    assert len(entries(cache)) == 1
+    assert len(check_entries(cache)) == 1
     assert flight["thrust"].tobytes().hex()[-4000:] + "\n" == right
 
 

@@ -1,7 +1,7 @@
 """Elementary operations on floats, NumPy arrays, JAX tracers, CasADi symbols, our own, and on vectors of them.
 
-Each dispatches on the type of its arguments to `math`, NumPy, `jax.numpy`, CasADi or `tandemlift.trace.elementary`,
-whose functions are branch-free so that many flights go through one instruction.
+Each dispatches on the type of its arguments to `math`, NumPy, `jax.numpy`, CasADi or the functions of a symbol's
+own class, which are branch-free so that many flights go through one instruction.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def _library(args: tuple[Any, ...]) -> tuple[Any, int] | None:
         if root == "casadi":
             return sys.modules["casadi"], 1
         if root == "tandemlift":
-            return sys.modules["tandemlift.trace.elementary"], OURS
+            return type(a).functions, OURS
         if root == "numpy":
             found = sys.modules["numpy"], 0
     return found

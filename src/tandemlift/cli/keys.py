@@ -23,7 +23,7 @@ def template() -> None:
       tandemlift template > mine.toml
       tandemlift run mine.toml
     """
-    from tandemlift.missions.reference.template import template_text
+    from tandemlift.missions.key_reference.template import template_text
 
     echo(template_text(), nl=False)
 
@@ -44,8 +44,8 @@ def explain(key: str | None, controller: str | None, markdown: bool) -> None:
       tandemlift explain supervision.watchdog
       tandemlift explain controller.stiffness --controller my_pd.py
     """
-    from tandemlift.missions.reference.explaining import explained, index
-    from tandemlift.missions.reference.markdown import keys_page
+    from tandemlift.missions.key_reference.explaining import explained, index
+    from tandemlift.missions.key_reference.markdown import keys_page
 
     if controller is not None:
         chosen_controller(controller)
@@ -67,7 +67,7 @@ def schema(controller: str | None) -> None:
       tandemlift schema > mission.schema.json
       #:schema ./mission.schema.json
     """
-    from tandemlift.missions.reference.schema import mission_schema
+    from tandemlift.missions.key_reference.schema import mission_schema
 
     if controller is not None:
         chosen_controller(controller)

@@ -10,9 +10,9 @@ function will do, at a few microseconds a step.
 """
 
 from tandemlift.controllers.interface import NO_DISTURBANCE, Command, Disturbance, Measured, NoMemory, control
-from tandemlift.controllers.loading import load_controller
 from tandemlift.controllers.registry import CONTROLLERS, Controller, controller, file_of, register
-from tandemlift.controllers.trial import error_text
+from tandemlift.controllers.trial_run import error_text
+from tandemlift.controllers.user_controller import load_controller
 from tandemlift.laws.signals.trajectories import Reference
 
 # isort: split

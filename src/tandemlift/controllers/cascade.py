@@ -24,8 +24,8 @@ from tandemlift.controllers.attitude_reference import (
     with_heading,
 )
 from tandemlift.controllers.interface import Command, Measured
-from tandemlift.laws.mechanics.body import UP, Wrench
 from tandemlift.laws.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
+from tandemlift.laws.mechanics.rigid_body import UP, Wrench
 from tandemlift.laws.mechanics.rotation import Euler
 from tandemlift.laws.mechanics.tilt import TiltLimit, TiltZXY, desired_orientation, tilt_limit, total_thrust
 from tandemlift.laws.signals.trajectories import Reference

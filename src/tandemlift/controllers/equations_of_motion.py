@@ -1,6 +1,6 @@
 """The equations of motion in the controller's coordinates χ = (x, y, z, φ, θ, ψ): χ̈ = Ϝ + δ + b u.
 
-The control law is derived from these; the body flies `mechanics.body.motion`. The lines of x, y, z are exact. Those of
+The control law is derived from these; the body flies `rigid_body.motion`. The lines of x, y, z are exact. Those of
 φ, θ, ψ hold under Assumption 4, Θ̇ = ω, and with it leave out terms as large as the gyroscopic ones that they keep: at
 level attitude φ̈ = ṗ + q r, θ̈ = q̇ − p r, ψ̈ = ṙ − p q.
 """
@@ -10,8 +10,8 @@ from typing import NamedTuple
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.vector import Vec3, linear, plus
-from tandemlift.laws.mechanics.body import UP, RigidBody, Wrench
 from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic
+from tandemlift.laws.mechanics.rigid_body import UP, RigidBody, Wrench
 from tandemlift.laws.mechanics.rotation import Euler
 from tandemlift.laws.mechanics.tilt import virtual_inputs
 

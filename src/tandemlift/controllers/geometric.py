@@ -36,7 +36,7 @@ from tandemlift.controllers.cascade import (
 )
 from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.mechanics.tilt import limit_tilt
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass, low_pass_step

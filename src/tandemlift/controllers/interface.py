@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.laws.mechanics.body import State, Wrench
+from tandemlift.laws.mechanics.rigid_body import State, Wrench
 from tandemlift.laws.signals.trajectories import Reference
 
 

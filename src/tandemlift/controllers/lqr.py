@@ -44,7 +44,7 @@ from tandemlift.controllers.cascade import (
 )
 from tandemlift.controllers.interface import Command, Measured, control
 from tandemlift.controllers.registry import register
-from tandemlift.laws.mechanics.body import UP
+from tandemlift.laws.mechanics.rigid_body import UP
 from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, wrap_angle
 from tandemlift.laws.mechanics.tilt import limit_tilt
 from tandemlift.laws.signals.trajectories import Reference

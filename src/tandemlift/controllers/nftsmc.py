@@ -32,8 +32,8 @@ from tandemlift.controllers.attitude_reference import (
 from tandemlift.controllers.interface import Command, Measured, NoMemory, control
 from tandemlift.controllers.registry import register
 from tandemlift.controllers.sliding_surface import Cubic, Power, Saturation, Sign, Surface, Tanh, wanted_acceleration
-from tandemlift.laws.mechanics.body import UP, State, Wrench
 from tandemlift.laws.mechanics.inertia import Inertia, apply_inertia, gyroscopic, inertia_value
+from tandemlift.laws.mechanics.rigid_body import UP, State, Wrench
 from tandemlift.laws.mechanics.rotation import Euler, euler_from_quaternion, euler_rates_from_rates, wrap_angle
 from tandemlift.laws.mechanics.tilt import (
     TiltLimit,

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.common.errors import InputError, unknown
-from tandemlift.controllers.trial import check_started, error_text, form
+from tandemlift.controllers.trial_run import check_started, error_text, form
 from tandemlift.settings import ControllerTable
 from tandemlift.vehicle import Vehicle
 

@@ -24,11 +24,11 @@ from tandemlift.engines.compiled_contact import (
     with_contact_force,
     with_load,
 )
-from tandemlift.laws.mechanics.body import RigidBody, State, motion, rigid_body_motion, rk4
 from tandemlift.laws.mechanics.inertia import inertia_value
 from tandemlift.laws.mechanics.loads import PerfectReadings, perfect_readings, readings_with_load
 from tandemlift.laws.mechanics.parts import Acceleration
 from tandemlift.laws.mechanics.push import PushSamples
+from tandemlift.laws.mechanics.rigid_body import RigidBody, State, motion, rigid_body_motion, rk4
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.laws.rotors.allocation import Mixer, mixer_from, wrench
 from tandemlift.models.parts_layout import parts_layout_from

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import ZERO, Nothing
-from tandemlift.laws.mechanics.body import RigidBody, State
 from tandemlift.laws.mechanics.contact import Floor, feet_load, grips_after_step
 from tandemlift.laws.mechanics.inertia import apply_inertia
 from tandemlift.laws.mechanics.loads import (
@@ -23,6 +22,7 @@ from tandemlift.laws.mechanics.loads import (
     resultant_of_quadrotors,
     without_negative_zero,
 )
+from tandemlift.laws.mechanics.rigid_body import RigidBody, State
 from tandemlift.laws.mechanics.walls import Walls, near_wall_loads
 from tandemlift.laws.rotors.allocation import Mixer
 

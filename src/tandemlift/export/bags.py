@@ -18,7 +18,7 @@ import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.phases import PHASE_NAMES
-from tandemlift.export.frames import fixed
+from tandemlift.export.coordinate_frames import fixed
 from tandemlift.export.messages import SECOND, MessageTypes, Transforms, event_maker, message_maker, modern
 from tandemlift.export.topics import ROOT, topics_from
 from tandemlift.flight.record import Flight

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from tandemlift.common.types import Array
-from tandemlift.export.frames import ALIGNED, BASE, WORLD
+from tandemlift.export.coordinate_frames import ALIGNED, BASE, WORLD
 from tandemlift.export.recipes import IMU, ODOMETRY, POINT, POSE, ROTORS, VECTOR, WRENCH, Recipe, Topic
 
 About = Topic | Recipe  # of which a maker reads frame and labels

@@ -18,7 +18,7 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.export.bags import rosbags
-from tandemlift.export.frames import eulers
+from tandemlift.export.coordinate_frames import eulers
 from tandemlift.export.messages import NUMBERS, SECOND
 from tandemlift.export.recipes import MeasuredPose, Recipe
 from tandemlift.export.topics import ALWAYS, JOINTS, PILOT, ROOT, SOMETIMES, all_recipes, topics_from

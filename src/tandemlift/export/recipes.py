@@ -9,8 +9,18 @@ import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
-from tandemlift.export.frames import ALIGNED, BASE, PAYLOAD, WORLD, eulers, joint, quaternions, to_body, to_world
-from tandemlift.export.table import components
+from tandemlift.export.coordinate_frames import (
+    ALIGNED,
+    BASE,
+    PAYLOAD,
+    WORLD,
+    eulers,
+    joint,
+    quaternions,
+    to_body,
+    to_world,
+)
+from tandemlift.export.csv_file import components
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterator
 
-from tandemlift.export.frames import BASE, PAYLOAD, WORLD
+from tandemlift.export.coordinate_frames import BASE, PAYLOAD, WORLD
 from tandemlift.export.recipes import (
     IMU,
     POINT,

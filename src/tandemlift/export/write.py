@@ -14,7 +14,7 @@ from pathlib import Path
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
 from tandemlift.export.bags import write_bag, write_mcap
-from tandemlift.export.table import write_csv
+from tandemlift.export.csv_file import write_csv
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check
 

@@ -16,8 +16,8 @@ from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
+from tandemlift.flight.data_frames import to_pandas, to_xarray
 from tandemlift.flight.old_names import renamed_channels, renamed_tables, warn_of_old_names
-from tandemlift.flight.tables import to_pandas, to_xarray
 
 if TYPE_CHECKING:
     import pandas

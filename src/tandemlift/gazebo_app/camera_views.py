@@ -13,8 +13,7 @@ import numpy as np
 from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.models.cameras import FixedCamera
-from tandemlift.vehicle import Vehicle
+from tandemlift.models.cameras import FixedCamera, reach_of
 
 DISTANCE = 5.0  # from the vehicle to a camera, as a multiple of the vehicle's reach
 ELEVATION, OFFSET = np.radians([34.0, 24.0])  # rad, of a camera above the horizon and beside the way
@@ -43,7 +42,7 @@ def views_from(flight: Flight) -> list[ViewRequest]:
         "at the end of its way",
         "landed" if stands[1] else "at the end",
     )
-    reach = float(np.linalg.norm(Vehicle.from_mission(flight.mission).lever_arms, axis=1).max()) + 0.5
+    reach = reach_of(flight.mission)
     return [
         ViewRequest(title, float(flight.time[k]), _camera(f"view_{letter}", flight, k, DISTANCE * reach))
         for letter, title, k in zip("abcd", titles, _moments(flight), strict=True)

@@ -7,9 +7,9 @@ one part to the next, and the values that are constant within a flight, which ar
 from __future__ import annotations
 
 from tandemlift.algebra.layout import leaves
+from tandemlift.kernels.compiled_limit_solver import write_limits, write_solver
 from tandemlift.kernels.context import AT, MEMORY, POINTERS, ScratchLayout
 from tandemlift.kernels.external_inputs import HALVES, SPAN
-from tandemlift.kernels.limit_solver import write_limits, write_solver
 from tandemlift.kernels.offsets import delayed_spans, leaf_offset
 from tandemlift.kernels.precompute import write_draw, write_gust, write_push, write_surroundings
 from tandemlift.kernels.scratch import ScratchValues, steady

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.kernels.limit_solver import write_limits, write_solver
+from tandemlift.kernels.compiled_limit_solver import write_limits, write_solver
 from tandemlift.kernels.traced_step import check_layout, graph_for, limit_thrusts
 from tandemlift.laws.rotors.allocation import ConstrainedAllocation
 from tandemlift.pilot.pilot import PilotMemory, PilotParameters, decide

@@ -9,7 +9,7 @@ from tandemlift.kernels.context import MEMORY
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, HALVES, SPAN
 from tandemlift.kernels.offsets import leaf_offset
 from tandemlift.kernels.traced_step import Symbols
-from tandemlift.laws.mechanics.rectangle import WALL
+from tandemlift.laws.mechanics.wall_geometry import WALL
 from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.trace import Function, Place, double
 

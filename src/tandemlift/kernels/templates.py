@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.layout import zeroed
 from tandemlift.algebra.vector import ZERO, Nothing, Quat
 from tandemlift.controllers import Command, Measured, Reference, control
-from tandemlift.laws.mechanics.body import State, Wrench
+from tandemlift.laws.mechanics.rigid_body import State, Wrench
 from tandemlift.laws.person.person import Person
 from tandemlift.laws.rotors.allocation import ConstrainedAllocation
 from tandemlift.laws.signals.trajectories import Trajectory

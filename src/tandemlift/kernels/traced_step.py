@@ -22,11 +22,11 @@ from tandemlift.laws.estimation.rotor_loss_detection import left_of, with_trials
 from tandemlift.laws.mechanics.clearance import clearance, may_touch_wall
 from tandemlift.laws.mechanics.contact import may_touch
 from tandemlift.laws.mechanics.push import push_at, push_moment
-from tandemlift.laws.mechanics.rectangle import WALL
+from tandemlift.laws.mechanics.wall_geometry import WALL
 from tandemlift.laws.mechanics.walls import nearest_with
 from tandemlift.laws.mechanics.wind import gust_velocity
 from tandemlift.laws.rotors.allocation import AllocationState, limits_at, outside_limits, rotor_commands
-from tandemlift.laws.rotors.thrust_limits import BoundedProblem, Search, search_step, start_search
+from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
 from tandemlift.laws.signals.random_numbers import normals
 from tandemlift.loop.step import (
     PilotOutput,

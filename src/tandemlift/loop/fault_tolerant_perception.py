@@ -11,7 +11,7 @@ from tandemlift.algebra.vector import Quat, Vec3
 from tandemlift.laws.estimation.navigation import centre_of_mass
 from tandemlift.laws.estimation.push_estimate import PushEstimate
 from tandemlift.laws.guidance.preflight_checks import SensorStatus, sensor_status
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.health import WatchdogReport
 from tandemlift.laws.sensors.readings import Readings, Sensors, SensorState, sense
 from tandemlift.laws.sensors.sensor_faults import SensorFaults, SensorFaultState, apply_faults

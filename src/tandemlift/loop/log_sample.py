@@ -17,11 +17,11 @@ from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate,
 from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
 from tandemlift.laws.guidance.guidance import thrust_fraction
 from tandemlift.laws.guidance.hand_guidance import HandGuidanceChannels
-from tandemlift.laws.mechanics.body import Wrench
 from tandemlift.laws.mechanics.clearance import clearance
 from tandemlift.laws.mechanics.contact import Floor
 from tandemlift.laws.mechanics.loads import PartLoads, PerfectReadings, sum_over_set
 from tandemlift.laws.mechanics.push import PushSamples, push_moment
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, wrap_angle
 from tandemlift.laws.person.person import PersonState
 from tandemlift.laws.person.virtual_hand import VirtualHandState

@@ -8,8 +8,8 @@ from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import Quat, Vec3, apply_transposed, cross
 from tandemlift.laws.estimation.navigation import Navigator, navigate
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import push_moment
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import Readings, Sensors, sense
 

@@ -16,8 +16,8 @@ from tandemlift.algebra.vector import Nothing, Quat, dot
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import Push, PushSamples
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
 from tandemlift.laws.person.person import landing_request, person_step

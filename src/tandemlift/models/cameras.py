@@ -5,8 +5,8 @@ The Gazebo server needs a display (or Xvfb). With `--lockstep`, a camera saves a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -14,9 +14,11 @@ import numpy as np
 from tandemlift.common.types import Array
 from tandemlift.models.sdf_elements import numbers
 from tandemlift.rendering.camera import ANGLE, NEAR
+from tandemlift.vehicle import Vehicle
 
 FAR = 300.0  # m, distance of the far clipping plane
 PICTURES = "pictures"  # folder of pictures, relative to the working directory of the server
+MARGIN = 0.5  # m, around the outermost quadrotor
 
 
 class FixedCamera(NamedTuple):
@@ -69,3 +71,8 @@ def _model(camera: FixedCamera, every: float) -> ElementTree.Element:
 <clip><near>{NEAR}</near><far>{FAR}</far></clip>
 <save enabled="true"><path>{PICTURES}/{camera.name}</path></save></camera></sensor></link></model>"""
     )
+
+
+def reach_of(mission: Mapping[str, Any]) -> float:
+    """Distance [m] from the vehicle's centre of mass that cameras must show, from a resolved mission's tables."""
+    return float(np.linalg.norm(Vehicle.from_mission(mission).lever_arms, axis=1).max()) + MARGIN

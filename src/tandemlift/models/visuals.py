@@ -5,8 +5,9 @@ Colours and proportions are those of `rendering.aircraft`: front parts are orang
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,8 +15,11 @@ from numpy.typing import ArrayLike
 from tandemlift.common.types import Array
 from tandemlift.rendering.aircraft import CARBON, FRONT, GUARD, JOINT, METAL, REAR, SHAPELESS, SHELL, WOOD, mean_arm
 from tandemlift.rendering.mesh import frame_along
-from tandemlift.rendering.stage import BLUR
+from tandemlift.rendering.stage import BLUR, GLASS, WALL
+from tandemlift.rendering.stage import PUSH as PUSH_COLOR
 from tandemlift.settings import Payload, Quadrotor
+
+__all__ = ["PUSH_COLOR", "VisualShape", "cylinder", "payload_shapes", "quadrotor_shapes", "wall_shape"]
 
 SEGMENTS = 16  # straight pieces of a guard ring
 ALONG_Y = frame_along([0.0, 1.0, 0.0])  # axes (3 × 3) of a cylinder along y
@@ -144,3 +148,10 @@ def _legs(q: Quadrotor) -> list[VisualShape]:
         shapes += cylinder(f"leg_{j}", foot * [0.55, 0.55, 0.0], foot, 0.03 * s, CARBON)
         shapes.append(VisualShape(f"foot_{j}", "sphere", (0.05 * s,), foot, LEVEL, CARBON))
     return shapes
+
+
+def wall_shape(wall: Mapping[str, Any]) -> VisualShape:
+    """A wall as a thin box, from its table in the scene: `size` (3), `center` (3) [m, world axes], `heading` [rad]."""
+    c, s = np.cos(wall["heading"]), np.sin(wall["heading"])
+    axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return VisualShape("wall", "box", tuple(wall["size"]), np.array(wall["center"]), axes, WALL, GLASS)

@@ -11,7 +11,7 @@ from tandemlift.controllers import controller
 from tandemlift.laws.guidance.admittance import Admittance, AdmittanceState, HardGate, SoftGate
 from tandemlift.laws.guidance.guidance import AlwaysRunning, RunningInFlight
 from tandemlift.laws.guidance.scheduled_guidance import ScheduledGuidance
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import (
     AllocationState,
     ConstrainedAllocation,

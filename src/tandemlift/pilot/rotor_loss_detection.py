@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.vector import Nothing, each
-from tandemlift.laws.estimation.fault_decision import DecisionRules, DecisionState
+from tandemlift.laws.estimation.rotor_loss_decision import DecisionRules, DecisionState
 from tandemlift.laws.estimation.rotor_loss_detection import FOUR, START_SCATTER, DetectionState, RotorLossDetection
 from tandemlift.laws.mechanics.inertia import inertia_value
 from tandemlift.laws.rotors.allocation import Mixer
@@ -20,12 +20,12 @@ BOUND = 0.5  # of the residual after a rotor failure: the largest contribution o
 
 def _rules(d: DetectionTable) -> DecisionRules:
     return DecisionRules(
-        d.threshold,
-        d.isolation_margin,
-        d.unexplained_fraction,
-        d.dwell,
-        d.retest_time,
-        1.0 / d.thrust_uncertainty**2,
+        threshold=d.threshold,
+        isolation_margin=d.isolation_margin,
+        unexplained_fraction=d.unexplained_fraction,
+        dwell=d.dwell,
+        retest_time=d.retest_time,
+        per_spread=1.0 / d.thrust_uncertainty**2,
     )
 
 

@@ -12,7 +12,7 @@ from tandemlift.laws.guidance.fault_reactions import ActiveFaults
 from tandemlift.laws.guidance.preflight_checks import PreflightChecks
 from tandemlift.laws.guidance.requests import RequestSchedule
 from tandemlift.laws.guidance.supervision import EventLog, Supervision, SupervisionState
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle

@@ -15,7 +15,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import DASH, html_figure, html_table, number
 from tandemlift.report.page import COMPARISON, STYLE
-from tandemlift.report.setup import setup_rows
+from tandemlift.report.setup_section import setup_rows
 from tandemlift.studies.controller_comparison import (
     LEAST,
     Entry,

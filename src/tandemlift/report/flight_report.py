@@ -17,7 +17,7 @@ from tandemlift.figures.registry import VIEWS, captions, figures_for
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.report.page import PAGE, STYLE
-from tandemlift.report.setup import setup_rows
+from tandemlift.report.setup_section import setup_rows
 
 if TYPE_CHECKING:
     from tandemlift.figures.drawing.figure import Caption

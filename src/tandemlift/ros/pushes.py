@@ -14,7 +14,7 @@ import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, fixed, to_body, to_world
+from tandemlift.export.coordinate_frames import ALIGNED, BASE, WORLD, fixed, to_body, to_world
 from tandemlift.live.session.session import Session
 from tandemlift.live.wire.page_messages import ForceMessage
 from tandemlift.ros.diagnostics import Notify

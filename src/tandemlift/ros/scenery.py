@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 
 from tandemlift.common.types import Array
-from tandemlift.export.frames import ALIGNED, BASE, WORLD, quaternions, to_world
+from tandemlift.export.coordinate_frames import ALIGNED, BASE, WORLD, quaternions, to_world
 from tandemlift.export.messages import MessageTypes
 from tandemlift.live.session.frame_values import points_of
-from tandemlift.models.visuals import VisualShape, payload_shapes, quadrotor_shapes
-from tandemlift.rendering.stage import GLASS, PUSH, WALL
-from tandemlift.ros.drawing import MARKERS, MarkerWriter
+from tandemlift.models.visuals import PUSH_COLOR, VisualShape, payload_shapes, quadrotor_shapes, wall_shape
+from tandemlift.ros.markers import MARKERS, MarkerWriter
 from tandemlift.vehicle import Vehicle
 
 GROUND, LINE = "#ffffff", "#c3c9d1"
@@ -37,7 +36,7 @@ def still(types: MessageTypes, scene: Mapping[str, Any], vehicle: Vehicle) -> An
     floor = np.array([*(low + high) / 2.0, scene["floor"] - THICK / 2.0])
     shapes = [
         VisualShape("floor", "box", (*(high - low).tolist(), THICK), floor, color=GROUND),
-        *map(_wall, scene["walls"]),
+        *map(wall_shape, scene["walls"]),
     ]
     made += [world.shape(i, shape) for i, shape in enumerate(shapes)]
     made.append(world.lines(len(shapes), _grid(low, high, scene["floor"] + THICK / 10.0), LINE, 0.01))
@@ -76,12 +75,6 @@ def _ends(wall: Mapping[str, Any]) -> Array:
     return np.array([middle - along, middle + along])
 
 
-def _wall(wall: Mapping[str, Any]) -> VisualShape:
-    c, s = np.cos(wall["heading"]), np.sin(wall["heading"])
-    axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    return VisualShape("wall", "box", tuple(wall["size"]), np.array(wall["center"]), axes, WALL, GLASS)
-
-
 class PushMarkers:
     """The markers of push and reference.
 
@@ -109,8 +102,8 @@ class PushMarkers:
         start = to_world(attitude, points_of(channels["push_force"], channels["push_moment"], attitude))[0]
         end = start + PER_NEWTON * force
         return [
-            self._push.arrow(0, stamp, start, end, PUSH, WIDTH),
-            self._push.text(1, stamp, end + ABOVE, f"{size:.1f} N", PUSH, TEXT),
+            self._push.arrow(0, stamp, start, end, PUSH_COLOR, WIDTH),
+            self._push.text(1, stamp, end + ABOVE, f"{size:.1f} N", PUSH_COLOR, TEXT),
         ]
 
     def _reference(self, channels: Mapping[str, Array], stamp: int) -> list[Any]:

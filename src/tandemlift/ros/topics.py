@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.export.frames import WORLD, fixed, quaternions
+from tandemlift.export.coordinate_frames import WORLD, fixed, quaternions
 from tandemlift.export.messages import Maker, MessageTypes, Transforms, message_maker
 from tandemlift.export.recipes import POSE, Recipe, Source, Topic
 from tandemlift.export.topics import ROOT, recipes_for
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.ros import scenery
-from tandemlift.ros.drawing import MARKERS
+from tandemlift.ros.markers import MARKERS
 from tandemlift.ros.middleware import Middleware, TopicPublisher
 from tandemlift.vehicle import Vehicle
 

@@ -6,9 +6,15 @@ takes one number for all axes or one number each. The built-in missions in `data
 
 from tandemlift.settings.changes import ChangeTable
 from tandemlift.settings.corridor import CorridorTable, WallTable, wall_tables
-from tandemlift.settings.facts import Facts, facts_of, key
 from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
-from tandemlift.settings.leaves import (
+from tandemlift.settings.key_description import KeyDescription, description_of, key
+from tandemlift.settings.mission import Mission, MissionTable
+from tandemlift.settings.parts import Drag, Payload, Quadrotor, VehicleTable
+from tandemlift.settings.person import PersonTable
+from tandemlift.settings.pilot import AdmittanceTable, ControllerTable, PhasesTable
+from tandemlift.settings.sensors import AdditionalSensorTable, InertialSensor, JointSensors, SensorFaultTable
+from tandemlift.settings.supervision import SupervisionTable
+from tandemlift.settings.value_types import (
     AtLeastOne,
     AtLeastOne6,
     Axes3,
@@ -25,12 +31,6 @@ from tandemlift.settings.leaves import (
     Tilt,
     Triple,
 )
-from tandemlift.settings.mission import Mission, MissionTable
-from tandemlift.settings.parts import Drag, Payload, Quadrotor, VehicleTable
-from tandemlift.settings.person import PersonTable
-from tandemlift.settings.pilot import AdmittanceTable, ControllerTable, PhasesTable
-from tandemlift.settings.sensors import AdditionalSensorTable, InertialSensor, JointSensors, SensorFaultTable
-from tandemlift.settings.supervision import SupervisionTable
 
 __all__ = [
     "AdditionalSensorTable",
@@ -45,9 +45,9 @@ __all__ = [
     "DetectionTable",
     "Drag",
     "Exactly3",
-    "Facts",
     "InertialSensor",
     "JointSensors",
+    "KeyDescription",
     "Mission",
     "MissionTable",
     "NonNegative",
@@ -70,7 +70,7 @@ __all__ = [
     "Triple",
     "VehicleTable",
     "WallTable",
-    "facts_of",
+    "description_of",
     "key",
     "wall_tables",
 ]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.settings import facts
-from tandemlift.settings.leaves import NonNegative, Table
+from tandemlift.settings import key_description
+from tandemlift.settings.value_types import NonNegative, Table
 
 
 class ChangeTable(Table):
@@ -17,9 +17,13 @@ class ChangeTable(Table):
     another body or other channels. A flight with changes is flown step by step, at about 20 µs a step.
     """
 
-    time: NonNegative = facts.key(
+    time: NonNegative = key_description.key(
         ..., "s", "start of the change, rounded to a whole step", rule="not before the change above it", example=10.0
     )
-    key: str = facts.key(..., None, "dotted key that changes, as for --set", example="admittance.damping")
-    value: Any = facts.key(..., None, "new value of the key", rule="as the key takes it", example=[4.0, 4.0, 4.0])
-    duration: NonNegative = facts.key(0.0, "s", "time within which numbers move to the new value, in a straight line")
+    key: str = key_description.key(..., None, "dotted key that changes, as for --set", example="admittance.damping")
+    value: Any = key_description.key(
+        ..., None, "new value of the key", rule="as the key takes it", example=[4.0, 4.0, 4.0]
+    )
+    duration: NonNegative = key_description.key(
+        0.0, "s", "time within which numbers move to the new value, in a straight line"
+    )

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import PerAxis, Table, must
+from tandemlift.settings.key_description import key
+from tandemlift.settings.value_types import PerAxis, Table, must
 
 Point2 = Annotated[tuple[float, float], PerAxis(2, single=False)]
 

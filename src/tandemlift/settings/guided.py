@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import NonNegative, PerAxis, Positive, Positive3, Scale, Table, Tilt
+from tandemlift.settings.key_description import key
 from tandemlift.settings.pilot import Bandwidth
+from tandemlift.settings.value_types import NonNegative, PerAxis, Positive, Positive3, Scale, Table, Tilt
 
 Lead = Annotated[float, Field(ge=0.0, le=1.0)]  # s
 Positive4 = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]

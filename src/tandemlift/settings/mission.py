@@ -9,9 +9,8 @@ from pydantic import AfterValidator, Field, SerializeAsAny
 
 from tandemlift.settings.changes import ChangeTable
 from tandemlift.settings.corridor import CorridorTable, WallTable
-from tandemlift.settings.facts import key
 from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
-from tandemlift.settings.leaves import Positive, Table, divisor, must
+from tandemlift.settings.key_description import key
 from tandemlift.settings.parts import VehicleTable
 from tandemlift.settings.person import PersonTable
 from tandemlift.settings.pilot import (
@@ -25,6 +24,7 @@ from tandemlift.settings.pilot import (
 from tandemlift.settings.sensors import SensorFaultTable, SensorsTable
 from tandemlift.settings.supervision import RequestTable, SupervisionTable
 from tandemlift.settings.surroundings import GroundTable, WindTable
+from tandemlift.settings.value_types import Positive, Table, divisor, must
 from tandemlift.settings.world import ActuatorsTable, DisturbanceTable, FaultTable, InitialTable, PlantTable, PushTable
 
 

@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
-from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import (
+from tandemlift.settings.key_description import key
+from tandemlift.settings.value_types import (
     Exactly3,
     Length,
     NonNegative,

@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tandemlift.settings.corridor import Point2
-from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import NonNegative, Positive, Table
+from tandemlift.settings.key_description import key
+from tandemlift.settings.value_types import NonNegative, Positive, Table
 
 Late = Annotated[float, Field(ge=0.0, le=1.0)]  # s
 Share = Annotated[float, Field(ge=0.0, le=1.0)]

@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 from pydantic_core import core_schema
 
-from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import (
+from tandemlift.settings.key_description import key
+from tandemlift.settings.value_types import (
     NonNegative,
     NonNegative3,
     PerAxis,

@@ -7,8 +7,8 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import AfterValidator, Field
 
 from tandemlift.common.sensors import ADDITIONAL, DEVICES, SENSORS, sensors_on
-from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import Axes3, Delay, NonNegative, Positive, Size, Table, must
+from tandemlift.settings.key_description import key
+from tandemlift.settings.value_types import Axes3, Delay, NonNegative, Positive, Size, Table, must
 
 FINEST = 1e-9  # resolution of a sensor, in its unit
 BOUNDLESS = "without a bound"

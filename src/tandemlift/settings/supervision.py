@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, create_model
 
 from tandemlift.common.faults import FAULTS, REACTION_MEANINGS, Fault, Reaction
-from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import NonNegative, PerAxis, Positive, Scale, Table, Tilt
+from tandemlift.settings.key_description import key
+from tandemlift.settings.value_types import NonNegative, PerAxis, Positive, Scale, Table, Tilt
 
 Fraction = Annotated[float, Field(gt=0.0, le=1.0)]
 Samples = Annotated[int, Field(ge=2, le=1_000_000)]

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import NonNegative, PerAxis, Positive, Table
+from tandemlift.settings.key_description import key
+from tandemlift.settings.value_types import NonNegative, PerAxis, Positive, Table
 
 Speed = Annotated[float, Field(ge=-1e3, le=1e3)]  # m/s, along an axis
 Speeds = tuple[Speed, Speed, Speed]

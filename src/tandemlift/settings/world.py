@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
-from tandemlift.settings.facts import key
-from tandemlift.settings.leaves import (
+from tandemlift.settings.key_description import key
+from tandemlift.settings.value_types import (
     Axes3,
     Delay,
     Exactly3,

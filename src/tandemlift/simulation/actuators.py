@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tandemlift.algebra.vector import Nothing, each, spread
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import wrench_scale
 from tandemlift.laws.rotors.ground_effect import FreeAir, GroundEffect
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, rotor_faults

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.person import (
     Arm,
     PathFollowing,

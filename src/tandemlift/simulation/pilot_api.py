@@ -15,7 +15,7 @@ from tandemlift.controllers import control
 from tandemlift.kernels.context import aligned
 from tandemlift.kernels.pilot_sampling import PilotData, PilotSampler
 from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.pilot.pilot import PilotInput
 from tandemlift.settings import Mission

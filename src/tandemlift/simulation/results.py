@@ -19,7 +19,7 @@ from tandemlift.common.types import Array
 from tandemlift.flight.record import Divergence, Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.loop.step import FAR, SIN_ROLL_LIMIT, FlightModel, FlightState

@@ -14,7 +14,7 @@ from tandemlift.common.types import Array
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
 from tandemlift.laws.estimation.push_estimate import push_estimator, start_push
 from tandemlift.laws.estimation.wind_compensation import PayloadDrag
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.noise_bias_drift import SensorGrade, scalar_sensor_model, sensor_model
 from tandemlift.laws.sensors.readings import AdditionalChannels, by_name, sensors, zero_noise
 from tandemlift.laws.sensors.sensor_registry import PARAMETERS

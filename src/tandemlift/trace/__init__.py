@@ -5,7 +5,7 @@ without a machine instruction; `llvm` writes the graph as text; `machine` compil
 in two tiers; `store` keeps it on disk.
 """
 
-from tandemlift.trace import elementary  # `ops` imports it for symbols
+from tandemlift.trace import elementary  # gives symbols their functions
 from tandemlift.trace.fused import traced
 from tandemlift.trace.graph import LEAVES, Graph, symbols, written_out
 from tandemlift.trace.llvm import Function

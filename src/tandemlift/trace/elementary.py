@@ -13,6 +13,7 @@ from __future__ import annotations
 import functools
 import math
 import struct
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -217,3 +218,6 @@ def atan2(y: Any, x: Any) -> Any:
     small = _atan_small(select(far, n - side * d, n) / select(far, d + side * n, select(d == 0.0, 1.0, d)))
     turn = select(steep, HALF_PI, select(x < 0.0, PI, 0.0))
     return small + select(far, side * QUARTER_PI, 0.0) + select(y < 0.0, -turn, turn)
+
+
+Symbol.functions = sys.modules[__name__]

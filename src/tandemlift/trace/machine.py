@@ -72,7 +72,7 @@ class Loaded:
 
 @cache
 def _linker() -> Any:
-    return llvm.create_lljit_compiler(_target(2))
+    return llvm.create_lljit_compiler(_target(2), use_jit_link=True)  # places all sections together, within ±2 GiB
 
 
 ROWS = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)

@@ -8,7 +8,8 @@ from __future__ import annotations
 import math
 import operator
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from tandemlift.algebra.vector import is_set
 from tandemlift.trace.refusal import refused_here
@@ -23,6 +24,7 @@ class Symbol:
     """A number that is not known yet, or a large set of such numbers, which machine code handles in loops."""
 
     __slots__ = ("graph", "node", "type")
+    functions: ClassVar[ModuleType]  # elementary functions of symbols, for `algebra.ops`; set by `trace.elementary`
     __array_ufunc__ = None  # a NumPy scalar on the left defers to our operators
     __hash__ = object.__hash__
 

@@ -9,7 +9,7 @@ from scipy.signal import StateSpace, lsim
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, vec3
 from tandemlift.laws.estimation.disturbance_observer import correction, growth, observer_step
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.rotors.allocation import mixer_from
 from tandemlift.pilot.disturbance_observer import start_observer
 from tandemlift.vehicle import Vehicle

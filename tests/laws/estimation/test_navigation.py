@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import Vec3, vec3
 from tandemlift.laws.estimation.navigation import Navigator, navigator
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotated_by
 from tandemlift.laws.sensors.noise_bias_drift import SensorGrade
 from tandemlift.laws.sensors.readings import Sensors, sensors

@@ -84,23 +84,23 @@ def expected() -> np.ndarray:
     return np.array([evaluated(like, map(float, column)) for column in numbers.T]).T
 
 
-def agree(found: Any, expected: np.ndarray) -> None:
+def assert_agreement(found: Any, expected: np.ndarray) -> None:
     assert np.abs(np.broadcast_to(found, expected.shape) - expected).max() < 1e-10
 
 
 def test_numpy_broadcasts_a_step(expected):
     like, numbers = inputs()
-    agree([np.broadcast_to(row, BATCH) for row in evaluated(like, numbers)], expected)
+    assert_agreement([np.broadcast_to(row, BATCH) for row in evaluated(like, numbers)], expected)
 
 
 def test_jax_evaluates_a_step(expected, jax):
     like, numbers = inputs()
     rows = jax.jit(lambda x: jax.numpy.stack([jax.numpy.broadcast_to(r, BATCH) for r in evaluated(like, list(x))]))
-    agree(rows(numbers), expected)
+    assert_agreement(rows(numbers), expected)
 
 
 def test_casadi_traces_a_step(expected, casadi):
     like, numbers = inputs()
     symbols = casadi.SX.sym("numbers", len(numbers))
     outputs = casadi.vertcat(*evaluated(like, casadi.vertsplit(symbols)))
-    agree(np.array(casadi.Function("step", [symbols], [outputs])(numbers)), expected)
+    assert_agreement(np.array(casadi.Function("step", [symbols], [outputs])(numbers)), expected)

@@ -10,7 +10,7 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each, vec3
 from tandemlift.laws.estimation.rotor_loss_detection import confirmed, detection_step, left_of, with_trials
 from tandemlift.laws.guidance.guidance import PilotInput
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.rotors.allocation import mixer_from
 from tandemlift.missions import load_mission
 from tandemlift.pilot.rotor_loss_detection import start_detection
@@ -113,10 +113,13 @@ def named(rotor, at):
 
 
 def test_a_rotor_that_was_named_but_turns_on_trial_is_restored():
-    assert watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(4, 0.0))[0] == [(0.0, 5), (seen_at(4), 0)]
+    assert watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(4, 0.0))[0] == [
+        (0.0, 5),
+        (check_seen(4), 0),
+    ]
 
 
-def seen_at(rotor):
+def check_seen(rotor):
     """When a rotor is restored that never stopped."""
     seen, _ = watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(rotor, 0.0))
     assert 0.01 < seen[1][0] < 0.1

@@ -23,7 +23,7 @@ from tandemlift.laws.guidance.requests import (
     requests_until,
     with_operator,
 )
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 
 FREE = PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEVEL, DT, NEVER = Quat(1.0, 0.0, 0.0, 0.0), 0.05, 1e18

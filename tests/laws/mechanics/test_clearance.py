@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import Nothing
 from tandemlift.laws.mechanics.clearance import clearance, smaller_clearance
-from tandemlift.laws.mechanics.rectangle import wall
+from tandemlift.laws.mechanics.wall_geometry import wall
 from tandemlift.laws.mechanics.walls import nearest_with, no_walls_near, walls
 from tandemlift.models.parts_layout import parts_layout_from
 

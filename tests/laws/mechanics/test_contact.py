@@ -17,7 +17,6 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.layout import flat, unflat
 from tandemlift.algebra.ops import sqrt
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
-from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, rigid_body_motion
 from tandemlift.laws.mechanics.contact import (
     Floor,
     feet_load,
@@ -32,6 +31,7 @@ from tandemlift.laws.mechanics.contact import (
 )
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, resultant
 from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.mechanics.rigid_body import RigidBody, State, Wrench, rigid_body_motion
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle
 

@@ -12,7 +12,6 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Vec3, vec3
-from tandemlift.laws.mechanics.body import State, Wrench, motion
 from tandemlift.laws.mechanics.parts import (
     Acceleration,
     Joint,
@@ -24,6 +23,7 @@ from tandemlift.laws.mechanics.parts import (
     quadrotor_acceleration,
 )
 from tandemlift.laws.mechanics.push import CentralPush
+from tandemlift.laws.mechanics.rigid_body import State, Wrench, motion
 from tandemlift.laws.mechanics.rotation import body_z_axis, rotation_from_quaternion
 from tandemlift.vehicle import Vehicle, mixer, mixer_inverse
 

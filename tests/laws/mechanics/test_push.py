@@ -14,7 +14,6 @@ from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Vec3, mat3
-from tandemlift.laws.mechanics.body import State, Wrench, motion
 from tandemlift.laws.mechanics.push import (
     SUPPORT,
     CentralPush,
@@ -24,6 +23,7 @@ from tandemlift.laws.mechanics.push import (
     push_at,
     push_moment,
 )
+from tandemlift.laws.mechanics.rigid_body import State, Wrench, motion
 
 NO_POINT_PUSH = PointPush(ZERO, mat3(np.zeros((3, 3))))
 

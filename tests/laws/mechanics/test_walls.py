@@ -15,9 +15,9 @@ from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartLoads, resultant
-from tandemlift.laws.mechanics.rectangle import Wall, offset, wall
+from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.laws.mechanics.wall_geometry import Wall, offset, wall
 from tandemlift.laws.mechanics.walls import near_wall_loads, nearest_with
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle

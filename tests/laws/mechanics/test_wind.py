@@ -22,7 +22,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3
 from tandemlift.laws.mechanics.air_drag import AirDrag, air_loads
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.turbulence import (
     Dryden,
     TurbulenceState,

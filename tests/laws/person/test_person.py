@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, mat3, vec3
 from tandemlift.engines.compiled import start_state
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import PointPush, PushSamples, push_moment
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.person import PathLeg, PersonState, landing_request, person_step, person_view
 from tandemlift.laws.person.tremor import STILL, TremorNoise, tremor, tremor_step
 from tandemlift.laws.signals.low_pass import LowPassState

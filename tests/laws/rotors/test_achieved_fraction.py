@@ -11,7 +11,7 @@ from law_values import flat, rebuilt
 from machine_code import answers
 
 from tandemlift.algebra.vector import each, vec3
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import Mixer, achieved_fraction, wrench_scale
 
 

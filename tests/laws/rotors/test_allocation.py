@@ -12,7 +12,7 @@ from scipy.optimize import minimize
 
 from tandemlift.algebra.vector import each, vec3
 from tandemlift.common.errors import InputError
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import (
     ConstrainedAllocation,
     allocate,

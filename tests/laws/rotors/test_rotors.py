@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.rotors.allocation import wrench_scale
 from tandemlift.laws.rotors.ground_effect import FreeAir, ground_effect_ratio
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults

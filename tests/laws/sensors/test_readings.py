@@ -12,8 +12,8 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, spread, vec3
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.noise_bias_drift import SensorGrade
 from tandemlift.laws.sensors.readings import (
     Readings,

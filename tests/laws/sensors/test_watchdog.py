@@ -7,7 +7,7 @@ import pytest
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, each, vec3
 from tandemlift.common.sensors import SENSORS
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotated_by
 from tandemlift.laws.sensors.health import (
     FROZEN,

@@ -95,14 +95,14 @@ def test_what_a_message_is_about_names_its_key():
 )
 def test_any_json_is_read_or_refused_in_few_words(value):
     for text in (json.dumps(value), json.dumps({"type": "set", "seq": 1, "key": "a", "value": value})):
-        _read(text)
+        _check_read(text)
 
 
 def test_of_many_hostile_messages_those_that_get_through_are_as_good_as_any():
-    _check_good([m for m in map(_read, hostile(MANY, seed=2)) if m is not None])
+    _check_good([m for m in map(_check_read, hostile(MANY, seed=2)) if m is not None])
 
 
-def _read(text):
+def _check_read(text):
     """The message in a text, or None if it is refused in a few words."""
     said = ""
     try:

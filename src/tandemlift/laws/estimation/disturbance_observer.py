@@ -21,8 +21,8 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, clip, sqrt
 from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.laws.mechanics.body import UP, Wrench
 from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic
+from tandemlift.laws.mechanics.rigid_body import UP, Wrench
 from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.laws.rotors.allocation import Mixer, wrench
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step

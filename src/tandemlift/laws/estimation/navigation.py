@@ -22,7 +22,7 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, cross, vec3
-from tandemlift.laws.mechanics.body import UP, State
+from tandemlift.laws.mechanics.rigid_body import UP, State
 from tandemlift.laws.mechanics.rotation import normalised, rotated_by, rotation_between, rotation_from_quaternion
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading, Readings
 

@@ -193,6 +193,13 @@ def concluded(
     )
 
 
+def _check_tare(start: float | None, duration: float, identify_mass: bool, interval: float) -> None:
+    if identify_mass and start is None:
+        raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
+    if start is not None and duration < interval:
+        raise ValueError(f"a tare of {duration:g} s holds no sample: they come every {interval:g} s")
+
+
 def push_estimator(
     mass: float,
     inertia: Any,
@@ -232,10 +239,7 @@ def push_estimator(
     Raises:
         ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
     """
-    if identify_mass and tare_start is None:
-        raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
-    if tare_start is not None and tare_duration < step * imu_period:
-        raise ValueError(f"a tare of {tare_duration:g} s holds no sample: they come every {step * imu_period:g} s")
+    _check_tare(tare_start, tare_duration, identify_mass, step * imu_period)
     J, N = np.array(inertia, dtype=float), len(joints)
     return PushEstimator(
         mass=float(mass),

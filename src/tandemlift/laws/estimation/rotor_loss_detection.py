@@ -24,7 +24,13 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import maximum, minimum, where
 from tandemlift.algebra.vector import each, total
-from tandemlift.laws.estimation.fault_decision import DecisionRules, DecisionState, decision_step, share_gone, support
+from tandemlift.laws.estimation.rotor_loss_decision import (
+    DecisionRules,
+    DecisionState,
+    decision_step,
+    share_gone,
+    support,
+)
 from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic
 from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.laws.rotors.allocation import Mixer, wrench

@@ -9,7 +9,7 @@ from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, STOPPED
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults
 from tandemlift.laws.guidance.preflight_checks import SensorStatus
 from tandemlift.laws.guidance.requests import VehicleStatus
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import body_z_axis
 
 

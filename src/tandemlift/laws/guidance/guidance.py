@@ -14,7 +14,7 @@ from tandemlift.laws.guidance.requests import (
     OperatorRequest,
     VehicleStatus,
 )
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.signals.trajectories import Reference, Trajectory
 
 

@@ -35,7 +35,7 @@ from tandemlift.laws.guidance.requests import (
 from tandemlift.laws.guidance.supervised_reference import fenced, usable_input, with_blind_descent
 from tandemlift.laws.guidance.supervision import finish_supervision, supervise
 from tandemlift.laws.guidance.yaw_compliance import HeadingReference, yaw_step
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.laws.signals.trajectories import Reference, Trajectory

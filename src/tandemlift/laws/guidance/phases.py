@@ -12,7 +12,7 @@ from tandemlift.algebra.ops import maximum, minimum, where
 from tandemlift.algebra.vector import dot
 from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, STOPPED
 from tandemlift.laws.guidance.requests import RequestCounts
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.signals.trajectories import SmoothStep, smoothstep
 
 SETTLING_TIME = 1.0  # s, of steady hover before a tare

@@ -9,7 +9,7 @@ from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import dot
 from tandemlift.common.faults import CHECKS
 from tandemlift.laws.guidance.requests import VehicleStatus
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.laws.sensors.health import WELL, WatchdogReport
 

@@ -9,7 +9,7 @@ from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, with_speed
 from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.guidance.supervision import Supervision, SupervisionState
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.health import any_component, not_finite
 from tandemlift.laws.sensors.watchdog import state_not_finite
 from tandemlift.laws.signals.trajectories import Trajectory

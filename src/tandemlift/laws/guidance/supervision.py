@@ -35,7 +35,7 @@ from tandemlift.laws.guidance.preflight_checks import (
     failed_lift_check,
     sensor_status,
 )
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.rotors.rotor_faults import efficiency_at
 
 TOUCHDOWN_TIME = 0.2  # s, after which a vehicle above its landing's reference is taken to stand on something

@@ -6,8 +6,8 @@ from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import maximum, sqrt
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Vec3, apply, apply_transposed, cross, dot
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 TINY = 1e-200  # m²/s², lost in the square of any speed; keeps the derivative of its root finite

@@ -10,10 +10,10 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import least, minimum, sqrt
 from tandemlift.algebra.types import Condition, Number, PerQuadrotor
 from tandemlift.algebra.vector import Nothing, Vec3, apply, dot
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartsLayout, translated
-from tandemlift.laws.mechanics.rectangle import offset, offset_from_top
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.mechanics.wall_geometry import offset, offset_from_top
 from tandemlift.laws.mechanics.walls import (
     Beam,
     NearBeam,

@@ -16,16 +16,15 @@ A step evaluates `feet_load` at every stage with the anchors held, then `grips_a
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.types import Condition, Number, PerQuadrotor
 from tandemlift.algebra.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
-from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, add_to_each
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 MAX_ANGULAR_ACCELERATION = 1000.0  # rad/s², more than rotors give
@@ -180,7 +179,7 @@ def may_touch(floor: Floor, s: State, time: Number) -> Condition:
     return s.position.z + fall - minimum(hangs + swings, floor.reach) < floor.height
 
 
-def mobility(points: Array, mass: float, inertia: Array) -> float:
+def mobility(points: NDArray[np.float64], mass: float, inertia: NDArray[np.float64]) -> float:
     """Mobility of a free body at some of its points [1/kg]: ω² of its fastest oscillation on springs of 1 N/m.
 
     Args:
@@ -196,7 +195,7 @@ def mobility(points: Array, mass: float, inertia: Array) -> float:
     return float(np.linalg.eigvals(np.linalg.solve(inertias, stiffness)).real.max())
 
 
-def surface_mobility(center: Array, radius: float, mass: float, inertia: Array) -> float:
+def surface_mobility(center: NDArray[np.float64], radius: float, mass: float, inertia: NDArray[np.float64]) -> float:
     """The largest `mobility` [1/kg] of the points where the principal axes leave a sphere."""
     axes = np.linalg.eigh(inertia)[1].T * radius
     return max(mobility(center + side[None], mass, inertia) for side in (*axes, *-axes))
@@ -213,7 +212,7 @@ def softened_for_step(stiffness: float, damping: float, body_mobility: float, st
     return float(stiffness * factor**2), float(damping * factor)
 
 
-def sole_positions(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> Array:
+def sole_positions(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> NDArray[np.float64]:
     """Four soles under each quadrotor, N × 4 × 3 [m, body axes], from the same point as the centres.
 
     Args:

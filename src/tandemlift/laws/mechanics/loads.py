@@ -22,8 +22,8 @@ from tandemlift.algebra.vector import (
     times,
     total,
 )
-from tandemlift.laws.mechanics.body import UP, State, Wrench
 from tandemlift.laws.mechanics.parts import Acceleration
+from tandemlift.laws.mechanics.rigid_body import UP, State, Wrench
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 

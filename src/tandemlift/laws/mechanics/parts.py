@@ -10,8 +10,8 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Mat3, Vec3, apply, apply_transposed, cross
-from tandemlift.laws.mechanics.body import UP
 from tandemlift.laws.mechanics.inertia import Inertia, apply_inertia, gyroscopic
+from tandemlift.laws.mechanics.rigid_body import UP
 
 
 class Point(NamedTuple):

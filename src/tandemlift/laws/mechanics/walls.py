@@ -21,7 +21,6 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.types import Number, PerQuadrotor
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.contact import (
     friction_factor,
     mobility,
@@ -37,7 +36,9 @@ from tandemlift.laws.mechanics.loads import (
     sum_over_set,
     translated,
 )
-from tandemlift.laws.mechanics.rectangle import (
+from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.mechanics.wall_geometry import (
     WALL,
     Wall,
     edges_of,
@@ -47,7 +48,6 @@ from tandemlift.laws.mechanics.rectangle import (
     second_nearest,
     selected_wall,
 )
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 SMALL = 1e-18  # m²: no direction is known at this distance
 PARALLEL = 1e-12  # sin² of the angle between lines that have no one nearest point

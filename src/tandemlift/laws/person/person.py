@@ -19,8 +19,8 @@ from tandemlift.algebra.law import Nothing, choice, law
 from tandemlift.algebra.ops import clip, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import ZERO, Vec3, apply, cross, dot, outer
 from tandemlift.laws.guidance.requests import NO_REQUEST, OperatorRequest, operator_request
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import PointPush, PushSamples
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
 from tandemlift.laws.person.tremor import Tremor, TremorNoise, TremorState, tremor_step
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step

@@ -15,8 +15,8 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, Vec3, outer
 from tandemlift.laws.guidance.requests import OperatorRequest, operator_request
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.push import PointPush, PushSamples
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.person import PersonOutput, bounded, landing_request, person_step, person_view
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
@@ -88,7 +88,9 @@ def pull_by(k: VirtualHand, m: VirtualHandState, state: State) -> Any:
     reach, slip = place.value - now.grip, place.rate - now.grip_velocity
     spring = (reach * k.stiffness + slip * k.damping) * grasp.value
     push = bounded(spring + force.value, k.max_force)
-    after = VirtualHandState(place, grasp, force, h.held, h.lift, h.land, h.stop, h.enabled)
+    after = VirtualHandState(
+        place, grasp, force, holding=h.held, lift=h.lift, land=h.land, stop=h.stop, enabled=h.enabled
+    )
     return PointPush(push, outer(push, h.grip)), after
 
 

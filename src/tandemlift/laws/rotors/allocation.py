@@ -9,8 +9,7 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Vec3, dot, each
-from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
 
 
@@ -24,7 +23,7 @@ class Mixer(NamedTuple):
 
 
 class ConstrainedAllocation(NamedTuple):
-    """Allocation within limits: the pseudo-inverse, and the problem that `thrust_limits` solves where it exceeds them.
+    """Allocation within limits: the pseudo-inverse, and the problem of `thrust_limit_solver` where it exceeds them.
 
     `rows` and `weights` of the weighted problem, `limits` [N] of all rotors, and the faults `known` to the pilot.
     """
@@ -119,7 +118,7 @@ def mixer_from(rows: NDArray[Any]) -> Mixer:
     return Mixer(thrust, roll, pitch, yaw)
 
 
-def weights_of(effect: Array, priorities: ArrayLike) -> Array:
+def weights_of(effect: NDArray[np.float64], priorities: ArrayLike) -> NDArray[np.float64]:
     """The diagonal of W (4): priority over row rms of the effect B (4 × n), so that priorities compare rotor for rotor.
 
     Args:
@@ -129,12 +128,12 @@ def weights_of(effect: Array, priorities: ArrayLike) -> Array:
     return np.asarray(priorities, dtype=float) / np.sqrt(np.mean(np.square(effect), axis=1))
 
 
-def weighted_rows(effect: Array, weights: Array) -> Array:
+def weighted_rows(effect: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
     """W B (4 × n), C-contiguous, the rows of a `thrust_limits.BoundedProblem`."""
     return np.ascontiguousarray(weights[:, None] * effect)
 
 
-def wrench_scale(effect: Array) -> Wrench:
+def wrench_scale(effect: NDArray[np.float64]) -> Wrench:
     """1 / row rms of the effect B (4 × n): makes the four components of a wrench comparable (`achieved_fraction`)."""
     thrust, roll, pitch, yaw = (float(w) for w in weights_of(effect, np.ones(4)))
     return Wrench(thrust, Vec3(roll, pitch, yaw))

@@ -11,7 +11,7 @@ from tandemlift.algebra.law import choice, elementwise
 from tandemlift.algebra.ops import maximum
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Vec3
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 
 MIN_HEIGHT = 0.5  # rotor radii: the theory of ground effect holds no nearer to the floor
 

@@ -11,7 +11,7 @@ from tandemlift.algebra.law import choice
 from tandemlift.algebra.ops import clip, sqrt
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Nothing
-from tandemlift.laws.mechanics.body import State, Wrench
+from tandemlift.laws.mechanics.rigid_body import State, Wrench
 from tandemlift.laws.rotors.ground_effect import FreeAir, GroundEffect, ground_effect_ratio
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
 from tandemlift.laws.rotors.rotor_lag import Lag, lag_step

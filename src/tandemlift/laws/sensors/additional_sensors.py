@@ -5,8 +5,8 @@ from typing import Any
 from tandemlift.algebra.law import law
 from tandemlift.algebra.vector import Vec3, apply_transposed
 from tandemlift.common.sensors import ADDITIONAL
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.sensor_registry import register_sensor
 

@@ -12,7 +12,7 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import Quat, Vec3, apply, dot
-from tandemlift.laws.mechanics.body import UP
+from tandemlift.laws.mechanics.rigid_body import UP
 from tandemlift.laws.mechanics.rotation import rotated_by, rotation_between, rotation_from_quaternion
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading
 

@@ -14,8 +14,8 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.selection import selected
 from tandemlift.algebra.vector import Nothing, Quat, Vec3
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.noise_bias_drift import (
     PERFECT,
     AttitudeNoise,

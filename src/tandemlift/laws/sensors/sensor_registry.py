@@ -12,8 +12,8 @@ from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, spread
 from tandemlift.common.errors import InputError
 from tandemlift.common.sensors import ADDITIONAL, DEVICES, SENSORS, Sensor
-from tandemlift.laws.mechanics.body import State
 from tandemlift.laws.mechanics.loads import PerfectReadings
+from tandemlift.laws.mechanics.rigid_body import State
 
 F = TypeVar("F", bound=Callable[..., Any])
 

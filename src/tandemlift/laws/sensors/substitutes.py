@@ -7,7 +7,7 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Vec3, apply_transposed
-from tandemlift.laws.mechanics.body import UP, State
+from tandemlift.laws.mechanics.rigid_body import UP, State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.health import PerSensor, WatchdogReport, is_valid
 from tandemlift.laws.sensors.readings import ImuReading, MotionReading

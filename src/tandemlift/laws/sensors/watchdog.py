@@ -15,7 +15,7 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot
-from tandemlift.laws.mechanics.body import State
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_between
 from tandemlift.laws.sensors.consistency import Inconsistency, exceeds, inconsistency_after
 from tandemlift.laws.sensors.health import (

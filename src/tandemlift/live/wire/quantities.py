@@ -13,7 +13,7 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import AfterValidator, Field
 
 from tandemlift.common.phases import PHASE_NAMES
-from tandemlift.settings.leaves import must
+from tandemlift.settings.value_types import must
 
 MAX_WORD = 100  # characters of a key or of a word
 ENDS = ("failed", "lost", "over")  # phases of a flight that has ended: by an error, out of control, at its full length

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from tandemlift.common.errors import InputError
 from tandemlift.flight.old_names import renamed_setting, warn_of_old_names
-from tandemlift.missions.reference.sections import EXTENDS, Key, Section, default_words, sections
+from tandemlift.missions.key_reference.sections import EXTENDS, Key, Section, default_words, sections
 from tandemlift.missions.values import shown
 
 NEAREST = 3

@@ -11,9 +11,9 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Mat3, Quat, Vec3, mat3, vec3
-from tandemlift.laws.mechanics.body import RigidBody, State, Wrench, motion, rk4
 from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
 from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush, PushSamples, push_at
+from tandemlift.laws.mechanics.rigid_body import RigidBody, State, Wrench, motion, rk4
 
 STILL = PushSamples(*[CentralPush(ZERO)] * 3)
 FREE = Wrench(0.0, ZERO)

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 from pydantic import Field
 from pydantic.fields import FieldInfo
 
-FACTS = "key"  # names the facts among what pydantic keeps of a field
+DESCRIPTION = "key"  # names the description among what pydantic keeps of a field
 
 
-class Facts(NamedTuple):
+class KeyDescription(NamedTuple):
     """What is said of a key beside its type and default; all of it in plain English, without a full stop.
 
     Attributes:
@@ -47,14 +47,14 @@ def key(
     example: Any = None,
     choices: Mapping[str, str] | None = None,
 ) -> Any:
-    """A field of a table with what is said of it; `...` as the default makes the key required. See `Facts`."""
-    facts = Facts(unit, meaning, source, rule, unset, example, choices or {})
-    return Field(default, description=meaning, json_schema_extra={FACTS: facts._asdict()})
+    """A field of a table with what is said of it; `...` as the default makes the key required. See `KeyDescription`."""
+    description = KeyDescription(unit, meaning, source, rule, unset, example, choices or {})
+    return Field(default, description=meaning, json_schema_extra={DESCRIPTION: description._asdict()})
 
 
-def facts_of(field: FieldInfo) -> Facts:
+def description_of(field: FieldInfo) -> KeyDescription:
     """What is said of a field; of one that was not made by `key`, no more than its description."""
     extra = field.json_schema_extra
-    if isinstance(extra, dict) and FACTS in extra:
-        return Facts(**extra[FACTS])  # type: ignore[arg-type]
-    return Facts(meaning=field.description or "")
+    if isinstance(extra, dict) and DESCRIPTION in extra:
+        return KeyDescription(**extra[DESCRIPTION])  # type: ignore[arg-type]
+    return KeyDescription(meaning=field.description or "")

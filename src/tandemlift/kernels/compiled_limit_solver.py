@@ -1,4 +1,4 @@
-"""The limit solver of `laws.rotors.thrust_limits` in compiled flights, run only for the lanes that need it."""
+"""The limit solver of `laws.rotors.thrust_limit_solver` in compiled flights, run only for the lanes that need it."""
 
 from __future__ import annotations
 

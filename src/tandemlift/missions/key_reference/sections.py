@@ -11,10 +11,10 @@ from pydantic.fields import FieldInfo
 from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions.bounds import Model, allowed, table_in
 from tandemlift.missions.values import written
-from tandemlift.settings import ControllerTable, Facts, Mission, facts_of
+from tandemlift.settings import ControllerTable, KeyDescription, Mission, description_of
 
 PAPER = "nftsmc"  # whose keys stand for `[controller]` in the template
-EXTENDS = Facts(
+EXTENDS = KeyDescription(
     meaning="start from this mission and write only what differs: a built-in name, or a path relative to this file",
     example="paper",
 )
@@ -25,7 +25,7 @@ class Key(NamedTuple):
 
     name: str
     field: FieldInfo
-    facts: Facts
+    facts: KeyDescription
 
     @property
     def allowed(self) -> str:
@@ -116,7 +116,7 @@ def _sections(name: str, field: FieldInfo) -> Iterator[Section]:
 
 def _keys(above: str, model: Model) -> tuple[Key, ...]:
     leaves = {name: field for name, field in model.model_fields.items() if table_in(field.annotation) is None}
-    return tuple(Key(f"{above}.{name}", field, facts_of(field)) for name, field in leaves.items())
+    return tuple(Key(f"{above}.{name}", field, description_of(field)) for name, field in leaves.items())
 
 
 def default_words(key: Key) -> str:

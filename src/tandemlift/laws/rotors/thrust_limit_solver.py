@@ -29,7 +29,7 @@ from tandemlift.algebra.law import elementwise
 from tandemlift.algebra.ops import absolute, where
 from tandemlift.algebra.types import Condition, Number, PerRotor
 from tandemlift.algebra.vector import each
-from tandemlift.laws.mechanics.body import Wrench
+from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import AllocationState, Mixer
 from tandemlift.laws.rotors.normal_equations import (
     GAMMA,

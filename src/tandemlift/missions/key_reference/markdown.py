@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tandemlift.missions.reference.sections import EXTENDS, Key, Section, default_words, is_of_the_package, sections
+from tandemlift.missions.key_reference.sections import EXTENDS, Key, Section, default_words, is_of_the_package, sections
 from tandemlift.missions.values import shown
 
 HEAD = """\

@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Iterator
 from typing import Any
 
-from tandemlift.missions.reference.sections import EXTENDS, PAPER, Key, Section, default_words, sections
+from tandemlift.missions.key_reference.sections import EXTENDS, PAPER, Key, Section, default_words, sections
 from tandemlift.missions.values import shown, written
 
 HEAD = """\

@@ -30,7 +30,7 @@ from scipy.optimize import linprog
 
 from tandemlift.kernels.context import aligned
 from tandemlift.laws.rotors.allocation import AllocationState, weighted_rows, weights_of
-from tandemlift.laws.rotors.thrust_limits import limited_thrusts
+from tandemlift.laws.rotors.thrust_limit_solver import limited_thrusts
 
 
 @EVERY

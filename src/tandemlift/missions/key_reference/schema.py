@@ -14,8 +14,8 @@ from pydantic.fields import FieldInfo
 
 from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions.bounds import Model, bounds, table_in
-from tandemlift.missions.reference.sections import EXTENDS, Section, compact
-from tandemlift.settings import AdmittanceTable, ControllerTable, Mission, facts_of
+from tandemlift.missions.key_reference.sections import EXTENDS, Section, compact
+from tandemlift.settings import AdmittanceTable, ControllerTable, Mission, description_of
 
 Schema = dict[str, Any]
 KEYWORDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
@@ -67,7 +67,7 @@ def _field(field: FieldInfo) -> Schema:
 
 def _facts(field: FieldInfo) -> Schema:
     """Title, description, default and examples of a key; what its choices mean, as the editors' extension has it."""
-    facts, found = facts_of(field), Schema()
+    facts, found = description_of(field), Schema()
     unit = "" if facts.unit in (None, "1") else f" [{facts.unit}]"
     choices = [f"{choice}: {text}" for choice, text in facts.choices.items()]
     sentences = [f"{facts.meaning}{unit}", facts.rule, facts.unset and f"If left out: {facts.unset}", *choices]
@@ -145,6 +145,6 @@ def _controllers() -> Schema:
             shown.setdefault(key, _described(schema))
         named = {"properties": {"name": {"const": name}}, "required": ["name"]}
         cases.append({"if": named, "then": {"properties": keys, "propertyNames": {"enum": ["name", *keys]}}})
-    title = {"description": f"{facts_of(ControllerTable.model_fields['name']).meaning}.", "examples": list(known)}
+    title = {"description": f"{description_of(ControllerTable.model_fields['name']).meaning}.", "examples": list(known)}
     properties = {"name": {"type": "string", **title}, **shown}
     return {"type": "object", "description": _text(ControllerTable), "properties": properties, "allOf": cases}

@@ -10,7 +10,7 @@ from typing import Any
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, layout
 from tandemlift.common.errors import InputError
 from tandemlift.controllers.interface import Command, Disturbance, Measured, control
-from tandemlift.laws.mechanics.body import State, Wrench
+from tandemlift.laws.mechanics.rigid_body import State, Wrench
 from tandemlift.laws.signals.trajectories import Reference, Trajectory
 
 COMMAND = Command(Wrench(0.0, ZERO), ZERO)

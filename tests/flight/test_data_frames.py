@@ -9,7 +9,7 @@ import pytest
 import xarray
 
 import tandemlift as tl
-from tandemlift.flight.tables import to_pandas, to_xarray
+from tandemlift.flight.data_frames import to_pandas, to_xarray
 
 FLOWN = {
     "hover": {"mission.duration": 0.5},

@@ -14,7 +14,7 @@ from tandemlift.algebra.law import LAWS
 from tandemlift.algebra.vector import dot
 from tandemlift.common.errors import InputError
 from tandemlift.controllers.registry import CONTROLLERS, Controller
-from tandemlift.controllers.trial import error_text
+from tandemlift.controllers.trial_run import error_text
 
 _loaded: dict[Path, tuple[bytes, Controller]] = {}
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from tandemlift.flight.channels import Channel
+from tandemlift.flight.data_frames import dimensions
 from tandemlift.flight.record import Flight
-from tandemlift.flight.tables import dimensions
 
 
 def components(channel: Channel, count: int) -> Sequence[str]:
