@@ -182,7 +182,7 @@ def disturbed_start():
     """S of all axes at every step of the first second of the paper's mission: (6, 1001)."""
     mission = tl.load_mission("paper", {"mission.duration": 1.0, "mission.log_interval": 0.001})
     flight = tl.fly(mission)
-    k = assemble(mission).flying.pilot.controller
+    k = assemble(mission).model.pilot.controller
     position = sliding_surface(k.position, columns(flight["position_error"]), columns(flight["velocity_error"]))
     e = euler_from_quaternion(Quat(*flight["attitude"].T))
     rates = euler_rates_from_rates(e, columns(flight["rates"]))

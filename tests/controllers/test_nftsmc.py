@@ -43,14 +43,14 @@ from tandemlift.simulation.assemble import assemble
 DRAG = Vec3(0.1, 0.2, 0.3)
 
 
-MEMORY = assemble(tl.load_mission("paper")).flying.moving.memory.controller
+MEMORY = assemble(tl.load_mission("paper")).model.flight_state.memory.controller
 
 
 def paper_controller(**changes) -> NFTSMC:
     """The paper's gains on the paper's vehicle, with more drag, so that a missing term shows."""
     k = assemble(
         tl.load_mission("paper", {f"controller.{key}": value for key, value in changes.items()})
-    ).flying.pilot.controller
+    ).model.pilot.controller
     return k._replace(drag_force=DRAG, drag_moment=DRAG)
 
 
@@ -106,7 +106,7 @@ def test_the_whole_controller_lifts_and_turns_the_model_as_wanted(seed):
     state = random_state(rng)._replace(attitude=quaternion_from_euler(e.angles))
     reference = Reference(random_reference(rng), 0.0)
     command, _ = control(
-        K, assemble(tl.load_mission("paper")).flying.moving.memory.controller, Measured(state, ZERO), reference
+        K, assemble(tl.load_mission("paper")).model.flight_state.memory.controller, Measured(state, ZERO), reference
     )
     rates = euler_rates_from_rates(e, state.rates)
     moved = euler_dynamics(BODY, e, state.velocity, rates, command.wrench)
@@ -187,7 +187,7 @@ def test_at_rest_on_its_reference_the_vehicle_gets_its_weight_and_no_moment():
     state = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
     reference = Reference(Trajectory(ZERO, ZERO, ZERO), 0.0)
     command, _ = control(
-        K, assemble(tl.load_mission("paper")).flying.moving.memory.controller, Measured(state, ZERO), reference
+        K, assemble(tl.load_mission("paper")).model.flight_state.memory.controller, Measured(state, ZERO), reference
     )
     assert command.wrench.thrust == pytest.approx(3.5 * GRAVITY)
     assert command.wrench.moment == ZERO

@@ -71,7 +71,7 @@ def unflown(changes, count=2):
     fleet = [quadrotor | {"position": [0.3 * i, 1.0, 0.075]} for i in range(count)]
     p = FlightPlan(tl.load_mission("iris", {"vehicle.quadrotors": fleet, **changes}))
     row = np.zeros(leaves(p.sample))
-    return flight_of(p, RawResult(p.flying.moving, EMPTY, 0, row[None], row, 0.0))
+    return flight_of(p, RawResult(p.model.flight_state, EMPTY, 0, row[None], row, 0.0))
 
 
 BARE = {"pilot": {"state": "truth", "push": "truth"}, "phases.rotors": "always"}

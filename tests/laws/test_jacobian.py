@@ -28,20 +28,20 @@ class Hover:
 
     def __init__(self, name: str, changes: dict[str, Any]) -> None:
         self.mission = tl.load_mission(name, {"pushes": [], **changes})
-        self.flying, self.given, *_ = assemble(self.mission)
-        state = self.flying.moving.state._replace(
+        self.model, self.given, *_ = assemble(self.mission)
+        state = self.model.flight_state.state._replace(
             position=Vec3(0.0, 0.0, 1.0), velocity=Vec3(0.0, 0.0, 0.0), attitude=Quat(1.0, 0.0, 0.0, 0.0)
         )
-        self.like = state, self.flying.moving.memory
-        self.x0 = np.array([*flat(state), *flat(self.flying.moving.memory)])
+        self.like = state, self.model.flight_state.memory
+        self.x0 = np.array([*flat(state), *flat(self.model.flight_state.memory)])
 
     def __call__(self, x: Any) -> list[Any]:
         """State and memory after a step of 1 ms at t = 40 s."""
         values = list(x)
         size = len(flat(self.like[0]))
         state, memory = rebuilt(values[:size], self.like[0]), rebuilt(values[size:], self.like[1])
-        moving = self.flying.moving._replace(state=state, memory=memory)
-        after, _ = step_flight(self.flying._replace(moving=moving), self.given, 40.0, 0.001)
+        flight_state = self.model.flight_state._replace(state=state, memory=memory)
+        after, _ = step_flight(self.model._replace(flight_state=flight_state), self.given, 40.0, 0.001)
         return flat((after.state, after.memory))
 
     def differences(self) -> np.ndarray:

@@ -67,7 +67,7 @@ T, DT = 5.0, 0.001
 class Step(NamedTuple):
     """What a step depends on, apart from its time."""
 
-    flying: FlightModel
+    model: FlightModel
     given: StepInputs
 
 
@@ -75,12 +75,12 @@ class Case:
     """A variant, a batch of excited inputs (numbers × BATCH), and what plain Python makes of them."""
 
     def __init__(self, name: str, changes: dict[str, Any]) -> None:
-        flying, given, *_ = assemble(tl.load_mission(name, changes))
-        self.like = Step(flying, given)
+        model, given, *_ = assemble(tl.load_mission(name, changes))
+        self.like = Step(model, given)
         rng = np.random.default_rng(8)
-        moving, outside = len(flat(flying.moving)), len(flat(given))
+        state_size, outside = len(flat(model.flight_state)), len(flat(given))
         numbers = np.repeat(np.array(flat(self.like), dtype=float)[:, None], BATCH, axis=1)
-        numbers[:moving] = 0.3 * rng.standard_normal((moving, BATCH))
+        numbers[:state_size] = 0.3 * rng.standard_normal((state_size, BATCH))
         numbers[-outside:] = rng.standard_normal((outside, BATCH))
         attitude = slice(6, 10)
         numbers[attitude] += [[1.0], [0.0], [0.0], [0.0]]
@@ -91,7 +91,7 @@ class Case:
     def step(self, numbers: Any) -> list[Any]:
         """The numbers of (Moving, Sample) after a step."""
         step = rebuilt(numbers, self.like)
-        return flat(step_flight(step.flying, step.given, T, DT))
+        return flat(step_flight(step.model, step.given, T, DT))
 
     def assert_agreement(self, found: Any) -> None:
         """Every number is that of plain Python to 1e-12 of the largest in its row."""
@@ -144,8 +144,8 @@ def test_casadi_traces_the_step_of_a_vehicle_whose_parameters_are_numbers(case, 
     case.assert_agreement(np.array(casadi.Function("step", [symbols], [outputs])(case.numbers)))
 
 
-def compiled_step(flying, given):
-    return step_flight(flying, given, T, DT)
+def compiled_step(model, given):
+    return step_flight(model, given, T, DT)
 
 
 @pytest.mark.parametrize("lanes", [1, 8])

@@ -47,7 +47,7 @@ def check_taken_or_refused(make):
             return None
         assert check(tomllib.loads(to_toml(mission))) == mission
         made = assemble(mission)
-        assert not np.isnan([*flat(made.flying), *np.concatenate(made.tables, axis=None)]).any()
+        assert not np.isnan([*flat(made.model), *np.concatenate(made.tables, axis=None)]).any()
         return mission
 
 

@@ -106,7 +106,7 @@ def test_what_flies_well_is_not(changes):
 )
 def test_the_floor_that_is_checked_is_the_one_that_is_flown(changes):
     mission = load_mission("iris", changes)
-    standing, flown = standing_of(mission), assemble(mission).flying.plant.floor
+    standing, flown = standing_of(mission), assemble(mission).model.plant.floor
     assert standing.floor == flown
     assert standing.sinkage == pytest.approx(sinkage_of(flown, weight_of(mission)))
     assert standing.rests == pytest.approx(flown.height + standing_height(flown, weight_of(mission)))

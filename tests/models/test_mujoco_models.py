@@ -71,13 +71,13 @@ def test_both_models_show_the_same_parts_at_the_same_places(name, world, mujoco,
     mujoco.mj_forward(model, data)
     for link in links_of(found.lines):
         for shape, (size, position, rotation) in shapes_of(found.lines, link.name, "visual").items():
-            geom, halves = f"{link.name.replace('_', '')} {shape} look", np.array(size[1:])
+            geom, halves = f"{link.name.replace('_', '')} {shape} visual", np.array(size[1:])
             halves *= {"box": [0.5, 0.5, 0.5], "sphere": [1.0], "cylinder": [1.0, 0.5]}[size[0]]
             np.testing.assert_allclose(model.geom(geom).size[: len(halves)], halves, atol=1e-6)
             np.testing.assert_allclose(data.geom(geom).xpos, link.position + position, atol=1e-6)
             np.testing.assert_allclose(data.geom(geom).xmat.reshape(3, 3), rotation.as_matrix(), atol=3e-6)
             shown += 1
-    assert shown == sum(model.geom(i).name.endswith(" look") for i in range(model.ngeom))
+    assert shown == sum(model.geom(i).name.endswith(" visual") for i in range(model.ngeom))
 
 
 def test_a_vehicle_without_thrust_falls_freely(mujoco, model_of):

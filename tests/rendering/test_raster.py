@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tandemlift.rendering.raster import glaze, nearest
+from tandemlift.rendering.raster import blend, rasterize
 
 SIZES = [(1, 1), (3, 5), (17, 8), (40, 61), (64, 64)]  # also fewer columns than one instruction serves
 
@@ -41,9 +41,9 @@ def nearness_in(corners, weights):
 def test_every_pixel_shows_the_nearest_triangle(size, seed):
     corners = drawn(np.random.default_rng(seed), 60, size)
     depth, face, weights = np.zeros(size), np.full(size, -1), np.zeros((*size, 2))
-    nearest(corners[:20], depth, face, weights)
+    rasterize(corners[:20], depth, face, weights)
     before = depth.copy()
-    nearest(corners, depth, face, weights)
+    rasterize(corners, depth, face, weights)
     all_weights = weights_in(corners, size)
     near = nearness_in(corners, all_weights)
     expected = near.argmax(axis=0)
@@ -66,7 +66,7 @@ def test_what_is_seen_through_is_laid_over_the_picture_in_its_order(size):
     for near, (*color, opacity) in zip(nearness_in(corners, weights_in(corners, size)), colors, strict=True):
         over = (near > depth)[..., None]
         expected = np.where(over, expected + opacity * (np.array([*color, 1.0]) - expected), expected)
-    glaze(corners, colors, depth, picture)
+    blend(corners, colors, depth, picture)
     np.testing.assert_allclose(picture, expected, rtol=1e-12)
 
 
@@ -75,7 +75,7 @@ def test_nothing_beside_the_picture_is_written():
     room = np.zeros((8, 11))
     face, weights = np.zeros((8, 11), np.int64), np.zeros((8, 11, 2))
     corners = np.array([[[-50.0, -50.0, 1.0], [90.0, -50.0, 1.0], [0.0, 120.0, 1.0]]])
-    nearest(corners, room[1:7], face[1:7], weights[1:7])
+    rasterize(corners, room[1:7], face[1:7], weights[1:7])
     assert room[1:7].shape == size
     assert (room[1:7] == 1.0).all()
     assert not room[[0, 7]].any()

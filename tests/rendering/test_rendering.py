@@ -16,11 +16,11 @@ import tandemlift as tl
 from tandemlift.cli.render import render as command
 from tandemlift.rendering import Animation, Shot, camera_of, picture, render, studio
 from tandemlift.rendering.camera import ANGLE, look_at
-from tandemlift.rendering.ground import covered
+from tandemlift.rendering.ground import line_coverage
 from tandemlift.rendering.light import SUN, Shadow
-from tandemlift.rendering.mesh import NOTHING, ball, box, panel, ring, rod, together
+from tandemlift.rendering.mesh import EMPTY, box, cylinder, merged, panel, sphere, torus
 from tandemlift.rendering.stage import FlightStage
-from tandemlift.rendering.studio import Pane, Scene, SceneLine, shown
+from tandemlift.rendering.studio import Pane, Scene, SceneLine, render_scene
 
 TINY = (96, 54)
 RED, BLUE = "#ff0000", "#0000ff"
@@ -32,12 +32,12 @@ def flight():
     return tl.fly(tl.load_mission("one-push", changes))
 
 
-def scene(solid=NOTHING, panes=(), lines=()):
+def scene(solid=EMPTY, panes=(), lines=()):
     """A scene far above its floor."""
     return Scene(solid, list(lines), list(panes), -50.0, 1.0)
 
 
-SHADED = ball([0.0, 0.0, -40.0], 0.1, RED)  # out of sight; a shadow needs something that throws it
+SHADED = sphere([0.0, 0.0, -40.0], 0.1, RED)  # out of sight; a shadow needs something that throws it
 VIEW = look_at([0.0, 0.0, 0.0], 0.0, 0.0, 10.0, 320, 180)  # from +x, y to the right, z up
 FOCAL = 90.0 / np.tan(ANGLE / 2.0)
 
@@ -51,7 +51,7 @@ def reddish(image):
 @pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (3.0, 1.2, 0.5), (-6.0, -3.0, -2.0)])
 def test_a_ball_appears_where_a_pinhole_camera_sees_it_and_as_large(place):
     x, y, z = place
-    image = shown(scene(together([ball(place, 0.4, RED), SHADED])), VIEW, 10.0, 3)
+    image = render_scene(scene(merged([sphere(place, 0.4, RED), SHADED])), VIEW, 10.0, 3)
     rows, columns = np.nonzero(reddish(image))
     distance = 10.0 - x
     assert columns.mean() + 0.5 == pytest.approx(160.0 + FOCAL * y / distance, abs=0.5)
@@ -60,21 +60,21 @@ def test_a_ball_appears_where_a_pinhole_camera_sees_it_and_as_large(place):
 
 
 def test_what_is_nearer_hides_what_is_behind_it_whichever_is_drawn_first():
-    near, far = ball([2.0, 0.0, 0.0], 0.5, BLUE), ball([-2.0, 0.0, 0.0], 0.5, RED)
+    near, far = sphere([2.0, 0.0, 0.0], 0.5, BLUE), sphere([-2.0, 0.0, 0.0], 0.5, RED)
     for order in ([near, far], [far, near]):
-        assert not reddish(shown(scene(together([*order, SHADED])), VIEW, 10.0, 1)).any()
+        assert not reddish(render_scene(scene(merged([*order, SHADED])), VIEW, 10.0, 1)).any()
 
 
 def test_what_is_behind_the_eye_is_not_drawn():
-    behind = together([ball([14.0, 0.0, 0.0], 0.5, RED), SHADED])
-    assert not reddish(shown(scene(behind), VIEW, 10.0, 1)).any()
+    behind = merged([sphere([14.0, 0.0, 0.0], 0.5, RED), SHADED])
+    assert not reddish(render_scene(scene(behind), VIEW, 10.0, 1)).any()
 
 
 def test_a_pane_mixes_with_what_is_behind_it_in_proportion_to_its_opacity():
     bright = studio.Mesh(*panel([-2.0, -2.0, -2.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0], "#ffffff"))
     bright = bright._replace(normals=np.zeros_like(bright.normals))  # shines by itself
     pane = panel([2.0, -1.0, -1.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0], "#000000")
-    image = shown(scene(together([bright, SHADED]), [Pane(pane, 0.25)]), VIEW, 10.0, 1)
+    image = render_scene(scene(merged([bright, SHADED]), [Pane(pane, 0.25)]), VIEW, 10.0, 1)
     half_up = 255.0 * (1.055 * 0.75 ** (1 / 2.4) - 0.055)  # 0.75 of the light as sRGB
     np.testing.assert_allclose(image[90, 160], half_up, atol=1.0)
 
@@ -84,15 +84,15 @@ def test_a_line_keeps_its_width_in_pixels_at_any_distance():
     for x in (0.0, -30.0):
         points = np.array([[x, -20.0, 0.0], [x, 20.0, 0.0]])
         line = SceneLine(points, width, np.tile([1.0, 0.0, 0.0], (2, 1)))
-        image = shown(scene(SHADED, lines=[line]), VIEW, 10.0, 4)
+        image = render_scene(scene(SHADED, lines=[line]), VIEW, 10.0, 4)
         assert reddish(image)[:, 160].sum() == pytest.approx(width * 180.0 / 720.0, abs=1.0)
 
 
 def test_a_large_picture_is_the_same_in_strips(monkeypatch):
-    parts = scene(together([ring([0.0, 0.0, 0.0], 2.0, 0.1, RED), box([1.0, 1.0, 0.5], [1.0, 1.0, 1.0], BLUE)]))
-    whole = shown(parts, VIEW, 10.0, 2)
+    parts = scene(merged([torus([0.0, 0.0, 0.0], 2.0, 0.1, RED), box([1.0, 1.0, 0.5], [1.0, 1.0, 1.0], BLUE)]))
+    whole = render_scene(parts, VIEW, 10.0, 2)
     monkeypatch.setattr(studio, "AT_ONCE", 320 * 4 * 7)
-    np.testing.assert_array_equal(shown(parts, VIEW, 10.0, 2), whole)
+    np.testing.assert_array_equal(render_scene(parts, VIEW, 10.0, 2), whole)
 
 
 def volume(mesh):
@@ -104,10 +104,10 @@ def volume(mesh):
 @pytest.mark.parametrize(
     ("mesh", "expected", "error"),
     [
-        (ball([1.0, 2.0, 3.0], 0.5, RED), 4.0 / 3.0 * np.pi * 0.5**3, 0.06),
-        (rod([0.0, 1.0, 0.0], [2.0, 1.0, 1.0], 0.3, RED, sides=60), np.pi * 0.3**2 * np.sqrt(5.0), 0.01),
-        (rod([0.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0.3, RED, 0.0, sides=60), np.pi * 0.3**2 * 2.0 / 3.0, 0.01),
-        (ring([0.0, 0.0, 0.0], 1.0, 0.1, RED), 2.0 * np.pi**2 * 0.1**2, 0.12),
+        (sphere([1.0, 2.0, 3.0], 0.5, RED), 4.0 / 3.0 * np.pi * 0.5**3, 0.06),
+        (cylinder([0.0, 1.0, 0.0], [2.0, 1.0, 1.0], 0.3, RED, sides=60), np.pi * 0.3**2 * np.sqrt(5.0), 0.01),
+        (cylinder([0.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0.3, RED, 0.0, sides=60), np.pi * 0.3**2 * 2.0 / 3.0, 0.01),
+        (torus([0.0, 0.0, 0.0], 1.0, 0.1, RED), 2.0 * np.pi**2 * 0.1**2, 0.12),
         (box([1.0, 0.0, 0.0], [1.0, 2.0, 3.0], RED), 6.0, 1e-12),
     ],
     ids=["ball", "rod", "cone", "ring", "box"],
@@ -122,7 +122,7 @@ def test_shapes_are_closed_and_their_normals_point_outward(mesh, expected, error
 
 
 def test_a_shadow_lies_where_the_suns_rays_through_a_body_meet_the_floor():
-    shadow = Shadow(ball([1.0, -2.0, 3.0], 0.2, RED).corners, 0.5)
+    shadow = Shadow(sphere([1.0, -2.0, 3.0], 0.2, RED).corners, 0.5)
     rows, columns = np.indices(shadow.shade.shape)
     weight = shadow.shade / shadow.shade.sum()
     center = np.array([(columns * weight).sum(), (rows * weight).sum()]) + 0.5
@@ -130,14 +130,14 @@ def test_a_shadow_lies_where_the_suns_rays_through_a_body_meet_the_floor():
     np.testing.assert_allclose(shadow.low + shadow.texel * center, expected, atol=0.01)
     below = np.array([[1.0, -2.0, 3.0]]) - 1.5 * SUN
     beside = below + np.array([0.5, 0.0, 0.0])
-    np.testing.assert_array_equal(shadow.on_parts(np.concatenate([below, beside])), [1.0, 0.0])
+    np.testing.assert_array_equal(shadow.shade_on(np.concatenate([below, beside])), [1.0, 0.0])
 
 
 @given(st.floats(-5.0, 5.0), st.floats(0.01, 7.0), st.floats(0.01, 0.3))
 def test_lines_cover_the_share_of_a_pixel_that_samples_find(start, blur, width):
     x = start + blur * (np.arange(20000) + 0.5) / 20000
     found = np.mean(x % 1.0 < width)
-    assert covered(start, blur, 1.0, width) == pytest.approx(found, abs=2e-3)
+    assert line_coverage(start, blur, 1.0, width) == pytest.approx(found, abs=2e-3)
 
 
 def test_the_arrow_of_a_push_starts_on_the_line_along_which_it_acts(flight):

@@ -65,7 +65,7 @@ print(len(made), flight["thrust"].sum().hex(), tl.__file__)
 
 
 def test_an_edit_of_any_source_changes_the_key(monkeypatch):
-    value = FlightPlan(tl.load_mission("one-push")).flying
+    value = FlightPlan(tl.load_mission("one-push")).model
     before, content = key_of(value), store.content
     assert len(sources(value)) > 80
     for path in sources(value):
@@ -84,11 +84,11 @@ import sys, tandemlift as tl
 from pathlib import Path
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.trace.store import key_of
-flying = FlightPlan(tl.load_mission("one-push")).flying
-print(key_of(flying))
+model = FlightPlan(tl.load_mission("one-push")).model
+print(key_of(model))
 with (Path(tl.__file__).parent / "laws" / "mechanics" / "rotation.py").open("a") as law:
     law.write("# an edit")
-print(key_of(flying))
+print(key_of(model))
 """
     first, second = check_run(code, PYTHONPATH=str(copy), PYTHONSAFEPATH="1")
     third, _ = check_run(code, PYTHONPATH=str(copy), PYTHONSAFEPATH="1")
@@ -97,7 +97,7 @@ print(key_of(flying))
 
 def test_other_versions_another_processor_and_another_layout_have_other_keys(monkeypatch):
     changes = {"controller.switching": "saturation"}
-    paper, other = (FlightPlan(tl.load_mission("paper", c)).flying for c in ({}, changes))
+    paper, other = (FlightPlan(tl.load_mission("paper", c)).model for c in ({}, changes))
     keys = [key_of(paper), key_of(other), key_of(paper, "loop", 8)]
     monkeypatch.setattr(machine, "processor", lambda: ("another", "+fma"))
     keys.append(key_of(paper))

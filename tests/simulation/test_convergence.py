@@ -34,14 +34,16 @@ def lifting(step):
 @pytest.fixture(scope="module")
 def continuous():
     """Positions and attitudes of the loop whose pilot is never held, at the logged times."""
-    flying = assemble(lifting(0.001)).flying
-    begin = flying.moving.state
+    model = assemble(lifting(0.001)).model
+    begin = model.flight_state.state
 
     def rate(t, y):
         state = State(Vec3(*y[0:3]), Vec3(*y[3:6]), Quat(*y[6:10]), Vec3(*y[10:13]))
-        decision, _ = decide(flying.pilot, flying.moving.memory, PilotInput(state, ZERO, ZERO, 0.0, Nothing()), t, 1.0)
-        u = wrench(flying.plant.effect, decision.thrusts)
-        return np.concatenate(motion(flying.plant.body, state, u, CentralPush(ZERO)))
+        decision, _ = decide(
+            model.pilot, model.flight_state.memory, PilotInput(state, ZERO, ZERO, 0.0, Nothing()), t, 1.0
+        )
+        u = wrench(model.plant.effect, decision.thrusts)
+        return np.concatenate(motion(model.plant.body, state, u, CentralPush(ZERO)))
 
     times = np.arange(0.0, DURATION + 0.25, 0.5)
     solution = solve_ivp(

@@ -111,7 +111,7 @@ def test_alone_in_a_block_and_step_by_step_a_flight_with_a_person_is_the_same_to
 def test_what_a_person_sees_is_what_was_exactly_their_delay_ago():
     mission = persons(1, **SHORT)[0]
     p = FlightPlan(mission)
-    stepper, span = Stepper(p), leaf_offset(p.flying, "moving", "person", "view")
+    stepper, span = Stepper(p), leaf_offset(p.model, "flight_state", "person", "view")
     at = span.at + leaf_offset(PersonView(*[vec3([0.0] * 3)] * 4, 0.0, 0.0), "position").at
     was, seen = [], []
     for k in range(1500):

@@ -85,8 +85,8 @@ def given_at(k: int, like: StepInputs, tables: Any, seeds: Any) -> StepInputs:
 
 def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
     """The samples of a flight whose commands stay within limits, with delays as lists."""
-    flying, like, tables, _, seeds = assemble(mission)
-    first, nowhere = flying.moving, flying.moving.near
+    model, like, tables, _, seeds = assemble(mission)
+    first, nowhere = model.flight_state, model.flight_state.near
     units, motions, commands, samples = [], [], [], []
 
     def late(values, delay, start):
@@ -94,22 +94,22 @@ def in_plain_python(mission: tl.Mission, steps: int) -> list[Any]:
 
     for k in range(steps):
         if k % SPAN == 0:
-            near, plant = nowhere, flying.plant
+            near, plant = nowhere, model.plant
             for row in tables.walls:
-                near = nearest_with(plant.walls, unflat(row, WALL), near, plant.frame, flying.moving.state)
-            flying = flying._replace(moving=flying.moving._replace(near=near))
-        given = with_person(flying, given_at(k, like, tables, seeds), k * DT, DT)
-        thought = run_pilot(flying, given.hand.start, k * DT, DT)
-        wished = thought.decision.thrusts
-        thought = thought._replace(memory=with_allocation(thought.memory, AllocationState(wished * 0.0, wished)))
-        moving, sample = finish_step(flying, thought, given, k * DT, DT)
-        units.append(moving.readings.imu)
-        motions.append(moving.readings.motion)
-        commands.append(moving.rotors.arriving)
+                near = nearest_with(plant.walls, unflat(row, WALL), near, plant.frame, model.flight_state.state)
+            model = model._replace(flight_state=model.flight_state._replace(near=near))
+        given = with_person(model, given_at(k, like, tables, seeds), k * DT, DT)
+        output = run_pilot(model, given.hand.start, k * DT, DT)
+        wished = output.decision.thrusts
+        output = output._replace(memory=with_allocation(output.memory, AllocationState(wished * 0.0, wished)))
+        flight_state, sample = finish_step(model, output, given, k * DT, DT)
+        units.append(flight_state.readings.imu)
+        motions.append(flight_state.readings.motion)
+        commands.append(flight_state.rotors.arriving)
         readings = Readings(late(units, UNIT, first.readings.imu), late(motions, MOTION, first.readings.motion))
         arriving = late(commands, COMMAND - 1, first.rotors.arriving)
-        moving = moving._replace(readings=readings, rotors=moving.rotors._replace(arriving=arriving))
-        flying = flying._replace(moving=moving)
+        flight_state = flight_state._replace(readings=readings, rotors=flight_state.rotors._replace(arriving=arriving))
+        model = model._replace(flight_state=flight_state)
         samples.append(sample)
     return samples
 

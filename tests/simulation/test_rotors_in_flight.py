@@ -28,7 +28,7 @@ def flown():
 def check_ground_ratios(mission, flight):
     """Thrust over thrust in free air of every rotor (T, 4N), by Cheeseman and Bennett."""
     vehicle = tl.Vehicle.from_settings(mission.vehicle)
-    floor = assemble(mission).flying.plant.floor.height
+    floor = assemble(mission).model.plant.floor.height
     rotation = Rotation.from_quat(np.roll(flight["attitude"], -1, axis=1))
     ratios = []
     for q, d in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):

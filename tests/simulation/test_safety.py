@@ -154,25 +154,25 @@ def test_a_check_that_fails_refuses(changes, check, fly):
 def in_plain_python(seconds, heard_at):
     """Names of the phases of a guidance by hand that is told a state at rest, and what `heard_at` makes of it."""
     changes = {**FLOWN, "supervision.limits.tracking_error": 100.0}  # the state at rest does not follow the lift
-    flying = assemble(tl.load_mission("iris", changes)).flying
-    guidance, memory, dt, names = flying.pilot.guidance, flying.moving.memory.guidance, 0.01, []
+    model = assemble(tl.load_mission("iris", changes)).model
+    guidance, memory, dt, names = model.pilot.guidance, model.flight_state.memory.guidance, 0.01, []
     for i in range(round(seconds / dt)):
-        heard = PilotInput(flying.moving.state, ZERO, ZERO, 0.0, Nothing(), NO_REQUEST, UNKNOWN_STATUS)
-        heard, lost = heard_at(heard, i * dt)
-        heard = checked_input(guidance, memory, heard, 0.0, lost)
-        decided, memory = guide(guidance, memory, heard, NONE, lost, i * dt, dt)
+        pilot_input = PilotInput(model.flight_state.state, ZERO, ZERO, 0.0, Nothing(), NO_REQUEST, UNKNOWN_STATUS)
+        pilot_input, lost = heard_at(pilot_input, i * dt)
+        pilot_input = checked_input(guidance, memory, pilot_input, 0.0, lost)
+        decided, memory = guide(guidance, memory, pilot_input, NONE, lost, i * dt, dt)
         names.append(PHASE_NAMES[int(decided.channels.phase)])
     return list(dict.fromkeys(names)), memory
 
 
 def test_a_rotor_that_is_found_lost_lands_the_vehicle():
-    names, memory = in_plain_python(5.0, lambda heard, t: (heard, float(t > 4.0)))
+    names, memory = in_plain_python(5.0, lambda pilot_input, t: (pilot_input, float(t > 4.0)))
     assert names == ["idle", "lift", "guided", "land"]
     assert ALARM_TEXTS[int(memory.supervision.alarm)] == "rotor failed"
 
 
 def test_a_rotor_that_is_lost_on_the_ground_refuses_the_lift():
-    names, _ = in_plain_python(2.0, lambda heard, t: (heard, 1.0))
+    names, _ = in_plain_python(2.0, lambda pilot_input, t: (pilot_input, 1.0))
     assert names == ["idle"]
 
 
@@ -180,9 +180,11 @@ def test_a_rotor_that_is_lost_on_the_ground_refuses_the_lift():
     ("last", "names"), [(0.04, ["idle", "lift", "guided"]), (1.0, ["idle", "lift", "guided", "stopped"])]
 )
 def test_a_state_without_numbers_is_bridged_for_a_moment_and_then_stops(last, names):
-    def heard_at(heard, t):
-        blank = heard.state._replace(position=ZERO * float("nan"))
-        return (heard._replace(state=blank, push=ZERO * float("nan")) if 4.0 <= t < 4.0 + last else heard), 0.0
+    def heard_at(pilot_input, t):
+        blank = pilot_input.state._replace(position=ZERO * float("nan"))
+        return (
+            pilot_input._replace(state=blank, push=ZERO * float("nan")) if 4.0 <= t < 4.0 + last else pilot_input
+        ), 0.0
 
     found, memory = in_plain_python(5.5, heard_at)
     assert found == names

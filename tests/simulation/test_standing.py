@@ -36,7 +36,7 @@ def test_it_stands_as_deep_in_the_floor_as_its_settings_say():
 
 def soles(mission):
     """Centre of every foot's ball joint from the centre of mass (4N, 3) [m, body axes], and the floor's law."""
-    floor = assemble(mission).flying.plant.floor
+    floor = assemble(mission).model.plant.floor
     return np.concatenate([np.array(feet).T for feet in floor.feet]), floor
 
 

@@ -77,8 +77,8 @@ def test_a_mission_is_flown_in_each_engine_and_the_page_and_numbers_say_so(run, 
     a, b = (tl.fly(tl.load_mission("paper", SHORT), engine) for engine in ("compiled", "mujoco"))
     most = np.linalg.norm(a["position"] - b["position"], axis=1).max()
     assert 0.0 < most < 1e-6  # m
-    assert found["engines"][1]["apart"]["position"] == pytest.approx(most)
-    assert set(found["engines"][0]["apart"].values()) == {0.0}
+    assert found["engines"][1]["difference"]["position"] == pytest.approx(most)
+    assert set(found["engines"][0]["difference"].values()) == {0.0}
     assert f"{most:.1e}" in printed
     text = (tmp_path / "o/engines.html").read_text("utf-8")
     rows = re.findall(r'<th scope="row">(.*?)</th>(.*?)</tr>', text)
@@ -106,5 +106,5 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp
 
 
 def test_an_engine_may_not_be_named_twice():
-    with pytest.raises(InputError, match="each once"):
+    with pytest.raises(InputError, match="without repetition"):
         fly_in(tl.load_mission("paper", SHORT), ["compiled", "compiled"])

@@ -217,12 +217,12 @@ def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:
     """Print a row for each engine: the largest differences from the first engine, and the speed."""
     from tandemlift.studies.engine_comparison import QUANTITIES
 
-    shown = [q for q in QUANTITIES if q in found[0]["apart"]]
+    shown = [q for q in QUANTITIES if q in found[0]["difference"]]
     heads = [f"{q.replace('_', ' ')} ({QUANTITIES[q]})" for q in shown] + ["steps/s"]
     width = max(len(row["engine"]) for row in found) + 2
     echo(f"{name}: largest difference from {found[0]['engine']}")
     echo("  " + " " * width + "  ".join(head.rjust(18) for head in heads))
     for row in found:
-        cells = [f"{row['apart'][q]:.1e}" if row is not found[0] else "" for q in shown]
+        cells = [f"{row['difference'][q]:.1e}" if row is not found[0] else "" for q in shown]
         line = "  ".join(cell.rjust(18) for cell in [*cells, f"{row['steps_per_s']:,.0f}"])
         echo(f"  {row['engine'].ljust(width)}{line}")

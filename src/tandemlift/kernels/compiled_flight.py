@@ -18,20 +18,20 @@ from tandemlift.trace.store import key_of
 
 
 class Kernels:
-    """The compiled loops for flights laid out like `flying`, with inputs laid out like `given`.
+    """The compiled loops for flights laid out like `model`, with inputs laid out like `given`.
 
     Each loop is compiled when it is first asked for.
     """
 
-    def __init__(self, flying: FlightModel, given: StepInputs) -> None:
-        self.templates = templates_from(flying, given)
-        self.delayed = delayed_spans(self.templates.flying)
+    def __init__(self, model: FlightModel, given: StepInputs) -> None:
+        self.templates = templates_from(model, given)
+        self.delayed = delayed_spans(self.templates.model)
         self._lock, self._codes = threading.RLock(), dict[tuple[str, int], Code]()
 
     @cached_property
     def calls_python(self) -> bool:
         """Whether a controller in plain Python is called in the middle of a step."""
-        return isinstance(self.templates.flying.pilot.controller, PythonController)
+        return isinstance(self.templates.model.pilot.controller, PythonController)
 
     @cached_property
     def _traced(self) -> TracedStep:
@@ -54,7 +54,7 @@ class Kernels:
         with self._lock:
             if (kind, number) not in self._codes:
                 x = self.templates
-                key = key_of((x.flying, x.given), kind, number, x.nowhere)
+                key = key_of((x.model, x.given), kind, number, x.nowhere)
                 best = machine.BEST_OF_VECTORS if kind == "loop" and number > 1 else machine.BEST
                 self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number), best, going)
             return self._codes[kind, number]

@@ -6,14 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 WORDS = (
-    *("flying", "work", "ring", "delays", "keys", "log", "last"),
+    *("flight", "work", "ring", "delays", "keys", "log", "last"),
     *("pushes", "gusts", "walls", "legs"),
     *("push_count", "gust_count", "wall_count", "leg_count"),
     *("rings", "stride", "steps", "every", "since", "fresh", "dt", "k", "stop"),
 )
 AT = {name: i for i, name in enumerate(WORDS)}
 POINTERS = WORDS[:11]
-MEMORY = "ptr noalias %c, ptr noalias %flying, ptr noalias %work"  # arguments of the internal functions
+MEMORY = "ptr noalias %c, ptr noalias %flight, ptr noalias %work"  # arguments of the internal functions
 
 
 class ScratchLayout:

@@ -17,7 +17,7 @@ from tandemlift.kernels.step_output import write_next_state, write_sample
 from tandemlift.kernels.traced_step import Symbols, TracedStep
 from tandemlift.trace import Function, Module, Place, Symbol, double
 
-ARGUMENTS = "ptr %c, ptr %flying, ptr %work"
+ARGUMENTS = "ptr %c, ptr %flight, ptr %work"
 UNIFORM = ("t", "dt", "when", "opens", "closes", "number")
 
 
@@ -33,8 +33,8 @@ class LoopWriter:
         self.traced, self.templates, self.graph, self.lanes = traced, traced.templates, traced.graph, lanes
         self.module, self.scratch = Module(), ScratchLayout()
         self.width, self.draws = leaves(self.templates.given.hand.start), 0
-        self.moving = leaves(self.templates.flying.moving)
-        self.delayed = delayed_spans(self.templates.flying)
+        self.state_size = leaves(self.templates.model.flight_state)
+        self.delayed = delayed_spans(self.templates.model)
         g, roots = self.graph, [s.node for s in self.all_roots]
         self.has_gusts = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
         self._lay_out_scratch()
@@ -43,7 +43,15 @@ class LoopWriter:
     def all_roots(self) -> Symbols:
         """Every value that a step computes."""
         x = self.traced
-        return [*x.moving, *x.sample, *self._body_roots(), *self._limit_roots(), *x.asked, *x.body.acting, *x.body.push]
+        return [
+            *x.next_state,
+            *x.sample,
+            *self._body_roots(),
+            *self._limit_roots(),
+            *x.asked,
+            *x.body.acting,
+            *x.body.push,
+        ]
 
     def _lay_out_scratch(self) -> None:
         x, take = self.templates, self.scratch.take
@@ -68,13 +76,13 @@ class LoopWriter:
         f = Function(self.module, self.graph, self.lanes, head, UNIFORM)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
         f.sets.room = self.scratch_place
-        f.read = {"fly": lambda i: Place("%flying", i), "dt": lambda i: "%dt"}
+        f.read = {"fly": lambda i: Place("%flight", i), "dt": lambda i: "%dt"}
         return f
 
     def export(self, name: str) -> None:
         """A function for Python, with the context as its only argument, that calls the internal one of that name."""
         f = Function(self.module, self.graph, self.lanes, f"i64 @{name}(ptr %c) #0")
-        given = [f"ptr {self.context_word(f, word)}" for word in ("flying", "work")]
+        given = [f"ptr {self.context_word(f, word)}" for word in ("flight", "work")]
         f.end("i64 " + f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})"))
 
     def scratch_place(self, count: int) -> Place:
@@ -153,9 +161,9 @@ class LoopWriter:
         touches = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
         for value in f.values(self.traced.may_touch_walls):
             touches = f.op(f"or i1 {touches}, {f.any(value)}")
-        near, apart, done = f.fresh("near"), f.fresh("apart"), f.fresh("done")
-        f.do(f"br i1 {touches}, label %{near}, label %{apart}")
-        for name, values in ((near, self.traced.body_in_contact), (apart, self.traced.body_in_free_air)):
+        near, clear, done = f.fresh("near"), f.fresh("clear"), f.fresh("done")
+        f.do(f"br i1 {touches}, label %{near}, label %{clear}")
+        for name, values in ((near, self.traced.body_in_contact), (clear, self.traced.body_in_free_air)):
             f.lines.append(f"{name}:")
             with f.scope():
                 self.store_values(f, self.moved, values)
@@ -185,14 +193,16 @@ class LoopWriter:
         self.write_outside()
         f = self.function("fly_", result="i64")
         begin, stop, steps = self.context_word(f, "k"), self.context_word(f, "stop"), self.context_word(f, "steps")
-        self.prepare(f, begin, [*self.traced.moving, *self.traced.sample, *self._body_roots(), *self._limit_roots()])
+        self.prepare(
+            f, begin, [*self.traced.next_state, *self.traced.sample, *self._body_roots(), *self._limit_roots()]
+        )
         f.label("first")
         f.label("loop")
         f.lines.append(f"  %k = phi i64 [ {begin}, %first ], [ %next, %ahead ]")
         f.do(f"br i1 {f.op(f'icmp slt i64 %k, {stop}')}, label %sound, label %over")
         f.lines.append("sound:")
         if self.lanes == 1:
-            lost = f.load("%flying", leaf_offset(self.templates.flying, "moving", "diverged").at)
+            lost = f.load("%flight", leaf_offset(self.templates.model, "flight_state", "diverged").at)
             f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
             f.lines.append("step:")
         self.begin_step(f, "%k")
@@ -216,7 +226,7 @@ class LoopWriter:
         self.write_outside()
         x = self.traced
         parts = ["ask"] * x.calls_python + ["decide"] * leaves_body + ["complete"]
-        ends = [*x.moving, *x.sample, *([] if leaves_body else self._body_roots())]
+        ends = [*x.next_state, *x.sample, *([] if leaves_body else self._body_roots())]
         acts = [*self._limit_roots(), *([*x.body.acting, *x.body.push] if leaves_body else [])]
         if not leaves_body:
             ends, acts = [*ends, *acts], []
@@ -261,7 +271,7 @@ class LoopWriter:
     def prepare(self, f: Function, k: str, roots: Symbols) -> ScratchValues:
         """Where a flight begins or was changed: form the tables for step k and store the values that stay constant."""
         kept = ScratchValues(self.graph, self.scratch)
-        nodes = steady(self.graph, roots, self.moving)
+        nodes = steady(self.graph, roots, self.state_size)
         f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))
         with f.when(f.op(f"icmp ne i64 {self.context_word(f, 'fresh')}, 0")):
             self.call(f, "sum_pushes", f"i64 {k}")

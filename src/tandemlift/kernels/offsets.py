@@ -42,9 +42,9 @@ def leaf_offset(value: Any, *path: str) -> LeafSpan:
     return LeafSpan(at, leaves(value))
 
 
-def delayed_spans(flying: Any) -> DelayedSpans:
+def delayed_spans(model: Any) -> DelayedSpans:
     """The delayed parts of flights like this one."""
-    late = flying.delays
+    late = model.delays
     if isinstance(late, Nothing):
         return DelayedSpans()
     paths: list[tuple[str, ...]] = [
@@ -55,6 +55,6 @@ def delayed_spans(flying: Any) -> DelayedSpans:
     ]
     paths += [("readings", "additional", name) for name in late.additional._fields]
     return DelayedSpans(
-        NONE if isinstance(delay, Nothing) else leaf_offset(flying, "moving", *path)
+        NONE if isinstance(delay, Nothing) else leaf_offset(model, "flight_state", *path)
         for delay, path in zip((*late[:-1], *late.additional), paths, strict=True)
     )

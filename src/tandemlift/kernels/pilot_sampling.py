@@ -11,7 +11,7 @@ from tandemlift.pilot.pilot import PilotMemory, PilotParameters, decide
 from tandemlift.trace import Function, Module, Place, symbols, traced, written_out
 from tandemlift.trace.code import Written
 
-POINTERS = ("numbers", "heard", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
+POINTERS = ("numbers", "pilot_input", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
 
 
 class PilotData(NamedTuple):
@@ -37,13 +37,15 @@ class PilotSample(NamedTuple):
 
 
 class PilotSampler:
-    """A traced sample of a pilot; its inputs are `pilot`, `heard`, `dt`, and `solved`, the limit solver's result."""
+    """A traced sample of a pilot; inputs: `pilot`, `pilot_input`, `dt`, and `solved`, the limit solver's result."""
 
-    def __init__(self, onboard: PilotData, heard: Any, quadrotors: int) -> None:
+    def __init__(self, onboard: PilotData, pilot_input: Any, quadrotors: int) -> None:
         self.graph = graph_for(quadrotors)
         pilot, dt = self.input_of("pilot", onboard), self.graph.input("dt")
         t = pilot.samples * dt
-        decided = PilotSample(*traced(decide)(pilot.parameters, pilot.memory, self.input_of("heard", heard), t, dt))
+        decided = PilotSample(
+            *traced(decide)(pilot.parameters, pilot.memory, self.input_of("pilot_input", pilot_input), t, dt)
+        )
         self.limits = None
         if isinstance(onboard.parameters.allocation, ConstrainedAllocation):
             self.limits, *within = limit_thrusts(self, pilot.parameters, pilot.memory, decided, t)
@@ -73,7 +75,7 @@ class PilotSampler:
         solved = len(self.limits.problem) if self.limits else 0
         f.read = {
             "pilot": lambda i: Place("%numbers", i),
-            "heard": lambda i: Place("%heard", i),
+            "pilot_input": lambda i: Place("%pilot_input", i),
             "dt": lambda i: dt,
             "solved": lambda i: Place("%work", solved + i),
         }

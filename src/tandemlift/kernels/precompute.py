@@ -92,32 +92,32 @@ def write_surroundings(step: LoopWriter) -> None:
         low = f.any(f.value(step.traced.may_touch_floor))
         f.store(f.op(f"uitofp i1 {low} to double"), "%work", step.low * step.lanes, "double")
     if x.has_walls:
-        at = leaf_offset(x.flying, "moving", "near").at
+        at = leaf_offset(x.model, "flight_state", "near").at
         for m, number in enumerate(flat(x.nowhere)):
-            f.store(f.spread(double(number)), "%flying", at + m)
+            f.store(f.spread(double(number)), "%flight", at + m)
         walls, count = step.context_word(f, "walls"), step.context_word(f, "wall_count")
         with f.repeat(count) as i:
             row = f.at(walls, f.integer("mul", i, leaves(WALL)))
             f.read["wall"] = lambda m: Place(row, m)
             with f.afresh():
-                f.put("%flying", at, step.traced.nearest)
+                f.put("%flight", at, step.traced.nearest)
     if x.has_person:
         _find_legs(step, f)
     f.end()
 
 
 def _find_legs(step: LoopWriter, f: Function) -> None:
-    flying, lanes = step.templates.flying, step.lanes
+    model, lanes = step.templates.model, step.lanes
     index, leg = (
-        leaf_offset(flying, "moving", "person", "index").at,
-        leaf_offset(flying, "moving", "person", "leg").at,
+        leaf_offset(model, "flight_state", "person", "index").at,
+        leaf_offset(model, "flight_state", "person", "leg").at,
     )
     legs, last = step.context_word(f, "legs"), f.integer("sub", step.context_word(f, "leg_count"), 1)
     for lane in range(lanes):
-        number = f.load("%flying", index * lanes + lane, "double")
+        number = f.load("%flight", index * lanes + lane, "double")
         i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
         i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
         i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
         row = f.at(legs, f.integer("mul", i, leaves(PATH_LEG)))
         for m in range(leaves(PATH_LEG)):
-            f.store(f.load(row, m * lanes + lane, "double"), "%flying", (leg + m) * lanes + lane, "double")
+            f.store(f.load(row, m * lanes + lane, "double"), "%flight", (leg + m) * lanes + lane, "double")

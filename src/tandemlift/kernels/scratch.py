@@ -9,19 +9,19 @@ from tandemlift.kernels.traced_step import Symbols
 from tandemlift.trace import LEAVES, Function, Graph, Place, Symbol, symbols
 
 
-def steady(graph: Graph, roots: Symbols, moving: int) -> list[int]:
+def steady(graph: Graph, roots: Symbols, state_size: int) -> list[int]:
     """The nodes that steps need and that are constant within a flight.
 
     Args:
         graph: of a step.
         roots: every value that a step computes.
-        moving: how many of the flight's leading numbers change from step to step.
+        state_size: how many of the flight's leading numbers change from step to step.
     """
     constant, wanted = [False] * len(graph.ops), set[int]()
     for node in graph.needed([s.node for s in roots]):
         op, args = graph.ops[node], graph.args[node]
         if op == "in":
-            constant[node] = args[0] == "dt" or (args[0] == "fly" and args[1] >= moving)
+            constant[node] = args[0] == "dt" or (args[0] == "fly" and args[1] >= state_size)
         else:
             constant[node] = op == "const" or all(constant[a] for a in args)
         if not constant[node] and op not in LEAVES:

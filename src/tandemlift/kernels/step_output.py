@@ -48,7 +48,7 @@ def _write_samples_of_lanes(step: LoopWriter, f: Function, row: str, logged: str
 
 def write_next_state(step: LoopWriter, f: Function, k: str) -> None:
     """Write the state of the flight after step k, and exchange what is delayed with the delay lines."""
-    f.put("%flying", 0, step.traced.moving, "fly")
+    f.put("%flight", 0, step.traced.next_state, "fly")
     if step.templates.has_delays:
         _write_delays(step, f, k)
 
@@ -65,8 +65,8 @@ def _write_delays(step: LoopWriter, f: Function, k: str) -> None:
         arrives = f.integer("add", k, 1) if j == COMMAND_LINE else k
         out = f.integer("and", f.integer("sub", arrives, f.load(delays, j, "i64")), mask)
         for m in range(size):
-            f.store(f.load("%flying", at + m), into, column + m)
+            f.store(f.load("%flight", at + m), into, column + m)
         since = f.at(ring, f.integer("mul", out, step.delayed.size))
         for m in range(size):
-            f.store(f.load(since, column + m), "%flying", at + m)
+            f.store(f.load(since, column + m), "%flight", at + m)
         column += size

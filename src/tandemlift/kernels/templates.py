@@ -40,18 +40,18 @@ class Templates(NamedTuple):
     """Layouts of the values that pass through a step.
 
     Attributes:
-        flying: the flight, a `FlightModel`.
+        model: the flight, a `FlightModel`.
         given: the `StepInputs`.
-        thought: the `PilotOutput`.
+        output: the `PilotOutput`.
         acting: the `Actuation`.
         moved: the `BodyStep`.
         sample: a row of the log.
         nowhere: the nearest walls before any was looked at; its numbers are used, not only its layout.
     """
 
-    flying: Any
+    model: Any
     given: Any
-    thought: Any
+    output: Any
     acting: Any
     moved: Any
     sample: Any
@@ -60,7 +60,7 @@ class Templates(NamedTuple):
     @property
     def has_thrust_limits(self) -> bool:
         """Whether the allocation keeps thrusts within limits."""
-        return isinstance(self.flying.pilot.allocation, ConstrainedAllocation)
+        return isinstance(self.model.pilot.allocation, ConstrainedAllocation)
 
     @property
     def has_walls(self) -> bool:
@@ -70,27 +70,27 @@ class Templates(NamedTuple):
     @property
     def has_person(self) -> bool:
         """Whether a person leads the vehicle along a path."""
-        return isinstance(self.flying.person, Person)
+        return isinstance(self.model.person, Person)
 
     @property
     def has_floor(self) -> bool:
         """Whether there is a floor."""
-        return not isinstance(self.flying.plant.floor, Nothing)
+        return not isinstance(self.model.plant.floor, Nothing)
 
     @property
     def has_delays(self) -> bool:
         """Whether anything is delayed."""
-        return not isinstance(self.flying.delays, Nothing)
+        return not isinstance(self.model.delays, Nothing)
 
 
-def templates_from(flying: FlightModel, given: StepInputs) -> Templates:
+def templates_from(model: FlightModel, given: StepInputs) -> Templates:
     """The layouts of a flight's steps, from its first."""
-    before, outer = flying.moving, given
-    given = with_person(flying, given, 0.0, 0.001)
-    thought = run_pilot(flying, given.hand.start, 0.0, 0.001)
-    acting = actuate(flying, thought.decision.thrusts, given, 0.0)
+    before, outer = model.flight_state, given
+    given = with_person(model, given, 0.0, 0.001)
+    output = run_pilot(model, given.hand.start, 0.0, 0.001)
+    acting = actuate(model, output.decision.thrusts, given, 0.0)
     air = acting.wind.loads
-    moved = advance(flying.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
-    _, sample = finish_sample(flying, thought, acting, moved, given)
-    layouts = [zeroed(x) for x in (flying, outer, thought, acting, moved, sample)]
+    moved = advance(model.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
+    _, sample = finish_sample(model, output, acting, moved, given)
+    layouts = [zeroed(x) for x in (model, outer, output, acting, moved, sample)]
     return Templates._make([*layouts, before.near])

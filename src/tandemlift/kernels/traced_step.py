@@ -128,40 +128,40 @@ class TracedStep:
 
     def __init__(self, templates: Templates, calls_python: bool = False) -> None:
         self.templates, self.calls_python = templates, calls_python
-        self.graph = graph_for(len(templates.flying.plant.frame.mass))
-        self.flying = self.input_of("fly", templates.flying)
+        self.graph = graph_for(len(templates.model.plant.frame.mass))
+        self.model = self.input_of("fly", templates.model)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
         outer = StepInputs(
             self.input_of("hand", templates.given.hand),
             self.input_of("gust", ZERO),
             self.input_of("noise", templates.given.noise),
-            self.flying.moving.person,
+            self.model.flight_state.person,
             self.input_of("external", templates.given.external),
         )
-        self.given = traced(with_person)(self.flying, outer, self.t, self.dt)
+        self.given = traced(with_person)(self.model, outer, self.t, self.dt)
         self.asked: Symbols = []
-        thought = (
+        output = (
             self._ask_python()
             if calls_python
-            else traced(run_pilot)(self.flying, self.given.hand.start, self.t, self.dt)
+            else traced(run_pilot)(self.model, self.given.hand.start, self.t, self.dt)
         )
         self.limits: LimitProblem | None = None
         if templates.has_thrust_limits:
-            thought = self._limit_thrusts(thought)
-        thought = traced(with_caller_thrusts)(thought, self.given.external)
-        acting = traced(actuate)(self.flying, thought.decision.thrusts, self.given, self.t)
+            output = self._limit_thrusts(output)
+        output = traced(with_caller_thrusts)(output, self.given.external)
+        acting = traced(actuate)(self.model, output.decision.thrusts, self.given, self.t)
         self.body = BodyInputs(self.numbers(acting), self._mean_push())
         self.body_in_contact, self.body_in_free_air = (
-            self.numbers(self._stepped_body(self.flying.plant, acting)),
+            self.numbers(self._stepped_body(self.model.plant, acting)),
             list[Symbol](),
         )
         if templates.has_floor or templates.has_walls:
-            self.body_in_free_air = self.numbers(self._stepped_body(without_contact(self.flying.plant), acting))
+            self.body_in_free_air = self.numbers(self._stepped_body(without_contact(self.model.plant), acting))
         self.may_touch_walls = [self._may_touch_walls(acting)] if templates.has_walls else []
         moved = self.input_of("moved", templates.moved)
-        moving, sample = traced(finish_sample)(self.flying, thought, acting, moved, self.given)
-        check_layout(self.flying.pilot.controller, templates.flying.moving, written_out(moving))
-        self.moving, self.sample = self.numbers(moving), self.numbers(sample)
+        after, sample = traced(finish_sample)(self.model, output, acting, moved, self.given)
+        check_layout(self.model.pilot.controller, templates.model.flight_state, written_out(after))
+        self.next_state, self.sample = self.numbers(after), self.numbers(sample)
 
     def input_of(self, kind: str, like: Any) -> Any:
         """A nested value whose numbers are inputs of a kind."""
@@ -172,27 +172,27 @@ class TracedStep:
         return symbols(self.graph, value)
 
     def _ask_python(self) -> PilotOutput:
-        f, push, t, dt = self.flying, self.given.hand.start, self.t, self.dt
-        known, heard, estimator = traced(perceive)(f, push, t, dt)
-        memory = f.moving.memory
-        briefed = traced(control_input)(f.pilot, memory, heard, t, dt)
+        f, push, t, dt = self.model, self.given.hand.start, self.t, self.dt
+        estimates, pilot_input, estimator = traced(perceive)(f, push, t, dt)
+        memory = f.flight_state.memory
+        briefed = traced(control_input)(f.pilot, memory, pilot_input, t, dt)
         self.asked = [*self.numbers(briefed.measured), *self.numbers(briefed.guidance.reference)]
         command = self.input_of("answer", COMMAND)
         decision, memory = traced(with_command)(f.pilot, memory, briefed, command, memory.controller)
-        return PilotOutput(known, heard.state.attitude, decision, memory, estimator)
+        return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
 
-    def _limit_thrusts(self, thought: PilotOutput) -> PilotOutput:
+    def _limit_thrusts(self, output: PilotOutput) -> PilotOutput:
         self.limits, decision, memory = limit_thrusts(
-            self, self.flying.pilot, self.flying.moving.memory, thought, self.t
+            self, self.model.pilot, self.model.flight_state.memory, output, self.t
         )
-        return thought._replace(decision=decision, memory=memory)
+        return output._replace(decision=decision, memory=memory)
 
     def _stepped_body(self, plant: Any, acting: Any) -> Any:
-        return traced(step_body)(plant, self.flying.moving, acting, self.given.hand, self.dt)
+        return traced(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.dt)
 
     def _may_touch_walls(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""
-        before, plant, dt = self.flying.moving, self.flying.plant, self.dt
+        before, plant, dt = self.model.flight_state, self.model.plant, self.dt
         free, air = without_contact(plant), acting.wind.loads
         args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
         rate = traced(first_motion)(free, *args)
@@ -200,7 +200,7 @@ class TracedStep:
         return traced(may_touch_wall)(plant.walls, room, before.state, rate, dt)
 
     def _mean_push(self) -> Symbols:
-        hand, attitude = self.given.hand, self.flying.moving.state.attitude
+        hand, attitude = self.given.hand, self.model.flight_state.state.attitude
         mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
         return [*self.numbers(mean.force), *self.numbers(traced(push_moment)(mean, attitude))]
 
@@ -237,26 +237,28 @@ class TracedStep:
     @cached_property
     def nearest(self) -> Symbols:
         """The nearest walls once a row of the table of walls was looked at."""
-        f, wall = self.flying, self.input_of("wall", WALL)
-        return self.numbers(traced(nearest_with)(f.plant.walls, wall, f.moving.near, f.plant.frame, f.moving.state))
+        f, wall = self.model, self.input_of("wall", WALL)
+        return self.numbers(
+            traced(nearest_with)(f.plant.walls, wall, f.flight_state.near, f.plant.frame, f.flight_state.state)
+        )
 
     @cached_property
     def may_touch_floor(self) -> Symbol:
         """Whether a foot may touch the floor within the steps of a span."""
-        return traced(may_touch)(self.flying.plant.floor, self.flying.moving.state, self.dt * float(SPAN))
+        return traced(may_touch)(self.model.plant.floor, self.model.flight_state.state, self.dt * float(SPAN))
 
 
-def limit_thrusts(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> Any:
+def limit_thrusts(owner: Any, pilot: Any, held: Any, output: Any, t: Any) -> Any:
     """(`LimitProblem`, a decision within them, the memory after it); `held`: the pilot's memory before.
 
     Args:
         owner: of the graph; it gives the symbols of an input by `input_of`, and those of a value by `numbers`.
         pilot: its parameters.
         held: its memory before.
-        thought: with its decision and its memory after it, without limits.
+        output: with its decision and its memory after it, without limits.
         t: time [s].
     """
-    how, decision = pilot.allocation, thought.decision
+    how, decision = pilot.allocation, output.decision
     wished = decision.thrusts
     limits = traced(limits_at)(how, traced(left_of)(pilot.detection, held.detection), t)
     outside = total(traced(outside_limits)(wished, limits)) > 0.0
@@ -271,4 +273,4 @@ def limit_thrusts(owner: Any, pilot: Any, held: Any, thought: Any, t: Any) -> An
     needs = LimitProblem(outside, owner.numbers(problem), owner.numbers(plain), owner.numbers(search), solver)
     solved = owner.input_of("solved", written_out(plain))
     commands = traced(with_trials)(pilot.detection, held.detection, traced(rotor_commands)(how, solved.thrusts, t), t)
-    return needs, traced(with_thrusts)(decision, commands), traced(with_allocation)(thought.memory, solved)
+    return needs, traced(with_thrusts)(decision, commands), traced(with_allocation)(output.memory, solved)

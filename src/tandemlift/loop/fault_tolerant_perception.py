@@ -71,8 +71,8 @@ class CheckedEstimates(NamedTuple):
 
 
 @measure.register(FaultySensors)
-def _with_faults(sensors: FaultySensors, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
-    readings, sensing = sense(sensors.sensors, memory.sensing, state, felt, believed, noise)
+def _with_faults(sensors: FaultySensors, memory: Any, state: State, perfect: Any, believed: Quat, noise: Any) -> Any:
+    readings, sensing = sense(sensors.sensors, memory.sensing, state, perfect, believed, noise)
     given, faults = apply_faults(sensors.faults, memory.faults, readings)
     return given, FaultySensorsState(sensing, faults)
 

@@ -194,9 +194,9 @@ def _contact(floor: Any, readings: PerfectReadings) -> ContactChannels:
 
 
 @law
-def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
+def log_sample(model: Any, output: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
     """The channels of a step, at its start."""
-    state, readings, decision = flying.moving.state, moved.readings, thought.decision
+    state, readings, decision = model.flight_state.state, moved.readings, output.decision
     guidance, command = decision.guidance, decision.command
     target = guidance.reference.trajectory
     return Sample(
@@ -220,14 +220,14 @@ def log_sample(flying: Any, thought: Any, acting: Any, moved: Any, hand: PushSam
         rotor_thrusts=acting.thrusts,
         joint_force=readings.joint_force,
         joint_torque=readings.joint_torque,
-        actuators=actuator_channels(flying.rotors, flying.plant.effect, command.wrench, decision.thrusts),
+        actuators=actuator_channels(model.rotors, model.plant.effect, command.wrench, decision.thrusts),
         wind=wind_channels(acting.wind.loads, acting.wind.velocity),
-        contact=contact_channels(flying.plant.floor, readings),
-        measured=measured_channels(flying.moving.readings),
-        estimated=estimated_channels(thought.estimates),
-        disturbance=disturbance_channels(flying.pilot.observer, decision.disturbance),
+        contact=contact_channels(model.plant.floor, readings),
+        measured=measured_channels(model.flight_state.readings),
+        estimated=estimated_channels(output.estimates),
+        disturbance=disturbance_channels(model.pilot.observer, decision.disturbance),
         guidance=guidance.channels,
-        detection=detection_channels(flying.pilot.detection, thought.memory.detection),
+        detection=detection_channels(model.pilot.detection, output.memory.detection),
     )
 
 
@@ -253,9 +253,9 @@ def _push_active(channels: HandGuidanceChannels) -> Number:
 
 
 @law
-def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
+def errors_of(model: Any, output: Any, x: Sample) -> StepErrors:
     """What a step adds to the running metrics."""
-    decision = thought.decision
+    decision = output.decision
     return StepErrors(
         position=x.reference_position - x.position,
         velocity=x.reference_velocity - x.velocity,
@@ -265,8 +265,8 @@ def errors_of(flying: Any, thought: Any, x: Sample) -> StepErrors:
         moment=x.moment,
         push=x.push_force,
         power=dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
-        saturated=saturated(flying.rotors, decision.thrusts) * thrust_fraction(decision.guidance.running),
-        clearance=clearance(flying.plant.walls, flying.moving.near, flying.plant.frame, flying.moving.state),
-        effort=effort(flying.moving.person, x),
+        saturated=saturated(model.rotors, decision.thrusts) * thrust_fraction(decision.guidance.running),
+        clearance=clearance(model.plant.walls, model.flight_state.near, model.plant.frame, model.flight_state.state),
+        effort=effort(model.flight_state.person, x),
         push_active=push_active(decision.guidance.channels),
     )

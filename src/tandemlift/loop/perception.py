@@ -92,13 +92,13 @@ class Estimates(NamedTuple):
 
 
 @choice(absent=("sensors", "memory"))
-def measure(sensors: Any, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
+def measure(sensors: Any, memory: Any, state: State, perfect: Any, believed: Quat, noise: Any) -> Any:
     """(Readings of a step, the sensors' memory)."""
 
 
 @measure.register(Sensors)
-def _sensed(sensors: Sensors, memory: Any, state: State, felt: Any, believed: Quat, noise: Any) -> Any:
-    return sense(sensors, memory, state, felt, believed, noise)
+def _sensed(sensors: Sensors, memory: Any, state: State, perfect: Any, believed: Quat, noise: Any) -> Any:
+    return sense(sensors, memory, state, perfect, believed, noise)
 
 
 @choice

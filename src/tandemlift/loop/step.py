@@ -55,7 +55,7 @@ class FlightModel(NamedTuple):
     `sources`: where the pilot's state and push come from. `delays`: a `DelayLines`.
     """
 
-    moving: FlightState
+    flight_state: FlightState
     pilot: PilotParameters
     plant: CompiledPlant
     rotors: Any
@@ -109,7 +109,7 @@ class Actuation(NamedTuple):
 @law
 def with_person(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> StepInputs:
     """The inputs of a step, with the push of its caller and that of the person who guides the vehicle."""
-    before, noise, push = model.moving, inputs.noise.person, with_caller_push(inputs.external, inputs.hand)
+    before, noise, push = model.flight_state, inputs.noise.person, with_caller_push(inputs.external, inputs.hand)
     output = person_step(model.person, before.person, push, before.state, noise, t, dt)
     return inputs._replace(hand=output.push, person=output.memory)
 
@@ -117,7 +117,7 @@ def with_person(model: FlightModel, inputs: StepInputs, t: Any, dt: Any) -> Step
 @law
 def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
     """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
-    before, sources = model.moving, model.sources
+    before, sources = model.flight_state, model.sources
     since = tare_time(model.estimator, before.memory.guidance, t)
     estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, since, dt)
     readings = usable(estimates, before.readings)
@@ -139,7 +139,7 @@ def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
 def run_pilot(model: FlightModel, push: Push, t: Any, dt: Any) -> PilotOutput:
     """The pilot's part of a step."""
     estimates, pilot_input, estimator = perceive(model, push, t, dt)
-    decision, memory = decide(model.pilot, model.moving.memory, pilot_input, t, dt)
+    decision, memory = decide(model.pilot, model.flight_state.memory, pilot_input, t, dt)
     return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
 
 
@@ -153,7 +153,7 @@ def with_caller_thrusts(output: PilotOutput, external: Any) -> PilotOutput:
 @law
 def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Actuation:
     """The response of the rotors to commanded thrusts [N] over the step from time t [s], and the wind over it."""
-    before = model.moving
+    before = model.flight_state
     driven, rotors = rotors_step(model.rotors, before.rotors, thrusts, before.state, t)
     wind = wind_loads(model.wind, before.wind, model.plant.frame, before.state, inputs.gust, inputs.noise.wind)
     return Actuation(driven, rotors, wind)
@@ -171,7 +171,7 @@ def finish_sample(
     model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs
 ) -> Any:
     """The end of a step once the body has moved: (`FlightState` after it, `Sample` at its start)."""
-    before, noise = model.moving, inputs.noise.sensors
+    before, noise = model.flight_state, inputs.noise.sensors
     readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
     sample = log_sample(model, output, acting, moved, inputs.hand)
     after = FlightState(
@@ -203,7 +203,7 @@ def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: 
     """The rest of a step once the pilot has decided: (`FlightState` after it, `Sample` at its start)."""
     output = with_caller_thrusts(output, inputs.external)
     acting = actuate(model, output.decision.thrusts, inputs, t)
-    moved = step_body(model.plant, model.moving, acting, inputs.hand, dt)
+    moved = step_body(model.plant, model.flight_state, acting, inputs.hand, dt)
     return finish_sample(model, output, acting, moved, inputs)
 
 

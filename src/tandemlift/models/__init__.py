@@ -1,1 +1,1 @@
-"""A mission's vehicle and surroundings as models of simulators: floor and walls, MuJoCo (MJCF), Gazebo (SDF)."""
+"""A mission's vehicle, floor and walls as models for other simulators: MuJoCo (MJCF) and Gazebo (SDF)."""

@@ -1,7 +1,8 @@
-"""A mission as a MuJoCo model: what the engine `mujoco` flies, as MJCF, with looks and the mission's start.
+"""A mission as an MJCF model: the model of the engine `mujoco`, with visuals and the mission's initial state.
 
-Control 4 i + j is the thrust of rotor j of quadrotor i [N]; sensors are those of `models.mujoco_bodies.model_of`, by
-name. The joints' sensors read what the payload puts on the quadrotor, without what the rotors make.
+Control 4 i + j is the thrust of rotor j of quadrotor i [N]. The sensors have the names of
+`models.mujoco_bodies.model_of`. A joint's sensors read the load of the payload on the quadrotor, without the forces
+and torques of the rotors.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ from tandemlift.algebra.vector import vec3
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
-from tandemlift.models.mujoco_bodies import mujoco, press, specification
-from tandemlift.models.sensor_frames import Link, links_of
+from tandemlift.models.links import Link, links_of
+from tandemlift.models.mujoco_bodies import mujoco, set_contact_stiffness, specification
 from tandemlift.models.surroundings import floor_from, walls_from
 from tandemlift.models.visuals import VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.light import SUN
@@ -26,9 +27,9 @@ from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
 GROUND, SKY, ZENITH = "#b9bdc3", "#dbe6f2", "#8fb0d3"
-CONTACT_GROUP = 3  # of shapes: MuJoCo's viewer hides it at first
+CONTACT_GROUP = 3  # geom group of contact shapes, which MuJoCo's viewer hides by default
 OBJECTS = mujoco.mjtObj
-EXACT = {  # attributes that MuJoCo rounds to six digits, of which objects, and the model's arrays that have them all
+EXACT = {  # elements whose attributes MuJoCo rounds to six digits: object type, and the arrays with all digits
     "body": (OBJECTS.mjOBJ_BODY, {"pos": "body_pos", "quat": "body_quat"}),
     "inertial": (
         OBJECTS.mjOBJ_BODY,
@@ -47,51 +48,51 @@ EXACT = {  # attributes that MuJoCo rounds to six digits, of which objects, and 
 
 
 def model_text(mission: Mission) -> str:
-    """The text of a mission's model.
+    """The MJCF text of a mission.
 
     Raises:
-        InputError: its true vehicle cannot be a model (`links_of`), MuJoCo does not take it, or is not installed.
+        InputError: the true vehicle has no such model (`links_of`), MuJoCo refuses it, or MuJoCo is not installed.
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
     floor, walls = floor_from(mission, vehicle), walls_from(mission, vehicle)
     spec = specification(mission, vehicle, floor, walls)
     spec.modelname = mission.mission.name
-    _weigh(spec, links_of(mission, vehicle))
-    _drag(spec, [*vehicle.drag.force, *vehicle.drag.moment])
-    _start(spec, mission)
-    _dress(spec, mission, vehicle)
+    _set_inertias(spec, links_of(mission, vehicle))
+    _add_drag(spec, [*vehicle.drag.force, *vehicle.drag.moment])
+    _set_start(spec, mission)
+    _add_visuals(spec, mission, vehicle)
     try:
         model = spec.compile()
-        press(model, floor, walls)
+        set_contact_stiffness(model, floor, walls)
         for p, pair in enumerate(spec.pairs):
             pair.solref, pair.solreffriction = model.pair_solref[p], model.pair_solreffriction[p]
-        text = _exact(spec.to_xml(), model)
+        text = _with_all_digits(spec.to_xml(), model)
         mujoco.MjModel.from_xml_string(text)
     except ValueError as error:
-        raise InputError(f"mission {mission.mission.name!r}: MuJoCo does not take its vehicle: {error}") from error
+        raise InputError(f"mission {mission.mission.name!r}: MuJoCo refuses the vehicle: {error}") from error
     return text
 
 
-def _weigh(spec: Any, links: Sequence[Link]) -> None:
-    """Mass, centre of mass and inertia of every body."""
+def _set_inertias(spec: Any, links: Sequence[Link]) -> None:
+    """Set mass, centre of mass and inertia of every body."""
     for link in links:
         body = spec.body(link.name.replace("_", ""))
         moments, axes = np.diag(link.inertia), np.eye(3)
         if not np.array_equal(np.diag(moments), link.inertia):
             moments, axes = np.linalg.eigh(link.inertia)
         mujoco.mju_mat2Quat(body.iquat, (axes * [1.0, 1.0, np.linalg.det(axes)]).ravel())
-        body.mass, body.inertia = link.mass, _thick(moments)
+        body.mass, body.inertia = link.mass, _realizable(moments)
         body.ipos = link.center + (link.position if link.name == "payload" else 0.0)
 
 
-def _thick(moments: Array) -> Array:
-    """Moments of a body none of which exceeds the sum of the others, by rounding either, as MuJoCo would refuse it."""
+def _realizable(moments: Array) -> Array:
+    """Principal moments with the largest clipped to the sum of the others, which MuJoCo requires despite rounding."""
     most = int(np.argmax(moments))
     return np.where(np.arange(3) == most, min(moments[most], np.sum(np.delete(moments, most))), moments)
 
 
-def _drag(spec: Any, damping: Sequence[float]) -> None:
-    """Linear drag: of the free joint, or of an actuator without control along each axis if these differ."""
+def _add_drag(spec: Any, damping: Sequence[float]) -> None:
+    """Add linear drag: damping of the free joint, or where axes differ, an actuator without control along each."""
     if len(set(damping)) == 1:
         spec.joint("free").damping[0] = damping[0]
         return
@@ -107,16 +108,16 @@ def _drag(spec: Any, damping: Sequence[float]) -> None:
         )
 
 
-def _start(spec: Any, mission: Mission) -> None:
-    """The model begins where the mission does; with its velocities too in the key frame `start`."""
+def _set_start(spec: Any, mission: Mission) -> None:
+    """Set the initial pose; the key frame `start` has the initial velocities too."""
     initial, body = mission.initial, spec.body("payload")
     quat = quaternion_from_euler(vec3(initial.euler))
     body.pos, body.quat = initial.position, quat
     spec.add_key(name="start", qpos=[*initial.position, *quat], qvel=[*initial.velocity, *initial.rates])
 
 
-def _dress(spec: Any, mission: Mission, vehicle: Vehicle) -> None:
-    """Colours, light, and shapes that touch nothing; those that touch are hidden."""
+def _add_visuals(spec: Any, mission: Mission, vehicle: Vehicle) -> None:
+    """Add colours, light and visual shapes without contact; hide the contact shapes."""
     for geom in spec.geoms:
         if geom.name == "floor":
             geom.rgba = _rgba(GROUND)
@@ -125,9 +126,11 @@ def _dress(spec: Any, mission: Mission, vehicle: Vehicle) -> None:
         else:
             geom.group = CONTACT_GROUP
     depth = vehicle.payload.radius or 0.0
-    _show(spec.body("payload"), payload_shapes(vehicle.payload, tuple(vehicle.quadrotors)), -vehicle.center_of_mass)
+    _add_shapes(
+        spec.body("payload"), payload_shapes(vehicle.payload, tuple(vehicle.quadrotors)), -vehicle.center_of_mass
+    )
     for i, q in enumerate(vehicle.quadrotors, 1):
-        _show(spec.body(f"quadrotor{i}"), quadrotor_shapes(q, depth), np.zeros(3))
+        _add_shapes(spec.body(f"quadrotor{i}"), quadrotor_shapes(q, depth), np.zeros(3))
     sun = spec.worldbody.add_light(name="sun", pos=20.0 * SUN, dir=-SUN, castshadow=not mission.all_walls)
     sun.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
     sky = spec.add_texture(name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, width=64, height=384)
@@ -135,8 +138,8 @@ def _dress(spec: Any, mission: Mission, vehicle: Vehicle) -> None:
     spec.stat.center, spec.stat.extent = mission.initial.position, float(np.abs(vehicle.lever_arms).max()) + 1.0
 
 
-def _show(body: Any, shapes: Sequence[VisualShape], origin: Array) -> None:
-    """Add shapes to look at, from an origin in the body's frame."""
+def _add_shapes(body: Any, shapes: Sequence[VisualShape], origin: Array) -> None:
+    """Add visual shapes; `origin` (3) is theirs in the body's frame [m]."""
     kinds, quat = mujoco.mjtGeom, np.empty(4)
     for shape in shapes:
         mujoco.mju_mat2Quat(quat, np.ascontiguousarray(shape.axes).ravel())
@@ -144,7 +147,7 @@ def _show(body: Any, shapes: Sequence[VisualShape], origin: Array) -> None:
         size[: len(shape.size)] = shape.size
         halves = {"box": [0.5, 0.5, 0.5], "sphere": [1.0, 0.0, 0.0], "cylinder": [1.0, 0.5, 0.0]}[shape.kind]
         body.add_geom(
-            name=f"{body.name} {shape.name} look",
+            name=f"{body.name} {shape.name} visual",
             type={"box": kinds.mjGEOM_BOX, "sphere": kinds.mjGEOM_SPHERE, "cylinder": kinds.mjGEOM_CYLINDER}[
                 shape.kind
             ],
@@ -162,8 +165,8 @@ def _rgba(color: str, opacity: float = 1.0) -> list[float]:
     return [*(int(color[i : i + 2], 16) / 255.0 for i in (1, 3, 5)), opacity]
 
 
-def _exact(text: str, model: Any) -> str:
-    """The text with all digits of the numbers that matter."""
+def _with_all_digits(text: str, model: Any) -> str:
+    """The MJCF text with all digits of the numbers in `EXACT`."""
     root = ElementTree.fromstring(text)
     option = root.find("option")
     assert option is not None

@@ -1,13 +1,14 @@
-"""A vehicle as a MuJoCo model: the payload on a free joint, and each quadrotor a body of its own, welded to it.
+"""A vehicle as a MuJoCo model: the payload on a free joint, and each quadrotor as a body welded to the payload.
 
-The payload's body frame lies at the centre of mass of the system, its axes along the body axes. MuJoCo's free joint
-then has our state: position [m] and velocity [m/s] of the centre of mass in world axes, a quaternion w, x, y, z, and
-rates [rad/s] in body axes; forces applied to it are N in world axes and N·m in body axes about the centre of mass.
+The payload's body frame has its origin at the system's centre of mass, and its axes are the body axes. The state of
+MuJoCo's free joint then equals ours: position [m] and velocity [m/s] of the centre of mass in world axes, a quaternion
+w, x, y, z, and rates [rad/s] in body axes. Applied forces are in world axes [N], applied moments in body axes about
+the centre of mass [N·m].
 
-Contact parameters are those of the spring-damper that MuJoCo's constraint (Computation: Parameters) becomes where its
-impedance d is small: f = (−b v − k r − a)/R with R = (1 − d)/d Â, of which the inertia 1/R is a ten-thousandth of the
-vehicle's as felt at the contact. So a foot of stiffness K sinks by exactly f/K. Friction is MuJoCo's own: a foot that
-holds creeps by micrometres a second.
+With a small impedance d, MuJoCo's contact constraint (Computation: Parameters) is a spring and damper:
+f = (−b v − k r − a)/R with R = (1 − d)/d Â. Its inertia 1/R is a ten-thousandth of the vehicle's effective inertia at
+the contact, so a foot of stiffness K sinks by exactly f/K. Friction is MuJoCo's own: a sticking foot creeps by
+micrometres per second.
 """
 
 from __future__ import annotations
@@ -41,50 +42,50 @@ if int(mujoco.__version__.split(".")[0]) < 4:
 
 Weight = tuple[float, ArrayLike]  # kg; kg m², principal moments
 
-SOFT = 1e-4  # impedance d of contacts, the least that MuJoCo takes: next to a pure spring and damper
-FRICTION_IMPEDANCE = 1e7  # MuJoCo's impratio: makes friction a thousand times harder than the vehicle is heavy
-STICKING = 0.2  # share of a foot's sliding speed that friction takes away in one step, below its limit
-POINT = 1e-4  # m, radius of the sphere that stands for a foot's ball joint
+SOFT = 1e-4  # impedance d of contacts, MuJoCo's smallest: almost a pure spring and damper
+FRICTION_IMPEDANCE = 1e7  # MuJoCo's impratio: the inertia of friction is a thousand times the vehicle's
+STICKING = 0.2  # fraction of a foot's sliding speed that friction below its limit removes in one step
+POINT = 1e-4  # m, radius of the sphere that represents a foot's ball joint
 THIN = 1e-4  # m, thickness of a wall
-NET_FORCE = 3  # MuJoCo's reduction of all contacts to one, in world axes
-DEEP = 1e3  # m, how far walls reach down: below any floor
+NET_FORCE = 3  # MuJoCo's contact sensor: all contacts reduced to one wrench, in world axes
+DEEP = 1e3  # m, height of the walls, which reach below any floor
 
 
 def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
-    """The compiled `mujoco.MjModel` of a mission's vehicle as it really is.
+    """The compiled `mujoco.MjModel` of a mission's true vehicle.
 
-    Actuator 4 i + j is rotor j of quadrotor i, and its control the thrust [N]. The sensors are, in this order: the
-    accelerometer at the payload's centre of mass (3), the force at each joint (3 N), the torque at each joint (3 N),
-    and with a floor or walls the force of all contacts (3).
+    Actuator 4 i + j is rotor j of quadrotor i; its control is the thrust [N]. The sensors, in order: accelerometer at
+    the payload's centre of mass (3), force at each joint (3 N), torque at each joint (3 N), and with a floor or walls
+    the net contact force (3).
 
     Args:
-        mission: its step, `plant` and `walls` are the model's.
-        vehicle: the vehicle that the pilot knows.
+        mission: gives step, `plant` and walls.
+        vehicle: the nominal vehicle.
         floor: a `laws.mechanics.contact.Floor`, or `Nothing`.
         walls: a `laws.mechanics.walls.Walls`, or `Nothing` for a mission without walls.
 
     Raises:
-        TypeError: the mission has walls, but nothing says how they press.
+        TypeError: the mission has walls, but `walls` is not a `Walls`.
     """
     spec = specification(mission, vehicle, floor, walls)
     difference = _add_difference(spec, mission, vehicle)
     model = spec.compile()
     quadrotors = [(q.mass, q.inertia) for q in vehicle.quadrotors]
-    _weigh(model, [(vehicle.payload.mass, vehicle.payload.moments), *quadrotors, *difference])
+    _set_inertias(model, [(vehicle.payload.mass, vehicle.payload.moments), *quadrotors, *difference])
     model.dof_damping[:] = [*vehicle.drag.force, *vehicle.drag.moment]
-    press(model, floor, walls)
+    set_contact_stiffness(model, floor, walls)
     return model
 
 
 def specification(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
-    """The `mujoco.MjSpec` of `model_of`, as yet without weights, drag, and stiffness of contacts.
+    """The `mujoco.MjSpec` of `model_of`, before inertias, drag and contact stiffness are set.
 
     Raises:
-        TypeError: the mission has walls, but nothing says how they press.
+        TypeError: the mission has walls, but `walls` is not a `Walls`.
     """
     spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
     if mission.all_walls and not walled:
-        raise TypeError("a mission with walls needs a laws.mechanics.walls.Walls that says how they press")
+        raise TypeError("a mission with walls needs a laws.mechanics.walls.Walls with their contact parameters")
     _set_options(spec, mission.mission.step, touching=standing or walled)
     _add_payload(spec, vehicle)
     for i, (quadrotor, center) in enumerate(zip(vehicle.quadrotors, vehicle.lever_arms, strict=True), 1):
@@ -98,7 +99,7 @@ def specification(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) ->
 
 
 def _set_options(spec: Any, step: float, *, touching: bool) -> None:
-    """Runge-Kutta, gravity, no resets; without surroundings no search for contacts either."""
+    """Set Runge-Kutta and gravity; disable resets, and contacts where there are no surroundings."""
     option, disable = spec.option, mujoco.mjtDisableBit
     option.timestep, option.gravity = step, [0.0, 0.0, -GRAVITY]
     option.integrator = mujoco.mjtIntegrator.mjINT_RK4
@@ -108,16 +109,16 @@ def _set_options(spec: Any, step: float, *, touching: bool) -> None:
 
 
 def _add_payload(spec: Any, vehicle: Vehicle) -> None:
-    """The body of the payload, which carries everything; its frame is at the system's centre of mass."""
+    """Add the payload, the root body, with its frame at the system's centre of mass."""
     center = -vehicle.center_of_mass
-    body = spec.worldbody.add_body(name="payload", **_unweighed(center))
+    body = spec.worldbody.add_body(name="payload", **_placeholder_inertia(center))
     body.add_joint(name="free", type=mujoco.mjtJoint.mjJNT_FREE, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
     body.add_site(name="payload", pos=center)
 
 
 def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) -> None:
-    """A quadrotor welded to the payload, its centre of mass at `center`; a site at its joint and at each rotor."""
-    body = spec.body("payload").add_body(name=name, pos=center, **_unweighed())
+    """Add a quadrotor welded to the payload, with its centre of mass at `center`; sites at its joint and rotors."""
+    body = spec.body("payload").add_body(name=name, pos=center, **_placeholder_inertia())
     body.add_site(name=name, pos=np.subtract(quadrotor.joint_position, quadrotor.position))
     for j, ((x, y), spin) in enumerate(zip(quadrotor.rotors, quadrotor.spins, strict=True), 1):
         rotor = f"{name} rotor{j}"
@@ -127,9 +128,9 @@ def _add_quadrotor(spec: Any, name: str, quadrotor: Quadrotor, center: Array) ->
 
 
 def _add_difference(spec: Any, mission: Mission, vehicle: Vehicle) -> list[Weight]:
-    """A body at the centre of mass for what the true vehicle has beyond the one that the pilot knows.
+    """Add a body at the centre of mass with the difference in inertia between true and nominal vehicle.
 
-    Its mass and principal moments may be negative. Nothing is added if there is no difference.
+    Its mass and principal moments may be negative. No body is added if there is no difference.
     """
     scale, J = np.diag(np.sqrt(mission.plant.inertia_scale)), vehicle.inertia
     mass = (mission.plant.mass_scale - 1.0) * vehicle.mass
@@ -138,20 +139,20 @@ def _add_difference(spec: Any, mission: Mission, vehicle: Vehicle) -> list[Weigh
         return []
     quat = np.empty(4)
     mujoco.mju_mat2Quat(quat, (axes * [1.0, 1.0, np.linalg.det(axes)]).ravel())
-    spec.body("payload").add_body(name="difference", iquat=quat, **_unweighed())
+    spec.body("payload").add_body(name="difference", iquat=quat, **_placeholder_inertia())
     return [(mass, moments)]
 
 
-def _unweighed(center: ArrayLike = (0.0, 0.0, 0.0)) -> dict[str, Any]:
-    """A body whose weight is filled in later (`_weigh`), with its centre of mass in its frame [m]."""
+def _placeholder_inertia(center: ArrayLike = (0.0, 0.0, 0.0)) -> dict[str, Any]:
+    """Placeholder inertia of a body, later set by `_set_inertias`; `center` of mass in the body's frame (3) [m]."""
     return {"explicitinertial": True, "mass": 1.0, "inertia": [1.0, 1.0, 1.0], "ipos": center}
 
 
-def _weigh(model: Any, weights: Sequence[Weight]) -> None:
-    """Give every body its weight, in their order, and make the model's constants follow.
+def _set_inertias(model: Any, weights: Sequence[Weight]) -> None:
+    """Set mass and principal moments of all bodies in order, and update the constants that depend on them.
 
-    MuJoCo's compiler would refuse small or negative numbers, and flat bodies by rounding; its dynamics take any that
-    together make a mass and an inertia.
+    MuJoCo's compiler refuses small and negative values, and flat bodies because of rounding; its dynamics only need
+    the total to be a physical mass and inertia.
     """
     for index, (mass, moments) in enumerate(weights, 1):
         model.body_mass[index], model.body_inertia[index] = mass, moments
@@ -159,7 +160,7 @@ def _weigh(model: Any, weights: Sequence[Weight]) -> None:
 
 
 def _add_sensors(spec: Any, count: int, *, touching: bool) -> None:
-    """The accelerometer, then force and torque of every joint, then the force of all contacts, world axes."""
+    """Add accelerometer, force and torque of every joint, and the net contact force in world axes."""
     kind, at_site = mujoco.mjtSensor, mujoco.mjtObj.mjOBJ_SITE
     spec.add_sensor(name="accelerometer", type=kind.mjSENS_ACCELEROMETER, objtype=at_site, objname="payload")
     for label, what in (("force", kind.mjSENS_FORCE), ("torque", kind.mjSENS_TORQUE)):
@@ -177,13 +178,13 @@ def _add_sensors(spec: Any, count: int, *, touching: bool) -> None:
         )
 
 
-def _shape(body: Any, name: str, kind: Any, **look: Any) -> None:
-    """A shape without mass that touches only what it is paired with."""
-    body.add_geom(name=name, type=kind, mass=0.0, contype=0, conaffinity=0, **look)
+def _add_shape(body: Any, name: str, kind: Any, **attributes: Any) -> None:
+    """Add a massless shape that collides only with the shapes that it is paired with."""
+    body.add_geom(name=name, type=kind, mass=0.0, contype=0, conaffinity=0, **attributes)
 
 
-def _pair(spec: Any, one: str, other: str, friction: float) -> None:
-    """Let two shapes touch, with friction along the surface unless it is zero."""
+def _add_contact_pair(spec: Any, one: str, other: str, friction: float) -> None:
+    """Let two shapes collide, with friction unless its coefficient is zero."""
     flat = [friction, friction, 1.0, 1.0, 1.0]
     spec.add_pair(
         name=f"{one} {other}",
@@ -196,28 +197,28 @@ def _pair(spec: Any, one: str, other: str, friction: float) -> None:
 
 
 def _add_floor(spec: Any, floor: Floor, vehicle: Vehicle) -> None:
-    """The floor, and a point for the ball joint of every foot; both without the pads between them."""
+    """Add the floor, and a small sphere at the ball joint of every foot; the pads' radius is left out of both."""
     shape, height = mujoco.mjtGeom, floor.height + floor.radius - POINT
-    _shape(spec.worldbody, "floor", shape.mjGEOM_PLANE, size=[0.0, 0.0, 1.0], pos=[0.0, 0.0, height])
+    _add_shape(spec.worldbody, "floor", shape.mjGEOM_PLANE, size=[0.0, 0.0, 1.0], pos=[0.0, 0.0, height])
     centers = np.array(floor.feet).transpose(2, 0, 1)  # (N, 4, 3)
     for i, (feet, center) in enumerate(zip(centers, vehicle.lever_arms, strict=True), 1):
         for j, place in enumerate(feet - center, 1):
             foot = f"quadrotor{i} foot{j}"
-            _shape(spec.body(f"quadrotor{i}"), foot, shape.mjGEOM_SPHERE, size=[POINT, 0.0, 0.0], pos=place)
-            _pair(spec, "floor", foot, floor.friction)
+            _add_shape(spec.body(f"quadrotor{i}"), foot, shape.mjGEOM_SPHERE, size=[POINT, 0.0, 0.0], pos=place)
+            _add_contact_pair(spec, "floor", foot, floor.friction)
 
 
 def _add_walls(spec: Any, walls: Walls, upright: Sequence[WallTable], vehicle: Vehicle) -> None:
-    """The walls as thin boxes, a sphere around each quadrotor, and a capsule along the payload."""
+    """Add walls as thin boxes, a sphere around each quadrotor, and a capsule along the payload."""
     shape, touching = mujoco.mjtGeom, []
     for i, radius in enumerate(walls.guards, 1):
         touching.append(f"quadrotor{i} guard")
-        _shape(spec.body(f"quadrotor{i}"), touching[-1], shape.mjGEOM_SPHERE, size=[radius, 0.0, 0.0])
+        _add_shape(spec.body(f"quadrotor{i}"), touching[-1], shape.mjGEOM_SPHERE, size=[radius, 0.0, 0.0])
     if isinstance(walls.beam, Beam):
         touching.append("beam")
         ends = np.array([[0.0, end, 0.0] for end in walls.beam.ends]) - vehicle.center_of_mass
         size = [walls.beam.radius, 0.0, 0.0]
-        _shape(spec.body("payload"), "beam", shape.mjGEOM_CAPSULE, size=size, fromto=ends.ravel())
+        _add_shape(spec.body("payload"), "beam", shape.mjGEOM_CAPSULE, size=size, fromto=ends.ravel())
     for k, wall in enumerate(upright, 1):
         (x1, y1), (x2, y2), along = wall.start, wall.end, np.subtract(wall.end, wall.start)
         turn = np.arctan2(along[1], along[0]) / 2.0
@@ -226,13 +227,13 @@ def _add_walls(spec: Any, walls: Walls, upright: Sequence[WallTable], vehicle: V
             "size": [np.hypot(*along) / 2.0, THIN / 2.0, DEEP / 2.0],
             "quat": [np.cos(turn), 0.0, 0.0, np.sin(turn)],
         }
-        _shape(spec.worldbody, f"wall{k}", shape.mjGEOM_BOX, **box)
+        _add_shape(spec.worldbody, f"wall{k}", shape.mjGEOM_BOX, **box)
         for part in touching:
-            _pair(spec, f"wall{k}", part, walls.friction)
+            _add_contact_pair(spec, f"wall{k}", part, walls.friction)
 
 
-def press(model: Any, floor: Any, walls: Any) -> None:
-    """Give every pair of shapes the stiffness [N/m] and damping [N·s/m] of its surroundings."""
+def set_contact_stiffness(model: Any, floor: Any, walls: Any) -> None:
+    """Set stiffness [N/m] and damping [N·s/m] of every contact pair, from the contact parameters of floor and walls."""
     ground = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, "floor")
     for p in range(model.npair):
         shapes = int(model.pair_geom1[p]), int(model.pair_geom2[p])

@@ -1,4 +1,4 @@
-"""Where a vehicle's parts are and what they weigh, as the laws of mechanics take it."""
+"""Positions, masses and inertias of a vehicle's parts, in the form that the laws of mechanics use."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 The model `tandemlift` has its frame at the centre of mass of the system and its axes along the body axes; so have its
 links, `payload` and `quadrotor_1` …, each at its part's centre of mass. `joint_1` … are fixed joints from the payload
-(parent) to the quadrotors (child), each where that quadrotor is fixed.
+(parent) to the quadrotors (child), at the quadrotors' joint positions.
 
 Contacts are those of the contact laws: feet with the floor, guards and beam with walls. The vehicle has the stiffness
 and damping of the laws; floor and walls are hard (`HARD`), and Gazebo combines the two in series. Friction is Gazebo's
@@ -24,8 +24,8 @@ from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.contact import Floor
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
 from tandemlift.laws.mechanics.walls import Beam, Walls
+from tandemlift.models.links import Link, links_of
 from tandemlift.models.sdf_elements import Element, add, fill, geometry, numbers, pose, rgba
-from tandemlift.models.sensor_frames import Link, links_of
 from tandemlift.models.surroundings import feet_and_floor_from, floor_from, wall_contact_from
 from tandemlift.models.visuals import ALONG_Y, LEVEL, VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.camera import CAMERAS
@@ -59,7 +59,7 @@ def world(mission: Mission, plugin: int | str | None = None) -> str:
             None for no plugin.
 
     Raises:
-        InputError: the true vehicle cannot be a model (`links_of`).
+        InputError: the true vehicle has no such model (`links_of`).
     """
     vehicle = Vehicle.from_settings(mission.vehicle)
     root = Element("sdf", version="1.7")
@@ -140,7 +140,7 @@ def _add_static_link(top: Element, name: str, position: ArrayLike) -> Element:
 
 
 def _add_floor(top: Element, floor: Floor, mission: Mission) -> None:
-    """Add a level plane, visible below the start and all walls."""
+    """Add a horizontal plane, visible below the initial position and all walls."""
     ends = [end for w in mission.all_walls for end in (w.start, w.end)]
     places = np.array([mission.initial.position[:2], *ends])
     low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
@@ -187,7 +187,7 @@ def _wall(name: str, wall: WallTable, floor: float) -> VisualShape:
 
 
 def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int | str | None) -> None:
-    """Add the vehicle in the initial state of the mission; it is never put to sleep."""
+    """Add the vehicle in the initial state of the mission; Gazebo never disables it when it rests."""
     model = add(top, "model", name=MODEL)
     R = np.array(rotation_from_quaternion(quaternion_from_euler(vec3(mission.initial.euler))))
     pose(model, mission.initial.position, R)
@@ -211,9 +211,14 @@ def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int |
 
 
 def _add_link(
-    model: Element, link: Link, looks: Iterable[VisualShape], touching: Iterable[VisualShape], how: Any, bit: int
+    model: Element,
+    link: Link,
+    visuals: Iterable[VisualShape],
+    collisions: Iterable[VisualShape],
+    contact: Any,
+    bit: int,
 ) -> Element:
-    """Add a body with inertia, visuals, and collision shapes with the contact parameters `how`."""
+    """Add a body with inertia, visuals, and collision shapes with the contact parameters `contact`."""
     element = add(model, "link", name=link.name)
     pose(element, link.position)
     inertial, J = add(element, "inertial"), link.inertia
@@ -221,9 +226,9 @@ def _add_link(
     pose(inertial, link.center)
     parts = {f"i{a}{b}": J["xyz".index(a), "xyz".index(b)] for a, b in ("xx", "xy", "xz", "yy", "yz", "zz")}
     fill(inertial, {"inertia": parts})
-    for shape in touching:
-        _add_collision(element, shape, _surface(bit, how.friction, how.stiffness, how.damping))
-    for shape in looks:
+    for shape in collisions:
+        _add_collision(element, shape, _surface(bit, contact.friction, contact.stiffness, contact.damping))
+    for shape in visuals:
         _add_visual(element, shape)
     return element
 

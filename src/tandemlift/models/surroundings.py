@@ -1,4 +1,4 @@
-"""Floor and walls of a mission, as the values that laws and simulators take."""
+"""Floor and walls of a mission with their contact parameters, for laws and simulators."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def floor_from(mission: Mission, vehicle: Vehicle) -> Any:
 
 
 def feet_and_floor_from(mission: Mission, vehicle: Vehicle) -> Floor:
-    """The floor that a mission has or would have, and how the feet press on it."""
+    """The floor of a mission and the contact parameters of the feet, even if `ground.model` is "none"."""
     g = mission.ground
     fleet, mass, step = vehicle.quadrotors, vehicle.mass * mission.plant.mass_scale, mission.mission.step
     soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
@@ -29,12 +29,12 @@ def feet_and_floor_from(mission: Mission, vehicle: Vehicle) -> Floor:
 
 
 def walls_from(mission: Mission, vehicle: Vehicle) -> Any:
-    """What touches the walls of a mission and how they press, or `Nothing` where it has none."""
+    """The contact shapes and parameters for a mission's walls, or `Nothing` without walls."""
     return wall_contact_from(mission, vehicle) if mission.all_walls else Nothing()
 
 
 def wall_contact_from(mission: Mission, vehicle: Vehicle) -> Walls:
-    """What touches walls, were there any, and how they press."""
+    """The contact shapes and parameters for walls, even if the mission has none."""
     payload, fleet = vehicle.payload, vehicle.quadrotors
     beam = (payload.length, payload.radius) if payload.length and payload.radius else None
     return walls(

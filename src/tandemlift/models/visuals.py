@@ -1,6 +1,6 @@
-"""What a vehicle looks like, in boxes, spheres and cylinders: the shapes that every simulator has.
+"""Visual shapes of a vehicle: boxes, spheres and cylinders, which every simulator has.
 
-Colours and proportions are those of our pictures (`rendering.aircraft`): what is ahead is orange, what is behind blue.
+Colours and proportions are those of `rendering.aircraft`: front parts are orange, rear parts blue.
 """
 
 from __future__ import annotations
@@ -13,31 +13,31 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.common.types import Array
-from tandemlift.rendering.aircraft import CARBON, FRONT, GUARD, JOINT, METAL, REAR, SHAPELESS, SHELL, WOOD, spread
+from tandemlift.rendering.aircraft import CARBON, FRONT, GUARD, JOINT, METAL, REAR, SHAPELESS, SHELL, WOOD, mean_arm
 from tandemlift.rendering.mesh import frame_along
 from tandemlift.rendering.stage import BLUR, GLASS, WALL
 from tandemlift.rendering.stage import PUSH as PUSH_COLOR
 from tandemlift.settings import Payload, Quadrotor
 
-__all__ = ["PUSH_COLOR", "VisualShape", "payload_shapes", "quadrotor_shapes", "rod", "wall_shape"]
+__all__ = ["PUSH_COLOR", "VisualShape", "cylinder", "payload_shapes", "quadrotor_shapes", "wall_shape"]
 
 SEGMENTS = 16  # straight pieces of a guard ring
 ALONG_Y = frame_along([0.0, 1.0, 0.0])  # axes (3 × 3) of a cylinder along y
 LEVEL = np.eye(3)
-SHORTEST = 1e-6  # m: a shorter rod is left out
+SHORTEST = 1e-6  # m, a shorter cylinder is left out
 
 
 class VisualShape(NamedTuple):
-    """A shape with a name.
+    """A named shape.
 
     Attributes:
-        name: unlike that of any other shape of its link.
+        name: unique among the shapes of its link.
         kind: `box`, `sphere` or `cylinder` (along its z).
         size: edges of a box (3), radius of a sphere (1), radius and length of a cylinder (2) [m].
         position: of its centre [m] (3).
         axes: rotation (3 × 3).
         color: #rrggbb.
-        opacity: 1 for what is solid.
+        opacity: 1 for an opaque shape.
     """
 
     name: str
@@ -49,8 +49,8 @@ class VisualShape(NamedTuple):
     opacity: float = 1.0
 
 
-def rod(name: str, start: ArrayLike, end: ArrayLike, radius: float, color: str) -> list[VisualShape]:
-    """A cylinder from one point to another; none if they are the same."""
+def cylinder(name: str, start: ArrayLike, end: ArrayLike, radius: float, color: str) -> list[VisualShape]:
+    """A cylinder from one point to another; none if the points coincide."""
     a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     length = float(np.linalg.norm(b - a))
     if length < SHORTEST:
@@ -58,68 +58,68 @@ def rod(name: str, start: ArrayLike, end: ArrayLike, radius: float, color: str) 
     return [VisualShape(name, "cylinder", (radius, length), (a + b) / 2.0, frame_along(b - a), color)]
 
 
-def _block(name: str, center: ArrayLike, edges: ArrayLike, color: str) -> VisualShape:
+def _box(name: str, center: ArrayLike, edges: ArrayLike, color: str) -> VisualShape:
     x, y, z = np.asarray(edges, dtype=float).tolist()
     return VisualShape(name, "box", (x, y, z), np.asarray(center, dtype=float), LEVEL, color)
 
 
 def payload_shapes(payload: Payload, quadrotors: tuple[Quadrotor, ...]) -> list[VisualShape]:
-    """A beam with capped ends, or a box, and struts to joints that are not on it; from its centre of mass."""
+    """The payload in its own frame: a beam with end caps, or a box, and struts to joints that lie beside it."""
     if not payload.length:
-        shapes, half = [_block("payload", np.zeros(3), [SHAPELESS] * 3, WOOD)], 0.0
+        shapes, half = [_box("payload", np.zeros(3), [SHAPELESS] * 3, WOOD)], 0.0
     else:
         radius, half = payload.radius or 0.03, payload.length / 2.0
-        shapes = rod("beam", [0.0, -half, 0.0], [0.0, half, 0.0], radius, WOOD)
+        shapes = cylinder("beam", [0.0, -half, 0.0], [0.0, half, 0.0], radius, WOOD)
         for i, end in enumerate((half, -half), 1):
             cap = 0.25 * radius
-            shapes += rod(f"cap_{i}", [0.0, end - cap, 0.0], [0.0, end + cap, 0.0], 1.1 * radius, CARBON)
+            shapes += cylinder(f"cap_{i}", [0.0, end - cap, 0.0], [0.0, end + cap, 0.0], 1.1 * radius, CARBON)
     for i, q in enumerate(quadrotors, 1):
         joint = q.joint_position
-        shapes += rod(f"strut_{i}", [0.0, np.clip(joint[1], -half, half), 0.0], joint, 0.072 * spread(q), METAL)
+        shapes += cylinder(f"strut_{i}", [0.0, np.clip(joint[1], -half, half), 0.0], joint, 0.072 * mean_arm(q), METAL)
     return shapes
 
 
 def quadrotor_shapes(q: Quadrotor, depth: float) -> list[VisualShape]:
-    """One quadrotor, from its centre of mass.
+    """One quadrotor; positions are relative to its centre of mass.
 
     Args:
         q: the quadrotor.
-        depth: of the joint below the payload's surface [m], where the sensor's collar is to be seen.
+        depth: of the joint below the payload's surface [m]; the sensor's collar is at the surface.
     """
-    return [*_mount(q, depth), *_hull(spread(q)), *_rotors(q), *_ring(q), *_legs(q)]
+    return [*_mount(q, depth), *_hull(mean_arm(q)), *_rotors(q), *_ring(q), *_legs(q)]
 
 
 def _mount(q: Quadrotor, depth: float) -> list[VisualShape]:
-    """The strut down to the joint, and the collar of the sensor where it leaves the payload."""
-    s, joint = spread(q), np.subtract(q.joint_position, q.position)
+    """The strut to the joint, and the sensor's collar where the strut leaves the payload."""
+    s, joint = mean_arm(q), np.subtract(q.joint_position, q.position)
     length = float(np.linalg.norm(joint))
     if length < SHORTEST:
         return []
     first = min(depth, 0.8 * length)
     start, end = joint * (1.0 - first / length), joint * (1.0 - min(first + 0.16 * s, length) / length)
-    return rod("strut", joint, np.zeros(3), 0.09 * s, METAL) + rod("sensor", start, end, 0.16 * s, JOINT)
+    return cylinder("strut", joint, np.zeros(3), 0.09 * s, METAL) + cylinder("sensor", start, end, 0.16 * s, JOINT)
 
 
 def _hull(s: float) -> list[VisualShape]:
-    """A long body with a deck on it, its nose and tail in the colours of ahead and behind."""
+    """A long body with a deck; nose and tail in the colours of front and rear."""
     return [
-        _block("hull", [0.0, 0.0, 0.02 * s], [0.84 * s, 0.4 * s, 0.2 * s], SHELL),
-        _block("deck", [0.0, 0.0, 0.16 * s], [0.5 * s, 0.3 * s, 0.1 * s], CARBON),
-        _block("nose", [0.46 * s, 0.0, 0.02 * s], [0.1 * s, 0.3 * s, 0.14 * s], FRONT),
-        _block("tail", [-0.46 * s, 0.0, 0.02 * s], [0.1 * s, 0.3 * s, 0.14 * s], REAR),
+        _box("hull", [0.0, 0.0, 0.02 * s], [0.84 * s, 0.4 * s, 0.2 * s], SHELL),
+        _box("deck", [0.0, 0.0, 0.16 * s], [0.5 * s, 0.3 * s, 0.1 * s], CARBON),
+        _box("nose", [0.46 * s, 0.0, 0.02 * s], [0.1 * s, 0.3 * s, 0.14 * s], FRONT),
+        _box("tail", [-0.46 * s, 0.0, 0.02 * s], [0.1 * s, 0.3 * s, 0.14 * s], REAR),
     ]
 
 
 def _rotors(q: Quadrotor) -> list[VisualShape]:
-    """Arms out to the guard, motors, hubs, blades, and the discs that they sweep."""
-    s, shapes = spread(q), list[VisualShape]()
+    """Arms up to the guard, motors, hubs, blades and rotor discs."""
+    s, shapes = mean_arm(q), list[VisualShape]()
     for j, (x, y) in enumerate(q.rotors, 1):
         color, reach = FRONT if x > 1e-9 else REAR, max(float(np.hypot(x, y)), 1e-9)
         low, mid, hub, high = (np.array([x, y, z * s]) for z in (-0.05, 0.12, 0.2, 0.24))
         tip = np.array([x, y, 0.0]) * max(q.guard_radius / reach, 1.0)
-        shapes += rod(f"arm_{j}", np.zeros(3), tip, 0.05 * s, CARBON)
-        shapes += rod(f"motor_{j}", low, mid, 0.1 * s, METAL)
-        shapes += rod(f"hub_{j}", mid, high, 0.05 * s, color)
+        shapes += cylinder(f"arm_{j}", np.zeros(3), tip, 0.05 * s, CARBON)
+        shapes += cylinder(f"motor_{j}", low, mid, 0.1 * s, METAL)
+        shapes += cylinder(f"hub_{j}", mid, high, 0.05 * s, color)
         turn = 0.7 + j
         c, n = np.cos(turn), np.sin(turn)
         axes = np.array([[c, -n, 0.0], [n, c, 0.0], [0.0, 0.0, 1.0]])
@@ -130,20 +130,22 @@ def _rotors(q: Quadrotor) -> list[VisualShape]:
 
 
 def _ring(q: Quadrotor) -> list[VisualShape]:
-    """The guard as a ring of rods, at the radius of the sphere that touches walls."""
-    s, turn = spread(q), np.linspace(0.0, 2.0 * np.pi, SEGMENTS + 1)
+    """The guard as a ring of cylinders, at the radius of the sphere that touches walls."""
+    s, turn = mean_arm(q), np.linspace(0.0, 2.0 * np.pi, SEGMENTS + 1)
     radius, height = q.guard_radius / np.cos(np.pi / SEGMENTS), np.full(SEGMENTS + 1, 0.02 * s)
     corners = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
     return [
-        piece for k, (a, b) in enumerate(pairwise(corners), 1) for piece in rod(f"guard_{k}", a, b, 0.035 * s, GUARD)
+        piece
+        for k, (a, b) in enumerate(pairwise(corners), 1)
+        for piece in cylinder(f"guard_{k}", a, b, 0.035 * s, GUARD)
     ]
 
 
 def _legs(q: Quadrotor) -> list[VisualShape]:
-    s, shapes = spread(q), list[VisualShape]()
+    s, shapes = mean_arm(q), list[VisualShape]()
     for j, (x, y) in enumerate(((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)), 1):
         foot = np.array([q.feet_spread * x, q.feet_spread * y, 0.03 * s - q.feet_depth])
-        shapes += rod(f"leg_{j}", foot * [0.55, 0.55, 0.0], foot, 0.03 * s, CARBON)
+        shapes += cylinder(f"leg_{j}", foot * [0.55, 0.55, 0.0], foot, 0.03 * s, CARBON)
         shapes.append(VisualShape(f"foot_{j}", "sphere", (0.05 * s,), foot, LEVEL, CARBON))
     return shapes
 

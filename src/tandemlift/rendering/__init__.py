@@ -1,8 +1,8 @@
-"""Pictures and animations of a flight, drawn by ourselves, so that no display and no graphics library is needed.
+"""Pictures and animations of a flight, by a software renderer that needs no display and no graphics library.
 
-`rendering.mesh` makes shapes of triangles, `aircraft` a vehicle of shapes, `stage` a scene of a flight at a time;
-`camera` looks at it, `raster` finds what is seen in each pixel, `light` and `ground` give it its colour, `studio` puts
-it together, and `film` writes files.
+`mesh` makes triangle meshes of basic shapes, `aircraft` makes the vehicle's mesh, and `stage` makes the scene of a
+flight at a given time. `camera` projects points, `raster` finds the visible triangle in each pixel, `light` and
+`ground` compute colours, `studio` renders a scene, and `film` writes files.
 """
 
 from tandemlift.rendering.camera import Camera, camera_of

@@ -1,4 +1,4 @@
-"""The eye: from where it looks, and where points of space appear in the picture."""
+"""The perspective camera: its pose, and the projection of points in space into the picture."""
 
 from __future__ import annotations
 
@@ -11,14 +11,20 @@ from numpy.typing import ArrayLike
 from tandemlift.common.errors import InputError, unknown
 from tandemlift.common.types import Array
 
-NEAR = 0.05  # m: what is nearer is not drawn
-ANGLE = np.radians(30.0)  # of view, from the lower to the upper edge
+NEAR = 0.05  # m, distance of the near clipping plane
+ANGLE = np.radians(30.0)  # vertical field of view [rad]
 
 
 class View(NamedTuple):
-    """A perspective view: `eye` [m, world axes]; `axes` (3 × 3), rows right, up, ahead; `focal` length [pixels].
+    """A perspective view.
 
-    `width` and `height` [pixels]; `middle`: the row [pixels] straight ahead, outside of some strips of a picture.
+    Attributes:
+        eye: position of the camera (3) [m, world axes].
+        axes: its axes (3 × 3) as rows: right, up, forward.
+        focal: focal length [pixels].
+        width: of the picture [pixels].
+        height: of the picture [pixels].
+        middle: the row of the optical axis [pixels]; it may lie outside of a strip of a picture.
     """
 
     eye: Array
@@ -28,8 +34,8 @@ class View(NamedTuple):
     height: int
     middle: float
 
-    def seen(self, points: Array) -> Array:
-        """Points (…, 3) as column, row [pixels] and the inverse of their distance ahead [1/m]; NaN where too near."""
+    def project(self, points: Array) -> Array:
+        """Project points (…, 3): column, row [pixels] and inverse depth [1/m]; NaN nearer than the near plane."""
         local = (points - self.eye) @ self.axes.T
         ahead = local[..., 2]
         inverse = 1.0 / np.where(ahead > NEAR, ahead, np.nan)
@@ -38,24 +44,24 @@ class View(NamedTuple):
         return np.stack([column, row, inverse], axis=-1)
 
     def rays(self, rows: ArrayLike, columns: ArrayLike) -> Array:
-        """Directions (…, 3), one long ahead, in which the eye looks through the centres of pixels."""
+        """Ray directions (…, 3) through the centres of pixels, with a forward component of 1."""
         x = (np.asarray(columns)[..., None] + 0.5 - self.width / 2.0) / self.focal
         y = (self.middle - np.asarray(rows)[..., None] - 0.5) / self.focal
         right, up, ahead = self.axes
         return x * right + y * up + ahead
 
-    def finer(self, times: int) -> View:
-        """The same view in so many times as many pixels each way."""
+    def magnified(self, times: int) -> View:
+        """The same view with `times` as many pixels in each direction."""
         focal, width, height = self.focal * times, self.width * times, self.height * times
         return View(self.eye, self.axes, focal, width, height, self.middle * times)
 
     def strip(self, first: int, height: int) -> View:
-        """The rows from a first one on, as a view of their own."""
+        """The view of `height` rows of the picture, from row `first` on."""
         return self._replace(height=height, middle=self.middle - first)
 
 
 def look_at(target: ArrayLike, azimuth: float, elevation: float, distance: float, width: int, height: int) -> View:
-    """The view of a target [m] from a direction (azimuth, elevation [rad]) and a distance [m]."""
+    """The view of a target (3) [m] from a direction (azimuth, elevation [rad]) at a distance [m]."""
     c, s = np.cos(elevation), np.sin(elevation)
     back = np.array([c * np.cos(azimuth), c * np.sin(azimuth), s])
     right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
@@ -66,9 +72,13 @@ def look_at(target: ArrayLike, azimuth: float, elevation: float, distance: float
 
 @dataclass(frozen=True)
 class Camera:
-    """From where the vehicle is looked at: azimuth and elevation [deg]; it follows, or stays and shows the whole way.
+    """The direction from which the vehicle is viewed.
 
-    `distance` [m] of a following eye; near enough to fill the picture if not given.
+    Attributes:
+        azimuth: of the camera as seen from the vehicle [deg].
+        elevation: likewise [deg].
+        follows: whether the camera follows the vehicle; otherwise it is fixed and shows the whole path.
+        distance: of a following camera [m]; if not given, the vehicle fills the picture.
     """
 
     azimuth: float

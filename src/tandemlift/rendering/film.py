@@ -20,17 +20,17 @@ from tandemlift.common.types import Array, Progress
 from tandemlift.flight.record import Flight
 from tandemlift.rendering.camera import CAMERAS, Camera, View, look_at
 from tandemlift.rendering.stage import FlightStage
-from tandemlift.rendering.studio import shown
+from tandemlift.rendering.studio import render_scene
 
 PICTURE, FILM = (1280, 720), (640, 360)  # pixels
 SAMPLES = {".png": 3, ".gif": 2}  # each way, of a pixel
-LONGEST = 20.0  # s: a longer flight is shown faster, unless a speed is given
-PALETTE = ((Image.Quantize.MEDIANCUT, 160), (Image.Quantize.MAXCOVERAGE, 90))  # fine shades, and rare colours
-CLOSE, LOWER = 3.7, 0.07  # distance of the eye over the vehicle's reach; how far below it looks, over the distance
-FILLED = 0.94  # share of the picture that the whole way takes
-FOLLOWING = 0.6  # s, over which a following eye smooths the vehicle's way
+LONGEST = 20.0  # s, length of an animation: a longer flight is shown faster, unless a speed is given
+PALETTE = ((Image.Quantize.MEDIANCUT, 160), (Image.Quantize.MAXCOVERAGE, 90))  # for fine shades, and for rare colours
+CLOSE, LOWER = 3.7, 0.07  # distance / vehicle's reach; offset of the target below the vehicle / distance
+FILLED = 0.94  # fraction of the picture that the whole path fills
+FOLLOWING = 0.6  # s, window over which a following camera smooths the path
 INK = (60, 68, 78)
-LARGEST, MOST = 3840 * 2160, 3000  # pixels of a picture, pictures of an animation
+LARGEST, MOST = 3840 * 2160, 3000  # largest number of pixels of a picture, and of pictures of an animation
 
 
 @dataclass(frozen=True)
@@ -38,13 +38,13 @@ class Shot:
     """What to draw of a flight.
 
     Args:
-        time: of a picture [s]; that of the strongest push, else the end, if not given.
-        start: of an animation [s]; the flight's if not given.
-        end: of an animation [s]; likewise.
-        fps: pictures a second of the animation, as near as a GIF's hundredths of a second come to it.
-        speed: seconds of the flight in one of the animation; so that it lasts 20 s at most, if not given.
-        size: width and height in pixels; 1280 × 720 for a picture, 640 × 360 for an animation, if not given.
-        camera: from where to look.
+        time: of a picture [s]; by default the time of the strongest push, or the end of a flight without push.
+        start: of an animation [s]; by default the start of the flight.
+        end: of an animation [s]; by default the end of the flight.
+        fps: pictures per second of an animation, rounded to the hundredths of a second of a GIF.
+        speed: playback speed; by default such that the animation lasts at most 20 s.
+        size: width and height in pixels; by default 1280 × 720 for a picture, 640 × 360 for an animation.
+        camera: the point of view.
     """
 
     time: float | None = None
@@ -60,7 +60,7 @@ SHOT = Shot()
 
 
 class Film:
-    """A flight in front of a camera; `picture(time)` is what it sees."""
+    """Pictures of a flight from one camera."""
 
     def __init__(self, flight: Flight, camera: Camera, size: tuple[int, int], samples: int) -> None:
         if not (min(size) >= 16 and size[0] * size[1] <= LARGEST):
@@ -70,7 +70,7 @@ class Film:
         self._smooth = _smoothed(self.stage.time, self.stage.path)
 
     def _view(self, time: float) -> tuple[View, float]:
-        """The view at a time, and how far away it looks [m]."""
+        """The view at a time [s], and the distance of its target [m]."""
         stage, camera = self.stage, self._camera
         azimuth, elevation = np.radians(camera.azimuth), np.radians(camera.elevation)
         if not camera.follows:
@@ -78,11 +78,13 @@ class Film:
         target = np.array([np.interp(time, stage.time, column) for column in self._smooth.T])
         distance = camera.distance or CLOSE * stage.reach
         target[2] -= LOWER * distance * np.cos(elevation)
-        lowest = np.arcsin(np.clip((stage.floor + 0.1 - target[2]) / distance, -1.0, 1.0))  # or it saw the floor's back
+        lowest = np.arcsin(
+            np.clip((stage.floor + 0.1 - target[2]) / distance, -1.0, 1.0)
+        )  # keeps the camera above the floor
         return look_at(target, azimuth, max(elevation, lowest), distance, *self._size), distance
 
     def _whole(self, azimuth: float, elevation: float) -> tuple[View, float]:
-        """The view of the whole way from a direction, as near as it fits into the picture."""
+        """The view of the whole path from a direction, and its distance [m], the smallest at which the path fits."""
         stage = self.stage
         low, high = stage.path.min(axis=0) - stage.reach, stage.path.max(axis=0) + stage.reach
         target = (low + high) / 2.0
@@ -94,14 +96,14 @@ class Film:
         return look_at(target, azimuth, elevation, distance, *self._size), distance
 
     def picture(self, time: float, note: str = "") -> Image.Image:
-        """The picture at a time [s]; `note` is written after it."""
+        """The picture at a time [s]; `note` is written after the time."""
         view, distance = self._view(time)
         cell = 1.0 if distance < 30.0 else 10.0 ** np.floor(np.log10(distance / 3.0))
         scene = self.stage.scene(time, distance / view.focal, cell)
-        image = Image.fromarray(shown(scene, view, distance, self._samples))
+        image = Image.fromarray(render_scene(scene, view, distance, self._samples))
         push = float(np.linalg.norm(self.stage.push(time)))
         notes = [self.stage.name, f"{time:.2f} s{note}", f"grid {cell:g} m"]
-        notes += [f"push {push:.1f} N"] if self.stage.pushed(push) else []
+        notes += [f"push {push:.1f} N"] if self.stage.is_push_shown(push) else []
         height = max(10, self._size[1] // 40)
         place = height, self._size[1] - 2 * height
         ImageDraw.Draw(image).text(place, "     ".join(notes), fill=INK, font=_font(height))
@@ -114,7 +116,7 @@ def _font(height: int) -> Any:
 
 
 def _smoothed(time: Array, path: Array) -> Array:
-    """A path (T, 3) without its quick changes: what a following eye looks at."""
+    """A path (T, 3), smoothed by a running mean: the target of a following camera."""
     if len(time) < 3:
         return path
     step = float(np.median(np.diff(time)))
@@ -128,28 +130,30 @@ def picture(flight: Flight, shot: Shot = SHOT) -> Image.Image:
     """A picture of a flight at one time.
 
     Raises:
-        InputError: nothing can be drawn, or not at that time.
+        InputError: the flight has no sample that can be drawn, or not at that time.
     """
     film = Film(flight, shot.camera, shot.size or PICTURE, SAMPLES[".png"])
-    return film.picture(film.stage.telling if shot.time is None else film.stage.within("time", shot.time))
+    return film.picture(
+        film.stage.strongest_push_time if shot.time is None else film.stage.checked_time("time", shot.time)
+    )
 
 
 class Animation:
-    """The pictures of a flight one after another: `len` of them, drawn as they are iterated over.
+    """The pictures of an animation of a flight, drawn as they are iterated over.
 
     Args:
-        flight: to draw; also one that diverged.
-        shot: what of it, and how.
+        flight: to draw; it may have diverged.
+        shot: times, size and camera.
 
     Raises:
-        InputError: nothing can be drawn, or not within these times.
+        InputError: the flight has no sample that can be drawn, or not within these times.
     """
 
     def __init__(self, flight: Flight, shot: Shot = SHOT) -> None:
         self.film = Film(flight, shot.camera, shot.size or FILM, SAMPLES[".gif"])
         stage = self.film.stage
-        start = float(stage.time[0]) if shot.start is None else stage.within("from", shot.start)
-        end = float(stage.time[-1]) if shot.end is None else stage.within("to", shot.end)
+        start = float(stage.time[0]) if shot.start is None else stage.checked_time("from", shot.start)
+        end = float(stage.time[-1]) if shot.end is None else stage.checked_time("to", shot.end)
         if end < start:
             raise InputError(f"an animation from {start:g} s to {end:g} s has its end before its start")
         speed = max(1.0, float(np.ceil((end - start) / LONGEST))) if shot.speed is None else shot.speed
@@ -170,7 +174,7 @@ class Animation:
         return (self.film.picture(float(time), self.note) for time in self.times)
 
     def palette(self) -> Image.Image:
-        """Colours for all pictures, or the same grey would flicker from one to the next."""
+        """A common palette of all pictures; palettes of their own would make colours flicker."""
         strongest = np.argmax([np.linalg.norm(self.film.stage.push(float(time))) for time in self.times])
         few = {0, len(self) // 2, len(self) - 1, int(strongest)}
         images = np.concatenate([np.asarray(self.film.picture(float(self.times[k]), self.note)) for k in sorted(few)])
@@ -197,19 +201,19 @@ class Animation:
 
 
 def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progress: Progress | None = None) -> Path:
-    """Draw a flight into a file, a picture (.png) or an animation (.gif); it appears whole or not at all.
+    """Write a picture (.png) or an animation (.gif) of a flight; the file is written atomically.
 
     Args:
-        flight: to draw; also one that diverged.
+        flight: to draw; it may have diverged.
         out: path of the file.
-        shot: what of it, and how.
-        progress: called after each picture of an animation with (pictures drawn, pictures in all).
+        shot: times, size and camera.
+        progress: called after each picture of an animation with (pictures drawn, total number of pictures).
 
     Returns:
         The path.
 
     Raises:
-        InputError: the file is of another kind, or nothing can be drawn.
+        InputError: the file name has another ending, or the flight has no sample that can be drawn.
     """
     path = Path(out)
     kind = path.suffix.lower()

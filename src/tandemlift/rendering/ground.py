@@ -1,7 +1,7 @@
-"""What is behind everything: the sky, and a floor with a grid of metres that fades into the haze.
+"""The background: the sky, and a floor with a metric grid that fades into haze.
 
-Every pixel by compiled code. A line of the grid colours a pixel by the share of it that it covers, so that the grid
-needs no smoothing and far away turns into an even grey.
+Compiled code computes each pixel. A grid line colours a pixel in proportion to the fraction that it covers, so that
+the grid needs no supersampling and becomes an even grey in the distance.
 """
 
 from __future__ import annotations
@@ -17,22 +17,22 @@ from tandemlift.common.types import Array
 from tandemlift.rendering.camera import View
 from tandemlift.rendering.light import HAZE, SKYLIGHT, SUN, SUNLIGHT, ZENITH, Shadow
 from tandemlift.rendering.mesh import linear
-from tandemlift.rendering.pixels import LANES, Pixels, array, columns, store_where
+from tandemlift.rendering.pixels import LANES, Pixels, array, column_blocks, store_where
 from tandemlift.trace import Function, Graph
 from tandemlift.trace.elementary import exp, maximum, minimum, sqrt, to_integer, where
 from tandemlift.trace.elementary import floor as rounded_down
 
 FLOOR, LINE = linear("#d2d5d8"), linear("#a3abb3")
-THIN, THICK = 0.018, 0.04  # width over distance of the lines of every cell, and of every fifth
-FAR = 9.0  # distances from the eye to the vehicle at which the floor is half lost in the haze
-DARKEST, DIM = 0.75, 0.22  # share of the sun and of the sky that the middle of a shadow keeps out
-LEVEL = 1e-4  # slope below the horizon at which the floor is too far to be seen
+THIN, THICK = 0.018, 0.04  # line width / cell size, for each cell and for every fifth
+FAR = 9.0  # distance at which haze hides half of the floor / distance of the vehicle
+DARKEST, DIM = 0.75, 0.22  # fraction of sunlight and of skylight that the umbra blocks
+LEVEL = 1e-4  # slope of a ray below the horizon; above it, the ray shows the sky
 LOG_2 = 0.6931471805599453
-SLOPE = 2.2  # of the sky's colour over the share of the way that goes up
+SLOPE = 2.2  # gradient of the sky's colour over the sine of the elevation
 
 
-def covered(start: Any, blur: Any, cell: Any, width: Any) -> Any:
-    """Share of the interval from `start` to `start + blur` on lines of a width, one from every multiple of a cell."""
+def line_coverage(start: Any, blur: Any, cell: Any, width: Any) -> Any:
+    """Fraction of the interval from `start` to `start + blur` that lines cover; each starts at a multiple of `cell`."""
     end = start + blur
     first, last = rounded_down(start / cell), rounded_down(end / cell)
     before = first * width + minimum(start - first * cell, width)
@@ -40,18 +40,25 @@ def covered(start: Any, blur: Any, cell: Any, width: Any) -> Any:
     return (after - before) / blur
 
 
-def free(x: Any, blur: Any, cell: Any) -> Any:
-    """Share of x ± blur/2 that no line of the grid covers."""
+def uncovered(x: Any, blur: Any, cell: Any) -> Any:
+    """Fraction of the interval x ± blur/2 that no grid line covers."""
     thin, thick = THIN * cell, THICK * cell
     x = x - 0.5 * blur
-    return (1.0 - covered(x + 0.5 * thin, blur, cell, thin)) * (1.0 - covered(x + 0.5 * thick, blur, 5.0 * cell, thick))
+    return (1.0 - line_coverage(x + 0.5 * thin, blur, cell, thin)) * (
+        1.0 - line_coverage(x + 0.5 * thick, blur, 5.0 * cell, thick)
+    )
 
 
 class PaintedFloor(NamedTuple):
-    """The floor as the eye sees it.
+    """The parameters of the floor.
 
-    Its `height` [m], the `cell` of its grid [m], the distance `hazy` at which the haze hides half of it [m], and of the
-    shadow's table the lowest corner (`west`, `south`) [m] and the step `texel` [m].
+    Attributes:
+        height: of the floor [m].
+        cell: size of a grid cell [m].
+        hazy: distance at which haze hides half of the floor [m].
+        west: smallest x of the shadow map [m].
+        south: smallest y of the shadow map [m].
+        texel: size of a texel of the shadow map [m].
     """
 
     height: Any
@@ -63,7 +70,7 @@ class PaintedFloor(NamedTuple):
 
 
 class Viewpoint(NamedTuple):
-    """What a `View` is, in numbers."""
+    """A `View` as values that can be traced."""
 
     place: Vec3
     right: Vec3
@@ -75,28 +82,28 @@ class Viewpoint(NamedTuple):
 
     @classmethod
     def of(cls, view: View) -> Viewpoint:
-        """The eye of a view."""
+        """The viewpoint of a view."""
         place, right, up, ahead = (Vec3(*map(float, v)) for v in (view.eye, *view.axes))
         return cls(place, right, up, ahead, view.focal, view.width, view.middle)
 
     def ray(self, row: Any, column: Any) -> Vec3:
-        """The direction in which it looks through the centre of a pixel."""
+        """The ray direction through the centre of a pixel."""
         up, right = (self.middle - row - 0.5) / self.focal, (column + 0.5 - self.width / 2.0) / self.focal
         return Vec3(*(right * r + up * u + a for r, u, a in zip(self.right, self.up, self.ahead, strict=True)))
 
 
 def lines_at(floor: PaintedFloor, eye: Viewpoint, ray: Vec3, x: Any, y: Any) -> Any:
-    """Share of the pixel that looks along a ray, at (x, y) on the floor [m], that lines of the grid cover."""
+    """Fraction of a pixel that grid lines cover; its ray meets the floor at (x, y) [m]."""
     right, up = eye.right, eye.up
-    # how the place on the floor changes from one pixel to the next, right and up
+    # footprint of a pixel on the floor
     step = (floor.height - eye.place.z) / (ray.z * eye.focal)
     blur_x = step * (abs(right.x - ray.x * right.z / ray.z) + abs(up.x - ray.x * up.z / ray.z))
     blur_y = step * (abs(right.y - ray.y * right.z / ray.z) + abs(up.y - ray.y * up.z / ray.z))
-    return 1.0 - free(x, blur_x, floor.cell) * free(y, blur_y, floor.cell)
+    return 1.0 - uncovered(x, blur_x, floor.cell) * uncovered(y, blur_y, floor.cell)
 
 
-def place_in(floor: PaintedFloor, x: Any, y: Any, rows: Any, columns: Any) -> Any:
-    """Whether a place on the floor is in the shadow's table, the entry of its cell, and how far it is in that cell."""
+def texel_at(floor: PaintedFloor, x: Any, y: Any, rows: Any, columns: Any) -> Any:
+    """(Whether the shadow map covers a point of the floor, the index of its texel, its fractions of the texel)."""
     row, column = (y - floor.south) / floor.texel - 0.5, (x - floor.west) / floor.texel - 0.5
     known = (row >= 0.0) & (row < rows - 1.0) & (column >= 0.0) & (column < columns - 1.0)
     row, column = where(known, row, 0.0), where(known, column, 0.0)
@@ -105,14 +112,14 @@ def place_in(floor: PaintedFloor, x: Any, y: Any, rows: Any, columns: Any) -> An
 
 
 def shade_at(known: Any, corners: Any, y: Any, x: Any) -> Any:
-    """The shade between the four corners of a cell of the table; 0 outside of it."""
+    """The shade interpolated between four texels of the shadow map; 0 outside of the map."""
     a, b, c, d = corners
     upper, lower = a * (1.0 - x) + b * x, c * (1.0 - x) + d * x
     return where(known, upper * (1.0 - y) + lower * y, 0.0)
 
 
 def floor_light(floor: PaintedFloor, ray: Vec3, reach: Any, line: Any, shade: Any) -> list[Any]:
-    """Light (3) of the floor where a ray meets it."""
+    """Light (3) from the floor along a ray."""
     way = reach * sqrt(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z) / floor.hazy
     haze = 1.0 - exp(-way * way * LOG_2)
     light = []
@@ -124,14 +131,14 @@ def floor_light(floor: PaintedFloor, ray: Vec3, reach: Any, line: Any, shade: An
 
 
 def sky_light(ray: Vec3) -> list[Any]:
-    """Light (3) of the sky along a ray."""
+    """Light (3) from the sky along a ray."""
     part = SLOPE * ray.z / sqrt(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z)
     part = minimum(maximum(part, 0.0), 1.0)
     return [HAZE[k] + (ZENITH[k] - HAZE[k]) * part for k in range(3)]
 
 
 def _traced(g: Graph) -> tuple[list[Any], Any]:
-    """The light (3) of a pixel, of inputs `shade` 0 to 3 among others; the entry of the first of these in the table."""
+    """(The light (3) of a pixel, the index of its texel); the four texels there are the inputs `shade`."""
     numbers = (g.input("number", i) for i in itertools.count())
     floor = rebuilt(numbers, PaintedFloor(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     eye = rebuilt(numbers, Viewpoint(ZERO, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0))
@@ -140,14 +147,14 @@ def _traced(g: Graph) -> tuple[list[Any], Any]:
     below = ray._replace(z=where(down, ray.z, -1.0))
     reach = (floor.height - eye.place.z) / below.z
     x, y = eye.place.x + below.x * reach, eye.place.y + below.y * reach
-    known, entry, v, u = place_in(floor, x, y, *(g.input(kind, type="i") for kind in ("rows", "columns")))
-    shade = shade_at(known, [g.input("shade", i) for i in range(4)], v, u)
+    inside, entry, v, u = texel_at(floor, x, y, *(g.input(kind, type="i") for kind in ("rows", "columns")))
+    shade = shade_at(inside, [g.input("shade", i) for i in range(4)], v, u)
     ground = floor_light(floor, below, reach, lines_at(floor, eye, below, x, y), shade)
     return [where(down, a, b) for a, b in zip(ground, sky_light(ray), strict=True)], entry
 
 
-def _looked_up(f: Function, table: str, entries: str, beyond: str | int) -> str:
-    """Numbers of a table so far beyond entries."""
+def _gathered(f: Function, table: str, entries: str, beyond: str | int) -> str:
+    """The numbers of a table at the offset `beyond` from each entry."""
     found = "poison"
     for lane in range(LANES):
         entry = f.integer("add", f.op(f"extractelement <{LANES} x i64> {entries}, i64 {lane}"), beyond)
@@ -164,10 +171,10 @@ def _write_paint(g: Graph, f: Function, at: dict[str, str]) -> None:
     within = g.input("column", type="i") < g.input("width", type="i")
     with f.repeat(at["height"]) as row:
         f.read["row"] = lambda i: row
-        with columns(f, "0", at["width"]) as first:
+        with column_blocks(f, "0", at["width"]) as first:
             entries = f.value(entry)
             beyond = ["0", "1", at["columns"], next_row]
-            f.read["shade"] = lambda i: _looked_up(f, shade, entries, beyond[i])
+            f.read["shade"] = lambda i: _gathered(f, shade, entries, beyond[i])
             place = f.integer("mul", f.integer("add", f.integer("mul", row, at["width"]), first), 3)
             store_where(f, f.value(within), f.values(light), f.at(picture, place, "double"))
 
@@ -184,11 +191,11 @@ def background(view: View, height: float, distance: float, shadow: Shadow, cell:
     """Light (H, W, 3) of sky and floor.
 
     Args:
-        view: the eye, above the floor.
+        view: the view, from above the floor.
         height: of the floor [m].
-        distance: how far the eye looks [m].
+        distance: from the camera to its target [m].
         shadow: of the vehicle.
-        cell: of the grid [m].
+        cell: size of a grid cell [m].
     """
     west, south = shadow.low
     floor = PaintedFloor(height, cell, FAR * distance, west, south, shadow.texel)

@@ -1,7 +1,7 @@
-"""Shapes as triangles: what is turned about an axis, and boxes.
+"""Triangle meshes of basic shapes: surfaces of revolution, boxes and parallelograms.
 
-A mesh is a soup of triangles, each corner with its own normal, so that a shape may be round in one place and have an
-edge in another. Lengths in m.
+Triangles share no vertices: each corner has its own normal, so that a mesh may have both smooth surfaces and sharp
+edges. Lengths in m.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.common.types import Array
 
-SIDES = 20  # of the polygon that stands for a circle
+SIDES = 20  # of the polygon that approximates a circle
 
 
 class Mesh(NamedTuple):
@@ -24,20 +24,20 @@ class Mesh(NamedTuple):
     colors: Array
 
     def placed(self, position: ArrayLike, R: Array) -> Mesh:
-        """The mesh turned by R (3 × 3) and moved by a position (3)."""
+        """The mesh rotated by R (3 × 3) and translated by `position` (3)."""
         return Mesh(self.corners @ R.T + np.asarray(position), self.normals @ R.T, self.colors)
 
 
-NOTHING = Mesh(np.zeros((0, 3, 3)), np.zeros((0, 3, 3)), np.zeros((0, 3)))
+EMPTY = Mesh(np.zeros((0, 3, 3)), np.zeros((0, 3, 3)), np.zeros((0, 3)))
 
 
-def together(meshes: list[Mesh]) -> Mesh:
-    """All triangles of some meshes."""
-    return Mesh(*map(np.concatenate, zip(NOTHING, *meshes, strict=True)))
+def merged(meshes: list[Mesh]) -> Mesh:
+    """One mesh with all triangles of some meshes."""
+    return Mesh(*map(np.concatenate, zip(EMPTY, *meshes, strict=True)))
 
 
 def linear(color: str) -> Array:
-    """A colour #rrggbb as proportions of light (3)."""
+    """An sRGB colour #rrggbb as linear RGB (3)."""
     coded = np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)]) / 255.0
     return np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
 
@@ -59,7 +59,7 @@ def frame_along(direction: ArrayLike) -> Array:
 
 
 def _outward(points: Array, *, smooth: bool) -> tuple[Array, Array]:
-    """Directions across the segments of a profile (n, 2), at the start and at the end of each."""
+    """Outward normals of the segments of a profile (n, 2), at the start and at the end of each."""
     along = np.diff(points, axis=0)
     across = np.column_stack([along[:, 1], -along[:, 0]]) / np.maximum(np.linalg.norm(along, axis=1), 1e-12)[:, None]
     if not smooth:
@@ -71,14 +71,14 @@ def _outward(points: Array, *, smooth: bool) -> tuple[Array, Array]:
     return mean[:-1], mean[1:]
 
 
-def turned(profile: ArrayLike, color: str, *, smooth: bool = False, sides: int = SIDES) -> Mesh:
-    """A profile (n, 2) of (radius, height) turned about z, its outside on the right of its way up.
+def revolved(profile: ArrayLike, color: str, *, smooth: bool = False, sides: int = SIDES) -> Mesh:
+    """A surface of revolution: a profile (n, 2) of (radius, height) revolved about z, its outside to the right.
 
     Args:
         profile: points in order; straight between them.
         color: #rrggbb.
-        smooth: round over the points of the profile, or with an edge at each.
-        sides: of the polygon that stands for the circle.
+        smooth: whether normals are interpolated across the points of the profile; otherwise each is an edge.
+        sides: of the polygon that approximates the circle.
     """
     points = np.asarray(profile, dtype=float)
     start, end = _outward(points, smooth=smooth)
@@ -97,37 +97,39 @@ def turned(profile: ArrayLike, color: str, *, smooth: bool = False, sides: int =
     return _quads(corners.reshape(-1, 4, 3), normals.reshape(-1, 4, 3), color)
 
 
-def ball(center: ArrayLike, radius: float, color: str, flatness: float = 1.0) -> Mesh:
+def sphere(center: ArrayLike, radius: float, color: str, flatness: float = 1.0) -> Mesh:
     """A sphere, or one flattened along z."""
     turn = np.linspace(-np.pi / 2.0, np.pi / 2.0, 11)
     profile = np.column_stack([radius * np.cos(turn), flatness * radius * np.sin(turn)])
-    return turned(profile, color, smooth=True).placed(center, np.eye(3))
+    return revolved(profile, color, smooth=True).placed(center, np.eye(3))
 
 
-def rod(start: ArrayLike, end: ArrayLike, radius: float, color: str, tip: float | None = None, sides: int = 12) -> Mesh:
-    """A cylinder from one point to another, or what narrows to a radius `tip`."""
+def cylinder(
+    start: ArrayLike, end: ArrayLike, radius: float, color: str, tip: float | None = None, sides: int = 12
+) -> Mesh:
+    """A cylinder from one point to another, or a truncated cone that ends with the radius `tip`."""
     a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     length, last = float(np.linalg.norm(b - a)), radius if tip is None else tip
     if length < 1e-9:
-        return NOTHING
+        return EMPTY
     profile = [(0.0, 0.0), (radius, 0.0), (last, length), (0.0, length)]
-    return turned(profile, color, sides=sides).placed(a, frame_along(b - a))
+    return revolved(profile, color, sides=sides).placed(a, frame_along(b - a))
 
 
-def ring(center: ArrayLike, radius: float, thickness: float, color: str) -> Mesh:
+def torus(center: ArrayLike, radius: float, thickness: float, color: str) -> Mesh:
     """A torus about z; `thickness` is the radius of its tube."""
     turn = np.linspace(0.0, 2.0 * np.pi, 9)
     profile = np.column_stack([radius + thickness * np.cos(turn), thickness * np.sin(turn)])
-    return turned(profile, color, smooth=True, sides=48).placed(center, np.eye(3))
+    return revolved(profile, color, smooth=True, sides=48).placed(center, np.eye(3))
 
 
 def disc(center: ArrayLike, radius: float, color: str) -> Mesh:
-    """A flat disc across z."""
-    return turned([(radius, 0.0), (0.0, 0.0)], color, sides=32).placed(center, np.eye(3))
+    """A flat disc with its normal along z."""
+    return revolved([(radius, 0.0), (0.0, 0.0)], color, sides=32).placed(center, np.eye(3))
 
 
 def box(center: ArrayLike, size: ArrayLike, color: str, R: Array | None = None) -> Mesh:
-    """A box of a size (3), turned by R (3 × 3) if given."""
+    """A box of a size (3), rotated by R (3 × 3) if given."""
     axes = np.eye(3)
     corners, normals = [], []
     for k in range(3):
@@ -140,7 +142,7 @@ def box(center: ArrayLike, size: ArrayLike, color: str, R: Array | None = None) 
 
 
 def panel(corner: ArrayLike, along: ArrayLike, up: ArrayLike, color: str) -> Mesh:
-    """A parallelogram from a corner and its two sides (3)."""
+    """A parallelogram from a corner (3) and its two edge vectors (3)."""
     a, u, v = (np.asarray(p, dtype=float) for p in (corner, along, up))
     across = np.cross(u, v) / max(float(np.linalg.norm(np.cross(u, v))), 1e-12)
     return _quads(np.array([[a, a + u, a + u + v, a + v]]), np.broadcast_to(across, (1, 4, 3)), color)

@@ -1,6 +1,6 @@
-"""Compiled loops over pixels: the formula of a pixel is traced, its loops are written around it.
+"""Compiled loops over pixels: the formula of a pixel is traced, and loops are written around it.
 
-A loop is handed one array of 64-bit words: addresses of arrays, and whole numbers.
+The argument of a loop is one array of 64-bit words: addresses of arrays, and integers.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from tandemlift.trace import Function, Graph, Module
 from tandemlift.trace.code import Code, Written
 from tandemlift.trace.store import PACKAGE, key_of
 
-LANES = 8  # columns that one instruction serves
+LANES = 8  # columns that one vector instruction processes
 RAMP = f"<{', '.join(f'i64 {j}' for j in range(LANES))}>"
 FILES = [*Path(__file__).parent.glob("*.py"), *(PACKAGE / "algebra").glob("*.py")]
 
 
 class Pixels:
-    """A compiled loop over pixels; it is compiled when it is first called.
+    """A compiled loop over pixels, compiled at its first call.
 
     Args:
         name: of the loop.
@@ -45,7 +45,7 @@ class Pixels:
         return Written(module.text, {"what": "drawing loop"})
 
     def __call__(self, *given: Any) -> None:
-        """Run it: arrays, whose memory is in order, and whole numbers."""
+        """Run the loop with C-contiguous arrays and integers."""
         with self._lock:
             if not self._code:
                 self._code.append(Code(key_of(0.0, self.name, files=FILES), [self.name], self._written))
@@ -62,10 +62,10 @@ def array(f: Function, word: str) -> str:
 
 
 @contextmanager
-def columns(f: Function, first: str, after: str) -> Iterator[str]:
-    """A loop from a first column to the one before `after`, as many at a time as there are lanes: the first of these.
+def column_blocks(f: Function, first: str, after: str) -> Iterator[str]:
+    """A loop from column `first` to `after` − 1 in blocks of LANES; yields the first column of a block.
 
-    Input `column` is the number of a column, which may lie behind the last.
+    The input `column` is the index of a column; in the last block it may exceed the last column.
     """
     blocks = f.integer("sdiv", f.integer("add", f.integer("sub", after, first), LANES - 1), LANES)
     with f.repeat(blocks) as block:
@@ -76,41 +76,41 @@ def columns(f: Function, first: str, after: str) -> Iterator[str]:
 
 
 def load_where(f: Function, mask: str, base: str, count: int = 1) -> list[str]:
-    """So many numbers of each of neighbouring columns, 0 where a mask says no."""
+    """Load `count` numbers for each column of a block; 0 where the mask is false."""
     size = LANES * count
-    kind, mask = f"<{size} x double>", _repeated(f, mask, count)
+    kind, mask = f"<{size} x double>", _widened(f, mask, count)
     types = ["ptr align 8", f"<{size} x i1>", kind]
     wide = f.call(kind, f"@llvm.masked.load.v{size}f64.p0", base, mask, "zeroinitializer", types=types)
     if count == 1:
         return [wide]
-    return [_picked(f, [wide, wide], kind, range(m, size, count)) for m in range(count)]
+    return [_shuffled(f, [wide, wide], kind, range(m, size, count)) for m in range(count)]
 
 
 def store_where(f: Function, mask: str, values: list[str], base: str, kind: str = "double") -> None:
-    """Write so many values of each of neighbouring columns where a mask says yes."""
+    """Store values for each column of a block where the mask is true."""
     count, size = len(values), LANES
     order = [m * LANES + lane for lane in range(LANES) for m in range(count)]
     values = [*values, *values[-1:] * (-count % 2 if count > 1 else 0)]
     while len(values) > 1:
         pairs = zip(values[::2], values[1::2], strict=True)
-        values = [_picked(f, pair, f"<{size} x {kind}>", range(2 * size)) for pair in pairs]
+        values = [_shuffled(f, pair, f"<{size} x {kind}>", range(2 * size)) for pair in pairs]
         size *= 2
-    value = values[0] if count == 1 else _picked(f, values * 2, f"<{size} x {kind}>", order)
-    wide, mask = f"<{len(order)} x {kind}>", _repeated(f, mask, count)
+    value = values[0] if count == 1 else _shuffled(f, values * 2, f"<{size} x {kind}>", order)
+    wide, mask = f"<{len(order)} x {kind}>", _widened(f, mask, count)
     name = f"@llvm.masked.store.v{len(order)}{'f64' if kind == 'double' else kind}.p0"
     f.module.declared.add(f"declare void {name}({wide}, ptr, <{len(order)} x i1>)")
     f.do(f"call void {name}({wide} {value}, ptr align 8 {base}, <{len(order)} x i1> {mask})")
 
 
-def _picked(f: Function, pair: Iterable[str], kind: str, order: Iterable[int]) -> str:
-    """The numbers of two vectors of a kind, in an order."""
+def _shuffled(f: Function, pair: Iterable[str], kind: str, order: Iterable[int]) -> str:
+    """The elements of two vectors in a given order."""
     a, b = pair
     places = ", ".join(f"i32 {i}" for i in order)
     return f.op(f"shufflevector {kind} {a}, {kind} {b}, <{places.count('i32')} x i32> <{places}>")
 
 
-def _repeated(f: Function, mask: str, count: int) -> str:
-    """A mask with each truth so many times."""
+def _widened(f: Function, mask: str, count: int) -> str:
+    """A mask with each element repeated `count` times."""
     if count == 1:
         return mask
-    return _picked(f, [mask, mask], f"<{LANES} x i1>", (lane for lane in range(LANES) for _ in range(count)))
+    return _shuffled(f, [mask, mask], f"<{LANES} x i1>", (lane for lane in range(LANES) for _ in range(count)))

@@ -1,7 +1,6 @@
-"""One picture: the solid parts, what is seen through, and all of it on the floor.
+"""Rendering of a scene: opaque parts, lines and translucent parts in front of the background.
 
-Solid parts are drawn in several times as many pixels each way and then averaged, which smooths their edges; the floor
-is smooth by itself.
+The foreground is supersampled, which smooths edges; the background needs no supersampling.
 """
 
 from __future__ import annotations
@@ -14,17 +13,17 @@ from numpy.typing import NDArray
 from tandemlift.common.types import Array
 from tandemlift.rendering.camera import ANGLE, View
 from tandemlift.rendering.ground import background
-from tandemlift.rendering.light import Shadow, coded, lit
-from tandemlift.rendering.mesh import NOTHING, Mesh
-from tandemlift.rendering.raster import glaze, nearest
+from tandemlift.rendering.light import Shadow, reflected_light, to_srgb
+from tandemlift.rendering.mesh import EMPTY, Mesh
+from tandemlift.rendering.raster import blend, rasterize
 
-FOCAL = 360.0 / np.tan(ANGLE / 2.0)  # length [pixels] in a picture of 720 rows
-AT_ONCE = 1_500_000  # samples: a large picture is drawn in strips, which take less memory
-CLOSER = 1.002  # lines are drawn as if nearer by so much, or they would sink into what they lie on
+FOCAL = 360.0 / np.tan(ANGLE / 2.0)  # focal length [pixels] of a picture of 720 rows
+AT_ONCE = 1_500_000  # largest number of samples of a strip; strips limit the memory of a large picture
+CLOSER = 1.002  # depth bias of lines: factor on nearness, so that the surface below does not hide them
 
 
 class SceneLine(NamedTuple):
-    """A line through points (n, 3) [m], of a width [pixels of a picture of 720 rows] and colours (n, 3)."""
+    """A line through points (n, 3) [m], with its width [pixels of a picture of 720 rows] and colours (n, 3)."""
 
     points: Array
     width: float
@@ -32,14 +31,14 @@ class SceneLine(NamedTuple):
 
 
 class Pane(NamedTuple):
-    """A mesh that is seen through, with its opacity."""
+    """A translucent mesh, with its opacity."""
 
     mesh: Mesh
     opacity: float
 
 
 class Scene(NamedTuple):
-    """What is in a picture: solid parts, lines, panes, the floor's height [m], and the cell of its grid [m]."""
+    """A scene: opaque mesh, lines, translucent meshes, height of the floor [m], and size of its grid cells [m]."""
 
     solid: Mesh
     lines: list[SceneLine]
@@ -48,14 +47,14 @@ class Scene(NamedTuple):
     cell: float
 
 
-def shown(scene: Scene, view: View, distance: float, fine: int) -> NDArray[np.uint8]:
+def render_scene(scene: Scene, view: View, distance: float, fine: int) -> NDArray[np.uint8]:
     """The picture (H, W, 3) of a scene.
 
     Args:
-        scene: what there is.
-        view: from where it is seen.
-        distance: how far the eye looks [m].
-        fine: samples of solid parts, each way, in a pixel.
+        scene: to render.
+        view: the camera's view.
+        distance: from the camera to its target [m].
+        fine: samples of a pixel of the foreground, in each direction.
     """
     shadow = Shadow(scene.solid.corners, scene.floor)
     picture = np.empty((view.height, view.width, 3), np.uint8)
@@ -63,26 +62,26 @@ def shown(scene: Scene, view: View, distance: float, fine: int) -> NDArray[np.ui
     for first in range(0, view.height, rows):
         strip = view.strip(first, min(rows, view.height - first))
         light = background(strip, scene.floor, distance, shadow, scene.cell)
-        front = _averaged(_front(scene, strip.finer(fine), shadow), fine)
-        picture[first : first + rows] = coded(front[..., :3] + light * (1.0 - front[..., 3:]))
+        front = _downsampled(_foreground(scene, strip.magnified(fine), shadow), fine)
+        picture[first : first + rows] = to_srgb(front[..., :3] + light * (1.0 - front[..., 3:]))
     return picture
 
 
-def _averaged(picture: Array, fine: int) -> Array:
-    """A picture in pixels of `fine` × `fine` of its own."""
+def _downsampled(picture: Array, fine: int) -> Array:
+    """A picture averaged over blocks of `fine` × `fine` samples."""
     parts = [picture[i::fine, j::fine] for i in range(fine) for j in range(fine)]
     return np.add.reduce(parts) / fine**2
 
 
-def _front(scene: Scene, view: View, shadow: Shadow) -> Array:
-    """Everything but the background (H, W, 4): light times opacity, and opacity."""
+def _foreground(scene: Scene, view: View, shadow: Shadow) -> Array:
+    """The foreground (H, W, 4): premultiplied light, and opacity."""
     ribbons = [_ribbon(line, view) for line in scene.lines]
-    flat = Mesh(*map(np.concatenate, zip(NOTHING, *ribbons, strict=True)))
+    flat = Mesh(*map(np.concatenate, zip(EMPTY, *ribbons, strict=True)))
     solid = scene.solid
-    corners = np.concatenate([view.seen(solid.corners), flat.corners])
+    corners = np.concatenate([view.project(solid.corners), flat.corners])
     size = view.height, view.width
     depth, face, weights = np.zeros(size), np.zeros(size, np.int64), np.zeros((*size, 2))
-    nearest(corners, depth, face, weights)
+    rasterize(corners, depth, face, weights)
     picture = np.zeros((*size, 4))
     rows, columns = np.nonzero(depth)
     seen, share = face[rows, columns], weights[rows, columns]
@@ -94,24 +93,24 @@ def _front(scene: Scene, view: View, shadow: Shadow) -> Array:
     ahead = ahead / np.linalg.norm(ahead, axis=1)[:, None]
     normals = (normals * share[..., None]).sum(axis=1)
     normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-12)[:, None]
-    picture[rows, columns, :3] = lit(colors, normals, ahead, shadow.on_parts(points))
+    picture[rows, columns, :3] = reflected_light(colors, normals, ahead, shadow.shade_on(points))
     picture[rows, columns, 3] = 1.0
-    _lay_panes(scene.panes, view, depth, picture)
+    _blend_panes(scene.panes, view, depth, picture)
     return picture
 
 
-def _lay_panes(panes: list[Pane], view: View, depth: Array, picture: Array) -> None:
-    """Lay what is seen through over the picture, the farthest first."""
+def _blend_panes(panes: list[Pane], view: View, depth: Array, picture: Array) -> None:
+    """Blend translucent meshes over the picture, the farthest first."""
     corners = [pane.mesh.corners for pane in panes]
     far = [float(-np.linalg.norm(c.mean(axis=(0, 1)) - view.eye)) for c in corners]
     for i in np.argsort(far):
         colors = np.column_stack([panes[i].mesh.colors, np.full(len(corners[i]), panes[i].opacity)])
-        glaze(view.seen(corners[i]), colors, depth, picture)
+        blend(view.project(corners[i]), colors, depth, picture)
 
 
 def _ribbon(line: SceneLine, view: View) -> Mesh:
-    """A line as triangles in pixels, of one width wherever it is; its corners are as from `View.seen`."""
-    seen, width = view.seen(line.points), line.width * view.focal / FOCAL
+    """A line as triangles of constant width on the screen; corners as from `View.project`."""
+    seen, width = view.project(line.points), line.width * view.focal / FOCAL
     seen[:, 2] *= CLOSER
     start, end = seen[:-1], seen[1:]
     along = end[:, :2] - start[:, :2]

@@ -43,14 +43,14 @@ class AssembledFlight(NamedTuple):
     """An assembled flight.
 
     Attributes:
-        flying: the flight at t = 0.
+        model: the flight at t = 0.
         given: the layout of its inputs.
         tables: pushes, gusts, walls and path legs.
         delays: of IMU, motion sensor, rotor commands and the person's sight, in steps.
         seeds: the key of its random numbers.
     """
 
-    flying: FlightModel
+    model: FlightModel
     given: StepInputs
     tables: InputTables
     delays: NDArray[np.int64]
@@ -100,7 +100,7 @@ def assemble(mission: Mission) -> AssembledFlight:
     grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
     delays = delays_from(mission)
     rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, delayed=bool(delays[2]))
-    wind, eddies = start_weather(mission, vehicle, chance)
+    wind, wind_state = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
     near, hand = near_walls_from(walls), PushSamples(push, push, push)
     devices, sensor_noise = sensors_from(mission, vehicle, chance)
@@ -112,10 +112,10 @@ def assemble(mission: Mission) -> AssembledFlight:
     estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
     person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
-    moving = FlightState(
+    flight_state = FlightState(
         state=state,
         memory=memory,
-        wind=eddies,
+        wind=wind_state,
         grip=grip,
         near=near,
         sensing=sensing,
@@ -128,10 +128,10 @@ def assemble(mission: Mission) -> AssembledFlight:
     )
     sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
     late = delay_lines_from(mission, delays)
-    flying = FlightModel(moving, pilot, plant, rotors, wind, devices, estimators, sources, person, late)
+    model = FlightModel(flight_state, pilot, plant, rotors, wind, devices, estimators, sources, person, late)
     given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), sensor_noise, tremor_noise), memory_of_person)
     return AssembledFlight(
-        flying,
+        model,
         given,
         input_tables_from(mission, path_legs_from(mission, person, state)),
         delays,

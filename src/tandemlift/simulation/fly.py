@@ -63,15 +63,15 @@ def _fly_compiled(
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
     for k in _stretches(p, memory, going):
         if k == p.late_step < p.steps:
-            early = take_metrics(memory.numbers, p.flying, len(lanes))
+            early = take_metrics(memory.numbers, p.model, len(lanes))
         if progress:
             progress(k, p.steps)
     wall = (time.perf_counter() - began) / count
-    moving = memory.numbers.reshape(-1, len(lanes))[: leaves(p.flying.moving)]
+    states = memory.numbers.reshape(-1, len(lanes))[: leaves(p.model.flight_state)]
     last = memory.work[memory.span("sample")].reshape(-1, len(lanes)) if count > 1 else memory.last[:, None]
     flown = [
         RawResult(
-            unflat(moving[:, i], p.flying.moving),
+            unflat(states[:, i], p.model.flight_state),
             early[i],
             min(memory.k, p.steps),
             memory.log[i].copy(),

@@ -62,11 +62,11 @@ def scheduled_changes(p: FlightPlan) -> list[ScheduledChange]:
 
 def _kept(p: FlightPlan) -> tuple[Any, ...]:
     """Everything that a change must keep: layouts except that of the controller's memory, and data."""
-    moving, plant = p.flying.moving, p.flying.plant
-    rest = moving._replace(memory=moving.memory._replace(controller=Nothing()))
+    flight_state, plant = p.model.flight_state, p.model.plant
+    rest = flight_state._replace(memory=flight_state.memory._replace(controller=Nothing()))
     data = (plant, *p.tables, p.delays, p.seeds)
     numbers = [np.asarray(_numbers(x)).tobytes() for x in data]
-    return layout(rest), layout(plant), layout(p.given), layout(p.flying.person), p.steps, p.every, p.dt, numbers
+    return layout(rest), layout(plant), layout(p.given), layout(p.model.person), p.steps, p.every, p.dt, numbers
 
 
 def _numbers(value: Any) -> Any:
@@ -75,7 +75,7 @@ def _numbers(value: Any) -> Any:
 
 def _parameters(p: FlightPlan) -> list[float]:
     """The parameters of a flight as numbers."""
-    return flat(p.flying)[leaves(p.flying.moving) :]
+    return flat(p.model)[leaves(p.model.flight_state) :]
 
 
 def _check(before: FlightPlan, after: FlightPlan, key: str) -> None:
@@ -130,8 +130,8 @@ class ParameterChanges:
 
     def ramp_to(self, numbers: Array, before: FlightPlan, due: ScheduledChange) -> None:
         """Start a ramp from the current numbers to those of a changed mission of the same layout."""
-        now, target = np.array(flat(before.flying)), np.array(flat(due.prepared.flying))
-        differ = (now != target) & (np.arange(now.size) >= leaves(before.flying.moving))
+        now, target = np.array(flat(before.model)), np.array(flat(due.prepared.model))
+        differ = (now != target) & (np.arange(now.size) >= leaves(before.model.flight_state))
         places = np.flatnonzero(differ)
         for ramp in self.ramps:
             ramp.release(places)
@@ -161,5 +161,5 @@ class ParameterChanges:
 
 def hand_place(p: FlightPlan) -> slice:
     """The place of the virtual hand in a flight's numbers; empty without one."""
-    span = leaf_offset(p.flying, "person", "hand")
+    span = leaf_offset(p.model, "person", "hand")
     return slice(span.at, span.at + span.size)

@@ -23,7 +23,7 @@ from tandemlift.trace.code import Code
 from tandemlift.trace.store import key_of
 from tandemlift.vehicle import Vehicle
 
-HEARD = PilotInput(
+INPUT = PilotInput(
     State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Nothing(), NO_REQUEST, UNKNOWN_STATUS
 )
 SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
@@ -51,14 +51,14 @@ class Pilot:
         self._dt = mission.mission.step
         self._numbers = np.array(flat(self._start))
         self.thrusts: Array = np.zeros(vehicle.rotor_count)
-        self._heard = np.zeros(leaves(HEARD))
+        self._input = np.zeros(leaves(INPUT))
 
     @cached_property
     def _sample(self) -> Callable[[], int]:
         start, quadrotors = self._start, len(self.thrusts) // 4
-        code = Code(key_of(start, "sample"), ["sample"], lambda: PilotSampler(start, HEARD, quadrotors).written())
+        code = Code(key_of(start, "sample"), ["sample"], lambda: PilotSampler(start, INPUT, quadrotors).written())
         self._work = aligned(code.about["size"])
-        arrays = (self._numbers, self._heard, self.thrusts, self._work)
+        arrays = (self._numbers, self._input, self.thrusts, self._work)
         self._context = np.array([a.ctypes.data for a in arrays] + [0], dtype=np.int64)
         self._context.view(np.float64)[-1] = self._dt
         self._code = code
@@ -98,8 +98,8 @@ class Pilot:
         if type(measurement) is not np.ndarray or measurement.shape != SHAPE or measurement.dtype != FLOAT64:
             given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
             raise InputError(f"measurement is {given}: must be a float64 array of shape {SHAPE}")
-        heard = self._heard
-        heard[:16], heard[16:19], heard[19:23] = (
+        pilot_input = self._input
+        pilot_input[:16], pilot_input[16:19], pilot_input[19:23] = (
             measurement,
             0.0 if moment is None else moment,
             (land, lift, stop, enabled),

@@ -35,27 +35,27 @@ class FlightPlan:
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
         self.dt = mission.mission.step
-        self.flying, self.given, self.tables, self.delays, self.seeds = assemble(mission)
+        self.model, self.given, self.tables, self.delays, self.seeds = assemble(mission)
         if interactive:
             rotors = each(4 * len(mission.vehicle.quadrotors))
             nothing = CallerInput(ZERO, ZERO, rotors(*[0.0] * len(rotors._fields)), 0.0)
             self.given = self.given._replace(external=nothing)
         self.interpreted: tuple[Any, Any] | None = None
-        if type(self.flying.pilot.controller) in control.interpreted:
+        if type(self.model.pilot.controller) in control.interpreted:
             self._detach_python_controller()
 
     def _detach_python_controller(self) -> None:
-        moving, pilot = self.flying.moving, self.flying.pilot
-        self.interpreted = pilot.controller, moving.memory.controller
-        memory = moving.memory._replace(controller=NoMemory())
-        self.flying = self.flying._replace(
-            moving=moving._replace(memory=memory), pilot=pilot._replace(controller=PythonController())
+        flight_state, pilot = self.model.flight_state, self.model.pilot
+        self.interpreted = pilot.controller, flight_state.memory.controller
+        memory = flight_state.memory._replace(controller=NoMemory())
+        self.model = self.model._replace(
+            flight_state=flight_state._replace(memory=memory), pilot=pilot._replace(controller=PythonController())
         )
 
     @cached_property
     def variant(self) -> Any:
         """The key of the compiled loop: the types, not the values, of the flight's members and inputs."""
-        return layout(self.flying), layout(self.given)
+        return layout(self.model), layout(self.given)
 
     @property
     def sample(self) -> Any:
@@ -71,12 +71,12 @@ class FlightPlan:
     def kernels(self) -> Kernels:
         """The compiled loops of this variant."""
         if self.variant not in KERNELS:
-            KERNELS[self.variant] = Kernels(self.flying, self.given)
+            KERNELS[self.variant] = Kernels(self.model, self.given)
         return KERNELS[self.variant]
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""
-        return FlightStart(np.array(flat(self.flying)), self.tables, self._delay_lines(), self.seeds)
+        return FlightStart(np.array(flat(self.model)), self.tables, self._delay_lines(), self.seeds)
 
     def grid(self, rows: int, every: int) -> TimeGrid:
         """The time grid of the flight, with a log of `rows` rows, one every `every` steps."""
@@ -84,7 +84,7 @@ class FlightPlan:
 
     def _delay_lines(self) -> np.ndarray:
         """The delay lines of this flight, filled with the values at t = 0."""
-        numbers = np.array(flat(self.flying))
+        numbers = np.array(flat(self.model))
         if not self.delays.any():
             return np.zeros((1, 0))
         row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.kernels.delayed])

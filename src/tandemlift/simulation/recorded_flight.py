@@ -133,7 +133,7 @@ class RecordedFlight:
         self.layout = p.sample
         self._stepper = Stepper(p, body)
         self._log = np.zeros((p.steps // p.every + 1, leaves(p.sample)))
-        self._before, self._like = self._stepper.a.copy(), p.flying.moving
+        self._before, self._like = self._stepper.a.copy(), p.model.flight_state
         self._hand: list[tuple[int, Array]] = []
         self._changes: list[dict[str, Any]] = []
 
@@ -168,7 +168,7 @@ class RecordedFlight:
 
     def number(self, *path: str) -> float:
         """A number of the flight's memory, by its path from `loop.Moving`."""
-        return float(self._stepper.a[leaf_offset(self._stepper.p.flying, "moving", *path).at])
+        return float(self._stepper.a[leaf_offset(self._stepper.p.model, "flight_state", *path).at])
 
     @property
     def hand(self) -> VirtualHandInput:
@@ -178,11 +178,11 @@ class RecordedFlight:
     def advance(self) -> None:
         """Take a step."""
         k, p, stepper, began = self.step, self._p, self._stepper, time.perf_counter()
-        if self._like is not stepper.p.flying.moving:
-            self._before, self._like = stepper.a.copy(), stepper.p.flying.moving
+        if self._like is not stepper.p.model.flight_state:
+            self._before, self._like = stepper.a.copy(), stepper.p.model.flight_state
         self._before[:] = stepper.a
         if k == p.late_step:
-            (self._early,) = take_metrics(stepper.a, stepper.p.flying, 1)
+            (self._early,) = take_metrics(stepper.a, stepper.p.model, 1)
         stepper.step(k)
         if k % p.every == 0:
             self._log[k // p.every] = stepper.row

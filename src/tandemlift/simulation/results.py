@@ -33,7 +33,7 @@ class RawResult:
     """The raw result of a flight.
 
     Attributes:
-        moving: the last state.
+        flight_state: the last state.
         early: running metrics until 10 s.
         step: the step reached.
         log: logged samples as rows.
@@ -41,7 +41,7 @@ class RawResult:
         wall: computing time [s].
     """
 
-    moving: FlightState
+    flight_state: FlightState
     early: RunningMetrics
     step: int
     log: Array
@@ -51,14 +51,14 @@ class RawResult:
     @property
     def lost(self) -> bool:
         """Whether the flight diverged."""
-        return self.moving.diverged != 0.0
+        return self.flight_state.diverged != 0.0
 
 
 def take_metrics(numbers: Array, like: FlightModel, lanes: int) -> list[RunningMetrics]:
     """Take the running metrics out of a flight or a block, and reset them."""
-    at, size = leaf_offset(like, "moving", "metrics")
+    at, size = leaf_offset(like, "flight_state", "metrics")
     rows = numbers[at * lanes : (at + size) * lanes].reshape(-1, lanes)
-    empty = like.moving.metrics
+    empty = like.flight_state.metrics
     tallies = [unflat(rows[:, lane], empty) for lane in range(lanes)]
     rows[:] = np.array(flat(empty))[:, None]
     return tallies
@@ -68,7 +68,7 @@ def divergence_of(p: FlightPlan, flown: RawResult) -> Divergence | None:
     """Why a flight was stopped, or None."""
     if not flown.lost:
         return None
-    at, state = flown.step * p.dt, flown.moving.state
+    at, state = flown.step * p.dt, flown.flight_state.state
     for quantity, values in zip(State._fields, state, strict=True):
         bad = [v for v in values if not math.isfinite(v)]
         if bad:
@@ -90,19 +90,19 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     """The metrics of a flight by their names in metrics.json; None for a metric without a finite value."""
     first, last = unflat(flown.log[0], p.sample), unflat(flown.last, p.sample)
     late_reached = p.late_step < p.steps and flown.step >= p.late_step
-    early, late = (flown.early, flown.moving.metrics) if late_reached else (flown.moving.metrics, EMPTY)
+    early, late = (flown.early, flown.flight_state.metrics) if late_reached else (flown.flight_state.metrics, EMPTY)
     formed = summary(early, late, p.dt)
-    formed["final_position_m"] = list(flown.moving.state.position)
+    formed["final_position_m"] = list(flown.flight_state.state.position)
     formed["final_reference_m"] = list(last.reference_position)
     formed["command_at_start"] = [first.thrust, *first.moment]
     formed |= _detection_metrics(p, flown)
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
-    return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.moving)}
+    return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
-def events_of(moving: FlightState) -> list[list[Any]]:
+def events_of(flight_state: FlightState) -> list[list[Any]]:
     """Events of the supervision, as [time [s], text], in the order of time; none without supervision."""
-    supervising = getattr(moving.memory.guidance, "supervision", None)
+    supervising = getattr(flight_state.memory.guidance, "supervision", None)
     if not isinstance(supervising, SupervisionState):
         return []
     happened = list(zip(supervising.events.time, supervising.events.code, strict=True))[: int(supervising.events.count)]
@@ -126,7 +126,7 @@ def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> s
 
 def _detection_metrics(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     """Metrics of the rotor-loss detection: number of detections, and delay [s] of the correct one (None without)."""
-    detection, memory = p.flying.pilot.detection, flown.moving.memory.detection
+    detection, memory = p.model.pilot.detection, flown.flight_state.memory.detection
     if isinstance(detection, Nothing):
         return {}
     v = memory.verdict

@@ -69,7 +69,7 @@ class Simulation:
         self._places: dict[str, Any] = {name: at[0].astype(np.intp) for name, at in channels_of(p.sample, row)}
         self.channels = tuple(self._places)
         self._external = np.zeros(leaves(p.given.external))
-        self._state = leaf_offset(p.flying, "moving", "state")
+        self._state = leaf_offset(p.model, "flight_state", "state")
 
     def _begin(self) -> None:
         vars(self).pop("_stepper", None)  # first release an engine that only one pilot can drive
@@ -144,7 +144,7 @@ class Simulation:
             self._rows.append(stepper.row.copy())
         self.k, self._end = self.k + 1, None
         if self.k == p.late_step < p.steps:
-            (self._early,) = take_metrics(stepper.a, stepper.p.flying, 1)
+            (self._early,) = take_metrics(stepper.a, stepper.p.model, 1)
         if self.k % REPORT_EVERY == 0:
             stepper.code.add_time(self._wall - self._reported)
             self._reported = self._wall
@@ -244,9 +244,9 @@ class Simulation:
         return flight_of(self._p, self._result(np.array(rows), last), self.engine)
 
     def _result(self, log: Array, last: Array) -> RawResult:
-        like = self._stepper.p.flying.moving
+        like = self._stepper.p.model.flight_state
         return RawResult(
-            moving=unflat(self._stepper.a[: leaves(like)], like),
+            flight_state=unflat(self._stepper.a[: leaves(like)], like),
             early=self._early,
             step=self.k,
             log=log,

@@ -35,7 +35,7 @@ def body_in(engine: str, p: FlightPlan) -> EngineBody | None:
     Raises:
         InputError: the engine is unknown, not installed, or cannot fly the mission.
     """
-    chosen, plant = engine_named(engine), p.flying.plant
+    chosen, plant = engine_named(engine), p.model.plant
     if chosen.load is None:
         return None
     return chosen.start(p.mission, Vehicle.from_settings(p.mission.vehicle), plant.floor, plant.walls)
@@ -68,7 +68,7 @@ class Stepper:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
         self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
-        self.at_lost, self.hand = leaf_offset(p.flying, "moving", "diverged").at, hand_place(p)
+        self.at_lost, self.hand = leaf_offset(p.model, "flight_state", "diverged").at, hand_place(p)
         self._bind_views()
 
     def _bind_views(self) -> None:
@@ -96,14 +96,14 @@ class Stepper:
 
     def _exchange_laws(self, p: FlightPlan) -> None:
         """Go on with other laws. A controller of another layout starts with fresh memory; ramps end at once."""
-        size, hand, row = leaves(self.p.flying.moving), self.a[self.hand].copy(), self.row
-        moving = unflat(self.a[:size], self.p.flying.moving)
-        memory, fresh = moving.memory, p.flying.moving.memory.controller
+        size, hand, row = leaves(self.p.model.flight_state), self.a[self.hand].copy(), self.row
+        flight_state = unflat(self.a[:size], self.p.model.flight_state)
+        memory, fresh = flight_state.memory, p.model.flight_state.memory.controller
         if layout(memory.controller) != layout(fresh):
             memory = memory._replace(controller=fresh)
         self.changing.ramps.clear()
         self._lay_out(p, self.memory)
-        self.a[:] = flat(p.flying._replace(moving=moving._replace(memory=memory)))
+        self.a[:] = flat(p.model._replace(flight_state=flight_state._replace(memory=memory)))
         self.move_hand(hand)
         self.row[:] = row
 
@@ -187,7 +187,7 @@ def fly_stepwise(
     began, early, k = time.perf_counter(), EMPTY, 0
     while k <= p.steps:
         if k == p.late_step < p.steps:
-            (early,) = take_metrics(stepper.a, stepper.p.flying, 1)
+            (early,) = take_metrics(stepper.a, stepper.p.model, 1)
         if stepper.lost:
             break
         stepper.step(k, final=k == p.steps)
@@ -202,6 +202,6 @@ def fly_stepwise(
                 raise Stopped
             if progress:
                 progress(k, p.steps)
-    like = stepper.p.flying.moving
-    moving = unflat(stepper.a[: leaves(like)], like)
-    return RawResult(moving, early, k, log, last, time.perf_counter() - began)
+    like = stepper.p.model.flight_state
+    flight_state = unflat(stepper.a[: leaves(like)], like)
+    return RawResult(flight_state, early, k, log, last, time.perf_counter() - began)

@@ -91,7 +91,7 @@ def summary_of(flights: Mapping[str, Flight]) -> list[dict[str, Any]]:
     return [
         {
             "engine": name,
-            "apart": largest_differences(flight, first),
+            "difference": largest_differences(flight, first),
             "final_position_m": flight.metrics()["final_position_m"],
             "steps_per_s": speed(flight),
             "diverged": str(flight.divergence) if flight.divergence else None,

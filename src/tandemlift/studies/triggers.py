@@ -67,8 +67,8 @@ def delays(flight: Flight) -> list[float]:
     for i in range(PUSHES):
         start = FIRST + EVERY * i
         within = (flight.time >= start) & (flight.time < start + LASTS)
-        heard = np.flatnonzero(flight["push_active"][within, i % 2] > 0.0)
-        found.append(float(flight.time[within][heard[0]] - start) if len(heard) else float("inf"))
+        active = np.flatnonzero(flight["push_active"][within, i % 2] > 0.0)
+        found.append(float(flight.time[within][active[0]] - start) if len(active) else float("inf"))
     return found
 
 
@@ -79,9 +79,9 @@ def triggers(bench: Bench) -> Iterator[Row]:
         count = max(1, round(bench.draws * MINUTES * 60.0 / LENGTH))
         quiet = {"mission.duration": LENGTH, "mission.log_interval": LENGTH, "pushes": []}
         flown = bench.metrics(windy(wind, bandwidth, i, quiet) for i in range(count))
-        heard = sum(m["push_triggers_after_10s"] for m in flown)
+        false_triggers = sum(m["push_triggers_after_10s"] for m in flown)
         what = f"wind of {wind:g} m/s, {how}: false triggers in {count * LENGTH / 60.0:.0f} min"
-        yield Row(what, "0" if asked else "", f"{heard:.0f}", heard == 0 if asked else None)
+        yield Row(what, "0" if asked else "", f"{false_triggers:.0f}", false_triggers == 0 if asked else None)
         flights = bench.fly(pushed(wind, bandwidth, i) for i in range(max(1, bench.draws // 5)))
         found = [d for flight in flights for d in delays(flight)]
         late = sum(d > SOON for d in found)

@@ -65,8 +65,8 @@ def inputs() -> tuple[Any, np.ndarray]:
     _, x = flown(17)
     like = (x, happenings(1)[0], HISS)
     numbers = np.tile(np.array(floats(like[0]) + floats(like[1]) + floats(HISS))[:, None], (1, BATCH))
-    moving = len(numbers) - len(floats(HISS))
-    numbers[moving:] = np.random.default_rng(2).standard_normal((len(floats(HISS)), BATCH))
+    state_size = len(numbers) - len(floats(HISS))
+    numbers[state_size:] = np.random.default_rng(2).standard_normal((len(floats(HISS)), BATCH))
     return like, numbers
 
 

@@ -58,9 +58,11 @@ def watched(motion, memory, since=0, commands=None):
     seen, before = [], 0
     for k, row in enumerate(motion, since):
         thrusts = EIGHT(*(HOVER * (np.ones(8) if commands is None else commands[k - since])))
-        heard = PilotInput(State(ZERO, Vec3(0.0, 0.0, float(row[0])), LEVEL, vec3(row[1:])), ZERO, ZERO, 0.0, Nothing())
+        pilot_input = PilotInput(
+            State(ZERO, Vec3(0.0, 0.0, float(row[0])), LEVEL, vec3(row[1:])), ZERO, ZERO, 0.0, Nothing()
+        )
         thrusts = EIGHT(*map(float, np.array(thrusts) * left_array(memory)))
-        memory = detection_step(DETECTION, memory, heard, thrusts, 1.0, k * DT, DT)
+        memory = detection_step(DETECTION, memory, pilot_input, thrusts, 1.0, k * DT, DT)
         number = int(np.dot(memory.verdict.lost, np.arange(1, 9)))
         if number != before:
             seen.append((k * DT, number))

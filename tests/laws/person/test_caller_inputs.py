@@ -54,6 +54,6 @@ def test_plain_python_takes_the_same_step_as_machine_code(point):
     p, sim = FlightPlan(mission, interactive=True), tl.Simulation(mission)
     thrusts = [4.0, 5.0, 4.5, 4.2, 4.8, 4.1, 4.4, 4.6]
     added = CallerInput(vec3([0.6, -0.3, 0.4]), vec3([0.0, 0.7, 0.05]), ROTORS(*thrusts), 1.0)
-    moving, _ = step_flight(p.flying, p.given._replace(external=added), 0.0, DT)
+    flight_state, _ = step_flight(p.model, p.given._replace(external=added), 0.0, DT)
     state = sim.step(added.force, thrusts, point=added.point)
-    np.testing.assert_allclose(state, flat(moving.state), rtol=1e-13, atol=1e-15)
+    np.testing.assert_allclose(state, flat(flight_state.state), rtol=1e-13, atol=1e-15)

@@ -172,6 +172,6 @@ def test_what_is_seen_late_is_reckoned_ahead():
 
 
 def test_a_mission_without_a_person_has_none():
-    flying, given, tables, *_ = assemble(tl.load_mission("hover"))
-    assert flying.person == flying.moving.person == given.person == ()
+    model, given, tables, *_ = assemble(tl.load_mission("hover"))
+    assert model.person == model.flight_state.person == given.person == ()
     assert len(tables.legs) == 0

@@ -98,13 +98,13 @@ def growth(e: Any, bandwidth: Any, slope: Any) -> Any:
 
 
 @choice(absent=(NONE, "memory"))
-def observer_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, learning: Any, dt: Any) -> Any:
+def observer_step(k: Any, memory: Any, pilot_input: Any, thrusts: Any, active: Any, learning: Any, dt: Any) -> Any:
     """(`DisturbanceEstimate`, the new memory) at a sample.
 
     Args:
         k: the observer, or `Nothing`.
         memory: its memory.
-        heard: the input of the pilot.
+        pilot_input: the pilot's input, a `PilotInput`.
         thrusts: of all rotors [N], as allocated at the last sample.
         active: 1 in flight; 0 on the ground, where nothing is estimated.
         learning: 1; 0 holds the estimate while feet may touch the floor, whose force is no disturbance.
@@ -120,27 +120,27 @@ def expected(k: DisturbanceObserver, memory: ObserverState, thrusts: Any) -> Any
 
 
 @law
-def rates_of_change(k: DisturbanceObserver, heard: Any, u: Wrench) -> Any:
+def rates_of_change(k: DisturbanceObserver, pilot_input: Any, u: Wrench) -> Any:
     """(acceleration [m/s², world axes], angular acceleration [rad/s², body axes]) without any disturbance."""
-    s = heard.state
-    force = body_z_axis(s.attitude) * u.thrust + heard.push - k.drag_force * s.velocity
-    moment = u.moment + heard.moment + gyroscopic(k.inertia, s.rates) - k.drag_moment * s.rates
+    s = pilot_input.state
+    force = body_z_axis(s.attitude) * u.thrust + pilot_input.push - k.drag_force * s.velocity
+    moment = u.moment + pilot_input.moment + gyroscopic(k.inertia, s.rates) - k.drag_moment * s.rates
     return force * (1.0 / k.mass) - UP * GRAVITY, apply_inertia(k.inverse_inertia, moment)
 
 
 @observer_step.register(DisturbanceObserver)
 def _observed(
-    k: DisturbanceObserver, memory: Any, heard: Any, thrusts: Any, active: Any, learning: Any, dt: Any
+    k: DisturbanceObserver, memory: Any, pilot_input: Any, thrusts: Any, active: Any, learning: Any, dt: Any
 ) -> Any:
     thrust, moment = expected(k, memory, thrusts)
-    linear, angular = rates_of_change(k, heard, Wrench(thrust.value, moment.value))
+    linear, angular = rates_of_change(k, pilot_input, Wrench(thrust.value, moment.value))
     f, m = k.force_follower, k.moment_follower
-    e, w = (heard.state.velocity - memory.velocity) * active, (heard.state.rates - memory.rates) * active
+    e, w = (pilot_input.state.velocity - memory.velocity) * active, (pilot_input.state.rates - memory.rates) * active
     acceleration = (memory.acceleration + growth(e, f.bandwidth, f.slope) * (learning * dt)) * active
     turning = (memory.turning + growth(w, m.bandwidth, m.slope) * (learning * dt)) * active
     residual, turning_residual = correction(e, f.bandwidth, f.slope), correction(w, m.bandwidth, m.slope)
-    velocity = heard.state.velocity - e + (linear + acceleration + residual) * dt
-    rates = heard.state.rates - w + (angular + turning + turning_residual) * dt
+    velocity = pilot_input.state.velocity - e + (linear + acceleration + residual) * dt
+    rates = pilot_input.state.rates - w + (angular + turning + turning_residual) * dt
     after = ObserverState(thrust, moment, velocity, rates, acceleration, turning, residual, turning_residual)
     return unmodelled(k, after), after
 

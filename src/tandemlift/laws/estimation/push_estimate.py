@@ -74,7 +74,7 @@ class PushEstimatorState(NamedTuple):
     moment: LowPassState
     x: LowPassState
     y: LowPassState
-    blown: Any
+    wind: Any
 
 
 class PushEstimate(NamedTuple):
@@ -155,7 +155,7 @@ def estimate(k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: A
     sums = summed(memory.sums, begun, taken, f, a, moment, unequal)
     armed = where(t < k.tare_end, 0.0, 1.0)
     tare = tare_of(k.mass, k.identify, sums, armed)
-    wind, gone = wind_on_payload(k.windage, memory.blown, outside.x, outside.y, begun, taken, armed)
+    wind, wind_memory = wind_on_payload(k.windage, memory.wind, outside.x, outside.y, begun, taken, armed)
     force = a * tare.mass - f - tare.force - wind
     after = PushEstimatorState(
         imu.rates,
@@ -165,7 +165,7 @@ def estimate(k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: A
         low_pass_step(k.low_pass, memory.moment, (moment - tare.moment) * armed),
         low_pass_step(k.low_pass, memory.x, (unequal.x - tare.sides.x) * armed),
         low_pass_step(k.low_pass, memory.y, (unequal.y - tare.sides.y) * armed),
-        gone,
+        wind_memory,
     )
     return concluded(k, imu, force, moment - tare.moment, after, tare.mass, armed), after
 

@@ -78,13 +78,13 @@ class DetectionState(NamedTuple):
 
 
 @choice(absent="memory")
-def detection_step(k: Any, memory: Any, heard: Any, thrusts: Any, active: Any, t: Any, dt: Any) -> Any:
+def detection_step(k: Any, memory: Any, pilot_input: Any, thrusts: Any, active: Any, t: Any, dt: Any) -> Any:
     """The memory after a sample.
 
     Args:
         k: `RotorLossDetection` or `Nothing`.
         memory: its memory.
-        heard: the input of the pilot.
+        pilot_input: the pilot's input, a `PilotInput`.
         thrusts: of all rotors [N], as allocated at the last sample.
         active: 1 in flight, else 0.
         t: time [s].
@@ -111,9 +111,9 @@ def confirmed(k: RotorLossDetection, verdict: DecisionState, t: Any) -> Any:
 
 
 @law
-def residual(k: RotorLossDetection, m: DetectionState, heard: Any) -> Any:
+def residual(k: RotorLossDetection, m: DetectionState, pilot_input: Any) -> Any:
     """The force along body z [N] and the moment [N·m, body axes] that modelled rotors do not explain, as a set."""
-    upright = maximum(body_z_axis(heard.state.attitude).z, UPRIGHT)
+    upright = maximum(body_z_axis(pilot_input.state.attitude).z, UPRIGHT)
     made, p, o = wrench(k.effect, m.thrusts.value), m.momentum.rate, m.others.value
     return FOUR(
         (p[0] - o[0]) / upright - made.thrust,
@@ -124,13 +124,13 @@ def residual(k: RotorLossDetection, m: DetectionState, heard: Any) -> Any:
 
 
 @law
-def followed(k: RotorLossDetection, m: DetectionState, heard: Any, thrusts: Any, t: Any) -> DetectionState:
+def followed(k: RotorLossDetection, m: DetectionState, pilot_input: Any, thrusts: Any, t: Any) -> DetectionState:
     """The memory with the low-passes of a sample."""
-    s = heard.state
+    s = pilot_input.state
     rotors = low_pass_step(k.rotors, m.rotors, thrusts + trials(k, m.verdict, t))
-    turning, about = apply_inertia(k.inertia, s.rates), heard.moment + gyroscopic(k.inertia, s.rates)
+    turning, about = apply_inertia(k.inertia, s.rates), pilot_input.moment + gyroscopic(k.inertia, s.rates)
     momentum = FOUR(s.velocity.z * k.mass, turning.x, turning.y, turning.z)
-    others = FOUR(heard.push.z - k.mass * GRAVITY, about.x, about.y, about.z)
+    others = FOUR(pilot_input.push.z - k.mass * GRAVITY, about.x, about.y, about.z)
     return m._replace(
         rotors=rotors,
         thrusts=low_pass_step(k.quick, m.thrusts, rotors.value),
@@ -178,14 +178,14 @@ def flies_free(k: RotorLossDetection, r: Any, active: Any) -> Any:
 @law
 def explained_by(k: RotorLossDetection, verdict: DecisionState, thrusts: Any) -> Any:
     """The residual that the loss of the rotor declared lost leaves; a set of four."""
-    gone = wrench(k.effect, verdict.lost * thrusts)
-    return FOUR(-gone.thrust, -gone.moment.x, -gone.moment.y, -gone.moment.z)
+    missing = wrench(k.effect, verdict.lost * thrusts)
+    return FOUR(-missing.thrust, -missing.moment.x, -missing.moment.y, -missing.moment.z)
 
 
 @detection_step.register(RotorLossDetection)
-def _watched(k: RotorLossDetection, memory: Any, heard: Any, thrusts: Any, active: Any, t: Any, dt: Any) -> Any:
-    m = followed(k, memory, heard, thrusts, t)
-    r, f = residual(k, m, heard), m.thrusts.value
+def _watched(k: RotorLossDetection, memory: Any, pilot_input: Any, thrusts: Any, active: Any, t: Any, dt: Any) -> Any:
+    m = followed(k, memory, pilot_input, thrusts, t)
+    r, f = residual(k, m, pilot_input), m.thrusts.value
     off = r - m.mean.value
     deviation = variance(k.scatter, m.scatter.value)
     weights = FOUR(1.0 / deviation[0], 1.0 / deviation[1], 1.0 / deviation[2], 1.0 / deviation[3])

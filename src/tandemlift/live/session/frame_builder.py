@@ -32,7 +32,7 @@ class FrameBuilder:
         self.scene = scene_of(mission, engine)
         self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
         self._phases, self._columns = tables_of(mission)["phases"], channel_columns(setup.plan.sample)
-        self._start = setup.plan.flying.moving.state
+        self._start = setup.plan.model.flight_state.state
 
     def values(self, sample: Array, at: float) -> dict[str, Array]:
         """The values of the fields in a sample, at a time [s]."""

@@ -1,7 +1,7 @@
-"""A vehicle as bodies that are fixed to each other: what a model file of another simulator holds of it.
+"""The true vehicle as rigid bodies that are fixed to each other, for the model file of another simulator.
 
-What the true vehicle has beyond the one that its pilot knows (`plant`) sits at the centre of mass and is fixed to the
-payload, as in both engines: here it is a part of the payload.
+The difference between the true and the nominal vehicle (`plant`) is concentrated at the centre of mass, as in the
+engines. Here it is part of the payload.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from tandemlift.common.types import Array
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle, parallel_axis_term
 
-ROUNDING = 1e-9  # of a flat body's largest moment, by which the other two may together be less
+ROUNDING = 1e-9  # relative tolerance of the triangle inequality of principal moments
 
 
 class Link(NamedTuple):
@@ -23,11 +23,10 @@ class Link(NamedTuple):
 
     Attributes:
         name: `payload`, `quadrotor_1`, …
-        position: of its frame from the centre of mass of the system [m] (3): the centre of mass of the payload or of
-            the quadrotor, as the pilot knows it.
+        position: of its frame, from the system's centre of mass [m] (3): the part's nominal centre of mass.
         mass: [kg].
-        center: of its mass, from its frame [m] (3).
-        inertia: about there [kg m²] (3 × 3).
+        center: centre of mass in its frame [m] (3).
+        inertia: about the centre of mass [kg m²] (3 × 3).
     """
 
     name: str
@@ -38,10 +37,10 @@ class Link(NamedTuple):
 
 
 def links_of(mission: Mission, vehicle: Vehicle) -> list[Link]:
-    """The bodies of a mission's vehicle as it really is, the payload first.
+    """The bodies of a mission's true vehicle, the payload first.
 
     Raises:
-        InputError: the true vehicle is so much lighter, or has so much less inertia, that the payload would be no body.
+        InputError: the difference in mass or inertia makes the payload's mass or inertia unphysical.
     """
     fleet = zip(vehicle.quadrotors, vehicle.lever_arms, strict=True)
     return [
@@ -51,7 +50,7 @@ def links_of(mission: Mission, vehicle: Vehicle) -> list[Link]:
 
 
 def _payload(mission: Mission, vehicle: Vehicle) -> Link:
-    """The payload, with the difference between the true vehicle and the one that is known."""
+    """The payload, with the difference between the true and the nominal vehicle."""
     own, place, plant = vehicle.payload, 0.0 - vehicle.center_of_mass, mission.plant
     known = Link("payload", place, own.mass, np.zeros(3), np.diag(own.moments))
     if plant.mass_scale == 1.0 and plant.inertia_scale == (1.0, 1.0, 1.0):
@@ -60,7 +59,7 @@ def _payload(mission: Mission, vehicle: Vehicle) -> Link:
     mass = own.mass + more
     if mass <= 0.0:
         raise _no_body(mission, f"a mass of {mass:g} kg")
-    center = own.mass / mass * place  # from the system's, where the difference is
+    center = own.mass / mass * place  # from the system's, where the difference is concentrated
     inertia = (
         known.inertia
         + parallel_axis_term(own.mass, place - center)
@@ -78,5 +77,5 @@ def _no_body(mission: Mission, what: str) -> InputError:
     plant = mission.plant
     return InputError(
         f"plant.mass_scale = {plant.mass_scale:g}, plant.inertia_scale = {list(plant.inertia_scale)}: the difference "
-        f"is part of the payload, which then had {what}; a model file can only hold a body that there can be"
+        f"is part of the payload, which would have {what}; a model file needs a physical mass and inertia"
     )
