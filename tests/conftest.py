@@ -32,3 +32,17 @@ def pytest_runtest_makereport():
     report = outcome.get_result()
     if report.skipped and os.environ.get("TANDEMLIFT_REQUIRE_ALL") == "1" and not hasattr(report, "wasxfail"):
         report.outcome = "failed"
+
+
+@pytest.fixture(scope="session")
+def jax():
+    """JAX in double precision."""
+    module = pytest.importorskip("jax")
+    module.config.update("jax_enable_x64", True)
+    return module
+
+
+@pytest.fixture(scope="session")
+def casadi():
+    """CasADi."""
+    return pytest.importorskip("casadi")
