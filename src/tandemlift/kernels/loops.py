@@ -6,103 +6,19 @@ one part to the next, and the values that are constant within a flight, which ar
 
 from __future__ import annotations
 
-from tandemlift.algebra.layout import leaves
 from tandemlift.kernels.compiled_limit_solver import write_limits, write_solver
-from tandemlift.kernels.context import AT, MEMORY, POINTERS, ScratchLayout
-from tandemlift.kernels.external_inputs import HALVES, SPAN
-from tandemlift.kernels.offsets import delayed_spans, leaf_offset
+from tandemlift.kernels.external_inputs import SPAN
+from tandemlift.kernels.offsets import leaf_offset
 from tandemlift.kernels.precompute import write_draw, write_gust, write_push, write_surroundings
 from tandemlift.kernels.scratch import ScratchValues, steady
 from tandemlift.kernels.step_output import write_next_state, write_sample
-from tandemlift.kernels.traced_step import Symbols, TracedStep
-from tandemlift.trace import Function, Module, Place, Symbol, double
-
-ARGUMENTS = "ptr %c, ptr %flight, ptr %work"
-UNIFORM = ("t", "dt", "when", "opens", "closes", "number")
+from tandemlift.kernels.step_writer import StepWriter
+from tandemlift.kernels.traced_step import Symbols
+from tandemlift.trace import Function, Place, Symbol, double
 
 
-class LoopWriter:
-    """Writes the functions of a flight's loop as LLVM text.
-
-    Args:
-        traced: the graph of a step.
-        lanes: flights that one instruction serves: 1, or LANES for a block.
-    """
-
-    def __init__(self, traced: TracedStep, lanes: int) -> None:
-        self.traced, self.templates, self.graph, self.lanes = traced, traced.templates, traced.graph, lanes
-        self.module, self.scratch = Module(), ScratchLayout()
-        self.width, self.draws = leaves(self.templates.given.hand.start), 0
-        self.state_size = leaves(self.templates.model.flight_state)
-        self.delayed = delayed_spans(self.templates.model)
-        g, roots = self.graph, [s.node for s in self.all_roots]
-        self.has_gusts = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
-        self._lay_out_scratch()
-
-    @property
-    def all_roots(self) -> Symbols:
-        """Every value that a step computes."""
-        x = self.traced
-        return [
-            *x.next_state,
-            *x.sample,
-            *self._body_roots(),
-            *self._limit_roots(),
-            *x.asked,
-            *x.body.acting,
-            *x.body.push,
-        ]
-
-    def _lay_out_scratch(self) -> None:
-        x, take = self.templates, self.scratch.take
-        self.pushes_at = take("hands", HALVES * self.width)
-        self.draws = len(self.traced.normals)
-        self.noise = take("noise", 4 * self.draws * (SPAN if self.lanes == 1 else 1))
-        self.gust = take("gust", 3)
-        self.asked, self.answer = take("asked", len(self.traced.asked)), take("answer", 4 + 3)
-        self.acting = take("acting", len(self.traced.body.acting))
-        self.external = take("external", leaves(x.given.external))
-        self.push, self.moved = take("push", 6), take("moved", leaves(x.moved))
-        needs = self.traced.limits
-        self.solving = take("solving", len(needs.problem) + len(needs.search) if needs else 0)
-        self.sample = take("sample", leaves(x.sample) if self.lanes > 1 else 0)
-        self.low = take("low", 1)
-
-    # the functions
-
-    def function(self, name: str, more: str = "", result: str = "void") -> Function:
-        """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""
-        head = f"internal {result} @{name}({MEMORY}{more}) #1"
-        f = Function(self.module, self.graph, self.lanes, head, UNIFORM)
-        f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
-        f.sets.room = self.scratch_place
-        f.read = {"fly": lambda i: Place("%flight", i), "dt": lambda i: "%dt"}
-        return f
-
-    def export(self, name: str) -> None:
-        """A function for Python, with the context as its only argument, that calls the internal one of that name."""
-        f = Function(self.module, self.graph, self.lanes, f"i64 @{name}(ptr %c) #0")
-        given = [f"ptr {self.context_word(f, word)}" for word in ("flight", "work")]
-        f.end("i64 " + f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})"))
-
-    def scratch_place(self, count: int) -> Place:
-        """Scratch memory for a set of `count` numbers."""
-        return Place("%work", self.scratch.take(f"room_{self.scratch.size}", count))
-
-    def call(self, f: Function, name: str, *more: str) -> None:
-        """Call another internal function."""
-        f.do(f"call void @{name}({', '.join([ARGUMENTS, *more])})")
-
-    def context_word(self, f: Function, name: str) -> str:
-        """A word of the context."""
-        return f.load("%c", AT[name], "ptr" if name in POINTERS else "i64")
-
-    def time(self, f: Function, k: str) -> str:
-        """The time of step k."""
-        number = f.op(f"sitofp i64 {k} to double")
-        return f.op(f"fmul double {number}, %dt")
-
-    # a step
+class LoopWriter(StepWriter):
+    """Writes the functions of a flight's loop as LLVM text; arguments as for `StepWriter`."""
 
     def begin_step(self, f: Function, k: str) -> None:
         """Form the inputs of step k from outside, once in a span where possible, and bind them."""
@@ -138,12 +54,6 @@ class LoopWriter:
             "solved": lambda i: Place("%work", self.solved + i),
         }
 
-    @property
-    def solved(self) -> int:
-        """Offset of the limit solver's result in scratch memory."""
-        needs = self.traced.limits
-        return self.solving + (len(needs.problem) if needs else 0)
-
     def limit_thrusts(self, f: Function) -> None:
         """Solve for thrusts within limits in the lanes whose thrusts exceed them."""
         needs = self.traced.limits
@@ -170,10 +80,6 @@ class LoopWriter:
             f.do(f"br label %{done}")
         f.lines.append(f"{done}:")
 
-    def store_values(self, f: Function, at: int, values: Symbols) -> None:
-        """Write values to scratch memory."""
-        f.put("%work", at, values)
-
     # loops
 
     def write_outside(self) -> None:
@@ -193,9 +99,7 @@ class LoopWriter:
         self.write_outside()
         f = self.function("fly_", result="i64")
         begin, stop, steps = self.context_word(f, "k"), self.context_word(f, "stop"), self.context_word(f, "steps")
-        self.prepare(
-            f, begin, [*self.traced.next_state, *self.traced.sample, *self._body_roots(), *self._limit_roots()]
-        )
+        self.prepare(f, begin, [*self.traced.next_state, *self.traced.sample, *self.body_roots(), *self.limit_roots()])
         f.label("first")
         f.label("loop")
         f.lines.append(f"  %k = phi i64 [ {begin}, %first ], [ %next, %ahead ]")
@@ -226,8 +130,8 @@ class LoopWriter:
         self.write_outside()
         x = self.traced
         parts = ["ask"] * x.calls_python + ["decide"] * leaves_body + ["complete"]
-        ends = [*x.next_state, *x.sample, *([] if leaves_body else self._body_roots())]
-        acts = [*self._limit_roots(), *([*x.body.acting, *x.body.push] if leaves_body else [])]
+        ends = [*x.next_state, *x.sample, *([] if leaves_body else self.body_roots())]
+        acts = [*self.limit_roots(), *([*x.body.acting, *x.body.push] if leaves_body else [])]
         if not leaves_body:
             ends, acts = [*ends, *acts], []
         later = {"ask": [*acts, *ends], "decide": ends, "complete": []}
@@ -260,13 +164,6 @@ class LoopWriter:
         write_sample(self, f, k)
         with f.when(f.op(f"icmp ne i64 {k}, {self.context_word(f, 'steps')}")):
             write_next_state(self, f, k)
-
-    def _body_roots(self) -> Symbols:
-        return [*self.traced.body_in_contact, *self.traced.body_in_free_air, *self.traced.may_touch_walls]
-
-    def _limit_roots(self) -> Symbols:
-        needs = self.traced.limits
-        return [needs.beyond, *needs.problem, *needs.plain, *needs.search] if needs else []
 
     def prepare(self, f: Function, k: str, roots: Symbols) -> ScratchValues:
         """Where a flight begins or was changed: form the tables for step k and store the values that stay constant."""

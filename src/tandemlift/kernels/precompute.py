@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tandemlift.algebra.layout import flat, leaves
 from tandemlift.kernels.context import MEMORY
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, HALVES, SPAN
 from tandemlift.kernels.offsets import leaf_offset
+from tandemlift.kernels.step_writer import StepWriter
 from tandemlift.kernels.traced_step import Symbols
 from tandemlift.laws.mechanics.wall_geometry import WALL
 from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.trace import Function, Place, double
 
-if TYPE_CHECKING:
-    from tandemlift.kernels.loops import LoopWriter
-
 NORMAL_LANES = 8  # of the loop that draws normal numbers for a flight alone
 
 
-def write_push(step: LoopWriter) -> None:
+def write_push(step: StepWriter) -> None:
     """The sum of all pushes at the half steps of the span that holds step k."""
     f, width = step.function("sum_pushes", ", i64 %k"), step.width
     first = f.integer("and", "%k", -SPAN)
@@ -39,7 +35,7 @@ def write_push(step: LoopWriter) -> None:
     f.end()
 
 
-def write_gust(step: LoopWriter) -> None:
+def write_gust(step: StepWriter) -> None:
     """The velocity of all gusts at the time of a step."""
     f = step.function("sum_gusts", ", double %t")
     f.read["t"] = lambda m: "%t"
@@ -60,7 +56,7 @@ def _add_to(f: Function, at: str | int, more: Symbols) -> None:
         f.store(f.op(f"fadd {f.vector} {f.load(place, m)}, {value}"), place, m)
 
 
-def write_draw(step: LoopWriter) -> None:
+def write_draw(step: StepWriter) -> None:
     """Standard normals of one step in every lane; for a flight alone, of all steps of the span that holds step k."""
     lanes = step.lanes if step.lanes > 1 else NORMAL_LANES
     uniform = ("number",) if step.lanes > 1 else ("key",)
@@ -85,7 +81,7 @@ def write_draw(step: LoopWriter) -> None:
     f.end()
 
 
-def write_surroundings(step: LoopWriter) -> None:
+def write_surroundings(step: StepWriter) -> None:
     """What is found once in a span: whether the floor is near, the nearest walls, the leg of the person's path."""
     x, f = step.templates, step.function("find_surroundings")
     if x.has_floor:
@@ -106,7 +102,7 @@ def write_surroundings(step: LoopWriter) -> None:
     f.end()
 
 
-def _find_legs(step: LoopWriter, f: Function) -> None:
+def _find_legs(step: StepWriter, f: Function) -> None:
     model, lanes = step.templates.model, step.lanes
     index, leg = (
         leaf_offset(model, "flight_state", "person", "index").at,

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from tandemlift.kernels.step_writer import StepWriter
 from tandemlift.trace import Function
-
-if TYPE_CHECKING:
-    from tandemlift.kernels.loops import LoopWriter
 
 COMMAND_LINE = 2  # the delay line of the rotor commands: without delay, a command acts in its own step
 
 
-def write_sample(step: LoopWriter, f: Function, k: str) -> None:
+def write_sample(step: StepWriter, f: Function, k: str) -> None:
     """Write the sample of step k into the log, if one is due, and the last sample where Python reads it."""
     every, steps = step.context_word(f, "every"), step.context_word(f, "steps")
     past = f.integer("sub", k, step.context_word(f, "since"))
@@ -26,7 +22,7 @@ def write_sample(step: LoopWriter, f: Function, k: str) -> None:
             _write_samples_of_lanes(step, f, row, logged)
 
 
-def _write_one_sample(step: LoopWriter, f: Function, row: str, logged: str, final: str) -> None:
+def _write_one_sample(step: StepWriter, f: Function, row: str, logged: str, final: str) -> None:
     sample = step.traced.sample
     f.values(sample)
     for condition, name, index in ((logged, "log", row), (final, "last", "0")):
@@ -34,7 +30,7 @@ def _write_one_sample(step: LoopWriter, f: Function, row: str, logged: str, fina
             f.put(f.at(step.context_word(f, name), f.integer("mul", index, len(sample))), 0, sample)
 
 
-def _write_samples_of_lanes(step: LoopWriter, f: Function, row: str, logged: str) -> None:
+def _write_samples_of_lanes(step: StepWriter, f: Function, row: str, logged: str) -> None:
     columns = len(step.traced.sample)
     step.store_values(f, step.sample, step.traced.sample)
     with f.when(logged):
@@ -46,14 +42,14 @@ def _write_samples_of_lanes(step: LoopWriter, f: Function, row: str, logged: str
                 f.store(f.load("%work", at, "double"), log, f.integer("add", to, m), "double")
 
 
-def write_next_state(step: LoopWriter, f: Function, k: str) -> None:
+def write_next_state(step: StepWriter, f: Function, k: str) -> None:
     """Write the state of the flight after step k, and exchange what is delayed with the delay lines."""
     f.put("%flight", 0, step.traced.next_state, "fly")
     if step.templates.has_delays:
         _write_delays(step, f, k)
 
 
-def _write_delays(step: LoopWriter, f: Function, k: str) -> None:
+def _write_delays(step: StepWriter, f: Function, k: str) -> None:
     """Put what is delayed into row k of the delay line, and fetch what arrives for the next step."""
     ring, delays = step.context_word(f, "ring"), step.context_word(f, "delays")
     mask = f.integer("sub", step.context_word(f, "rings"), 1)
