@@ -83,6 +83,18 @@ def draw(package: Path = PACKAGE) -> Drawing:
     return Drawing(tuple(sorted(filled)), dict(arrows))
 
 
+def draw_files(package: Path = PACKAGE) -> Drawing:
+    """The drawing of a package with each module as a room of its own; a folder's `__init__.py` is none."""
+    modules = dict(_modules(package))
+    files = {name for name, path in modules.items() if path.name != "__init__.py"}
+    arrows = defaultdict[tuple[str, str], list[Import]](list)
+    for name in files:
+        for one in _imports(name, modules[name], modules):
+            if one.imported in files and one.imported != name:
+                arrows[name, one.imported].append(one)
+    return Drawing(tuple(sorted(files)), dict(arrows))
+
+
 def _modules(package: Path) -> Iterator[tuple[str, Path]]:
     """Dotted name and path of each module; a folder is named as its `__init__.py`."""
     for path in sorted(package.rglob("*.py")):

@@ -38,6 +38,11 @@ def test_the_house_has_no_more_rooms_floors_and_arrows_than_it_may_and_no_circle
     assert_none(over, advice)
 
 
+def test_no_files_import_each_other_be_it_for_types_alone():
+    circles = [" ".join(circle) for circle in rooms.draw_files(PACKAGE).circles]
+    assert_none(circles, "put what both need into a file below them, or name what one needs of the other by a Protocol")
+
+
 @pytest.mark.parametrize(
     ("container", "layers"), [c[1:] for c in layer_contracts()], ids=[c[0] for c in layer_contracts()]
 )
