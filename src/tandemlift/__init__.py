@@ -34,7 +34,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Vehicle": "vehicle",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
-    "load_controller": "controllers.loading",
+    "load_controller": "controllers.user_controller",
     "load_mission": "missions",
 }
 

@@ -215,7 +215,7 @@ def test_a_flight_that_diverged_is_drawn_as_far_as_it_went(flight):
         (Shot(fps=float("nan")), "a.gif", "fps nan must be from 1 to 50"),
         (Shot(speed=0.0), "a.gif", "speed 0 from 0.001 to 1000"),
         (Shot(size=(3, 3)), "a.png", "size 3x3 must be at least 16x16"),
-        (Shot(), "a.jpg", r"a picture's name ends in \.png, an animation's in \.gif"),
+        (Shot(), "a.jpg", r"the name must end in \.png \(picture\) or \.gif \(animation\)"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_with_the_reason_and_no_file(flight, tmp_path, shot, name, says):
@@ -255,7 +255,7 @@ def test_the_command_draws_saved_flights_and_missions(flight, tmp_path, monkeypa
         (["--out", "a.gif", "--time", "1"], "--time is for a picture, --out FILE.png"),
         (["--out", "a.png", "--from", "1", "--fps", "5"], "--from, --fps are for an animation, --out FILE.gif"),
         (["--size", "1280"], "--size 1280: must be WxH in pixels, such as 1280x720"),
-        (["--out", "a.bmp"], r"--out a.bmp: a picture's name ends in .png, an animation's in .gif"),
+        (["--out", "a.bmp"], r"--out a.bmp: the name must end in .png \(picture\) or .gif \(animation\)"),
     ],
 )
 def test_options_that_mean_nothing_are_refused_before_anything_flies(args, says):

@@ -269,7 +269,7 @@ class LoopWriter:
         return [needs.beyond, *needs.problem, *needs.plain, *needs.search] if needs else []
 
     def prepare(self, f: Function, k: str, roots: Symbols) -> ScratchValues:
-        """Where a flight begins or was changed: form the tables for step k and store the values that stay constant."""
+        """At the start of a flight or after a change: form the tables for step k and store the constant values."""
         kept = ScratchValues(self.graph, self.scratch)
         nodes = steady(self.graph, roots, self.state_size)
         f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))
