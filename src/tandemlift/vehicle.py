@@ -109,7 +109,7 @@ class Vehicle:
 
     @cached_property
     def center_of_mass(self) -> Array:
-        """Of the system, from the payload's centre of mass [m], body axes (3)."""
+        """Centre of mass of the system, from the payload's centre of mass [m], body axes (3)."""
         masses, positions = [q.mass for q in self.quadrotors], [q.position for q in self.quadrotors]
         return np.array(masses) @ np.array(positions) / self.mass
 
@@ -176,7 +176,7 @@ class Vehicle:
 
     @property
     def max_thrust(self) -> float:
-        """Of all rotors together [N]."""
+        """Largest total thrust of all rotors [N]."""
         return sum(4.0 * q.max_thrust for q in self.quadrotors)
 
     @property

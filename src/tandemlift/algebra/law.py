@@ -58,7 +58,7 @@ class Nothing(NamedTuple):
 
 
 def _without(signature: Callable[..., Any], absent: Any) -> Callable[..., Any]:
-    """The law of a choice for `Nothing`, from what `choice` is told of it."""
+    """The law of a choice for `Nothing`, from the argument `absent` of `choice`."""
     code = signature.__code__
     names = code.co_varnames[: code.co_argcount]
     parts = absent if type(absent) is tuple else (absent,)

@@ -52,7 +52,7 @@ class SMCSettings(CascadeTable):
 
 
 class LinearSurface(NamedTuple):
-    """Of one set of axes: λ [1/s], K [m/s² or rad/s²] and 1/Φ."""
+    """Gains of one set of axes: λ [1/s], K [m/s² or rad/s²] and 1/Φ."""
 
     slope: Vec3
     gain: Vec3

@@ -66,7 +66,7 @@ class SuperTwistingSettings(CascadeTable):
 
 
 class TwistingGains(NamedTuple):
-    """Of one set of axes: λ [1/s], 1.5 √L, 1.1 L of one step, Φ, 1/Φ and the limit of v."""
+    """Gains of one set of axes: λ [1/s], 1.5 √L, 1.1 L of one step, Φ, 1/Φ and the limit of v."""
 
     slope: Vec3
     root: Vec3

@@ -208,5 +208,5 @@ class RosWire:
     def _no_answer(self) -> str:
         return (
             f"engine 'gazebo-ros': the plugin at {self._place} did not answer within {self.patience:g} s; is the world "
-            "paused, or Gazebo gone?"
+            "paused, or has Gazebo ended?"
         )

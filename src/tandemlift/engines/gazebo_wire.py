@@ -190,7 +190,7 @@ class Wire:
             self._alive()
         raise TimeoutError(
             f"engine 'gazebo': the plugin on UDP port {self.port} did not answer within {self.patience:g} s "
-            f"({MessageKind(message[AT_KIND]).name} {self._sequence}); is the world paused, or Gazebo gone?"
+            f"({MessageKind(message[AT_KIND]).name} {self._sequence}); is the world paused, or has Gazebo ended?"
         )
 
     def _receive(self, answer: MessageKind) -> bool:

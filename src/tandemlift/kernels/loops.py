@@ -166,7 +166,7 @@ class LoopWriter(StepWriter):
             write_next_state(self, f, k)
 
     def prepare(self, f: Function, k: str, roots: Symbols) -> ScratchValues:
-        """Where a flight begins or was changed: form the tables for step k and store the values that stay constant."""
+        """At the start of a flight or after a change: form the tables for step k and store the constant values."""
         kept = ScratchValues(self.graph, self.scratch)
         nodes = steady(self.graph, roots, self.state_size)
         f.values(Symbol(self.graph, n, "f") for n in nodes if f.is_uniform(n))

@@ -82,7 +82,7 @@ def write_draw(step: StepWriter) -> None:
 
 
 def write_surroundings(step: StepWriter) -> None:
-    """What is found once in a span: whether the floor is near, the nearest walls, the leg of the person's path."""
+    """Search once per span: whether the floor is near, the nearest walls, the leg of the person's path."""
     x, f = step.templates, step.function("find_surroundings")
     if x.has_floor:
         low = f.any(f.value(step.traced.may_touch_floor))

@@ -1,4 +1,4 @@
-"""What a step leaves behind: its sample in the log, the state of the flight after it, and the delay lines."""
+"""Outputs of a step: its sample in the log, the state of the flight after it, and the delay lines."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ def _write_samples_of_lanes(step: StepWriter, f: Function, row: str, logged: str
 
 
 def write_next_state(step: StepWriter, f: Function, k: str) -> None:
-    """Write the state of the flight after step k, and exchange what is delayed with the delay lines."""
+    """Write the state of the flight after step k, and exchange delayed values with the delay lines."""
     f.put("%flight", 0, step.traced.next_state, "fly")
     if step.templates.has_delays:
         _write_delays(step, f, k)
 
 
 def _write_delays(step: StepWriter, f: Function, k: str) -> None:
-    """Put what is delayed into row k of the delay line, and fetch what arrives for the next step."""
+    """Write delayed values to row k of the delay line, and read those that arrive for the next step."""
     ring, delays = step.context_word(f, "ring"), step.context_word(f, "delays")
     mask = f.integer("sub", step.context_word(f, "rings"), 1)
     into = f.at(ring, f.integer("mul", f.integer("and", k, mask), step.delayed.size))

@@ -1,4 +1,4 @@
-"""The layouts of what passes through a step: nested values whose numbers are void."""
+"""The layouts of the values that pass through a step: nested values without meaningful numbers."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
 `solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step.
-Inputs of what is formed ahead of the step: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
+Inputs of values computed before the step: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
 """
 
 from __future__ import annotations
@@ -204,7 +204,7 @@ class TracedStep:
         mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
         return [*self.numbers(mean.force), *self.numbers(traced(push_moment)(mean, attitude))]
 
-    # what is formed ahead of the step, or beside it
+    # values computed before the step
 
     @property
     def when(self) -> Symbol:

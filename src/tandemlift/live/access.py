@@ -1,4 +1,4 @@
-"""Where the server listens, and who may connect: only pages that it served itself.
+"""The server's listening socket and access control: only pages that it served may connect.
 
 Another site in the same browser must not reach a server on this machine: so the Host header is on a list (against DNS
 rebinding), the Origin of a WebSocket is the server's own (against cross-site hijacking), and the pages may load nothing
@@ -134,7 +134,7 @@ class AccessControl:
 
     @property
     def _cookie_name(self) -> str:
-        return f"tandemlift-{self._port}"  # cookies do not tell ports apart
+        return f"tandemlift-{self._port}"  # cookies do not distinguish ports
 
     def _is_ours(self, host: str) -> bool:
         name, colon, port = host.rpartition(":")

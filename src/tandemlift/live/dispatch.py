@@ -65,7 +65,7 @@ class LiveFlight(Protocol):
         """
 
     def release(self) -> None:
-        """Let go of the beam: nobody holds it any more."""
+        """Release the beam."""
 
 
 class Dispatcher:

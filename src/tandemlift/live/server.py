@@ -1,6 +1,6 @@
 """The server of the live page: files over HTTP and a WebSocket at /ws, on one port of this machine.
 
-The flight goes on in a thread of its own and never waits for a page. A page that is gone lets go of the beam.
+The flight goes on in a thread of its own and never waits for a page. A page that disconnects releases the beam.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ STATUS_EVERY = RATE // 4  # frames
 MAX_VIEWERS = 16
 SEND_BUFFER = 16_384  # bytes that the system may hold back for a page; more would be outdated when it arrives
 
-strangers = logging.getLogger(f"{__name__}.sockets")  # invalid requests; logged only where somebody listens
+strangers = logging.getLogger(f"{__name__}.sockets")  # invalid requests; logged only where a handler is attached
 strangers.addHandler(logging.NullHandler())
 strangers.propagate = False
 
@@ -155,7 +155,7 @@ class PageServer:
     # WebSocket
 
     async def _serve_viewer(self, connection: ServerConnection) -> None:
-        """Serve a viewer until it is gone."""
+        """Serve a viewer until it disconnects."""
         assert self._flight is not None
         assert self._dispatcher is not None
         connection.transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)

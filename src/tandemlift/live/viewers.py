@@ -1,4 +1,4 @@
-"""The connected pages, one of which may hold the beam. A page that is behind misses frames; nobody waits for it."""
+"""The connected pages, one of which may hold the beam. A slow page misses frames, and does not delay others."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ class Viewers:
         self._all.add(viewer)
 
     def leave(self, viewer: Viewer) -> bool:
-        """Remove a viewer; whether nobody holds the beam now."""
+        """Remove a viewer; returns whether the beam is free afterwards."""
         self._all.discard(viewer)
         held = self.holder is viewer
         if held:
@@ -124,7 +124,7 @@ class Viewers:
         return held or self.holder is None
 
     def let_go(self) -> None:
-        """Nobody holds the beam any more."""
+        """Release the beam."""
         self.holder, self.pulls, self.pushes = None, False, False
 
     def is_hung(self) -> bool:
@@ -156,14 +156,14 @@ class Viewers:
         """Whether a message may go on to the flight: all of the holder's, of others those that do not touch the beam.
 
         Raises:
-            Refusal: it wants the beam, and somebody else holds it.
+            Refusal: it needs the beam, and another viewer holds it.
         """
         if isinstance(message, (MoveMessage, ReleaseMessage)) or (
             isinstance(message, ForceMessage) and not any(message.force)
         ):
             return self.holder is viewer
         if isinstance(message, (GrabMessage, ForceMessage)) and self.holder not in (None, viewer):
-            raise Refusal(message.type, "somebody else holds the beam: wait until they let go")
+            raise Refusal(message.type, "another page holds the beam: wait until it is released")
         return True
 
     def note(self, viewer: Viewer, message: PageMessage) -> None:

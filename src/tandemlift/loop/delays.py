@@ -12,7 +12,7 @@ class Delayed(NamedTuple):
 
 
 class DelayLines(NamedTuple):
-    """Of the readings of the IMU and of the motion measurement, of the rotors' commands, of the view of a person.
+    """Delays of the IMU and motion readings, of the rotor commands and of the person's view.
 
     Each is `Delayed` or `Nothing`; those of additional sensors' readings by name.
     """

@@ -254,7 +254,7 @@ def _push_active(channels: HandGuidanceChannels) -> Number:
 
 @law
 def errors_of(model: Any, output: Any, x: Sample) -> StepErrors:
-    """What a step adds to the running metrics."""
+    """The contribution of a step to the running metrics."""
     decision = output.decision
     return StepErrors(
         position=x.reference_position - x.position,

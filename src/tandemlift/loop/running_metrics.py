@@ -29,7 +29,7 @@ class StepErrors(NamedTuple):
 
 
 class PersonEffort(NamedTuple):
-    """Of a person who guides the vehicle, while they hold the grip: steps, sums of |force| and of the speed."""
+    """Sums while a person holds the grip: steps, sums of |force| and of the speed."""
 
     steps: Any
     force_sum: Any

@@ -33,7 +33,7 @@ FAR = 1000.0  # m
 
 
 class FlightState(NamedTuple):
-    """What changes from step to step; `diverged` becomes 1 once the state is not finite or beyond all bounds."""
+    """The state of a flight; `diverged` becomes 1 once the body state is not finite or beyond all bounds."""
 
     state: State
     memory: PilotMemory
@@ -99,7 +99,7 @@ class PilotOutput(NamedTuple):
 
 
 class Actuation(NamedTuple):
-    """What acts on the body over a step: rotor thrusts [N] and wind; with the rotors' memory."""
+    """Inputs of the body over a step: rotor thrusts [N] and wind loads; with the rotors' memory."""
 
     thrusts: Any
     rotors: Any

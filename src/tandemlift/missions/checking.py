@@ -18,7 +18,7 @@ from tandemlift.missions.values import MISSING, Place, Tables, shown, value_at
 from tandemlift.missions.writing import tables_of
 from tandemlift.settings import ControllerTable, Mission
 
-MAX_PROBLEMS = 8  # told of at once
+MAX_PROBLEMS = 8  # reported at once
 
 
 def check(tables: Tables, source: str = "mission", layers: Sequence[Layer] = ()) -> Mission:

@@ -50,7 +50,7 @@ def path_of(name: str | os.PathLike[str], folder: Path) -> Path:
 def _parsed(text: str) -> tuple[Tables, list[str]]:
     """The tables of a text by their new names, and which old names it uses.
 
-    They are kept for sweeps that load one mission many times; nobody changes them.
+    They are cached for sweeps that load one mission many times, and must not be modified.
     """
     return renamed_tables(tomllib.loads(text))
 

@@ -19,7 +19,7 @@ WIDTH = 3.0  # of a push, in standard deviations
 
 
 def check_hardware(m: Mission) -> None:
-    """Refuse rotors that cannot lift or fail as told, and what sensors and estimators cannot give.
+    """Refuse rotors that cannot lift the vehicle, and settings of faults, sensors and estimators that cannot be met.
 
     Raises:
         InputError: with the key, its value and what is allowed.
@@ -180,9 +180,9 @@ def _of_faults(m: Mission) -> Iterator[str]:
     weight, lift = weight_of(m), lift_of(m, faulty=True)
     if weight > lift:
         yield f"once all faults are there, the vehicle weighs {weight:.4g} N and its rotors lift {lift:.4g} N"
-    told = [i for i, f in enumerate(m.faults) if f.known_after is not None]
-    if told and m.allocation.method != "constrained":
-        yield f'faults.{told[0]}.known_after is of use only where allocation.method is "constrained"'
+    known = [i for i, f in enumerate(m.faults) if f.known_after is not None]
+    if known and m.allocation.method != "constrained":
+        yield f'faults.{known[0]}.known_after is of use only where allocation.method is "constrained"'
 
 
 def _of_ranges(m: Mission) -> Iterator[str]:

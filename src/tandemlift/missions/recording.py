@@ -19,7 +19,7 @@ from tandemlift.common.files import atomic_write
 from tandemlift.settings import Mission
 
 WIDTH = 14  # numbers of a `Held`
-ENGINE = "compiled"  # that a mission is flown in unless told otherwise
+ENGINE = "compiled"  # the default engine
 
 
 class Recording(NamedTuple):
@@ -63,7 +63,7 @@ def _check(path: str, recording: Recording) -> None:
 
 
 def engine_of(mission: Mission) -> str:
-    """The engine that a mission is flown in unless told otherwise: the one that its recording is from, if it has one.
+    """The default engine of a mission: the engine of its recording, if it has one.
 
     Raises:
         InputError: the recording cannot be read.

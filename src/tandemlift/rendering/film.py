@@ -218,7 +218,7 @@ def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progr
     path = Path(out)
     kind = path.suffix.lower()
     if kind not in SAMPLES:
-        raise InputError(f"{path}: a picture's name ends in .png, an animation's in .gif")
+        raise InputError(f"{path}: the name must end in .png (picture) or .gif (animation)")
     drawn = picture(flight, shot) if kind == ".png" else Animation(flight, shot)
     with atomic_write(path) as partial:
         if isinstance(drawn, Animation):

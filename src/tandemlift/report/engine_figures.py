@@ -1,6 +1,6 @@
 """One mission flown in several engines: the flights over each other, and how far they are from the first.
 
-Lines over each other are told apart by their widths: the first is the widest.
+Overlapping lines differ in width: the first is the widest.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ LOOKS: tuple[dict[str, Any], ...] = (
     {"color": GREEN, "lw": 0.8, "ls": (0, (4, 3))},
 )
 TALL, ROW = (1.6, 4.0), 1.15  # in: least and greatest height of the view from above, and of a panel over time
-FLOOR = 1e-12  # of a difference: what is less is none
-NAMES = {name: name.replace("_", " ").replace("estimate", "as felt") for name in QUANTITIES}
+FLOOR = 1e-12  # a smaller difference is not drawn
+NAMES = {name: name.replace("_", " ").replace("estimate", "estimated") for name in QUANTITIES}
 
 
 def _look(place: int) -> dict[str, Any]:

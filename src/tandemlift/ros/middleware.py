@@ -41,7 +41,7 @@ class Middleware(Protocol):
             topic: its name.
             kind: of its messages.
             latched: whether late subscribers get the last message.
-            depth: how many may wait for somebody who is slow.
+            depth: length of the queue for a slow subscriber.
         """
 
     def subscribe(self, topic: str, kind: str, handle: Callable[[Any], object]) -> None:
@@ -51,10 +51,10 @@ class Middleware(Protocol):
         """Answer a request without arguments, `std_srvs/Trigger`, in a thread of the middleware's."""
 
     def parameters(self) -> dict[str, Any]:
-        """The parameters that somebody has set and `keep` has not, by their keys with dots."""
+        """The parameters set from outside, not by `keep`, by dotted key."""
 
     def keep(self, values: Mapping[str, Any]) -> None:
-        """Let these be the values of the parameters."""
+        """Set the values of the parameters."""
 
     def shutdown(self) -> None:
         """Disconnect; nothing is sent or received any more."""

@@ -61,7 +61,7 @@ class Pushes:
             self._notify(f"push over: no message for {HELD:g} s")
 
     def let_go(self) -> None:
-        """Nobody pushes any more."""
+        """End the push."""
         self._until = math.inf
         self._push(np.zeros(3), np.zeros(3))
 

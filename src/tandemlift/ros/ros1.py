@@ -40,14 +40,14 @@ class Ros1:
         self.types = MessageTypes(self._class_of, numbered=True)
         self._seen: dict[str, Any] = {}
         self._kept: dict[str, Any] = {}
-        self._own: set[str] = set()  # parameters that nobody else has set
+        self._own: set[str] = set()  # parameters that only this node has set
 
     def _class_of(self, name: str) -> type:
         return getattr(self._rospy, OLD[name]) if name in OLD else message_type(name)
 
     @property
     def over(self) -> bool:
-        """Whether the node has been told to end."""
+        """Whether ROS is shutting the node down."""
         return self._rospy.is_shutdown()
 
     def advertise(self, topic: str, kind: str, *, latched: bool = False, depth: int = 1) -> TopicPublisher:
@@ -65,7 +65,7 @@ class Ros1:
         self._rospy.Service(name, Trigger, lambda request: Response(*answer()))
 
     def parameters(self) -> dict[str, Any]:
-        """Of the node's private namespace, what is not as it was kept."""
+        """The parameters of the node's private namespace that differ from the kept values."""
         tree = self._rospy.get_param("~", {})
         self._seen = found = dict(_leaves(tree)) if isinstance(tree, dict) else {}
         return {key: value for key, value in found.items() if key not in self._kept or self._kept[key] != value}
@@ -100,7 +100,7 @@ class _Publisher:
 
     @property
     def wanted(self) -> bool:
-        """Whether somebody listens, or may come late."""
+        """Whether the topic has subscribers, or is latched for late ones."""
         return self._latched or self._publisher.get_num_connections() > 0
 
 

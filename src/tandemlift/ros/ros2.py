@@ -23,9 +23,9 @@ from tandemlift.ros.middleware import Answer, TopicPublisher
 
 REQUEST, ANSWER, TEXT = f"{ROOT}/request", f"{ROOT}/answer", "std_msgs/String"
 PARAMETER, PAIR = f"{ROOT}/parameter", "diagnostic_msgs/KeyValue"
-DEPTH = 10  # messages that may wait, as in ROS 2 unless told otherwise
-NAP = 0.1  # s, for which we listen before we look whether to go on
-AGAIN = 0.2  # s, after which we look again whether anybody listens
+DEPTH = 10  # length of the message queue, the default of ROS 2
+NAP = 0.1  # s, timeout of a read, after which the loop checks whether to continue
+AGAIN = 0.2  # s, interval between checks for subscribers
 DOMAINS = 232  # the greatest domain whose ports there are
 
 log = logging.getLogger(__name__)
@@ -114,7 +114,7 @@ class Ros2:
                     log.exception("a message could not be handled")
 
     def _serve(self, what: str) -> None:
-        """Do what is asked for, and say what came of it."""
+        """Handle a request and publish its result."""
         answer = self._services.get(what)
         done, words = answer() if answer else (False, str(unknown("request", what, self._services)))
         self._answer.publish(self.types[TEXT](f"{'done' if done else 'refused'}: {words}"))
@@ -129,14 +129,14 @@ class _Writer:
 
     @property
     def wanted(self) -> bool:
-        """Whether somebody listens, or may come late."""
+        """Whether the topic has subscribers, or is latched for late ones."""
         now = time.monotonic()
         if not self._latched and now - self._looked > AGAIN:
             self._looked, self._wanted = now, bool(self._writer.get_matched_subscriptions())
         return self._latched or self._wanted
 
     def publish(self, message: Any) -> None:
-        """Send a message; to nobody if those who listen are too far behind."""
+        """Publish a message; it is dropped if subscribers are too slow."""
         from cyclonedds.core import DDSException
 
         try:

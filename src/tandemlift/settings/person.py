@@ -45,7 +45,7 @@ class PersonTable(Table):
     Model "grab" is a hand that is moved from outside. It holds on to a point of the vehicle by a spring of `stiffness`
     and `damping` to a target, smoothed by twice `lag`, or pushes with a given force, always within `max_force`; the
     other keys do not apply. Its movement is the file `recording`, a NumPy archive (.npz) with `engine` (the engine that
-    was flown in, which `tandemlift run` takes unless told otherwise), `step` (n,) int64, rising, and `hand` (n, 14)
+    was flown in, the default of `tandemlift run`), `step` (n,) int64, rising, and `hand` (n, 14)
     float64, which holds from that step on: holding on (1 or 0); grip [m, body axes, from the centre of mass]; its
     target [m] and a force [N], world axes; requests to lift, to land and to stop; whether the vehicle may respond to a
     push.
@@ -57,7 +57,7 @@ class PersonTable(Table):
         "who guides the vehicle by hand, and what the person leads along the path",
         rule='"pull" to "hold" need [[person.path]] or a corridor',
         choices={
-            "none": "nobody",
+            "none": "no person",
             "pull": "one hand leads the grip, and the vehicle follows like a trailer",
             "steer": "one hand at the grip leads the centre of mass",
             "two-hands": "two hands lead the payload's centre and turn the vehicle to each leg's heading",
@@ -129,6 +129,6 @@ class PersonTable(Table):
         None,
         None,
         'file of a recorded hand, for model "grab"; its path is relative to the mission file',
-        unset="nobody holds on",
+        unset="the hand does not hold the vehicle",
         example="hand.npz",
     )

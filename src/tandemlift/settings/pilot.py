@@ -1,4 +1,4 @@
-"""What the pilot is told to do: controller, admittance, allocation, phases, and which signals it reads."""
+"""Settings of the pilot: controller, admittance, allocation, phases, and the sources of its signals."""
 
 from __future__ import annotations
 

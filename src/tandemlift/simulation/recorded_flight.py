@@ -143,7 +143,7 @@ class RecordedFlight:
 
     @property
     def dt(self) -> float:
-        """Of a step [s]."""
+        """Duration of a step [s]."""
         return self._p.dt
 
     @property

@@ -121,7 +121,7 @@ def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> s
         return f"{ALARM_TEXTS[alarm]} -> {PHASE_NAMES[phase]}"
     if phase != before[0] or not refused:
         return PHASE_NAMES[phase] + (f": {CHECKS[refused - 1].text}" if refused else "")
-    return f"{'no lift' if phase == IDLE else 'does not listen'}: {CHECKS[refused - 1].text}"
+    return f"{'no lift' if phase == IDLE else 'guidance disabled'}: {CHECKS[refused - 1].text}"
 
 
 def _detection_metrics(p: FlightPlan, flown: RawResult) -> dict[str, Any]:

@@ -44,7 +44,7 @@ def test_of_two_viewers_one_holds(live):
             assert two.text("refused") == {
                 "type": "refused",
                 "what": "grab",
-                "reason": "somebody else holds the beam: wait until they let go",
+                "reason": "another page holds the beam: wait until it is released",
             }
         two.say(type="force", force=[1.0, 0.0, 0.0], point=[0.0, 0.0, 0.0])
         assert two.text("refused")["what"] == "force"

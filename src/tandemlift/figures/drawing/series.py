@@ -10,7 +10,7 @@ from tandemlift.common.types import Array
 Mask = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
-BUCKETS = 1200  # more than a printed column has dots to tell apart
+BUCKETS = 1200  # more than the distinguishable dots of a printed column
 DRAWABLE = 1e30  # beyond this a number says "diverged", and the drawing library overflows
 ROUNDING = 1e-9  # m, rad, m/s: errors below this are the arithmetic's, not the pilot's
 

@@ -1,4 +1,4 @@
-"""The style of the figures: sizes and type of a journal's columns, colours that everyone can tell apart, and saving.
+"""The style of the figures: sizes and type of a journal's columns, colours that everyone can distinguish, and saving.
 
 Sizes are in inches at print size. The colours are those of Okabe and Ito (2008). A figure is made, laid out and saved
 under one fixed style, whatever the settings of the machine are; no figure is ever registered with a window system.
@@ -28,12 +28,12 @@ GREEN = "#009E73"
 VERMILLION = "#D55E00"
 GREY = "#8c8c8c"
 PALE = "#d9d9d9"
-LIGHT_BLUE = "#a9d6f0"  # of areas, told apart from PALE in grey print by little only: use where both are labelled
+LIGHT_BLUE = "#a9d6f0"  # of areas; in grey print close to PALE: label both
 TAN = "#e0b878"  # of what is noisy and stands behind
 
 ACTUAL: dict[str, Any] = {"color": BLUE, "lw": 1.2}
 DESIRED: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (4, 2))}
-COMPONENTS: tuple[dict[str, Any], ...] = (  # told apart in grey print too, by their dashes
+COMPONENTS: tuple[dict[str, Any], ...] = (  # dashes distinguish them in grey print too
     {"color": BLUE, "lw": 1.0},
     {"color": VERMILLION, "lw": 1.0, "ls": (0, (5, 1.5))},
     {"color": GREEN, "lw": 1.1, "ls": (0, (1.2, 1.2))},

@@ -29,7 +29,7 @@ from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_ste
 
 
 class DisturbanceFilter(NamedTuple):
-    """Of three axes: bandwidth λ [1/s], and the largest slope L of the disturbance [unit of e/s²]."""
+    """Parameters of three axes: bandwidth λ [1/s], and the largest slope L of the disturbance [unit of e/s²]."""
 
     bandwidth: Vec3
     slope: Vec3

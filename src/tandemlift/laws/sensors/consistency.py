@@ -20,8 +20,8 @@ from tandemlift.laws.sensors.readings import ImuReading, MotionReading
 class Inconsistency(NamedTuple):
     """Memory of the differences of redundant measurements: attitude [rad, body axes], position [m], velocity [m/s].
 
-    And of what is compared with the next motion sample: the integrals of the rates, the velocity and the acceleration
-    since the last one.
+    It also holds the values to compare with the next motion sample: the integrals of the rates, the velocity and the
+    acceleration since the last one.
     """
 
     attitude: Vec3

@@ -61,7 +61,7 @@ class SensorHealth(NamedTuple):
 
 
 class SampleChecks(NamedTuple):
-    """Of a sample: 1 if a number in it is not finite, if one is out of range, if it is identical to the one before."""
+    """Checks of a sample: 1 if a number is not finite, if one is out of range, if the sample repeats the last one."""
 
     not_finite: Any
     out_of_range: Any

@@ -23,7 +23,7 @@ EMPTY: Mapping[str, Any] = MappingProxyType({})
 
 
 class SensorFault(NamedTuple):
-    """Of a sensor of a vector, or sets, a value for each joint: from step `start` until before step `end`.
+    """Faults of a sensor of a vector, or sets, a value for each joint: from step `start` until before step `end`.
 
     `frozen` is 1 if it repeats its last value, else 0. Else a reading x becomes x `keep` + `size` + `poison`, with
     `poison` 0 or NaN.
@@ -50,11 +50,11 @@ class ScalarFault(NamedTuple):
 
 
 class NoFault(NamedTuple):
-    """Of a channel that does not fail on its own."""
+    """The fault of a channel that does not fail on its own."""
 
 
 class DeviceFaults(NamedTuple):
-    """Of a device: no new sample from step `start` until before step `end`; and the faults of its channels."""
+    """Faults of a device: no new sample from step `start` until before step `end`; and the faults of its channels."""
 
     start: Any
     end: Any
@@ -62,7 +62,7 @@ class DeviceFaults(NamedTuple):
 
 
 class SensorFaults(NamedTuple):
-    """Of all devices; of the additional ones by name."""
+    """Faults of all devices; those of additional sensors by name."""
 
     imu: DeviceFaults
     motion: DeviceFaults

@@ -71,7 +71,7 @@ def check_may_tare(flight: RecordedFlight, phase: str) -> None:
     """Refuse a tare except in hover and without a push; `phase`: of the flight.
 
     Raises:
-        InputError: it does not hover, somebody holds the beam, or a tare is under way.
+        InputError: it does not hover, the beam is held, or a tare is under way.
     """
     if flight.now.estimator.tare == "clock":
         check_hands_off(flight)

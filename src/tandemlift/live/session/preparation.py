@@ -1,4 +1,4 @@
-"""What comes before a flight's first step, as a page is told of it."""
+"""The preparation of a flight before its first step, and its status for the page."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """One flight in real time, in a thread of its own, pushed by whoever holds the beam.
 
-Every method may be called from any thread. There is something to see before the flight is compiled. The flight waits
-for nobody: a change that takes long to prepare is prepared beside it.
+Every method may be called from any thread. Scene and status are available before the flight is compiled. The
+flight never waits: a change that takes long is prepared in another thread.
 """
 
 from __future__ import annotations
@@ -191,7 +191,7 @@ class Session:
         return self._handle(message) or []
 
     def release(self) -> None:
-        """Let go of the beam: nobody holds it any more."""
+        """Release the beam."""
         if self.is_ready:
             with self._lock:
                 self._hand.release()
