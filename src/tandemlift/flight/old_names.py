@@ -96,6 +96,8 @@ CHANNELS: dict[str, str] = {
 TOPICS: dict[str, str] = {"/tandemlift/push/heard": "/tandemlift/push/filtered"}
 """An old name of a topic in a bag and its new one."""
 
+MOST_NAMED, FIRST = 8, 3  # renamed things that a warning names: all of so many, else the first
+
 _IN_TABLE = {(new.rpartition(".")[0], old.rpartition(".")[2]): new.rpartition(".")[2] for old, new in KEYS.items()}
 _PLACES = {  # of all that was renamed, and of the tables around it, by their new names
     ".".join(parts[:depth]) for parts in (name.split(".") for name in (*KEYS.values(), *VALUES)) for depth in range(9)
@@ -188,7 +190,10 @@ def check_said_once(changes: Iterable[str]) -> None:
 
 
 def warn_of_old_names(source: str, notices: list[str]) -> None:
-    """Warn in one line of the old names that a source uses, if there are any."""
+    """Warn in one line of the old names that a source uses, if there are any; of many, the first and their number."""
+    if len(notices) > MOST_NAMED:
+        more = f"and {len(notices) - FIRST} others were renamed; `tandemlift explain OLD_KEY` prints a new name"
+        notices = [*notices[:FIRST], more]
     if notices:
         warnings.warn(f"{source}: {', '.join(notices)}", FlightWarning, stacklevel=3)
 
