@@ -47,12 +47,18 @@ import tandemlift as tl
 mission = tl.load_mission(sys.argv[1], json.loads(sys.argv[2]))
 def first(done, total): sys.exit()
 """
+PLAN = """
+try:
+    from tandemlift.simulation.plan import FlightPlan
+except ImportError:  # a base of before this folder
+    from tandemlift.prepared import Prepared as FlightPlan
+"""
 FIRST = f"{LOAD}tl.fly(mission, progress=first)"
 BEST = f"""{LOAD}
 import importlib.util
 if importlib.util.find_spec("tandemlift.trace"):
-    from tandemlift.simulation.plan import Prepared
-    code = Prepared(mission).kernels.loop(1)
+    exec({PLAN!r})
+    code = FlightPlan(mission).kernels.loop(1)
     while not code.is_best: tl.fly(mission)
 tl.fly(mission, progress=first)
 """

@@ -20,7 +20,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from compiling import HERE, PACKAGES, Checkout
+from compiling import HERE, PACKAGES, PLAN, Checkout
 from machine import NO_RESULT, describe, heading, number, save, table
 from waiting import PATIENCE
 
@@ -30,7 +30,11 @@ MISSIONS = (
 )
 PILOTS = ("paper", "iris")
 KINDS = ("alone", "block", "pilot")
-MEASURE = """
+MEASURE = (
+    f"""
+PLAN = {PLAN!r}
+"""
+    + """
 import importlib.util, json, sys, time, warnings
 from statistics import median
 warnings.simplefilter("ignore")
@@ -53,8 +57,8 @@ def lane(name, i):
 def step(name, kind, repeats=5):
     missions = [tl.load_mission(name)] if kind == "alone" else [lane(name, i) for i in range(8)]
     if traced:
-        from tandemlift.simulation.plan import Prepared
-        best(Prepared(missions[0]).kernels.loop(len(missions)))
+        exec(PLAN, globals())
+        best(FlightPlan(missions[0]).kernels.loop(len(missions)))
     found = []
     for _ in range(repeats + 1):
         flown = [tl.fly(missions[0]).metrics()] if kind == "alone" else tl.fly_many(missions, "metrics", threads=1)
@@ -78,6 +82,7 @@ def pilot(name):
 name, kind = sys.argv[1:]
 print(json.dumps(pilot(name) if kind == "pilot" else step(name, kind)))
 """
+)
 
 
 def measured(checkout: Checkout, cache: str, name: str, kind: str) -> float:
