@@ -1,7 +1,7 @@
 """A hand as it was moved, step by step: the file that a recorded mission names in `person.recording`.
 
 A NumPy archive (.npz) of `step` (n,), whole and rising, and `hand` (n, 14): from that step on, held, grip (3), target
-(3), force (3), lift, land, stop, enabled, as `virtual_hand.Held` has them; and `engine`, the one that it was
+(3), force (3), lift, land, stop, enabled, as in a `VirtualHandInput`; and `engine`, the one that it was
 recorded in ("compiled" where there is none).
 """
 
@@ -18,7 +18,7 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
 from tandemlift.settings import Mission
 
-WIDTH = 14  # numbers of a `Held`
+WIDTH = 14  # numbers of a `VirtualHandInput`
 ENGINE = "compiled"  # the default engine
 
 

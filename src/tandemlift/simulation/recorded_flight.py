@@ -167,7 +167,7 @@ class RecordedFlight:
         return self._stepper.lost
 
     def number(self, *path: str) -> float:
-        """A number of the flight's memory, by its path from `loop.Moving`."""
+        """A number of the flight's memory, by its path from `FlightState`."""
         return float(self._stepper.a[leaf_offset(self._stepper.p.model, "flight_state", *path).at])
 
     @property

@@ -129,7 +129,7 @@ def weights_of(effect: NDArray[np.float64], priorities: ArrayLike) -> NDArray[np
 
 
 def weighted_rows(effect: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
-    """W B (4 × n), C-contiguous, the rows of a `thrust_limits.BoundedProblem`."""
+    """W B (4 × n), C-contiguous, the rows of a `thrust_limit_solver.BoundedProblem`."""
     return np.ascontiguousarray(weights[:, None] * effect)
 
 
