@@ -25,10 +25,10 @@ from tandemlift.kernels.traced_step import TracedSolver
 from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
+from tandemlift.machine_code.functions import compiled
+from tandemlift.machine_code.machine import BEST, Loaded
+from tandemlift.machine_code.machine import compiled as machine_code
 from tandemlift.trace import Function, Module, double
-from tandemlift.trace.functions import compiled
-from tandemlift.trace.machine import BEST, Loaded
-from tandemlift.trace.machine import compiled as machine_code
 from tandemlift.vehicle import Vehicle
 
 PLACES = {

@@ -20,9 +20,9 @@ from tandemlift.algebra.vector import ZERO, Nothing, each
 from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.registry import engine_named
 from tandemlift.laws.mechanics.push import CentralPush, PushSamples
+from tandemlift.machine_code.functions import compiled
 from tandemlift.studies.engine_comparison import angles_between, differences, fly_in
 from tandemlift.trace import traced
-from tandemlift.trace.functions import compiled
 from tandemlift.vehicle import Vehicle
 
 NONE, NO_AIR, NO_PUSH = Nothing(), np.zeros(0), np.zeros(3)

@@ -7,7 +7,7 @@ import pytest
 
 from tandemlift.cli import console
 from tandemlift.cli.console import CompileNotices
-from tandemlift.trace.compile_events import Compiled, publish, watching
+from tandemlift.machine_code.compile_events import Compiled, publish, watching
 
 LOOP = Compiled("flight loop", 0.5, is_made=True)
 

@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 
 import tandemlift as tl
 from tandemlift.algebra.vector import Quat, Vec3
+from tandemlift.assembly.assemble import assemble
 from tandemlift.controllers.sliding_surface import (
     Cubic,
     Power,
@@ -27,7 +28,6 @@ from tandemlift.controllers.sliding_surface import (
     wanted_acceleration,
 )
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates
-from tandemlift.simulation.assemble import assemble
 
 XI, ETA = (4.0, 2.0, 11.0, 25.0, 80.0, 25.0), (0.2, 0.1, 0.2, 0.2, 0.2, 0.2)
 L1, L2 = (0.2, 0.1, 200.0, 40.0, 40.0, 40.0), (2.0, 1.0, 100.0, 30.0, 30.0, 30.0)

@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Quat, Vec3
+from tandemlift.assembly.assemble import assemble
 from tandemlift.controllers import Measured, Reference, control
 from tandemlift.controllers.attitude_reference import (
     AttitudeReference,
@@ -38,7 +39,6 @@ from tandemlift.laws.mechanics.rotation import (
     wrap_angle,
 )
 from tandemlift.laws.signals.trajectories import Trajectory
-from tandemlift.simulation.assemble import assemble
 
 DRAG = Vec3(0.1, 0.2, 0.3)
 

@@ -10,8 +10,8 @@ from law_values import flat, rebuilt
 
 import tandemlift as tl
 from tandemlift.algebra.vector import Quat, Vec3
+from tandemlift.assembly.assemble import assemble
 from tandemlift.loop.step import step_flight
-from tandemlift.simulation.assemble import assemble
 
 SETTINGS: dict[str, tuple[str, dict[str, Any]]] = {
     "paper": ("paper", {}),

@@ -12,8 +12,8 @@ from machine_code import answers
 
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
+from tandemlift.assembly.assemble import assemble
 from tandemlift.loop.step import FlightModel, StepInputs, step_flight
-from tandemlift.simulation.assemble import assemble
 
 IDEAL: dict[str, dict[str, Any]] = {
     "tanh, hard gate, zero derivatives, exact rates, exact tilt, cubic, diagonal inertia, central pushes": {},

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
+from tandemlift.assembly.assemble import assemble
 from tandemlift.laws.mechanics.contact import sinkage_of, standing_height
 from tandemlift.missions import built_in, load_mission
 from tandemlift.missions.checks import sample_size
 from tandemlift.missions.hardware_checks import lift_of, weight_of
 from tandemlift.missions.surroundings_checks import standing_of
-from tandemlift.simulation.assemble import assemble
 from tandemlift.simulation.plan import FlightPlan
 
 WEAK = [{"quadrotor": 1, "rotor": r, "time": 1.0, "efficiency": 0.1, "known_after": 0.0} for r in (1, 2, 3)]

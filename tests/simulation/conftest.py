@@ -9,7 +9,7 @@ import tandemlift as tl
 from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.controllers import CONTROLLERS, Measured, Reference, control, nftsmc, register
 from tandemlift.kernels import COMMAND
-from tandemlift.trace.functions import compiled
+from tandemlift.machine_code.functions import compiled
 
 SIZE = leaves(COMMAND)
 

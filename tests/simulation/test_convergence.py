@@ -6,11 +6,11 @@ from scipy.integrate import solve_ivp
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, hamilton
+from tandemlift.assembly.assemble import assemble
 from tandemlift.laws.mechanics.push import CentralPush
 from tandemlift.laws.mechanics.rigid_body import State, motion
 from tandemlift.laws.rotors.allocation import wrench
 from tandemlift.pilot.pilot import PilotInput, decide
-from tandemlift.simulation.assemble import assemble
 
 DURATION = 6.0  # s: the lift of `paper`, from 2 to 8 s
 

@@ -9,6 +9,7 @@ from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.algebra.vector import ZERO
+from tandemlift.assembly.assemble import assemble
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN
 from tandemlift.laws.mechanics.push import PushSamples, push_at
 from tandemlift.laws.mechanics.wall_geometry import WALL
@@ -19,7 +20,6 @@ from tandemlift.laws.sensors.readings import Readings
 from tandemlift.laws.signals.random_numbers import normals
 from tandemlift.loop.step import StepInputs, finish_step, run_pilot, with_person
 from tandemlift.pilot.pilot import with_allocation
-from tandemlift.simulation.assemble import assemble
 
 
 def different(a: tl.Flight, b: tl.Flight) -> list[str]:

@@ -9,13 +9,13 @@ from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing
+from tandemlift.assembly.assemble import assemble
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS, SYMPTOMS
 from tandemlift.common.phases import PHASE_NAMES, PHASES
 from tandemlift.laws.estimation.disturbance_observer import NONE
 from tandemlift.laws.guidance.guidance import PilotInput, checked_input, guide
 from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.settings.supervision import SupervisionTable
-from tandemlift.simulation.assemble import assemble
 
 TEXT = (ROOT / "docs" / "safety.md").read_text("utf-8")
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle

@@ -10,9 +10,9 @@ from patience import COMPILING
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
 from tandemlift.kernels import LANES, FlightMemory
+from tandemlift.machine_code import code, store
 from tandemlift.simulation import fly, plan
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.trace import code, store
 
 
 @pytest.fixture

@@ -21,9 +21,9 @@ from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import AllocationState, Mixer, weighted_rows, weights_of
 from tandemlift.laws.rotors.normal_equations import GAMMA
 from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem
+from tandemlift.machine_code.machine import BEST, QUICK, Loaded
+from tandemlift.machine_code.machine import compiled as object_code
 from tandemlift.trace import Function, Module, Place
-from tandemlift.trace.machine import BEST, QUICK, Loaded
-from tandemlift.trace.machine import compiled as object_code
 from tandemlift.vehicle import Vehicle
 
 PRIORITIES = (30.0, 900.0, 900.0, 1.0)

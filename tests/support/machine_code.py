@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.layout import flat, leaves, rebuilt
+from tandemlift.machine_code.functions import compiled
+from tandemlift.machine_code.machine import BEST, Level, Loaded
+from tandemlift.machine_code.machine import compiled as object_code
 from tandemlift.trace import Function, Graph, Module, symbols
-from tandemlift.trace.functions import compiled
 from tandemlift.trace.fused import fused
-from tandemlift.trace.machine import BEST, Level, Loaded
-from tandemlift.trace.machine import compiled as object_code
 
 STEPS = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_int64)
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tandemlift.algebra import ops
-from tandemlift.trace.functions import compiled as machine_code
+from tandemlift.machine_code.functions import compiled as machine_code
 
 COUNT = 4000
 

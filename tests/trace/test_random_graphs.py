@@ -16,9 +16,9 @@ from odd_numbers import any_number, bits
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import each
 from tandemlift.kernels.context import aligned
+from tandemlift.machine_code.machine import BEST, QUICK, Loaded, compiled
 from tandemlift.trace import Function, Graph, Module, Place, Symbol
 from tandemlift.trace.elementary import floor
-from tandemlift.trace.machine import BEST, QUICK, Loaded, compiled
 from tandemlift.trace.symbol import fma
 
 LANES, INPUTS, SHARED, OPERATIONS, ROWS = 8, 5, 2, 60, 24

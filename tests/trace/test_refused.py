@@ -13,8 +13,8 @@ import tandemlift as tl
 from tandemlift.algebra.law import LAWS, law
 from tandemlift.algebra.vector import Vec3
 from tandemlift.controllers import CONTROLLERS, load_controller
+from tandemlift.machine_code.functions import compiled, written
 from tandemlift.trace import TraceError, graph
-from tandemlift.trace.functions import compiled, written
 
 GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
 LAW, _ = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)

@@ -10,9 +10,9 @@ from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, clip, exp, greatest, maximum, sqrt, tanh, where
 from tandemlift.algebra.vector import Vec3, cross, dot, each, quarters, set_of, total
 from tandemlift.kernels import traced_step
+from tandemlift.machine_code.functions import compiled
+from tandemlift.machine_code.machine import BEST, QUICK
 from tandemlift.simulation.plan import KERNELS
-from tandemlift.trace.functions import compiled
-from tandemlift.trace.machine import BEST, QUICK
 
 ROWS = 13
 

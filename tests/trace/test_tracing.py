@@ -15,10 +15,10 @@ from odd_numbers import any_number, bits
 from tandemlift.algebra.law import Elementwise, Nothing, choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, minimum, where
 from tandemlift.algebra.vector import Vec3, dot
+from tandemlift.machine_code.functions import compiled, written
+from tandemlift.machine_code.machine import BEST, QUICK
 from tandemlift.trace import Graph, Symbol, elementary, symbols, traced
-from tandemlift.trace.functions import compiled, written
 from tandemlift.trace.fused import fused
-from tandemlift.trace.machine import BEST, QUICK
 from tandemlift.trace.symbol import once_rounded
 
 FUSED = "llvm.fma"

@@ -14,7 +14,7 @@ from typing import Any
 
 import click
 
-from tandemlift.trace.compile_events import Compiled
+from tandemlift.machine_code.compile_events import Compiled
 
 PATIENCE = 2.0  # s of compiling, after which a notice appears before the end
 LEAST = 0.1  # s, less than which no notice appears

@@ -23,7 +23,7 @@ from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run
 from tandemlift.cli.validate import validate
 from tandemlift.common.errors import FlightWarning, InputError, suggestion
-from tandemlift.trace.compile_events import watching
+from tandemlift.machine_code.compile_events import watching
 
 BAD_INPUT = 2
 INTERRUPTED = 130  # as shells report it

@@ -11,20 +11,20 @@ from tandemlift.kernels.offsets import delayed_spans
 from tandemlift.kernels.templates import PythonController, templates_from
 from tandemlift.kernels.traced_step import TracedStep
 from tandemlift.loop.step import FlightModel, StepInputs
-from tandemlift.trace import machine
-from tandemlift.trace.code import Code, Written
-from tandemlift.trace.compile_events import always
-from tandemlift.trace.store import key_of
+from tandemlift.machine_code import machine
+from tandemlift.machine_code.code import Code, Written
+from tandemlift.machine_code.compile_events import always
+from tandemlift.machine_code.store import key_of
 
 
 class Kernels:
     """The compiled loops for flights laid out like `model`, with inputs laid out like `given`.
 
-    Each loop is compiled when it is first asked for.
+    Each loop is compiled when it is first asked for. `fuses`: whether a·b + c is rounded once.
     """
 
-    def __init__(self, model: FlightModel, given: StepInputs) -> None:
-        self.templates = templates_from(model, given)
+    def __init__(self, model: FlightModel, given: StepInputs, *, fuses: bool = True) -> None:
+        self.templates, self.fuses = templates_from(model, given), fuses
         self.delayed = delayed_spans(self.templates.model)
         self._lock, self._codes = threading.RLock(), dict[tuple[str, int], Code]()
 
@@ -35,7 +35,7 @@ class Kernels:
 
     @cached_property
     def _traced(self) -> TracedStep:
-        return TracedStep(self.templates, self.calls_python)
+        return TracedStep(self.templates, self.calls_python, fuses=self.fuses)
 
     def loop(self, lanes: int, going: Callable[[], bool] = always) -> Code:
         """`fly`, the loop over steps, for one flight or for a block of LANES; compiled only while `going()` is true.
@@ -54,7 +54,7 @@ class Kernels:
         with self._lock:
             if (kind, number) not in self._codes:
                 x = self.templates
-                key = key_of((x.model, x.given), kind, number, x.nowhere)
+                key = key_of((x.model, x.given), kind, number, x.nowhere, self.fuses)
                 best = machine.BEST_OF_VECTORS if kind == "loop" and number > 1 else machine.BEST
                 self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number), best, going)
             return self._codes[kind, number]

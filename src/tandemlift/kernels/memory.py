@@ -13,7 +13,7 @@ from tandemlift.kernels.context import AT, WORDS, aligned
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
 from tandemlift.laws.mechanics.wall_geometry import WALL
 from tandemlift.laws.person.person import PATH_LEG
-from tandemlift.trace.code import Code
+from tandemlift.machine_code.code import Code
 
 Numbers = NDArray[np.float64]
 IDLE = InputTables(GAUSSIAN._replace(per_sigma=1.0), GUST, WALL, PATH_LEG)  # rows without effect

@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 from tandemlift.kernels.compiled_limit_solver import write_limits, write_solver
 from tandemlift.kernels.traced_step import check_layout, graph_for, limit_thrusts
 from tandemlift.laws.rotors.allocation import ConstrainedAllocation
+from tandemlift.machine_code.code import Written
 from tandemlift.pilot.pilot import PilotMemory, PilotParameters, decide
-from tandemlift.trace import Function, Module, Place, symbols, traced, written_out
-from tandemlift.trace.code import Written
+from tandemlift.trace import Function, Module, Place, symbols, tracer, written_out
 
 POINTERS = ("numbers", "pilot_input", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
 
@@ -39,12 +39,12 @@ class PilotSample(NamedTuple):
 class PilotSampler:
     """A traced sample of a pilot; inputs: `pilot`, `pilot_input`, `dt`, and `solved`, the limit solver's result."""
 
-    def __init__(self, onboard: PilotData, pilot_input: Any, quadrotors: int) -> None:
-        self.graph = graph_for(quadrotors)
+    def __init__(self, onboard: PilotData, pilot_input: Any, quadrotors: int, *, fuses: bool = True) -> None:
+        self.graph, self.trace = graph_for(quadrotors), tracer(fuses)
         pilot, dt = self.input_of("pilot", onboard), self.graph.input("dt")
         t = pilot.samples * dt
         decided = PilotSample(
-            *traced(decide)(pilot.parameters, pilot.memory, self.input_of("pilot_input", pilot_input), t, dt)
+            *self.trace(decide)(pilot.parameters, pilot.memory, self.input_of("pilot_input", pilot_input), t, dt)
         )
         self.limits = None
         if isinstance(onboard.parameters.allocation, ConstrainedAllocation):

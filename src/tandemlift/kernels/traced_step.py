@@ -40,7 +40,7 @@ from tandemlift.loop.step import (
     with_person,
 )
 from tandemlift.pilot.pilot import control_input, with_allocation, with_command, with_thrusts
-from tandemlift.trace import Graph, Symbol, TraceError, refused, symbols, traced, written_out
+from tandemlift.trace import Graph, Symbol, TraceError, refused, symbols, tracer, written_out
 
 Symbols = list[Symbol]
 MANY = 5  # quadrotors from which on sets are arrays in memory, and operations on them loops
@@ -124,10 +124,12 @@ class TracedStep:
     Args:
         templates: the layouts of what passes through a step.
         calls_python: whether a controller in Python is called in the middle of the step.
+        fuses: whether a·b + c is rounded once.
     """
 
-    def __init__(self, templates: Templates, calls_python: bool = False) -> None:
+    def __init__(self, templates: Templates, calls_python: bool = False, *, fuses: bool = True) -> None:
         self.templates, self.calls_python = templates, calls_python
+        self.trace = tracer(fuses)
         self.graph = graph_for(len(templates.model.plant.frame.mass))
         self.model = self.input_of("fly", templates.model)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
@@ -138,18 +140,18 @@ class TracedStep:
             self.model.flight_state.person,
             self.input_of("external", templates.given.external),
         )
-        self.given = traced(with_person)(self.model, outer, self.t, self.dt)
+        self.given = self.trace(with_person)(self.model, outer, self.t, self.dt)
         self.asked: Symbols = []
         output = (
             self._ask_python()
             if calls_python
-            else traced(run_pilot)(self.model, self.given.hand.start, self.t, self.dt)
+            else self.trace(run_pilot)(self.model, self.given.hand.start, self.t, self.dt)
         )
         self.limits: LimitProblem | None = None
         if templates.has_thrust_limits:
             output = self._limit_thrusts(output)
-        output = traced(with_caller_thrusts)(output, self.given.external)
-        acting = traced(actuate)(self.model, output.decision.thrusts, self.given, self.t)
+        output = self.trace(with_caller_thrusts)(output, self.given.external)
+        acting = self.trace(actuate)(self.model, output.decision.thrusts, self.given, self.t)
         self.body = BodyInputs(self.numbers(acting), self._mean_push())
         self.body_in_contact, self.body_in_free_air = (
             self.numbers(self._stepped_body(self.model.plant, acting)),
@@ -159,7 +161,7 @@ class TracedStep:
             self.body_in_free_air = self.numbers(self._stepped_body(without_contact(self.model.plant), acting))
         self.may_touch_walls = [self._may_touch_walls(acting)] if templates.has_walls else []
         moved = self.input_of("moved", templates.moved)
-        after, sample = traced(finish_sample)(self.model, output, acting, moved, self.given)
+        after, sample = self.trace(finish_sample)(self.model, output, acting, moved, self.given)
         check_layout(self.model.pilot.controller, templates.model.flight_state, written_out(after))
         self.next_state, self.sample = self.numbers(after), self.numbers(sample)
 
@@ -173,12 +175,12 @@ class TracedStep:
 
     def _ask_python(self) -> PilotOutput:
         f, push, t, dt = self.model, self.given.hand.start, self.t, self.dt
-        estimates, pilot_input, estimator = traced(perceive)(f, push, t, dt)
+        estimates, pilot_input, estimator = self.trace(perceive)(f, push, t, dt)
         memory = f.flight_state.memory
-        briefed = traced(control_input)(f.pilot, memory, pilot_input, t, dt)
+        briefed = self.trace(control_input)(f.pilot, memory, pilot_input, t, dt)
         self.asked = [*self.numbers(briefed.measured), *self.numbers(briefed.guidance.reference)]
         command = self.input_of("answer", COMMAND)
-        decision, memory = traced(with_command)(f.pilot, memory, briefed, command, memory.controller)
+        decision, memory = self.trace(with_command)(f.pilot, memory, briefed, command, memory.controller)
         return PilotOutput(estimates, pilot_input.state.attitude, decision, memory, estimator)
 
     def _limit_thrusts(self, output: PilotOutput) -> PilotOutput:
@@ -188,21 +190,21 @@ class TracedStep:
         return output._replace(decision=decision, memory=memory)
 
     def _stepped_body(self, plant: Any, acting: Any) -> Any:
-        return traced(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.dt)
+        return self.trace(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.dt)
 
     def _may_touch_walls(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""
         before, plant, dt = self.model.flight_state, self.model.plant, self.dt
         free, air = without_contact(plant), acting.wind.loads
         args = before.state, before.grip, before.near, acting.thrusts, air, self.given.hand
-        rate = traced(first_motion)(free, *args)
-        room = traced(clearance)(plant.walls, before.near, plant.frame, before.state)
-        return traced(may_touch_wall)(plant.walls, room, before.state, rate, dt)
+        rate = self.trace(first_motion)(free, *args)
+        room = self.trace(clearance)(plant.walls, before.near, plant.frame, before.state)
+        return self.trace(may_touch_wall)(plant.walls, room, before.state, rate, dt)
 
     def _mean_push(self) -> Symbols:
         hand, attitude = self.given.hand, self.model.flight_state.state.attitude
         mean = (hand.start + hand.middle * 4.0 + hand.end) * (1.0 / 6.0)
-        return [*self.numbers(mean.force), *self.numbers(traced(push_moment)(mean, attitude))]
+        return [*self.numbers(mean.force), *self.numbers(self.trace(push_moment)(mean, attitude))]
 
     # values computed before the step
 
@@ -215,7 +217,7 @@ class TracedStep:
     def push(self) -> Symbols:
         """A row of the table of pushes at the time `when`."""
         return self.numbers(
-            traced(push_at)(self.templates.given.hand.start, self.input_of("push", GAUSSIAN), self.when)
+            self.trace(push_at)(self.templates.given.hand.start, self.input_of("push", GAUSSIAN), self.when)
         )
 
     @cached_property
@@ -226,33 +228,35 @@ class TracedStep:
     @cached_property
     def gust(self) -> Symbols:
         """The velocity of a row of the table of gusts."""
-        return self.numbers(traced(gust_velocity)(self.input_of("gusts", GUST), self.t))
+        return self.numbers(self.trace(gust_velocity)(self.input_of("gusts", GUST), self.t))
 
     @cached_property
     def normals(self) -> list[Symbols]:
         """The standard normals of step `number`, four for each draw."""
         number, keys = self.graph.input("number", type="i"), [self.graph.input("key", i) for i in (0, 1)]
-        return [self.numbers(traced(normals)(number, i, *keys)) for i in range(draw_count(self.templates.given.noise))]
+        draws = range(draw_count(self.templates.given.noise))
+        return [self.numbers(self.trace(normals)(number, i, *keys)) for i in draws]
 
     @cached_property
     def nearest(self) -> Symbols:
         """The nearest walls once a row of the table of walls was looked at."""
         f, wall = self.model, self.input_of("wall", WALL)
         return self.numbers(
-            traced(nearest_with)(f.plant.walls, wall, f.flight_state.near, f.plant.frame, f.flight_state.state)
+            self.trace(nearest_with)(f.plant.walls, wall, f.flight_state.near, f.plant.frame, f.flight_state.state)
         )
 
     @cached_property
     def may_touch_floor(self) -> Symbol:
         """Whether a foot may touch the floor within the steps of a span."""
-        return traced(may_touch)(self.model.plant.floor, self.model.flight_state.state, self.dt * float(SPAN))
+        return self.trace(may_touch)(self.model.plant.floor, self.model.flight_state.state, self.dt * float(SPAN))
 
 
 def limit_thrusts(owner: Any, pilot: Any, held: Any, output: Any, t: Any) -> Any:
     """(`LimitProblem`, a decision within them, the memory after it); `held`: the pilot's memory before.
 
     Args:
-        owner: of the graph; it gives the symbols of an input by `input_of`, and those of a value by `numbers`.
+        owner: of the graph; it gives the symbols of an input by `input_of`, those of a value by `numbers`, and the
+            traced form of a law by `trace`.
         pilot: its parameters.
         held: its memory before.
         output: with its decision and its memory after it, without limits.
@@ -260,8 +264,8 @@ def limit_thrusts(owner: Any, pilot: Any, held: Any, output: Any, t: Any) -> Any
     """
     how, decision = pilot.allocation, output.decision
     wished = decision.thrusts
-    limits = traced(limits_at)(how, traced(left_of)(pilot.detection, held.detection), t)
-    outside = total(traced(outside_limits)(wished, limits)) > 0.0
+    limits = owner.trace(limits_at)(how, owner.trace(left_of)(pilot.detection, held.detection), t)
+    outside = total(owner.trace(outside_limits)(wished, limits)) > 0.0
     problem, plain, before = (
         BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits),
         AllocationState(wished * 0.0, wished),
@@ -272,5 +276,6 @@ def limit_thrusts(owner: Any, pilot: Any, held: Any, output: Any, t: Any) -> Any
     solver = TracedSolver(written_out(problem), owner.graph.rolls_from)
     needs = LimitProblem(outside, owner.numbers(problem), owner.numbers(plain), owner.numbers(search), solver)
     solved = owner.input_of("solved", written_out(plain))
-    commands = traced(with_trials)(pilot.detection, held.detection, traced(rotor_commands)(how, solved.thrusts, t), t)
-    return needs, traced(with_thrusts)(decision, commands), traced(with_allocation)(output.memory, solved)
+    wanted = owner.trace(rotor_commands)(how, solved.thrusts, t)
+    commands = owner.trace(with_trials)(pilot.detection, held.detection, wanted, t)
+    return needs, owner.trace(with_thrusts)(decision, commands), owner.trace(with_allocation)(output.memory, solved)

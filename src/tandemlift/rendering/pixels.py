@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.machine_code.code import Code, Written
+from tandemlift.machine_code.store import PACKAGE, key_of
 from tandemlift.trace import Function, Graph, Module
-from tandemlift.trace.code import Code, Written
-from tandemlift.trace.store import PACKAGE, key_of
 
 LANES = 8  # columns that one vector instruction processes
 RAMP = f"<{', '.join(f'i64 {j}' for j in range(LANES))}>"

@@ -17,13 +17,13 @@ from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import LANES, FlightMemory
 from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.machine_code.compile_events import Stopped, always
 from tandemlift.missions.recording import engine_of
 from tandemlift.settings import Mission
 from tandemlift.simulation.parameter_changes import changes_in_flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
 from tandemlift.simulation.stepping import body_in, fly_stepwise
-from tandemlift.trace.compile_events import Stopped, always
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
 FIRST_STRETCH = 5_000  # steps of the first stretch

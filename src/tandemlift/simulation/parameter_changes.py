@@ -66,7 +66,8 @@ def _kept(p: FlightPlan) -> tuple[Any, ...]:
     rest = flight_state._replace(memory=flight_state.memory._replace(controller=Nothing()))
     data = (plant, *p.tables, p.delays, p.seeds)
     numbers = [np.asarray(_numbers(x)).tobytes() for x in data]
-    return layout(rest), layout(plant), layout(p.given), layout(p.model.person), p.steps, p.every, p.dt, numbers
+    grid = p.steps, p.every, p.dt, p.mission.mission.fused
+    return layout(rest), layout(plant), layout(p.given), layout(p.model.person), *grid, numbers
 
 
 def _numbers(value: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from functools import cached_property
 
@@ -16,11 +17,11 @@ from tandemlift.kernels.context import aligned
 from tandemlift.kernels.pilot_sampling import PilotData, PilotSampler
 from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.machine_code.code import Code
+from tandemlift.machine_code.store import key_of
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.pilot.pilot import PilotInput
 from tandemlift.settings import Mission
-from tandemlift.trace.code import Code
-from tandemlift.trace.store import key_of
 from tandemlift.vehicle import Vehicle
 
 INPUT = PilotInput(
@@ -48,15 +49,16 @@ class Pilot:
         if type(parameters.controller) in control.interpreted:
             raise InputError(f"controller {mission.controller.name!r} is plain Python; write it as a law to use Pilot")
         self._start = PilotData(0.0, memory, parameters)
-        self._dt = mission.mission.step
+        self._dt, self._fuses = mission.mission.step, mission.mission.fused
         self._numbers = np.array(flat(self._start))
         self.thrusts: Array = np.zeros(vehicle.rotor_count)
         self._input = np.zeros(leaves(INPUT))
 
     @cached_property
     def _sample(self) -> Callable[[], int]:
-        start, quadrotors = self._start, len(self.thrusts) // 4
-        code = Code(key_of(start, "sample"), ["sample"], lambda: PilotSampler(start, INPUT, quadrotors).written())
+        start, quadrotors, fuses = self._start, len(self.thrusts) // 4, self._fuses
+        sampler = functools.partial(PilotSampler, start, INPUT, quadrotors, fuses=fuses)
+        code = Code(key_of(start, "sample", fuses), ["sample"], lambda: sampler().written())
         self._work = aligned(code.about["size"])
         arrays = (self._numbers, self._input, self.thrusts, self._work)
         self._context = np.array([a.ctypes.data for a in arrays] + [0], dtype=np.int64)

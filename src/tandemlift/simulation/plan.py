@@ -10,12 +10,12 @@ import numpy as np
 
 from tandemlift.algebra.layout import flat
 from tandemlift.algebra.vector import ZERO, each, layout
+from tandemlift.assembly.assemble import assemble
 from tandemlift.controllers import NoMemory, control
 from tandemlift.flight.record import LATE
 from tandemlift.kernels import FlightStart, Kernels, PythonController, TimeGrid
 from tandemlift.laws.person.caller_inputs import CallerInput
 from tandemlift.settings import Mission
-from tandemlift.simulation.assemble import assemble
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
@@ -54,8 +54,8 @@ class FlightPlan:
 
     @cached_property
     def variant(self) -> Any:
-        """The key of the compiled loop: the types, not the values, of the flight's members and inputs."""
-        return layout(self.model), layout(self.given)
+        """The key of the compiled loop: the types, not the values, of its members and inputs; and its rounding."""
+        return layout(self.model), layout(self.given), self.mission.mission.fused
 
     @property
     def sample(self) -> Any:
@@ -71,7 +71,7 @@ class FlightPlan:
     def kernels(self) -> Kernels:
         """The compiled loops of this variant."""
         if self.variant not in KERNELS:
-            KERNELS[self.variant] = Kernels(self.model, self.given)
+            KERNELS[self.variant] = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
         return KERNELS[self.variant]
 
     def start(self) -> FlightStart:

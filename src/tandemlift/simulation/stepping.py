@@ -18,10 +18,10 @@ from tandemlift.controllers import control
 from tandemlift.engines.registry import EngineBody, WaitingBody, engine_named
 from tandemlift.kernels import GIVEN, FlightMemory, leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.machine_code.compile_events import Stopped, always
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, take_metrics
-from tandemlift.trace.compile_events import Stopped, always
 from tandemlift.vehicle import Vehicle
 
 PROGRESS_EVERY = 1000  # steps

@@ -1,12 +1,11 @@
-"""The compiler of the laws: it traces them into a graph and makes machine code of the graph.
+"""The tracer of the laws: it writes them as a graph, and the graph as LLVM text.
 
 `symbol` and `graph` build the graph; `fused` makes the copy of a law that is traced; `elementary` has the functions
-without a machine instruction; `llvm` writes the graph as text; `machine` compiles the text; `code` manages machine code
-in two tiers; `store` keeps it on disk.
+without a machine instruction; `llvm` writes the graph as text, which `machine_code` compiles.
 """
 
 from tandemlift.trace import elementary  # gives symbols their functions
-from tandemlift.trace.fused import traced
+from tandemlift.trace.fused import rounded_twice, traced, tracer
 from tandemlift.trace.graph import LEAVES, Graph, symbols, written_out
 from tandemlift.trace.llvm import Function
 from tandemlift.trace.refusal import TraceError, refused
@@ -25,7 +24,9 @@ __all__ = [
     "double",
     "elementary",
     "refused",
+    "rounded_twice",
     "symbols",
     "traced",
+    "tracer",
     "written_out",
 ]

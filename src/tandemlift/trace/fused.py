@@ -3,18 +3,23 @@
 A compiler could contract products and sums differently for one flight and for a block of flights. Here the choice is
 made once, in the source of the law, so that all machine code rounds alike. Plain Python runs the unfused source. A law
 whose source cannot be read, or that is defined inside another function, is traced unfused.
+
+Processors without a fused multiply-add, and WebAssembly, need code that rounds products and sums one by one: what is
+traced by `rounded_twice` has the same bits on all of them.
 """
 
 from __future__ import annotations
 
 import ast
 import builtins
+import copy
 import functools
 import linecache
 import threading
 import traceback
 import types
 from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from typing import Any, TypeGuard
 
 from tandemlift.algebra.law import LAWS, Choice, Elementwise
@@ -25,6 +30,7 @@ from tandemlift.trace.symbol import Symbol, fma
 
 FMA = "_fma_"
 ONE_AT_A_TIME = threading.RLock()
+FUSES: ContextVar[bool] = ContextVar("fuses", default=True)  # whether a·b + c is rounded once
 
 
 class _Fuse(ast.NodeTransformer):
@@ -88,14 +94,18 @@ def _bare(given: ast.arguments) -> ast.arguments:
     return ast.arguments(first, others, many, last, [None] * len(last), named, [])
 
 
-@functools.cache
 def fused(function: Callable[..., Any]) -> Callable[..., Any]:
-    """The fused copy of a law, which calls the traced forms of other laws."""
+    """The copy of a law that is traced, which calls the traced forms of other laws; fused unless `FUSES` is false."""
+    return _copy(function, FUSES.get())
+
+
+@functools.cache
+def _copy(function: Callable[..., Any], fuses: bool) -> Callable[..., Any]:
     with ONE_AT_A_TIME:
         node = _source(function)
         if node is None:
             return function
-        body = [_Fuse().visit(line) for line in node.body]
+        body = [_Fuse().visit(line) for line in copy.deepcopy(node.body)] if fuses else node.body
         definition = ast.FunctionDef(node.name, _bare(node.args), body, [], None)
         tree = ast.fix_missing_locations(ast.Module([ast.copy_location(definition, node)], []))
         module = compile(tree, function.__code__.co_filename, "exec", dont_inherit=True)
@@ -106,9 +116,9 @@ def fused(function: Callable[..., Any]) -> Callable[..., Any]:
     scope |= {"__builtins__": builtins, FMA: fma}
     if "int" in used:
         scope["int"] = _elementary("to_integer")
-    copy = types.FunctionType(code, scope, function.__name__, function.__defaults__)
-    copy.__kwdefaults__ = function.__kwdefaults__
-    return copy
+    made = types.FunctionType(code, scope, function.__name__, function.__defaults__)
+    made.__kwdefaults__ = function.__kwdefaults__
+    return made
 
 
 def _elementary(name: str) -> Callable[..., Any]:
@@ -150,3 +160,22 @@ def traced(thing: Any) -> Any:
         if thing in _marked(len(LAWS)):
             return functools.partial(_run, thing)
     return thing
+
+
+def rounded_twice(thing: Any) -> Any:
+    """The traced form of a law in which a·b + c is rounded after the product and after the sum."""
+    run = traced(thing)
+
+    def call(*args: Any) -> Any:
+        before = FUSES.set(False)
+        try:
+            return run(*args)
+        finally:
+            FUSES.reset(before)
+
+    return call
+
+
+def tracer(fuses: bool) -> Callable[[Any], Any]:
+    """`traced`, or `rounded_twice` for code that must not fuse."""
+    return traced if fuses else rounded_twice

@@ -9,10 +9,10 @@ from newton_euler import Given, paper_parts, solved, unit
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Nothing, each
+from tandemlift.assembly.sensors import payload_drag_from
 from tandemlift.laws.estimation.push_estimate import estimate, push_estimator, start_push
 from tandemlift.laws.estimation.wind_compensation import start_payload_drag, tare_mean, wind_on_payload
 from tandemlift.missions import load_mission
-from tandemlift.simulation.sensors import payload_drag_from
 from tandemlift.vehicle import Vehicle
 
 VEHICLE = Vehicle.from_settings(load_mission("iris").vehicle)

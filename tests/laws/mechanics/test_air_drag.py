@@ -14,12 +14,12 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.assembly.disturbances import air_drag_from
 from tandemlift.laws.mechanics.air_drag import AirDrag, air_loads
 from tandemlift.laws.mechanics.loads import resultant
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.settings import Payload
-from tandemlift.simulation.disturbances import air_drag_from
 from tandemlift.vehicle import Vehicle
 
 DENSITY = 1.225

@@ -13,14 +13,14 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, mat3, vec3
+from tandemlift.assembly.assemble import assemble
+from tandemlift.assembly.persons import path_legs_from, start_person
 from tandemlift.engines.compiled import start_state
 from tandemlift.laws.mechanics.push import PointPush, PushSamples, push_moment
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.person import PathLeg, PersonState, landing_request, person_step, person_view
 from tandemlift.laws.person.tremor import STILL, TremorNoise, tremor, tremor_step
 from tandemlift.laws.signals.low_pass import LowPassState
-from tandemlift.simulation.assemble import assemble
-from tandemlift.simulation.persons import path_legs_from, start_person
 from tandemlift.vehicle import Vehicle
 
 DT = 0.001

@@ -7,13 +7,13 @@ import pytest
 from scipy.integrate import quad
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
+from tandemlift.assembly.actuators import ground_effect_from, rotors_from
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.rotors.allocation import wrench_scale
 from tandemlift.laws.rotors.ground_effect import FreeAir, ground_effect_ratio
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults
 from tandemlift.laws.rotors.rotors import IdealRotors, RotorState, rotors_step
 from tandemlift.missions import load_mission
-from tandemlift.simulation.actuators import ground_effect_from, rotors_from
 from tandemlift.vehicle import Vehicle
 
 VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)

@@ -14,7 +14,7 @@ from machine_code import answers
 from scipy import stats
 
 from tandemlift.laws.signals.random_numbers import MASK, Words, key_from_seed, normal_radius, normals, philox
-from tandemlift.trace.functions import compiled, written
+from tandemlift.machine_code.functions import compiled, written
 
 LANES, STEPS, DRAWS, SEEDS = 8, 20_000, 3, 5
 words = st.integers(0, MASK)

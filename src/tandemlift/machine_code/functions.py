@@ -10,7 +10,7 @@ import numpy as np
 
 from tandemlift.algebra.layout import leaves
 from tandemlift.common.types import Array
-from tandemlift.trace import machine
+from tandemlift.machine_code import machine
 from tandemlift.trace.fused import traced
 from tandemlift.trace.graph import Graph, symbols
 from tandemlift.trace.llvm import Function

@@ -8,7 +8,7 @@ SCATTERED = """
 import mmap, re
 import tandemlift as tl
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.trace import machine
+from tandemlift.machine_code import machine
 
 kernels = FlightPlan(tl.load_mission("hover", {"mission.duration": 0.1})).kernels
 text = kernels._written("loop", 1).text

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.assembly.sensors import steps_of
 from tandemlift.common.sensors import sensors_named
 from tandemlift.laws.sensors.health import AttitudeLimits, JointLimits, PerSensor, VectorLimits
 from tandemlift.laws.sensors.readings import SensorState, readings_of
@@ -25,7 +26,6 @@ from tandemlift.loop.fault_tolerant_perception import (
     WatchedEstimatorsState,
 )
 from tandemlift.settings import Mission, SensorFaultTable
-from tandemlift.simulation.sensors import steps_of
 
 
 def _steps(f: SensorFaultTable, step: float) -> tuple[float, float]:

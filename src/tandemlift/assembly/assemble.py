@@ -12,6 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing
+from tandemlift.assembly.actuators import start_rotors
+from tandemlift.assembly.disturbances import (
+    input_tables_from,
+    near_walls_from,
+    push_kind,
+    start_weather,
+    wind_noise_from,
+)
+from tandemlift.assembly.persons import path_legs_from, start_person
+from tandemlift.assembly.sensors import sensors_from, start_estimators
+from tandemlift.assembly.watchdogs import with_faults, with_watchdogs
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.mechanics.clearance import clearance
@@ -25,17 +36,6 @@ from tandemlift.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
 from tandemlift.loop.step import FlightModel, FlightState, StepInputs, StepNoise
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.settings import Mission
-from tandemlift.simulation.actuators import start_rotors
-from tandemlift.simulation.disturbances import (
-    input_tables_from,
-    near_walls_from,
-    push_kind,
-    start_weather,
-    wind_noise_from,
-)
-from tandemlift.simulation.persons import path_legs_from, start_person
-from tandemlift.simulation.sensors import sensors_from, start_estimators
-from tandemlift.simulation.watchdogs import with_faults, with_watchdogs
 from tandemlift.vehicle import Vehicle
 
 

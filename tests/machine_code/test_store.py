@@ -20,8 +20,8 @@ import pytest
 from patience import PATIENCE
 
 import tandemlift as tl
+from tandemlift.machine_code import code, machine, store
 from tandemlift.simulation import plan
-from tandemlift.trace import code, machine, store
 
 CHANGES = {"mission.duration": 0.5}
 FLY = """
@@ -51,7 +51,9 @@ def check_output(process):
     return out
 
 
-OPTIMISED = """import os; os.environ["TANDEMLIFT_OPTIMISE"] = "1"; from tandemlift.trace import code; code.PAYS = 0.0"""
+OPTIMISED = (
+    """import os; os.environ["TANDEMLIFT_OPTIMISE"] = "1"; from tandemlift.machine_code import code; code.PAYS = 0.0"""
+)
 
 
 def check_entries(cache):

@@ -32,7 +32,7 @@ MOST_BYTES = 256 * 2**20
 CHECKSUM = 32  # bytes
 
 PACKAGE = Path(__file__).resolve().parent.parent
-FOLDERS = ("algebra", "laws", "controllers", "trace", "engines", "kernels", "loop", "pilot")
+FOLDERS = ("algebra", "laws", "controllers", "trace", "machine_code", "engines", "kernels", "loop", "pilot")
 FILES = ("simulation/pilot_api",)
 
 
@@ -181,18 +181,27 @@ def described(value: Any) -> str:
     return f"{kind.__module__}.{kind.__qualname__}({','.join(map(described, value))})"
 
 
+def _of_compiler() -> list[Path]:
+    """The sources of tracer and compiler."""
+    return [path for name in ("trace", "machine_code") for path in (PACKAGE / name).glob("*.py")]
+
+
 def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
     """The key of code for values laid out like this one.
 
     Args:
         value: nested, or a tuple of such.
         more: further values that determine the code.
-        files: its sources beside `trace`, if it is not the code of a flight.
+        files: its sources beside tracer and compiler, if it is not the code of a flight.
     """
-    from tandemlift.trace.machine import processor
+    from tandemlift.machine_code.machine import processor
 
     versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
     digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())
-    for path in sorted([*files, *(PACKAGE / "trace").glob("*.py")]) if files else sources(value):
+    for path in (
+        sorted([*files, *(PACKAGE / "trace").glob("*.py"), *(PACKAGE / "machine_code").glob("*.py")])
+        if files
+        else sources(value)
+    ):
         digest.update(path.name.encode() + b"\0" + content(path) + b"\0")
     return digest.hexdigest()[:32]

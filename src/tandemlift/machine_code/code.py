@@ -16,9 +16,9 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Future, wait
 from typing import Any, NamedTuple
 
-from tandemlift.trace import machine, store
-from tandemlift.trace.compile_events import Compiled, Stopped, always, publish
-from tandemlift.trace.optimising import optimise_in_process
+from tandemlift.machine_code import machine, store
+from tandemlift.machine_code.compile_events import Compiled, Stopped, always, publish
+from tandemlift.machine_code.optimising import optimise_in_process
 
 PAYS = 2.0  # times the compile time of unoptimised code: about a third of that of optimised code
 LOOP = "flight loop"  # the name in notices, unless the module has another
@@ -64,7 +64,7 @@ class Code:
     """The functions of a module; each takes the address of a context and returns an integer.
 
     Args:
-        key: hash of everything that determines the code (`trace.store.key_of`).
+        key: hash of everything that determines the code (`machine_code.store.key_of`).
         names: names of its functions.
         write: returns the module as text; called only if no code is on disk.
         best: optimisation level of optimised code.
