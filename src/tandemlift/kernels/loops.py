@@ -6,7 +6,9 @@ one part to the next, and the values that are constant within a flight, which ar
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
+from typing import NamedTuple
 
 from tandemlift.kernels.compiled_limit_solver import write_limits, write_solver
 from tandemlift.kernels.external_inputs import SPAN
@@ -17,6 +19,17 @@ from tandemlift.kernels.step_output import write_next_state, write_sample
 from tandemlift.kernels.step_writer import StepWriter
 from tandemlift.kernels.traced_step import Symbols
 from tandemlift.trace import LEAVES, Function, Place, Symbol, double
+
+
+class StepHalves(NamedTuple):
+    """A step of the loop in two halves, each to be written by a call: up to its sample, and what follows."""
+
+    sample: Callable[[], None]
+    go_on: Callable[[], None]
+
+
+def _write_nodes(nodes: list[int], f: Function) -> None:
+    f.write(nodes)
 
 
 class LoopWriter(StepWriter):
@@ -114,20 +127,12 @@ class LoopWriter(StepWriter):
             f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
             f.lines.append("step:")
         self.begin_step(f, "%k")
-        sampling, ending = self._step_in_pieces(kept) if self.largest else ([], [])
-        if self.largest:
-            self._call_all(f, sampling)
-        else:
-            self.limit_thrusts(f)
-            self.step_body(f)
-            write_sample(self, f, "%k")
+        sample, go_on = self._step_in_pieces(f, kept) if self.largest else self._step_in_place(f)
+        sample()
         ends = "over" if self.lanes == 1 else "ahead"
         f.do(f"br i1 {f.op(f'icmp eq i64 %k, {steps}')}, label %{ends}, label %on")
         f.lines.append("on:")
-        if self.largest:
-            self._call_all(f, ending)
-        else:
-            write_next_state(self, f, "%k")
+        go_on()
         f.label("ahead")
         f.lines.append("  %next = add i64 %k, 1")
         f.do("br label %loop")
@@ -136,36 +141,42 @@ class LoopWriter(StepWriter):
         self.export("fly")
         return self.module.text
 
-    def _call_all(self, f: Function, names: list[str]) -> None:
-        for name in names:
-            self.call(f, name, "i64 %k")
+    def _step_in_place(self, f: Function) -> StepHalves:
+        def sample() -> None:
+            self.limit_thrusts(f)
+            self.step_body(f)
+            write_sample(self, f, "%k")
 
-    def _step_in_pieces(self, kept: ScratchValues) -> tuple[list[str], list[str]]:
-        """Write a step as functions of some `largest` operations each: those up to its sample, and those after it."""
+        return StepHalves(sample, lambda: write_next_state(self, f, "%k"))
+
+    def _step_in_pieces(self, f: Function, kept: ScratchValues) -> StepHalves:
+        """Write a step as functions of some `largest` operations each, which are called one after another."""
         x, sampling = self.traced, list[str]()
         end = [*x.next_state, *x.sample]
         body = [*self.body_roots(), *end]
         acting = [*x.body.acting, *x.body.push]
         if x.limits:
             sampling += self._pieces("limits", kept, self.limit_roots(), [*acting, *body])
-            sampling += [self._piece("solve_limits", self.limit_thrusts, kept, [*acting, *body])]
+            sampling += [self._piece("solving", self.limit_thrusts, kept, [*acting, *body])]
         sampling += self._pieces("acting", kept, acting, body)
         sampling += [self._piece("body", self.step_body, kept, end)]
-        ending = self._pieces("end", kept, x.next_state, x.sample)
-        sampling += [*ending, self._piece("sample", lambda f: write_sample(self, f, "%k"), kept, [])]
-        return sampling, [self._piece("next", lambda f: write_next_state(self, f, "%k"), kept, [])]
+        sampling += self._pieces("end", kept, x.next_state, x.sample)
+        sampling += [self._piece("sample", lambda g: write_sample(self, g, "%k"), kept, [])]
+        last = self._piece("next", lambda g: write_next_state(self, g, "%k"), kept, [])
+
+        def sample() -> None:
+            for name in sampling:
+                self.call(f, name, "i64 %k")
+
+        return StepHalves(sample, lambda: self.call(f, last, "i64 %k"))
 
     def _pieces(self, name: str, kept: ScratchValues, roots: Symbols, later: Symbols) -> list[str]:
         """Compute roots in functions of some `largest` operations each; names of the functions."""
         g, ids = self.graph, [s.node for s in roots]
         nodes = [n for n in g.needed(ids, kept.at) if g.ops[n] not in LEAVES and n not in kept.at]
-        cuts = range(0, len(nodes), self.largest)
-        return [
-            self._piece(
-                f"{name}{i}", lambda f, cut=cut: f.write(nodes[cut : cut + self.largest]), kept, [*roots, *later]
-            )
-            for i, cut in enumerate(cuts)
-        ]
+        parts = [nodes[cut : cut + self.largest] for cut in range(0, len(nodes), self.largest)]
+        writers = [functools.partial(_write_nodes, part) for part in parts]
+        return [self._piece(f"{name}{i}", write, kept, [*roots, *later]) for i, write in enumerate(writers)]
 
     def _piece(self, name: str, write: Callable[[Function], None], kept: ScratchValues, later: Symbols) -> str:
         """Write a part of a step as a function, which stores what later parts need; its name."""

@@ -19,6 +19,8 @@ class Machine(NamedTuple):
         processor: LLVM's name of the processor; "" for any.
         features: what the processor must have, as LLVM writes it.
         draw_lanes: random numbers that one instruction draws.
+        largest: operations of a function, about; 0 for a step in one function. V8 allocates registers badly in
+            functions of more than 8,192 values.
         level: optimisation level.
         meaning: for whom the object is.
     """
@@ -27,6 +29,7 @@ class Machine(NamedTuple):
     processor: str
     features: str
     draw_lanes: int
+    largest: int
     level: Level
     meaning: str
 
@@ -37,12 +40,13 @@ MACHINES = {
         "",
         "+simd128,+bulk-memory,+nontrapping-fptoint,+sign-ext,+mutable-globals",
         2,
+        600,
         Level(2, 2, vectors=True),
         "WebAssembly without imports, for browsers and Node.js",
     ),
-    "aarch64": Machine("aarch64-unknown-linux-gnu", "", "", 2, Level(2, 2, vectors=True), "64-bit ARM with Linux"),
+    "aarch64": Machine("aarch64-unknown-linux-gnu", "", "", 2, 0, Level(2, 2, vectors=True), "64-bit ARM with Linux"),
     "cortex-m7": Machine(
-        "thumbv7em-none-eabihf", "cortex-m7", "", 1, Level(2, 2), "microcontrollers with double precision"
+        "thumbv7em-none-eabihf", "cortex-m7", "", 1, 0, Level(2, 2), "microcontrollers with double precision"
     ),
 }
 

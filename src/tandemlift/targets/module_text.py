@@ -75,14 +75,13 @@ def write_ramp(module: Module) -> None:
     passed = f.op(f"sitofp i64 {f.integer('add', f.integer('sub', '%k', '%begin'), 1)} to double")
     share = f.op(f"fdiv double {passed}, {f.op('sitofp i64 %steps to double')}")
     goes_on = f.op(f"fcmp olt double {share}, {double(1.0)}")
-    with f.repeat("%count", "%first") as i:
-        with f.when(f.op(f"fcmp one double {f.load('%active', i)}, {double(0.0)}")):
-            before, after = f.load("%before", i), f.load("%after", i)
-            part = f.op(f"fmul double {f.op(f'fsub double {after}, {before}')}, {share}")
-            value = f.op(f"fadd double {before}, {part}")
-            finite = f.op(f"and i1 {_is_finite(f, before)}, {_is_finite(f, after)}")
-            between = f.op(f"and i1 {goes_on}, {finite}")
-            f.store(f.op(f"select i1 {between}, double {value}, double {after}"), "%flight", i)
+    with f.repeat("%count", "%first") as i, f.when(f.op(f"fcmp one double {f.load('%active', i)}, {double(0.0)}")):
+        before, after = f.load("%before", i), f.load("%after", i)
+        part = f.op(f"fmul double {f.op(f'fsub double {after}, {before}')}, {share}")
+        value = f.op(f"fadd double {before}, {part}")
+        finite = f.op(f"and i1 {_is_finite(f, before)}, {_is_finite(f, after)}")
+        between = f.op(f"and i1 {goes_on}, {finite}")
+        f.store(f.op(f"select i1 {between}, double {value}, double {after}"), "%flight", i)
     f.end("i64 " + f.op(f"zext i1 {goes_on} to i64"))
 
 
