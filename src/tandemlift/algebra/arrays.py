@@ -70,8 +70,8 @@ def _is_zero(x: Any) -> bool:
 
 def _determinant(A: Any) -> Any:
     """By expansion along the first row; plain zeros are skipped."""
-    if len(A) == 1:
-        return A[0, 0]
+    if not len(A):
+        return 1.0
     total: Any = 0.0
     for j, x in enumerate(A[0]):
         if not _is_zero(x):
