@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page test lint types imports tests test-pythons test-gazebo bench compare-engines bench-peers lock clean help
+.PHONY: run live page test lint types imports tests test-pythons test-gazebo test-targets bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -49,6 +49,10 @@ test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and R
 	tools/gazebo-root $(GAZEBO_ROOT)
 	tools/test-packages --ros
 	TANDEMLIFT_GAZEBO_ROOT=$(GAZEBO_ROOT) TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -m '' tests/gazebo tests/ros
+
+test-targets: .venv/dev  ## every target on every mission: cross compilers, QEMU, sanitizers, Firefox; installs them, as root
+	tools/test-packages --targets
+	TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -n 2 -m targets
 
 bench: .venv/dev ## speed of everything, printed
 	$(BIN)/python benchmarks/bench.py

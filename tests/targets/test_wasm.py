@@ -1,0 +1,44 @@
+"""WebAssembly modules fly, in Node.js and by their manifests alone, what native code flies: to the last bit."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from draws import drawn_missions, drawn_numbers
+from wasm_flights import wasm_flights
+
+import tandemlift as tl
+from tandemlift.missions import built_in, changed
+from tandemlift.targets.compiling import compile_mission
+
+
+def check_draws(name: str, folder: Path, *, duration: float, count: int) -> int:
+    """Fly draws of a mission in both; how many flights were lost."""
+    mission = changed(tl.load_mission(name, {"mission.fused": False}), "mission.duration", duration)
+    compile_mission(mission, "wasm32", folder)
+    manifest = json.loads((folder / f"{name}.json").read_text())
+    draws = drawn_numbers(mission, count, {n["key"] for n in manifest["numbers"]})
+    flown = wasm_flights(folder, name, [{"numbers": draw} for draw in draws])
+    lost = 0
+    for draw, there, one in zip(draws, flown, drawn_missions(mission, draws), strict=True):
+        here = tl.fly(one)
+        assert there.guard == 0, draw
+        for channel in manifest["channels"]:
+            values = np.reshape(here[channel["name"]], (len(here.time), -1))
+            assert np.array_equal(there.log[: len(values), channel["columns"]], values, equal_nan=True), (channel, draw)
+        lost += here.divergence is not None
+    return lost
+
+
+@pytest.mark.parametrize("name", ["paper", "hover"])
+def test_a_module_flies_as_native_code(name: str, tmp_path: Path) -> None:
+    assert check_draws(name, tmp_path, duration=3.0, count=5) == 1
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", sorted(built_in()))
+def test_all_missions_fly_as_native_code(name: str, tmp_path: Path) -> None:
+    assert check_draws(name, tmp_path, duration=4.0, count=20) >= 1
