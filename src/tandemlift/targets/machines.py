@@ -46,7 +46,7 @@ MACHINES = {
     ),
     "aarch64": Machine("aarch64-unknown-linux-gnu", "", "", 2, 0, Level(2, 2, vectors=True), "64-bit ARM with Linux"),
     "cortex-m7": Machine(
-        "thumbv7em-none-eabihf", "cortex-m7", "", 1, 0, Level(2, 2), "microcontrollers with double precision"
+        "thumbv7em-unknown-none-eabihf", "cortex-m7", "", 1, 0, Level(2, 2), "microcontrollers with double precision"
     ),
 }
 
