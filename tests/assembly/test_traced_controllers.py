@@ -51,7 +51,7 @@ STARTS = {
 }
 
 
-def check(mission, fixed):
+def check_trace(mission, fixed):
     """The trace has the numbers of the plain assembly; these keys are fixed for a reason."""
     traced, plain = trace_assembly(mission), assemble(mission)
     made = with_values(traced.assembled, traced.graph)
@@ -66,11 +66,11 @@ def test_the_gains_of_our_controllers_are_inputs(name):
     mission = tl.load_mission("hover", {"controller.name": name})
     wanted = {key for key in numbers_of_mission(mission) if key.startswith(("controller.", "vehicle."))}
     assert len(wanted) > 50
-    assert {*check(mission, ()).keys} >= wanted
+    assert {*check_trace(mission, ()).keys} >= wanted
 
 
 def test_the_weights_of_the_linear_quadratic_regulator_are_fixed_but_not_the_vehicle():
-    traced = check(tl.load_mission("hover", {"controller.name": "lqr"}), ("controller.position_weight.0",))
+    traced = check_trace(tl.load_mission("hover", {"controller.name": "lqr"}), ("controller.position_weight.0",))
     reason = traced.fixed["controller.position_weight.0"]
     assert reason == "is used as a plain number by controllers.lqr.regulator"
     assert {"controller.max_tilt", "vehicle.payload.mass", "vehicle.quadrotors.0.inertia.0"} <= {*traced.keys}
@@ -82,7 +82,7 @@ def test_what_a_users_own_start_needs_as_plain_numbers_is_fixed(weight, fixed, t
     path.write_text(OWN.replace("{weight}", weight), "utf-8")
     try:
         mission = tl.load_mission("hover", {"mission.fused": False}, controller=load_controller(path))
-        traced = check(mission, fixed)
+        traced = check_trace(mission, fixed)
         assert "vehicle.drag.force.0" in traced.keys or "controller.stiffness" in fixed
         assert ("controller.stiffness" in traced.keys) == ("controller.stiffness" not in fixed)
         assert tl.fly(tl.load_mission("hover", {"mission.fused": False, "mission.duration": 0.1}, controller="own"))
