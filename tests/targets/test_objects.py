@@ -1,4 +1,4 @@
-"""Objects for other processors fly, in emulators and by their manifests alone, what native code flies: to the last bit."""
+"""Objects for other processors fly, in emulators and by their manifests alone, with the bits of native code."""
 
 from __future__ import annotations
 
