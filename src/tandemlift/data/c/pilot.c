@@ -1,4 +1,4 @@
-/* The pilot of the mission "/*@MISSION_NAME@*/", a function for each law. Written by tandemlift; see README.md. */
+/* The pilot of the mission "/*@NAME@*/", a function for each law. Written by tandemlift; see README.md. */
 #include "mission_pilot.h"
 
 #include <math.h>

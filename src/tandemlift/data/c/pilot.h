@@ -1,4 +1,4 @@
-/* The pilot of the mission "/*@MISSION_NAME@*/": from a measurement to rotor thrusts. Written by tandemlift; see README.md. */
+/* The pilot of the mission "/*@NAME@*/": from a measurement to rotor thrusts. Written by tandemlift; see README.md. */
 #ifndef MISSION_PILOT_H
 #define MISSION_PILOT_H
 

@@ -59,6 +59,8 @@ class PilotFile:
         if x.limits:
             texts += Solver(unit, self.start.parameters.allocation).functions(done)
         body = Statements(unit, graph, roots)
+        for name in ("pilot", "input", "dt", "thrusts"):
+            body.taken.new(name)
         body.know(graph.inputs("pilot", self.start), "pilot", pointer=True)
         body.know(graph.inputs("pilot_input", self.pilot_input), "input", pointer=True)
         body.know(graph.input("dt"), "dt")

@@ -50,11 +50,11 @@ class SourceFile:
         text, kept = (TEXTS / name).read_text(), set(has) | {"single" if self.real == "float" else "double"}
         while BLOCK.search(text):
             text = BLOCK.sub(lambda m: m[2] if m[1] in kept else "", text)
-        words = {"STEP": number(self.step, self.real), "MISSION_NAME": self.mission} | words
-        text = re.sub(r"/\*@(\w+)@\*/", lambda m: words[m[1]], text)
+        words = {"STEP": number(self.step, self.real), "NAME": self.mission} | words
         text = re.sub(r"\bmission_", self.prefix, text)
         text = re.sub(r"\bMISSION_", self.prefix.upper(), text)
-        return re.sub(r"\breal\b", self.real, text)
+        text = re.sub(r"\breal\b", self.real, text)
+        return re.sub(r"/\*@(\w+)@\*/", lambda m: words[m[1]], text)
 
     def public(self, roots: list[Struct]) -> list[Struct]:
         """The structs that others contain, and these."""
@@ -70,14 +70,25 @@ class SourceFile:
         """The definitions of public structs, with the mission's name before theirs."""
         return "\n".join(s.definition(self.prefix, self.real) for s in self.public(roots))
 
-    def source(self, name: str, roots: list[Struct], functions: str, has: Iterable[str] = (), **words: str) -> str:
-        """A source: short names for public structs, the other structs, the functions of laws, and a text behind them."""
+    def source(self, name: str, roots: list[Struct], functions: str, has: Iterable[str] = (), used: str = "", **words: str) -> str:
+        """A source: short names for public structs, the other structs, the functions of laws, and a text behind them.
+
+        Args:
+            name: of the text in `data/c`.
+            roots: the structs of its header.
+            functions: of the laws.
+            has: blocks of the text that are kept.
+            used: a text that names further structs.
+            words: texts for its marks.
+        """
         public = self.public(roots)
         short = [f"typedef {self.prefix}{s.name} {s.name};" for s in public]
-        used = set(re.findall(r"\w+", functions))
-        own = [s for s in self._needed(used) if s not in public]
+        named = set(re.findall(r"\w+", functions + used))
+        own = [s for s in self._needed(named) if s not in public]
         types = "\n".join([*short, "", *[s.definition("", self.real) for s in own]])
-        helpers = [t for t in (TEXTS / "helpers.c").read_text().split("\n\n") if _defines(t) in used]
+        given = ["helpers.c", "single.c"] if self.real == "float" else ["helpers.c"]
+        texts = [t.strip() for name in given for t in (TEXTS / name).read_text().split("\n\n")]
+        helpers = [t for t in texts if _defines(t) in named]
         laws = "\n".join(["\n\n".join(helpers) + "\n" if helpers else "", functions])
         return self.filled(name, has, TYPES=types, LAWS=laws, **words)
 
@@ -113,5 +124,5 @@ class SourceFile:
 
 def _defines(text: str) -> str:
     """The function that a helper defines."""
-    found = re.search(r"(\w+)\(", text)
+    found = re.search(r"^static \w+ (\w+)\(", text, re.MULTILINE)
     return found[1] if found else ""

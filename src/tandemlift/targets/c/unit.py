@@ -73,7 +73,11 @@ class Unit:
                 continue
             stack.append((number, True))
             stack += [(n, False) for n in reversed(self.laws.all[number].calls)]
-        return found
+        return [n for n in found if not self.is_replaced(n)]
+
+    def is_replaced(self, number: int) -> bool:
+        """Whether a law's function is that of `data/c/single.c`: the polynomials are made for doubles."""
+        return self.real == "float" and self.laws.all[number].law.__module__.endswith(".elementary")
 
 
 def law_word(law: Any) -> str:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from tandemlift.assembly.assemble import assemble
 from tandemlift.common.errors import InputError
 from tandemlift.controllers import control
 from tandemlift.kernels.pilot_sampling import PilotData
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.settings import Mission
 from tandemlift.simulation.pilot_api import INPUT
+from tandemlift.targets.c.flight_file import FlightFile
 from tandemlift.targets.c.pilot_file import PilotFile
 from tandemlift.targets.c.source_file import SourceFile
 from tandemlift.vehicle import Vehicle
@@ -35,8 +37,10 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
         raise InputError(f"controller {name!r} is plain Python: C needs a law; register it without compiled=False")
     file = SourceFile(mission.mission.name, single, mission.mission.step)
     pilot = PilotFile(file, PilotData(0.0, memory, parameters), INPUT)
-    source = pilot.source()
-    texts = {"checks.h": file.filled("checks.h"), "pilot.h": pilot.header(), "pilot.c": source}
+    texts = {"checks.h": file.filled("checks.h"), "pilot.c": pilot.source(), "pilot.h": pilot.header()}
+    file = SourceFile(mission.mission.name, single, mission.mission.step)
+    flight = FlightFile(file, assemble(mission), mission.mission.steps, mission.mission.log_every)
+    texts |= {"flight.c": flight.source(), "flight.h": flight.header()}
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     paths = []
