@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 KEYWORDS = """auto break case char const continue default do double else enum extern float for goto if inline int long
 register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while""".split()
@@ -21,6 +22,10 @@ def identifier(name: str) -> str:
     return f"_{plain}"[plain[0].isalpha() :]
 
 
+def _numbered(name: str) -> Iterator[str]:
+    return (f"{name}_{i}" for i in itertools.count(2))
+
+
 class Names:
     """Identifiers in one scope, each given once; `given`: those of an outer scope that it may not hide."""
 
@@ -34,8 +39,7 @@ class Names:
     def new(self, wish: str) -> str:
         """The name that is wished for, with a number behind it if it is taken."""
         plain = identifier(wish)
-        names = (plain, *(f"{plain}_{i}" for i in range(2, 10_000)))
-        found = next(name for name in names if not self.knows(name))
+        found = plain if not self.knows(plain) else next(n for n in _numbered(plain) if not self.knows(n))
         self._taken.add(found)
         return found
 
