@@ -39,8 +39,10 @@ class PilotSample(NamedTuple):
 class PilotSampler:
     """A traced sample of a pilot; inputs: `pilot`, `pilot_input`, `dt`, and `solved`, the limit solver's result."""
 
-    def __init__(self, onboard: PilotData, pilot_input: Any, quadrotors: int, *, fuses: bool = True) -> None:
-        self.graph, self.trace = graph_for(quadrotors), tracer(fuses)
+    def __init__(
+        self, onboard: PilotData, pilot_input: Any, quadrotors: int, *, fuses: bool = True, rolls: bool = True
+    ) -> None:
+        self.graph, self.trace = graph_for(quadrotors, rolls=rolls), tracer(fuses)
         pilot, dt = self.input_of("pilot", onboard), self.graph.input("dt")
         t = pilot.samples * dt
         decided = PilotSample(

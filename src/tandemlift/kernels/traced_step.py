@@ -46,9 +46,9 @@ Symbols = list[Symbol]
 MANY = 5  # quadrotors from which on sets are arrays in memory, and operations on them loops
 
 
-def graph_for(quadrotors: int) -> Graph:
-    """An empty graph for the laws of a number of quadrotors."""
-    return Graph(MANY if quadrotors >= MANY else 0)
+def graph_for(quadrotors: int, *, rolls: bool = True) -> Graph:
+    """An empty graph for the laws of a number of quadrotors; `rolls`: whether large sets may be loops."""
+    return Graph(MANY if rolls and quadrotors >= MANY else 0)
 
 
 class TracedSolver:
@@ -125,12 +125,15 @@ class TracedStep:
         templates: the layouts of what passes through a step.
         calls_python: whether a controller in Python is called in the middle of the step.
         fuses: whether a·b + c is rounded once.
+        rolls: whether large sets may be loops.
     """
 
-    def __init__(self, templates: Templates, calls_python: bool = False, *, fuses: bool = True) -> None:
+    def __init__(
+        self, templates: Templates, calls_python: bool = False, *, fuses: bool = True, rolls: bool = True
+    ) -> None:
         self.templates, self.calls_python = templates, calls_python
         self.trace = tracer(fuses)
-        self.graph = graph_for(len(templates.model.plant.frame.mass))
+        self.graph = graph_for(len(templates.model.plant.frame.mass), rolls=rolls)
         self.model = self.input_of("fly", templates.model)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
         outer = StepInputs(

@@ -20,7 +20,7 @@ import traceback
 import types
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
-from typing import Any, TypeGuard
+from typing import Any, Protocol, TypeGuard
 
 from tandemlift.algebra.law import LAWS, Choice, Elementwise
 from tandemlift.algebra.ops import PRIMITIVES
@@ -29,8 +29,33 @@ from tandemlift.trace.refusal import is_ours, refused
 from tandemlift.trace.symbol import Symbol, fma
 
 FMA = "_fma_"
+LEAVES = "_leaves_"
 ONE_AT_A_TIME = threading.RLock()
 FUSES: ContextVar[bool] = ContextVar("fuses", default=True)  # whether a·b + c is rounded once
+ENTERS: ContextVar[Enters | None] = ContextVar("enters", default=None)  # who is told of every law that is entered
+
+
+class Enters(Protocol):
+    """What may stand between a law and its caller while a graph is traced (`trace.structured`)."""
+
+    def enter(self, law: Callable[..., Any], args: tuple[Any, ...]) -> Any:
+        """What the law returns for these arguments."""
+
+    def leave(self, names: dict[str, Any], result: Any) -> Any:
+        """The result of the innermost law; `names`: its local names and their values."""
+
+
+class _Leave(ast.NodeTransformer):
+    """Hands the local names of a law to `Enters.leave` at its end."""
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        return node
+
+    def visit_Return(self, node: ast.Return) -> ast.AST:
+        if node.value is None:
+            return node
+        names = ast.Call(ast.Name("locals", ast.Load()), [], [])
+        return ast.copy_location(ast.Return(ast.Call(ast.Name(LEAVES, ast.Load()), [names, node.value], [])), node)
 
 
 class _Fuse(ast.NodeTransformer):
@@ -96,16 +121,23 @@ def _bare(given: ast.arguments) -> ast.arguments:
 
 def fused(function: Callable[..., Any]) -> Callable[..., Any]:
     """The copy of a law that is traced, which calls the traced forms of other laws; fused unless `FUSES` is false."""
-    return _copy(function, FUSES.get())
+    return _copy(function, FUSES.get(), ENTERS.get() is not None)
+
+
+def _leave(names: dict[str, Any], result: Any) -> Any:
+    enters = ENTERS.get()
+    return result if enters is None else enters.leave(names, result)
 
 
 @functools.cache
-def _copy(function: Callable[..., Any], fuses: bool) -> Callable[..., Any]:
+def _copy(function: Callable[..., Any], fuses: bool, leaves: bool) -> Callable[..., Any]:
     with ONE_AT_A_TIME:
         node = _source(function)
         if node is None:
             return function
-        body = [_Fuse().visit(line) for line in copy.deepcopy(node.body)] if fuses else node.body
+        body = copy.deepcopy(node.body)
+        for transformer in [_Fuse()] * fuses + [_Leave()] * leaves:
+            body = [transformer.visit(line) for line in body]
         definition = ast.FunctionDef(node.name, _bare(node.args), body, [], None)
         tree = ast.fix_missing_locations(ast.Module([ast.copy_location(definition, node)], []))
         module = compile(tree, function.__code__.co_filename, "exec", dont_inherit=True)
@@ -113,7 +145,9 @@ def _copy(function: Callable[..., Any], fuses: bool) -> Callable[..., Any]:
     known = function.__globals__
     used = {name for part in _codes(code) for name in part.co_names}
     scope: dict[str, Any] = {name: traced(known[name]) for name in used if name in known}
-    scope |= {"__builtins__": builtins, FMA: fma}
+    if leaves:
+        scope |= {name: functools.partial(_run, thing) for name, thing in scope.items() if _is_part_of_law(thing)}
+    scope |= {"__builtins__": builtins, FMA: fma, LEAVES: _leave}
     if "int" in used:
         scope["int"] = _elementary("to_integer")
     made = types.FunctionType(code, scope, function.__name__, function.__defaults__)
@@ -133,7 +167,17 @@ def _marked(count: int) -> frozenset[Callable[..., Any]]:
     return frozenset(LAWS)
 
 
+def _is_part_of_law(thing: Any) -> bool:
+    """Whether an object is an unmarked function of the laws."""
+    return isinstance(thing, types.FunctionType) and thing.__module__.startswith("tandemlift.laws.")
+
+
 def _run(law: Callable[..., Any], *args: Any) -> Any:
+    enters = ENTERS.get()
+    return run(law, *args) if enters is None else enters.enter(law, args)
+
+
+def run(law: Callable[..., Any], *args: Any) -> Any:
     """Run a law on symbols; a user's law that fails on them is refused."""
     try:
         return fused(law)(*args)

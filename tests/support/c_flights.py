@@ -1,0 +1,122 @@
+"""Flights of a mission in its C code, beside the native ones: the same numbers in, all numbers out."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+
+from tandemlift.algebra.layout import flat, leaves
+from tandemlift.kernels import FlightMemory
+from tandemlift.missions import changed
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.targets.c.write import write_c
+
+STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-ffp-contract=off")
+HARNESS = """#include "{p}_flight.h"
+int64_t fly(const {p}_FlightModel *model, const {p}_Inputs *inputs, int64_t steps, {p}_Sample *log, {p}_Sample *last,
+    {p}_FlightModel *end);
+int64_t fly(const {p}_FlightModel *model, const {p}_Inputs *inputs, int64_t steps, {p}_Sample *log, {p}_Sample *last,
+    {p}_FlightModel *end)
+{{
+    static {p}_Flight flight;
+    {p}_Sample sample;
+    {p}_flight_start_from(&flight, model, inputs);
+    for (int64_t k = 0; k <= steps && {p}_flight_step(&flight, &sample); k++) {{
+        if (k % {P}_FLIGHT_EVERY == 0) {{
+            log[k / {P}_FLIGHT_EVERY] = sample;
+        }}
+        if (k == {P}_FLIGHT_STEPS) {{
+            *last = sample;
+        }}
+    }}
+    *end = flight.model;
+    return flight.k;
+}}
+"""
+
+
+def unfused(mission):
+    """The mission, computed alike on every machine."""
+    return changed(mission, "mission.fused", False)
+
+
+def same(a, b):
+    """Whether numbers are equal to the last bit; NaN equals NaN."""
+    a, b = np.asarray(a), np.asarray(b)
+    return a.shape == b.shape and bool(np.all((a.view(np.int64) == b.view(np.int64)) | (np.isnan(a) & np.isnan(b))))
+
+
+class CFlight:
+    """A mission's flight as a shared library, or as a program for another machine."""
+
+    def __init__(self, mission, folder: Path, compiler: str = "gcc", *options: str) -> None:
+        self.mission, self.folder = mission, Path(folder)
+        files = write_c(mission, self.folder)
+        self.header = next(f for f in files if f.name.endswith("_flight.h"))
+        self.prefix = self.header.name.removesuffix("_flight.h")
+        harness = self.folder / "harness.c"
+        harness.write_text(HARNESS.format(p=self.prefix, P=self.prefix.upper()))
+        library = self.folder / f"{compiler}.so"
+        source = self.folder / f"{self.prefix}_flight.c"
+        sources = [str(source), str(harness)]
+        subprocess.run(
+            [shutil.which(compiler), *STRICT, *(options or ("-O2",)), "-shared", "-fPIC", *sources, "-o", str(library), "-lm"],
+            check=True,
+        )
+        self.library = ctypes.CDLL(str(library))
+        self.library.fly.restype = ctypes.c_int64
+
+    def inputs(self, start, delays):
+        """The struct of inputs of a flight, and the arrays that it points to."""
+        text, fields, values, kept = self.header.read_text(), [], {}, []
+        for name, count, table in zip(
+            ("pushes", "gusts", "walls", "legs"),
+            ("push_count", "gust_count", "wall_count", "leg_count"),
+            start.tables,
+            strict=True,
+        ):
+            if f"int64_t {count};" not in text:
+                assert not len(table), f"{name} without a table in C"
+                continue
+            table = np.ascontiguousarray(table, dtype=float)
+            kept.append(table)
+            pair = [(name, ctypes.c_void_p), (count, ctypes.c_int64)]
+            fields += pair
+            values |= {name: table.ctypes.data, count: len(table)}
+        if "int64_t delays[" in text:
+            fields.append(("delays", ctypes.c_int64 * len(delays)))
+            values["delays"] = tuple(int(d) for d in delays)
+        fields.append(("keys", ctypes.c_double * 2))
+        values["keys"] = tuple(map(float, start.keys))
+        return type("Inputs", (ctypes.Structure,), {"_fields_": fields})(**values), kept
+
+    def fly(self, mission):
+        """(Step reached, log, last sample, all numbers at the end) of a mission of the same variant."""
+        p = FlightPlan(mission)
+        start, columns = p.start(), leaves(p.sample)
+        log, last = np.zeros((p.steps // p.every + 1, columns)), np.full(columns, np.nan)
+        end, numbers = np.zeros(len(start.numbers)), np.ascontiguousarray(start.numbers)
+        inputs, kept = self.inputs(start, p.delays)
+        places = [ctypes.c_void_p(a.ctypes.data) for a in (log, last, end)]
+        k = self.library.fly(
+            ctypes.c_void_p(numbers.ctypes.data), ctypes.byref(inputs), ctypes.c_int64(p.steps), *places
+        )
+        del kept
+        return k, log, last, end
+
+
+def native(mission):
+    """(Step reached, log, last sample, all numbers at the end) of a mission in machine code."""
+    p = FlightPlan(mission)
+    memory = FlightMemory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+    memory.fly(p.steps + 1)
+    return memory.k, memory.log[0], memory.last, np.array(memory.numbers)
+
+
+def flat_of(mission):
+    """The numbers of a mission's flight at its start."""
+    return np.array(flat(FlightPlan(mission).model))
