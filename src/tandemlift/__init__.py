@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
+    from tandemlift.targets.compiling import compile_mission
     from tandemlift.vehicle import Vehicle
 
 __version__ = "0.1.0"
@@ -32,6 +33,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Pilot": "simulation.pilot_api",
     "Simulation": "simulation.simulation",
     "Vehicle": "vehicle",
+    "compile_mission": "targets.compiling",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
     "load_controller": "controllers.user_controller",
@@ -46,6 +48,7 @@ __all__ = [
     "Pilot",
     "Simulation",
     "Vehicle",
+    "compile_mission",
     "fly",
     "fly_many",
     "load_controller",

@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from tandemlift.cli.compare import compare
+from tandemlift.cli.compile import compile
 from tandemlift.cli.console import compile_notices, echo, exit_now, handle_interrupts
 from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
@@ -69,6 +70,7 @@ cli.add_command(gazebo)
 cli.add_command(ros)
 cli.add_command(validate)
 cli.add_command(export)
+cli.add_command(compile)
 cli.add_command(report)
 
 

@@ -9,20 +9,22 @@ from pathlib import Path
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
 from tandemlift.settings import Mission
+from tandemlift.targets.c.write import write_c
 from tandemlift.targets.machines import MACHINES
-from tandemlift.targets.mission_module import module_of
+from tandemlift.targets.mission_module import module_of, portable_mission
 
-TARGETS = {name: machine.meaning for name, machine in MACHINES.items()}
+TARGETS = {"c": "C99 sources, for any compiler", **{name: machine.meaning for name, machine in MACHINES.items()}}
 ENDINGS = {"wasm32": "wasm"}
 
 
-def compile_mission(mission: Mission, target: str, folder: Path | str) -> list[Path]:
+def compile_mission(mission: Mission, target: str, folder: Path | str, *, single: bool = False) -> list[Path]:
     """Compile a mission for another machine: its numbers, its loop over steps, its pilot.
 
     Args:
         mission: from `load_mission`. The code is that of `mission.fused = false`.
         target: a name in `TARGETS`.
         folder: where the files go; made if it does not exist.
+        single: whether C computes in single precision.
 
     Returns:
         The files: a module or object and its manifest, or the sources of a C project.
@@ -32,6 +34,10 @@ def compile_mission(mission: Mission, target: str, folder: Path | str) -> list[P
     """
     if target not in TARGETS:
         raise InputError(f"target = {target!r}: must be one of {', '.join(TARGETS)}")
+    if single and target != "c":
+        raise InputError(f"single = true: only for target 'c'; {target} computes in double precision")
+    if target == "c":
+        return write_c(portable_mission(mission), folder, single)
     return list(_write_module(mission, target, Path(folder)))
 
 
