@@ -20,7 +20,8 @@ def link_object(folder: Path, name: str, compiler: Sequence[str]) -> Path:
     program = folder / f"{name}.elf"
     command = [*compiler, "-O1", "-std=c99", "-Wall", "-Werror", str(PROGRAM), str(folder / f"{name}.o"), "-o"]
     done = subprocess.run([*command, str(program)], capture_output=True, text=True, timeout=300, check=False)
-    assert done.returncode == 0, done.stderr
+    if done.returncode:
+        raise RuntimeError(done.stderr)
     return program
 
 
@@ -47,5 +48,6 @@ def fly_object(folder: Path, name: str, run: Sequence[str], numbers: dict[str, f
     """The log (rows, columns) of a flight by `run`, the command of an emulator with the program."""
     shape = write_job(folder, name, numbers)
     done = subprocess.run(run, cwd=folder, capture_output=True, text=True, timeout=900, check=False)
-    assert done.returncode == 0, (done.returncode, done.stderr)
+    if done.returncode:
+        raise RuntimeError(f"ended with {done.returncode}: {done.stderr}")
     return np.fromfile(folder / "log").reshape(shape)
