@@ -176,7 +176,7 @@ def test_the_labels_of_plots_are_whole_at_both_ends(browser, tmp_path):
     html.write_text(
         replay_html(replace(flight, time=flight.time + 3000.0, channels=flight.channels | far), page_files()), "utf-8"
     )
-    page = browser.new_context(viewport={"width": 900, "height": 600}).new_page()
+    page = browser.new_context(viewport={"width": 760, "height": 600}).new_page()
     page.set_default_timeout(MS)
     page.goto(html.as_uri())
     page.wait_for_selector(".plot canvas")
