@@ -25,6 +25,7 @@ from typing import Any, TypeGuard
 from tandemlift.algebra.law import LAWS, Choice, Elementwise
 from tandemlift.algebra.ops import PRIMITIVES
 from tandemlift.common.errors import InputError
+from tandemlift.trace.graph import LAW
 from tandemlift.trace.refusal import is_ours, refused
 from tandemlift.trace.symbol import Symbol, fma
 
@@ -135,6 +136,7 @@ def _marked(count: int) -> frozenset[Callable[..., Any]]:
 
 def _run(law: Callable[..., Any], *args: Any) -> Any:
     """Run a law on symbols; a user's law that fails on them is refused."""
+    outer = LAW.set(law)
     try:
         return fused(law)(*args)
     except InputError:
@@ -146,6 +148,8 @@ def _run(law: Callable[..., Any], *args: Any) -> Any:
         lines = [f.lineno for f in trace if f.filename == law.__code__.co_filename and f.lineno]
         what = f"fails on symbols, {type(error).__name__}: {error}: use vectors and functions of tandemlift.algebra"
         raise refused(what, law.__code__, lines[-1] if lines else law.__code__.co_firstlineno) from error
+    finally:
+        LAW.reset(outer)
 
 
 def traced(thing: Any) -> Any:
