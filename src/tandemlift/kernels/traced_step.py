@@ -125,12 +125,15 @@ class TracedStep:
         templates: the layouts of what passes through a step.
         calls_python: whether a controller in Python is called in the middle of the step.
         fuses: whether a·b + c is rounded once.
+        rolls: whether the sets of many quadrotors are arrays in memory.
     """
 
-    def __init__(self, templates: Templates, calls_python: bool = False, *, fuses: bool = True) -> None:
+    def __init__(
+        self, templates: Templates, calls_python: bool = False, *, fuses: bool = True, rolls: bool = True
+    ) -> None:
         self.templates, self.calls_python = templates, calls_python
         self.trace = tracer(fuses)
-        self.graph = graph_for(len(templates.model.plant.frame.mass))
+        self.graph = graph_for(len(templates.model.plant.frame.mass)) if rolls else Graph()
         self.model = self.input_of("fly", templates.model)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
         outer = StepInputs(

@@ -1,0 +1,169 @@
+"""Kinks: comparisons and absolute values on whose edge a point is, where the derivative differs on the other side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.linearization.period import PeriodDerivative, Recipe, differentiate
+from tandemlift.linearization.step_derivative import StepDerivative
+
+PACKAGE = Path(__file__).parent.parent
+SAME = 1e-9  # relative, of models and of directions
+MOST = 60  # edges that are looked at
+UPWARD = ("ogt", "oge")
+EQUAL = ("oeq", "une")
+
+
+class Kink(NamedTuple):
+    """An edge at the point.
+
+    Attributes:
+        law: which compares, or takes the absolute value.
+        file: where it stands, with its first line.
+        distance: the smallest change of one state or input, in its unit, that leads to the edge; 0 on it.
+        text: all of it in words.
+    """
+
+    law: str
+    file: str
+    distance: float
+    text: str
+
+
+class Edge(NamedTuple):
+    """Nodes of a step of the period whose truth or sign changes on one surface.
+
+    `normal`: the direction of the surface, of length 1, or None where the compared numbers are equal and have no
+    derivative. `nodes`: each with its truth on the side to which the normal points.
+    """
+
+    step: int
+    normal: Any
+    distance: float
+    nodes: dict[int, bool]
+
+
+def kinks_near(r: Recipe, made: PeriodDerivative, tolerance: float) -> list[Kink]:
+    """The kinks at a point.
+
+    Args:
+        r: what was differentiated.
+        made: its derivative.
+        tolerance: the largest distance of a kink.
+    """
+    edges = [edge for step, d in enumerate(made.steps) for edge in edges_of(r, step, d, tolerance)]
+    found = [kink_of(r, edge) for edge in edges[:MOST] if is_kink(r, edge)]
+    if len(edges) > MOST:
+        found.append(Kink("", "", 0.0, f"{len(edges) - MOST} further edges were not looked at"))
+    found += [solver_kink(kink) for d in made.steps for kink in near_margins(d, tolerance)]
+    return list({kink.text: kink for kink in found}.values())
+
+
+def edges_of(r: Recipe, step: int, d: StepDerivative, tolerance: float) -> list[Edge]:
+    """The edges within a distance of a step, those on one surface together."""
+    found = list[Edge]()
+    for node, value, row, is_upward in compared(r, d):
+        size = float(np.abs(row).max())
+        distance = abs(value) / size if size > 0.0 else 0.0 if value == 0.0 else np.inf
+        if not distance <= tolerance:
+            continue
+        if size == 0.0:
+            found.append(Edge(step, None, 0.0, {node: not d.nodes.values[node]}))
+            continue
+        normal = row / np.linalg.norm(row)
+        for edge in found:
+            cosine = 0.0 if edge.normal is None else float(edge.normal @ normal)
+            if abs(cosine) > 1.0 - SAME:
+                edge.nodes[node] = is_upward == (cosine > 0.0)
+                break
+        else:
+            found.append(Edge(step, normal, distance, {node: is_upward}))
+    return found
+
+
+def compared(r: Recipe, d: StepDerivative) -> Iterator[tuple[int, float, Any, bool]]:
+    """What decides by a number's sign: (node, number, its derivative, whether the node is true where it is above 0)."""
+    g, rows, values = r.graph.graph, d.nodes.rows, d.nodes.values
+    deciding = deciding_nodes(r)
+    for node in deciding:
+        if node not in values:
+            continue
+        op, args = g.ops[node], g.args[node]
+        a, b = args[0], args[-1]
+        if op == "fabs":
+            row, value = rows[a], values[a]
+        else:
+            first, second = rows[a], rows[b]
+            row = first if second is None else -second if first is None else first - second
+            value = values[a] - values[b]
+        if row is not None and np.isfinite(value) and np.isfinite(row).all() and not op.endswith(EQUAL):
+            yield node, value, row, op == "fabs" or op.endswith(UPWARD)
+
+
+def deciding_nodes(r: Recipe) -> list[int]:
+    """The comparisons and absolute values that choose between derivatives of the model."""
+    g, seen = r.graph.graph, set[int]()
+    stack = [g.args[node][0] for node in r.choice.smooth if g.ops[node] == "select"]
+    tests = [s.node for s in [r.graph.traced.limits.beyond]] if r.graph.traced.limits else []
+    stack += tests
+    while stack:
+        node = stack.pop()
+        if node in seen or g.types[node] != "b":
+            continue
+        seen.add(node)
+        if not g.ops[node].startswith(("fcmp", "icmp")) and g.ops[node] not in ("const", "in"):
+            stack += g.args[node]
+    found = [node for node in seen if g.ops[node].startswith("fcmp")]
+    return sorted([*found, *[node for node in r.choice.smooth if g.ops[node] == "fabs"]])
+
+
+def is_kink(r: Recipe, edge: Edge) -> bool:
+    """Whether the model differs on the two sides of an edge."""
+    one = {(edge.step, node): side for node, side in edge.nodes.items()}
+    other: dict[tuple[int, int], bool] = {key: not side for key, side in one.items()}
+    a, b = differentiate(r, one), differentiate(r, other)
+    return not all(alike(getattr(a, name), getattr(b, name)) for name in ("A", "B", "C", "D"))
+
+
+def alike(a: Any, b: Any) -> bool:
+    """Whether two matrices agree."""
+    return bool(np.array_equal(a, b) or np.abs(a - b).max() <= SAME * (1.0 + np.abs(a).max()))
+
+
+def kink_of(r: Recipe, edge: Edge) -> Kink:
+    """An edge in words."""
+    g, node = r.graph.graph, min(edge.nodes)
+    law = g.laws[node]
+    name, file = law_name(law)
+    what = "takes the absolute value of a number near 0" if g.ops[node] == "fabs" else "compares numbers that are equal"
+    near = "at the point" if edge.distance == 0.0 else f"{edge.distance:.1e} from the point"
+    return Kink(name, file, edge.distance, f"{name} ({file}) {what}, {near}: the model holds on one side")
+
+
+def law_name(law: Callable[..., Any] | None) -> tuple[str, str]:
+    """A law's name, and its file and first line."""
+    if law is None:
+        return "the step", "loop/step.py"
+    path = Path(law.__code__.co_filename)
+    shown = path.relative_to(PACKAGE).as_posix() if path.is_relative_to(PACKAGE) else path.name
+    return law.__name__, f"{shown}, line {law.__code__.co_firstlineno}"
+
+
+def near_margins(d: StepDerivative, tolerance: float) -> Iterator[tuple[int, float]]:
+    """(Rotor, distance) of the thrusts that are about to be held at a limit, or to be released."""
+    for one in d.margins:
+        size = np.abs(one.row).max() if one.row.size else 0.0
+        if size > 0.0 and abs(one.value) <= tolerance * size:
+            yield one.rotor, abs(one.value) / size
+
+
+def solver_kink(margin: tuple[int, float]) -> Kink:
+    """A rotor on the edge of the active set, in words."""
+    rotor, distance = margin
+    file = "laws/rotors/thrust_limit_solver.py"
+    text = f"the solver of thrust limits ({file}) is about to change which rotors it holds: rotor {rotor + 1}"
+    return Kink("limited_thrusts", file, distance, text)
