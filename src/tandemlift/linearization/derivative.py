@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -147,24 +147,41 @@ ROW: dict[str, Callable[[Sequence[Any], Sequence[Any], Any], Any]] = {  # of val
 }
 
 
+class Sides(NamedTuple):
+    """Truths of comparisons, and whether an absolute value is of a positive number, other than those that hold, by node.
+
+    Attributes:
+        of: the truths.
+        forced: whether values follow them too, not the derivatives alone.
+    """
+
+    of: Mapping[int, bool]
+    forced: bool = False
+
+
 class Derivative:
     """The values of nodes of a graph and their derivatives, computed when they are first asked for.
 
     Args:
         graph: without large sets.
-        sides: truths of comparisons, and whether an absolute value is of a positive number, that are taken instead of
-            those that hold, by node.
+        sides: taken instead of those that hold.
 
     Attributes:
         values: of the nodes computed so far, by node.
         rows: their derivatives by each seed, by node; None for a node that depends on no seed.
     """
 
-    def __init__(self, graph: Graph, sides: Mapping[int, bool] | None = None) -> None:
-        self.graph, self.sides = graph, sides or {}
+    def __init__(self, graph: Graph, sides: Sides | None = None) -> None:
+        self.graph, self.sides = graph, sides or Sides({})
         self.values: dict[int, Any] = {}
         self.rows: dict[int, Any] = {}
         self._inputs: dict[str, tuple[Sequence[float], Sequence[Any] | None]] = {}
+        self._truths: dict[int, bool] = {}  # that choose derivatives, where they are not those that choose values
+
+    def reuse(self, other: Derivative, changed: set[int]) -> None:
+        """Take over what another one has computed, but for nodes that have changed."""
+        self.values |= {n: v for n, v in other.values.items() if n not in changed}
+        self.rows |= {n: row for n, row in other.rows.items() if n not in changed}
 
     def bind(self, kind: str, values: Sequence[float], rows: Sequence[Any] | None = None) -> None:
         """Set the inputs of a kind: their values and derivatives; without derivatives they depend on no seed."""
@@ -177,7 +194,7 @@ class Derivative:
 
     def compute(self, nodes: Iterable[int]) -> None:
         """Compute nodes and all that they depend on."""
-        g, values, rows = self.graph, self.values, self.rows
+        g, values, rows, sides = self.graph, self.values, self.rows, self.sides.of
         with np.errstate(all="ignore"):  # of branches that are not chosen, too
             for node in g.needed(nodes, values):
                 op, args = g.ops[node], g.args[node]
@@ -193,14 +210,24 @@ class Derivative:
                     rows[node] = None
                 else:
                     rows[node] = row(x, d, v)
-                if node in self.sides:
-                    self._take_side(node, op, self.sides[node])
+                if sides:
+                    self._take_side(node, op, args, x, d)
 
-    def _take_side(self, node: int, op: str, side: bool) -> None:
-        if op != "fabs":
-            self.values[node] = side
-        elif self.rows[node] is not None:
-            self.rows[node] = _scaled(self.rows[self.graph.args[node][0]], 1.0 if side else -1.0)
+    def _take_side(self, node: int, op: str, args: Sequence[int], x: list[Any], d: list[Any]) -> None:
+        truths, side = self._truths, self.sides.of.get(node)
+        if op == "fabs":
+            if side is not None:
+                self.rows[node] = _scaled(d[0], 1.0 if side else -1.0)
+        elif side is not None:
+            truths[node] = side
+            if self.sides.forced:
+                self.values[node] = side
+        elif any(a in truths for a in args):
+            chosen = [truths.get(a, value) for a, value in zip(args, x, strict=True)]
+            if op == "select":
+                self.rows[node] = d[1] if chosen[0] else d[2]
+            if self.graph.types[node] == "b":
+                truths[node] = VALUE[op](*chosen)
 
     def _leaf(self, node: int) -> tuple[Any, Any]:
         op, args = self.graph.ops[node], self.graph.args[node]

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.linearization.period import PeriodDerivative, Recipe, differentiate
+from tandemlift.linearization.derivative import Derivative, Sides
+from tandemlift.linearization.period import PeriodDerivative, Recipe
 from tandemlift.linearization.step_derivative import StepDerivative
+from tandemlift.trace import LEAVES
 
 PACKAGE = Path(__file__).parent.parent
-SAME = 1e-9  # relative, of models and of directions
+SAME = 1e-9  # relative, of directions; and of the entries of two models to their largest
+SMALL = 1e-3  # relative change of an entry that is no kink
+CURVED = 100.0  # by how much entries change with the distance from an edge without a kink
 MOST = 60  # edges that are looked at
 UPWARD = ("ogt", "oge")
 EQUAL = ("oeq", "une")
@@ -56,7 +60,7 @@ def kinks_near(r: Recipe, made: PeriodDerivative, tolerance: float) -> list[Kink
         tolerance: the largest distance of a kink.
     """
     edges = [edge for step, d in enumerate(made.steps) for edge in edges_of(r, step, d, tolerance)]
-    found = [kink_of(r, edge) for edge in edges[:MOST] if is_kink(r, edge)]
+    found = [kink_of(r, edge) for edge in edges[:MOST] if is_kink(r, edge, made.steps[edge.step])]
     if len(edges) > MOST:
         found.append(Kink("", "", 0.0, f"{len(edges) - MOST} further edges were not looked at"))
     found += [solver_kink(kink) for d in made.steps for kink in near_margins(d, tolerance)]
@@ -121,17 +125,67 @@ def deciding_nodes(r: Recipe) -> list[int]:
     return sorted([*found, *[node for node in r.choice.smooth if g.ops[node] == "fabs"]])
 
 
-def is_kink(r: Recipe, edge: Edge) -> bool:
-    """Whether the model differs on the two sides of an edge."""
-    one = {(edge.step, node): side for node, side in edge.nodes.items()}
-    other: dict[tuple[int, int], bool] = {key: not side for key, side in one.items()}
-    a, b = differentiate(r, one), differentiate(r, other)
-    return not all(alike(getattr(a, name), getattr(b, name)) for name in ("A", "B", "C", "D"))
+def is_kink(r: Recipe, edge: Edge, d: StepDerivative) -> bool:
+    """Whether the step, or its derivative, differs on the two sides of an edge."""
+    if not any(differs_here(r, node, edge, d) for node in choosing(r, edge.nodes)):
+        return False
+    outputs = r.outputs if edge.step == 0 else ()
+    nodes = [*[r.graph.next[i] for i in r.choice.kept], *outputs]
+    size, one = len(r.choice.kept) + len(r.inputs), edge.nodes
+    other = {node: not side for node, side in one.items()}
+    known = d, d.depending_on(one)
+    nodes = [node for node in nodes if node in known[1]]
+    if not nodes:
+        return False
+
+    def on(side: dict[int, bool], forced: bool) -> Derivative:
+        holds = all(side[node] == is_true(d, node) for node in side)
+        return d.nodes if holds else StepDerivative(r.graph, d.x, Sides(side, forced), known).nodes
+
+    a, b = (on(side, False).rows_of(nodes, size) for side in (one, other))
+    if not alike(a, b, SMALL * (np.abs(a) + np.abs(b)) + SAME * (1.0 + np.abs(a).max(axis=1, keepdims=True))):
+        return True
+    c, e = (on(side, True).values_of(nodes) for side in (one, other))
+    return not alike(c, e, SAME * (1.0 + np.abs(c)) + CURVED * edge.distance * (1.0 + np.abs(a).max(axis=1)))
 
 
-def alike(a: Any, b: Any) -> bool:
-    """Whether two matrices agree."""
-    return bool(np.array_equal(a, b) or np.abs(a - b).max() <= SAME * (1.0 + np.abs(a).max()))
+def is_true(d: StepDerivative, node: int) -> bool:
+    """The truth of a comparison; whether an absolute value is of a number that is not below 0."""
+    g, values = d.graph.graph, d.nodes.values
+    return values[g.args[node][0]] >= 0.0 if g.ops[node] == "fabs" else values[node]
+
+
+def choosing(r: Recipe, nodes: Iterable[int]) -> Iterator[int]:
+    """The selections whose condition depends on a comparison of `nodes`, and the absolute values among these."""
+    g, reached = r.graph.graph, set(nodes)
+    for node in range(min(reached), len(g.ops)):
+        if g.ops[node] == "fabs" and node in reached:
+            yield node
+        elif g.ops[node] == "select" and g.args[node][0] in reached and g.types[node] != "b":
+            yield node
+        elif g.types[node] == "b" and any(a in reached for a in g.args[node]) and g.ops[node] not in LEAVES:
+            reached.add(node)
+    if r.graph.traced.limits and r.graph.traced.limits.beyond.node in reached:
+        yield r.graph.traced.limits.beyond.node
+
+
+def differs_here(r: Recipe, node: int, edge: Edge, d: StepDerivative) -> bool:
+    """Whether the branches of a selection differ, in value or in derivative."""
+    g, values, rows = r.graph.graph, d.nodes.values, d.nodes.rows
+    if g.ops[node] != "select":
+        return True
+    if node not in values or node not in r.choice.smooth:
+        return False
+    a, b = g.args[node][1:]
+    if values[a] != values[b] and not abs(values[a] - values[b]) <= SAME * abs(values[a]):
+        return True
+    x, y = (0.0 if rows[n] is None else rows[n] for n in (a, b))
+    return not np.array_equal(x, y)
+
+
+def alike(a: Any, b: Any, within: Any) -> bool:
+    """Whether arrays agree within a tolerance; NaN agrees with nothing."""
+    return bool(np.all(np.abs(a - b) <= within))
 
 
 def kink_of(r: Recipe, edge: Edge) -> Kink:

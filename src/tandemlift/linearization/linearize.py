@@ -177,8 +177,8 @@ def assumptions(r: Recipe, made: PeriodDerivative, of: str) -> list[str]:
     """What a model leaves out or holds fixed, a sentence each."""
     plan, x = r.point.plan, r.graph.traced.templates
     said = ["Inputs are held over the sample time; outputs are at its start, the rotor thrusts act until its end."]
-    moved = np.abs(made.x1 - made.x0)
-    said.append(f"The flight is no equilibrium: a state changes by up to {moved.max():.1e} in one sample time.")
+    speed = np.abs(made.x1 - made.x0)[3:6].max() / (r.steps * plan.dt)
+    said.append(f"The point moves: the velocity changes by {speed:.1e} m/s^2 (point.x0 and point.x1 have all states).")
     if not isinstance(plan.given.noise, Nothing) and len(flat(plan.given.noise)):
         said.append("Noise is 0 from the point on; the flight to the point has it.")
     if r.steps > 1:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,8 +14,6 @@ from tandemlift.linearization.model_inputs import InputColumn, given_at
 from tandemlift.linearization.operating_point import OperatingPoint
 from tandemlift.linearization.step_derivative import StepDerivative, StepInputs
 from tandemlift.linearization.step_graph import StateChoice, StepGraph
-
-Sides = Mapping[tuple[int, int], bool]  # by (step of the period, node)
 
 
 class Recipe(NamedTuple):
@@ -92,7 +90,7 @@ class _Lines:
         return [self.values[i][j - 1] for i, j in self.waiting], [self.rows[i][j - 1] for i, j in self.waiting]
 
 
-def step_inputs(r: Recipe, numbers: Array, step: int, sides: Sides) -> StepInputs:
+def step_inputs(r: Recipe, numbers: Array, step: int) -> StepInputs:
     """The inputs of a step of the period, with a seed for each state but those under way, and for each input."""
     p, kept = r.point.plan, r.choice.kept
     given = given_at(p.tables, (r.point.k + step) * p.dt, p.dt)
@@ -109,16 +107,11 @@ def step_inputs(r: Recipe, numbers: Array, step: int, sides: Sides) -> StepInput
             else:
                 before = rows[kind][index]
                 rows[kind][index] = seed * weight if before is None else before + seed * weight
-    return StepInputs(numbers.tolist(), given, rows, fixed, {n: side for (s, n), side in sides.items() if s == step})
+    return StepInputs(numbers.tolist(), given, rows, fixed)
 
 
-def differentiate(r: Recipe, sides: Sides | None = None) -> PeriodDerivative:
-    """The derivative over a period about the point.
-
-    Args:
-        r: what is differentiated.
-        sides: truths and signs that are taken instead of those that hold.
-    """
+def differentiate(r: Recipe) -> PeriodDerivative:
+    """The derivative over a period about the point."""
     kept, n, m = list(r.choice.kept), len(r.choice.kept), len(r.inputs)
     numbers, waiting = r.point.numbers.copy(), len(r.waiting)
     seeds = np.eye(n + waiting + m)
@@ -127,7 +120,7 @@ def differentiate(r: Recipe, sides: Sides | None = None) -> PeriodDerivative:
     x0 = np.concatenate([numbers[kept], lines.state()[0]])
     steps = list[StepDerivative]()
     for step in range(r.steps):
-        d = StepDerivative(r.graph, step_inputs(r, numbers, step, sides or {}))
+        d = StepDerivative(r.graph, step_inputs(r, numbers, step))
         steps.append(d)
         if step == 0:
             y0, output = d.nodes.values_of(r.outputs), d.nodes.rows_of(r.outputs, n + m)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,10 +10,11 @@ import numpy as np
 from tandemlift.common.types import Array
 from tandemlift.kernels.traced_step import LimitProblem, TracedSolver
 from tandemlift.laws.rotors.normal_equations import GAMMA
-from tandemlift.linearization.derivative import Derivative
+from tandemlift.linearization.derivative import Derivative, Sides
 from tandemlift.linearization.step_graph import StepGraph
 
 REFINED = 2  # further steps at the active set, in which the derivative loses the error of a long step
+MADE = ("moved", "solved")  # inputs that are made within the step
 RESTING = ("opening", "repeated", "ended")
 
 
@@ -25,14 +26,12 @@ class StepInputs(NamedTuple):
         given: values of the other inputs, by kind.
         rows: derivatives by the seeds, by kind; None for an input without.
         fixed: derivatives of nodes that are inputs of the model.
-        sides: truths and signs that are taken instead of those that hold, by node.
     """
 
     flight: Sequence[float]
     given: Mapping[str, Sequence[float]]
     rows: Mapping[str, Sequence[Any]]
     fixed: Mapping[int, Any]
-    sides: Mapping[int, bool]
 
 
 class SolverMargin(NamedTuple):
@@ -49,17 +48,28 @@ class StepDerivative:
     Args:
         graph: of the step.
         x: its inputs.
+        sides: truths and signs that are taken instead of those that hold.
+        known: the derivative with these inputs without `sides`, and its nodes that may change with them.
 
     Attributes:
+        x: the inputs.
         nodes: values and derivatives.
         limits_active: whether thrusts exceed their limits.
         margins: of the limit solver, where it is active.
         may_touch: whether the body may touch floor or walls.
     """
 
-    def __init__(self, graph: StepGraph, x: StepInputs) -> None:
-        self.graph, traced = graph, graph.traced
-        self.nodes = d = Derivative(graph.graph, x.sides)
+    def __init__(
+        self,
+        graph: StepGraph,
+        x: StepInputs,
+        sides: Sides | None = None,
+        known: tuple[StepDerivative, set[int]] | None = None,
+    ) -> None:
+        self.graph, self.x, traced = graph, x, graph.traced
+        self.nodes = d = Derivative(graph.graph, sides)
+        if known:
+            d.reuse(known[0].nodes, known[1])
         self.limits_active, self.margins = False, list[SolverMargin]()
         d.bind("fly", x.flight, x.rows.get("fly"))
         for kind, values in x.given.items():
@@ -74,6 +84,18 @@ class StepDerivative:
         body = [s.node for s in (traced.body_in_free_air if in_air else traced.body_in_contact)]
         d.compute(body)
         d.bind("moved", [d.values[n] for n in body], [d.rows[n] for n in body])
+
+    def depending_on(self, nodes: Iterable[int]) -> set[int]:
+        """The computed nodes that depend on others, these included."""
+        g, found = self.graph.graph, set(nodes)
+        for node in sorted(self.nodes.values):
+            op, args = g.ops[node], g.args[node]
+            if op == "in":
+                if args[0] in MADE and any(n in found for n in self.graph.sources(*args, True)):
+                    found.add(node)
+            elif op != "const" and any(a in found for a in args):
+                found.add(node)
+        return found
 
     def _limit_thrusts(self, limits: LimitProblem) -> None:
         d = self.nodes
