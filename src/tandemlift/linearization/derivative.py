@@ -1,7 +1,8 @@
 """Values of a graph's nodes with their derivatives, node by node: forward differentiation in double precision.
 
 A node's derivative is a row with an entry for each seed; None where the node depends on no seed. Rounding to an integer,
-comparisons and truths have none. A selection has that of the branch that is chosen.
+comparisons and truths have none. A selection has that of the branch that is chosen. A sensor's resolution is taken as
+a straight line: its steps have the slope 0 almost everywhere, and no controller could see the reading change.
 
 The elementary functions split a double into exponent and mantissa by its bits. So an integer made of the bits of x
 carries dx / x: a change of the exponent alone keeps it, and `bitcast_f` multiplies it by the new number.
@@ -17,9 +18,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.types import Array
+from tandemlift.laws.sensors.noise_bias_drift import displayed
 from tandemlift.trace import LEAVES, Graph
 
 ROUNDS = 2.0**52  # adding a constant at least so large rounds to an integer
+ROUNDED = 1e-9  # relative, of values that are equal
+CURVED = 100.0  # by how much more than its derivative says a value changes on a short way
 MASK, SIGN = (1 << 64) - 1, 1 << 63
 LARGEST = 1e150  # of a factor whose product is split exactly
 SMOOTH = ("fadd", "fsub", "fmul", "fdiv", "fneg", "fabs", "fma", "sqrt", "bitcast_f")
@@ -27,9 +31,10 @@ FIRST_ONLY = ("bitcast_i", "add", "sub")  # of the bits of a number
 NUMPY = {"fdiv": np.divide, "sqrt": np.sqrt}  # where Python raises
 
 
-def is_rounding(graph: Graph, op: str, args: Sequence[int]) -> bool:
+def is_rounding(graph: Graph, node: int) -> bool:
     """Whether a sum rounds to an integer, by a constant so large that no digit after the point is left."""
-    if op not in ("fadd", "fma"):
+    op, args = graph.ops[node], graph.args[node]
+    if op not in ("fadd", "fma") or graph.laws[node] is displayed.scalar:
         return False
     ends = args if op == "fadd" else args[2:]
     constants = [graph.args[a][0] for a in ends if graph.ops[a] == "const" and graph.types[a] == "f"]
@@ -42,7 +47,7 @@ def smooth_arguments(graph: Graph, node: int) -> Sequence[int]:
     if op == "select":
         return args[1:]
     if op in SMOOTH:
-        return () if is_rounding(graph, op, args) else args
+        return () if is_rounding(graph, node) else args
     return args[:1] if op in FIRST_ONLY else ()
 
 
@@ -150,13 +155,20 @@ ROW: dict[str, Callable[[Sequence[Any], Sequence[Any], Any], Any]] = {  # of val
 class Sides(NamedTuple):
     """Truths of comparisons, and whether an absolute value is of a positive number, other than those that hold, by node.
 
-    Attributes:
-        of: the truths.
-        forced: whether values follow them too, not the derivatives alone.
+    A selection then has the derivative of the other branch. It has its value only if the branches do not meet at the
+    edge, so that what is continuous does not change by the `distance` from the edge.
     """
 
     of: Mapping[int, bool]
-    forced: bool = False
+    distance: float
+
+
+def meet(x: Sequence[float], d: Sequence[Any], distance: float) -> bool:
+    """Whether two branches of a selection have one value at an edge at a distance; `d`: their derivatives."""
+    if x[0] == x[1]:
+        return True
+    steepest = max([1.0, *[np.abs(row).max() for row in d if row is not None]])
+    return bool(abs(x[0] - x[1]) <= ROUNDED * abs(x[0]) + CURVED * distance * steepest)
 
 
 class Derivative:
@@ -172,7 +184,7 @@ class Derivative:
     """
 
     def __init__(self, graph: Graph, sides: Sides | None = None) -> None:
-        self.graph, self.sides = graph, sides or Sides({})
+        self.graph, self.sides = graph, sides or Sides({}, 0.0)
         self.values: dict[int, Any] = {}
         self.rows: dict[int, Any] = {}
         self._inputs: dict[str, tuple[Sequence[float], Sequence[Any] | None]] = {}
@@ -206,12 +218,16 @@ class Derivative:
                 values[node] = v = COMPARE[predicate](*x) if predicate else VALUE[name](*x)
                 d = [rows[a] for a in args]
                 row = ROW.get(op)
-                if row is None or all(r is None for r in d) or is_rounding(g, op, args):
+                if row is None or all(r is None for r in d) or is_rounding(g, node):
                     rows[node] = None
                 else:
                     rows[node] = row(x, d, v)
                 if sides:
                     self._take_side(node, op, args, x, d)
+
+    def truth(self, node: int) -> bool:
+        """The truth of a node that counts for derivatives."""
+        return self._truths.get(node, self.values[node])
 
     def _take_side(self, node: int, op: str, args: Sequence[int], x: list[Any], d: list[Any]) -> None:
         truths, side = self._truths, self.sides.of.get(node)
@@ -220,14 +236,15 @@ class Derivative:
                 self.rows[node] = _scaled(d[0], 1.0 if side else -1.0)
         elif side is not None:
             truths[node] = side
-            if self.sides.forced:
-                self.values[node] = side
         elif any(a in truths for a in args):
             chosen = [truths.get(a, value) for a, value in zip(args, x, strict=True)]
-            if op == "select":
-                self.rows[node] = d[1] if chosen[0] else d[2]
             if self.graph.types[node] == "b":
                 truths[node] = VALUE[op](*chosen)
+            elif op == "select":
+                branch = 1 if chosen[0] else 2
+                self.rows[node] = d[branch]
+                if not meet(x[1:], d[1:], self.sides.distance):
+                    self.values[node] = x[branch]
 
     def _leaf(self, node: int) -> tuple[Any, Any]:
         op, args = self.graph.ops[node], self.graph.args[node]

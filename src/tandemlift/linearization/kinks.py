@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.linearization.derivative import Derivative, Sides
+from tandemlift.linearization.derivative import CURVED, Derivative, Sides, meet
 from tandemlift.linearization.period import PeriodDerivative, Recipe
 from tandemlift.linearization.step_derivative import StepDerivative
 from tandemlift.trace import LEAVES
@@ -16,8 +16,7 @@ from tandemlift.trace import LEAVES
 PACKAGE = Path(__file__).parent.parent
 SAME = 1e-9  # relative, of directions; and of the entries of two models to their largest
 SMALL = 1e-3  # relative change of an entry that is no kink
-CURVED = 100.0  # by how much entries change with the distance from an edge without a kink
-MOST = 60  # edges that are looked at
+MOST = 100  # edges that are looked at
 UPWARD = ("ogt", "oge")
 EQUAL = ("oeq", "une")
 
@@ -59,12 +58,19 @@ def kinks_near(r: Recipe, made: PeriodDerivative, tolerance: float) -> list[Kink
         made: its derivative.
         tolerance: the largest distance of a kink.
     """
-    edges = [edge for step, d in enumerate(made.steps) for edge in edges_of(r, step, d, tolerance)]
-    found = [kink_of(r, edge) for edge in edges[:MOST] if is_kink(r, edge, made.steps[edge.step])]
-    if len(edges) > MOST:
-        found.append(Kink("", "", 0.0, f"{len(edges) - MOST} further edges were not looked at"))
-    found += [solver_kink(kink) for d in made.steps for kink in near_margins(d, tolerance)]
-    return list({kink.text: kink for kink in found}.values())
+    edges = dict[frozenset[int], Edge]()
+    for step, d in enumerate(made.steps):
+        for edge in edges_of(r, step, d, tolerance):
+            edges.setdefault(frozenset(edge.nodes), edge)
+    nearest = sorted(edges.values(), key=lambda edge: (edge.normal is None, edge.distance))
+    by_law = dict[tuple[str, str], list[float]]()
+    for edge in nearest[:MOST]:
+        if is_kink(r, edge, made.steps[edge.step]):
+            by_law.setdefault(law_name(r.graph.graph.laws[min(edge.nodes)]), []).append(edge.distance)
+    found = [kink_of(*law, distances) for law, distances in by_law.items()]
+    if len(nearest) > MOST:
+        found.append(Kink("", "", 0.0, f"{len(nearest) - MOST} further edges were not looked at"))
+    return [*found, *[solver_kink(*one) for d in made.steps for one in near_margins(d, tolerance)]]
 
 
 def edges_of(r: Recipe, step: int, d: StepDerivative, tolerance: float) -> list[Edge]:
@@ -138,15 +144,16 @@ def is_kink(r: Recipe, edge: Edge, d: StepDerivative) -> bool:
     if not nodes:
         return False
 
-    def on(side: dict[int, bool], forced: bool) -> Derivative:
+    def on(side: dict[int, bool]) -> Derivative:
         holds = all(side[node] == is_true(d, node) for node in side)
-        return d.nodes if holds else StepDerivative(r.graph, d.x, Sides(side, forced), known).nodes
+        return d.nodes if holds else StepDerivative(r.graph, d.x, Sides(side, edge.distance), known).nodes
 
-    a, b = (on(side, False).rows_of(nodes, size) for side in (one, other))
-    if not alike(a, b, SMALL * (np.abs(a) + np.abs(b)) + SAME * (1.0 + np.abs(a).max(axis=1, keepdims=True))):
-        return True
-    c, e = (on(side, True).values_of(nodes) for side in (one, other))
-    return not alike(c, e, SAME * (1.0 + np.abs(c)) + CURVED * edge.distance * (1.0 + np.abs(a).max(axis=1)))
+    (a, c), (b, e) = [(made.rows_of(nodes, size), made.values_of(nodes)) for made in (on(one), on(other))]
+    steepest = 1.0 + np.abs(a).max(axis=1)
+    return not (
+        alike(a, b, SMALL * (np.abs(a) + np.abs(b)) + SAME * steepest[:, None])
+        and alike(c, e, SAME * (1.0 + np.abs(c)) + CURVED * edge.distance * steepest)
+    )
 
 
 def is_true(d: StepDerivative, node: int) -> bool:
@@ -176,11 +183,10 @@ def differs_here(r: Recipe, node: int, edge: Edge, d: StepDerivative) -> bool:
         return True
     if node not in values or node not in r.choice.smooth:
         return False
-    a, b = g.args[node][1:]
-    if values[a] != values[b] and not abs(values[a] - values[b]) <= SAME * abs(values[a]):
+    branches = g.args[node][1:]
+    if not meet([values[n] for n in branches], [rows[n] for n in branches], edge.distance):
         return True
-    x, y = (0.0 if rows[n] is None else rows[n] for n in (a, b))
-    return not np.array_equal(x, y)
+    return not np.array_equal(*[0.0 if rows[n] is None else rows[n] for n in branches])
 
 
 def alike(a: Any, b: Any, within: Any) -> bool:
@@ -188,14 +194,12 @@ def alike(a: Any, b: Any, within: Any) -> bool:
     return bool(np.all(np.abs(a - b) <= within))
 
 
-def kink_of(r: Recipe, edge: Edge) -> Kink:
-    """An edge in words."""
-    g, node = r.graph.graph, min(edge.nodes)
-    law = g.laws[node]
-    name, file = law_name(law)
-    what = "takes the absolute value of a number near 0" if g.ops[node] == "fabs" else "compares numbers that are equal"
-    near = "at the point" if edge.distance == 0.0 else f"{edge.distance:.1e} from the point"
-    return Kink(name, file, edge.distance, f"{name} ({file}) {what}, {near}: the model holds on one side")
+def kink_of(law: str, file: str, distances: list[float]) -> Kink:
+    """The edges of a law in words."""
+    nearest = min(distances)
+    place = "on an edge" if nearest == 0.0 else f"{nearest:.1e} from an edge"
+    times = f" ({len(distances)} times)" if len(distances) > 1 else ""
+    return Kink(law, file, nearest, f"{law} in {file}: the point is {place}{times}, and the model holds on one side of it")
 
 
 def law_name(law: Callable[..., Any] | None) -> tuple[str, str]:
@@ -215,9 +219,8 @@ def near_margins(d: StepDerivative, tolerance: float) -> Iterator[tuple[int, flo
             yield one.rotor, abs(one.value) / size
 
 
-def solver_kink(margin: tuple[int, float]) -> Kink:
+def solver_kink(rotor: int, distance: float) -> Kink:
     """A rotor on the edge of the active set, in words."""
-    rotor, distance = margin
     file = "laws/rotors/thrust_limit_solver.py"
-    text = f"the solver of thrust limits ({file}) is about to change which rotors it holds: rotor {rotor + 1}"
+    text = f"limited_thrusts in {file}: rotor {rotor + 1} is about to be held at a limit or to be released"
     return Kink("limited_thrusts", file, distance, text)

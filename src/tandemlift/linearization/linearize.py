@@ -33,7 +33,7 @@ LOOP_OUTPUTS = (
 BODY_OUTPUTS = ("position", "velocity", "attitude", "euler", "rates", "joint_force", "joint_torque")
 BODY_CHANNELS = (*BODY_OUTPUTS, "push_force", "push_moment", "rotor_thrusts", "wind_velocity", "wind_force")
 LONGEST = 200  # steps of a period
-KINK_TOLERANCE = 1e-6
+KINK_TOLERANCE = 1e-4  # such as 0.1 mm, 0.1 mrad, 0.1 mN
 
 
 def linearize(
@@ -181,6 +181,8 @@ def assumptions(r: Recipe, made: PeriodDerivative, of: str) -> list[str]:
     said.append(f"The point moves: the velocity changes by {speed:.1e} m/s^2 (point.x0 and point.x1 have all states).")
     if not isinstance(plan.given.noise, Nothing) and len(flat(plan.given.noise)):
         said.append("Noise is 0 from the point on; the flight to the point has it.")
+    if not isinstance(plan.model.sensors, Nothing):
+        said.append("The resolution of sensors is taken as a straight line.")
     if r.steps > 1:
         t = r.point.k * plan.dt
         said.append(f"Sensors: the sample time is their common period, {r.steps} steps from {t:g} s on.")

@@ -101,7 +101,7 @@ class StepDerivative:
         d = self.nodes
         problem, plain, search = ([s.node for s in part] for part in (limits.problem, limits.plain, limits.search))
         d.compute([limits.beyond.node, *problem, *plain, *search])
-        self.limits_active = bool(d.values[limits.beyond.node])
+        self.limits_active = d.truth(limits.beyond.node)
         values, rows = ([table[n] for n in plain] for table in (d.values, d.rows))
         if self.limits_active:
             given = [[table[n] for n in part] for part in (problem, search) for table in (d.values, d.rows)]

@@ -30,6 +30,7 @@ from tandemlift.trace.refusal import is_ours, refused
 from tandemlift.trace.symbol import Symbol, fma
 
 FMA = "_fma_"
+ALGEBRA = ("tandemlift.algebra.ops", "tandemlift.algebra.vector")  # what they compare, the law that calls them compares
 ONE_AT_A_TIME = threading.RLock()
 FUSES: ContextVar[bool] = ContextVar("fuses", default=True)  # whether a·b + c is rounded once
 
@@ -136,7 +137,7 @@ def _marked(count: int) -> frozenset[Callable[..., Any]]:
 
 def _run(law: Callable[..., Any], *args: Any) -> Any:
     """Run a law on symbols; a user's law that fails on them is refused."""
-    outer = LAW.set(law)
+    outer = LAW.set(LAW.get() if law.__module__ in ALGEBRA else law)
     try:
         return fused(law)(*args)
     except InputError:
