@@ -70,7 +70,8 @@ def kinks_near(r: Recipe, made: PeriodDerivative, tolerance: float) -> list[Kink
     found = [kink_of(*law, distances) for law, distances in by_law.items()]
     if len(nearest) > MOST:
         found.append(Kink("", "", 0.0, f"{len(nearest) - MOST} further edges were not looked at"))
-    return [*found, *[solver_kink(*one) for d in made.steps for one in near_margins(d, tolerance)]]
+    margins = sorted([one for d in made.steps for one in near_margins(d, tolerance)], key=lambda one: -one[1])
+    return found + ([solver_kink(dict(margins))] if margins else [])
 
 
 def edges_of(r: Recipe, step: int, d: StepDerivative, tolerance: float) -> list[Edge]:
@@ -219,8 +220,9 @@ def near_margins(d: StepDerivative, tolerance: float) -> Iterator[tuple[int, flo
             yield one.rotor, abs(one.value) / size
 
 
-def solver_kink(rotor: int, distance: float) -> Kink:
-    """A rotor on the edge of the active set, in words."""
-    file = "laws/rotors/thrust_limit_solver.py"
-    text = f"limited_thrusts in {file}: rotor {rotor + 1} is about to be held at a limit or to be released"
-    return Kink("limited_thrusts", file, distance, text)
+def solver_kink(distances: dict[int, float]) -> Kink:
+    """Rotors on the edge of the active set, by their index, in words."""
+    file, nearest = "laws/rotors/thrust_limit_solver.py", min(distances.values())
+    rotors = ", ".join(str(rotor + 1) for rotor in sorted(distances))
+    text = f"limited_thrusts in {file}: {nearest:.1e} from holding or releasing another rotor at its limit (of {rotors})"
+    return Kink("limited_thrusts", file, nearest, text)
