@@ -92,7 +92,9 @@ def columns(flight: LoggedFlight) -> Iterator[tuple[str, Channel, Any]]:
     """Name, channel and values (T,) of every number of every channel."""
     for name, values in flight.channels.items():
         info = flight.info(name)
-        for column_name, column in zip(column_names(name, info, values.shape[1:]), np.atleast_2d(values.T), strict=True):
+        for column_name, column in zip(
+            column_names(name, info, values.shape[1:]), np.atleast_2d(values.T), strict=True
+        ):
             yield column_name, info, column
 
 

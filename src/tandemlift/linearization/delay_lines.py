@@ -36,6 +36,4 @@ def delayed_numbers(p: FlightPlan) -> list[DelayedNumber]:
 
 def values_under_way(numbers: list[DelayedNumber], ring: Array, k: int) -> list[Array]:
     """The values of each number under way before step k, the newest first; `ring`: rows × columns, row k of step k."""
-    return [
-        np.array([ring[(k - j) % len(ring), one.column] for j in range(1, one.under_way + 1)]) for one in numbers
-    ]
+    return [np.array([ring[(k - j) % len(ring), one.column] for j in range(1, one.under_way + 1)]) for one in numbers]

@@ -167,9 +167,7 @@ def choosing(r: Recipe, nodes: Iterable[int]) -> Iterator[int]:
     """The selections whose condition depends on a comparison of `nodes`, and the absolute values among these."""
     g, reached = r.graph.graph, set(nodes)
     for node in range(min(reached), len(g.ops)):
-        if g.ops[node] == "fabs" and node in reached:
-            yield node
-        elif g.ops[node] == "select" and g.args[node][0] in reached and g.types[node] != "b":
+        if (g.ops[node] == "fabs" and node in reached) or (g.ops[node] == "select" and g.args[node][0] in reached and g.types[node] != "b"):
             yield node
         elif g.types[node] == "b" and any(a in reached for a in g.args[node]) and g.ops[node] not in LEAVES:
             reached.add(node)
@@ -200,7 +198,9 @@ def kink_of(law: str, file: str, distances: list[float]) -> Kink:
     nearest = min(distances)
     place = "on an edge" if nearest == 0.0 else f"{nearest:.1e} from an edge"
     times = f" ({len(distances)} times)" if len(distances) > 1 else ""
-    return Kink(law, file, nearest, f"{law} in {file}: the point is {place}{times}, and the model holds on one side of it")
+    return Kink(
+        law, file, nearest, f"{law} in {file}: the point is {place}{times}, and the model holds on one side of it"
+    )
 
 
 def law_name(law: Callable[..., Any] | None) -> tuple[str, str]:
@@ -224,5 +224,7 @@ def solver_kink(distances: dict[int, float]) -> Kink:
     """Rotors on the edge of the active set, by their index, in words."""
     file, nearest = "laws/rotors/thrust_limit_solver.py", min(distances.values())
     rotors = ", ".join(str(rotor + 1) for rotor in sorted(distances))
-    text = f"limited_thrusts in {file}: {nearest:.1e} from holding or releasing another rotor at its limit (of {rotors})"
+    text = (
+        f"limited_thrusts in {file}: {nearest:.1e} from holding or releasing another rotor at its limit (of {rotors})"
+    )
     return Kink("limited_thrusts", file, nearest, text)

@@ -164,7 +164,7 @@ class StepGraph:
             cut: nodes that are inputs of the model: nothing before them is a state.
             delayed: numbers that pass through a delay line.
         """
-        fixed = {i: CONSTANT for i in self.constant - delayed} | {i: DISCRETE for i in self.discrete - self.constant}
+        fixed = dict.fromkeys(self.constant - delayed, CONSTANT) | dict.fromkeys(self.discrete - self.constant, DISCRETE)
         fixed |= dict.fromkeys(self.tables, TABLE)
         body = [self.next[i] for i in self.body_state]
         smooth, kept = self._closed([*body, *outputs], cut, every=False, without=set(fixed))

@@ -17,6 +17,7 @@ from tandemlift.simulation.results import channels_of
 
 OWN = ("state.", "memory.")  # prefixes that say nothing: the body's state, the pilot's memory
 COMPONENT = re.compile(r"(\.([wxyz]|r\d+))+$")
+PER_SET = re.compile(r"\.r\d+$")
 RADIANS, RATE, ANGULAR = "rad", "rad/s", "rad/s^2"
 UNITS = (  # of a state whose name, without its components, matches first
     ("estimator.push.sums.specific_force", "m/s^2"),  # of sums over samples
@@ -71,7 +72,10 @@ UNITS = (  # of a state whose name, without its components, matches first
     ("person.view.grip_velocity", "m/s"),
     ("person.view.yaw", RADIANS),
     ("person.view.yaw_rate", RATE),
+    ("person.tremor.*", "N"),
     ("grip.*.normal", "N"),
+    ("grip.*.x", "m"),
+    ("grip.*.y", "m"),
     ("wind*", "1"),
     ("*.anchor", "m"),
     ("*position", "m"),
@@ -98,7 +102,7 @@ def state_variable(path: str, steps_ago: int = 0) -> Variable:
     name = path
     for prefix in OWN:
         name = name.removeprefix(prefix)
-    field = COMPONENT.sub("", name)
+    field = (PER_SET if name.startswith("grip.") else COMPONENT).sub("", name)
     unit = next((unit for pattern, unit in UNITS if fnmatchcase(field, pattern)), "")
     return Variable(f"{name}[-{steps_ago}]" if steps_ago else name, unit)
 
