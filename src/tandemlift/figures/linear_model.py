@@ -12,7 +12,7 @@ from tandemlift.figures.drawing.style import BLUE, COMPONENTS, GREY, PAGE, PALE,
 from tandemlift.linearization.analysis import Modes, frequency_response
 from tandemlift.linearization.linear_model import LinearModel
 
-LOWEST, POINTS = 0.02, 300  # Hz, the lowest frequency; points of a curve
+LOWEST, HIGHEST, POINTS = 0.02, 0.45, 300  # Hz, of the sample rate; points of a curve
 LINEAR = 0.1  # 1/s, within which the axes of the poles are linear
 RATIOS = (0.1, 0.3, 0.7)  # damping ratios that are drawn
 ROOM = 2.0  # by how much the axes go beyond the poles
@@ -34,7 +34,9 @@ def draw(model: LinearModel, modes: Modes, input: str, output: str) -> Figure:
     _poles(figure.add_subplot(grid[:, 0]), modes)
     size, phase = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
     _response(size, phase, model, input, output)
-    figure.suptitle(f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms")
+    figure.suptitle(
+        f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms", fontsize=9.5
+    )
     return figure
 
 
@@ -43,14 +45,13 @@ def _poles(axes: Any, modes: Modes) -> None:
     far = ROOM * max(float(np.abs(s).max(initial=1.0)), 1.0)
     axes.set_xscale("symlog", linthresh=LINEAR)
     axes.set_yscale("symlog", linthresh=LINEAR)
-    radius = np.geomspace(LINEAR, far, 100)
+    radius = np.geomspace(1e-3 * LINEAR, far, 200)
     for ratio in RATIOS:
         x, y = -ratio * radius, np.sqrt(1.0 - ratio * ratio) * radius
         axes.plot(x, y, color=PALE, lw=0.7)
         axes.plot(x, -y, color=PALE, lw=0.7)
-        axes.annotate(
-            f"{ratio:g}", (x[-1], y[-1]), color=GREY, fontsize=7, ha="center", va="bottom", annotation_clip=False
-        )
+        end = int(np.searchsorted(y, far / 1.5))
+        axes.text(x[end - 1], y[end - 1], f"{ratio:g}", color=GREY, fontsize=7, ha="left", va="center")
     axes.axvline(0.0, color=GREY, lw=0.7)
     for stable, colour in ((True, BLUE), (False, VERMILLION)):
         chosen = s[(s.real < 0.0) == stable]
@@ -60,12 +61,12 @@ def _poles(axes: Any, modes: Modes) -> None:
     axes.set_ylim(-far, far)
     axes.set_xlabel("Re s [1/s]")
     axes.set_ylabel("Im s [rad/s]")
-    axes.set_title("modes, and lines of equal damping ratio")
+    axes.set_title("modes, and lines of damping ratio")
 
 
 def _response(size: Any, phase: Any, model: LinearModel, input: str, output: str) -> None:
     columns, rows = _named(model.inputs, input), _named(model.outputs, output)
-    frequencies = np.geomspace(LOWEST, 0.5 / model.step, POINTS)
+    frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
     response = frequency_response(model, frequencies)
     largest = max((np.abs(response[:, i, j]).max() for i, j in zip(rows, columns, strict=False)), default=0.0)
     for i, j, style in zip(rows, columns, COMPONENTS, strict=False):

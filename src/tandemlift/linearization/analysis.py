@@ -11,6 +11,7 @@ from tandemlift.common.types import Array
 from tandemlift.linearization.linear_model import LinearModel
 
 DEADBEAT = 1e-6  # of an eigenvalue, below which what it describes is over after a step or a few
+ROUNDING = 1e-9  # of log z
 MOST_NAMES = 3
 LEAST_SHARE = 0.1
 PART = re.compile(r"(\.[wxyz])?(\.r\d+)?(\[-\d+\])?$")
@@ -60,10 +61,15 @@ def modes_of(model: LinearModel) -> Modes:
     shares /= np.maximum(shares.sum(axis=0), 1e-300)
     kept = [i for i in np.argsort(-np.abs(z)) if abs(z[i]) > DEADBEAT and z[i].imag >= 0.0]
     fields = [PART.sub("", v.name) for v in model.states]
-    found = [
-        Mode(complex(z[i]), complex(np.log(complex(z[i])) / model.step), _largest(fields, shares[:, i])) for i in kept
-    ]
+    found = [Mode(complex(z[i]), continuous(z[i], model.step), _largest(fields, shares[:, i])) for i in kept]
     return Modes(tuple(found), int(np.sum(np.abs(z) <= DEADBEAT)))
+
+
+def continuous(z: complex, step: float) -> complex:
+    """log(z) / step [1/s]; a part of it that is only rounding is 0."""
+    s = np.log(complex(z))
+    real, imaginary = (0.0 if abs(part) < ROUNDING else float(part) for part in (s.real, s.imag))
+    return complex(real, imaginary) / step
 
 
 def _largest(fields: list[str], shares: Array) -> tuple[tuple[str, float], ...]:

@@ -13,12 +13,12 @@ from tandemlift.simulation.plan import FlightPlan
 
 
 class DelayedNumber(NamedTuple):
-    """A number that is delayed: its index in the flight, its column in the delay lines, how many values are under way.
+    """A number that is delayed: its place in the flight, its column in the delay lines, how many values are under way.
 
     A number of the flight is the value that has arrived. Value j under way, from 1 on, was written j steps ago.
     """
 
-    index: int
+    number: int
     column: int
     under_way: int
 

@@ -1,8 +1,8 @@
 """Values of a graph's nodes with their derivatives, node by node: forward differentiation in double precision.
 
-A node's derivative is a row with an entry for each seed; None where the node depends on no seed. Rounding to an integer,
-comparisons and truths have none. A selection has that of the branch that is chosen. A sensor's resolution is taken as
-a straight line: its steps have the slope 0 almost everywhere, and no controller could see the reading change.
+A node's derivative is a row with an entry for each seed; None where the node depends on no seed. Rounding to an
+integer, comparisons and truths have none. A selection has that of the branch that is chosen. A sensor's resolution is
+taken as a straight line: its steps have the slope 0 almost everywhere, and nothing would depend on the sensor.
 
 The elementary functions split a double into exponent and mantissa by its bits. So an integer made of the bits of x
 carries dx / x: a change of the exponent alone keeps it, and `bitcast_f` multiplies it by the new number.
@@ -153,7 +153,7 @@ ROW: dict[str, Callable[[Sequence[Any], Sequence[Any], Any], Any]] = {  # of val
 
 
 class Sides(NamedTuple):
-    """Truths of comparisons, and whether an absolute value is of a positive number, other than those that hold, by node.
+    """Truths of comparisons, and whether an absolute value is of a positive number, against those that hold, by node.
 
     A selection then has the derivative of the other branch. It has its value only if the branches do not meet at the
     edge, so that what is continuous does not change by the `distance` from the edge.

@@ -167,10 +167,15 @@ def choosing(r: Recipe, nodes: Iterable[int]) -> Iterator[int]:
     """The selections whose condition depends on a comparison of `nodes`, and the absolute values among these."""
     g, reached = r.graph.graph, set(nodes)
     for node in range(min(reached), len(g.ops)):
-        if (g.ops[node] == "fabs" and node in reached) or (g.ops[node] == "select" and g.args[node][0] in reached and g.types[node] != "b"):
+        op, args = g.ops[node], g.args[node]
+        if op == "fabs":
+            if node in reached:
+                yield node
+        elif op not in LEAVES and g.types[node] == "b":
+            if any(a in reached for a in args):
+                reached.add(node)
+        elif op == "select" and args[0] in reached:
             yield node
-        elif g.types[node] == "b" and any(a in reached for a in g.args[node]) and g.ops[node] not in LEAVES:
-            reached.add(node)
     if r.graph.traced.limits and r.graph.traced.limits.beyond.node in reached:
         yield r.graph.traced.limits.beyond.node
 
@@ -185,7 +190,8 @@ def differs_here(r: Recipe, node: int, edge: Edge, d: StepDerivative) -> bool:
     branches = g.args[node][1:]
     if not meet([values[n] for n in branches], [rows[n] for n in branches], edge.distance):
         return True
-    return not np.array_equal(*[0.0 if rows[n] is None else rows[n] for n in branches])
+    one, other = (0.0 if rows[n] is None else rows[n] for n in branches)
+    return not np.array_equal(one, other)
 
 
 def alike(a: Any, b: Any, within: Any) -> bool:

@@ -132,12 +132,11 @@ class LinearModel:
             if path.suffix == ".npz":
                 texts = {kind: np.array(rows, dtype=str).reshape(-1, 2) for kind, rows in names.items()}
                 with partial.open("wb") as file:
-                    np.savez_compressed(
-                        file, step=self.step, time=self.time, about=json.dumps(about), **arrays, **texts
-                    )
+                    numbers = {"step": self.step, "time": self.time, "about": json.dumps(about)}
+                    np.savez_compressed(file, **{**numbers, **arrays, **texts})
             else:
-                numbers = {name: np.where(np.isfinite(a), a, None).tolist() for name, a in arrays.items()}
-                whole = {"step": self.step, "time": self.time, **about, **names, **numbers}
+                lists = {name: a.tolist() for name, a in arrays.items()}
+                whole = {"step": self.step, "time": self.time, **about, **names, **lists}
                 partial.write_text(json.dumps(whole, ensure_ascii=False), "utf-8")
 
 

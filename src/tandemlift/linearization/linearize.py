@@ -93,7 +93,7 @@ def _recipe(
     columns = input_columns(plan, inputs, of, attitude)
     nodes = [graph.outputs[i] for i in chosen.columns]
     cut = graph.thrusts if of == "body" else []
-    late = {one.index for one in delayed if one.under_way}
+    late = {one.number for one in delayed if one.under_way}
     choice = graph.choose(nodes, cut, late)
     period = 1 if of == "body" else sensor_period(plan.model.sensors)
     return Recipe(point, graph, choice, columns, nodes, delayed, _steps(period, steps)), chosen
@@ -143,7 +143,7 @@ def _check_finite(r: Recipe, made: PeriodDerivative) -> None:
 
 def _model(r: Recipe, made: PeriodDerivative, chosen: Outputs, of: str, kinks: Any) -> LinearModel:
     plan, names = r.point.plan, r.graph.names
-    late = [state_variable(names[r.delayed[i].index], ago) for i, ago in r.waiting]
+    late = [state_variable(names[r.delayed[i].number], ago) for i, ago in r.waiting]
     return LinearModel(
         A=made.A,
         B=made.B,

@@ -41,7 +41,7 @@ def calm_time(mission: Mission) -> float:
     phases, m = mission.phases, mission.mission
     hovers = phases.lift_start + phases.lift_duration
     ends = [push.time - SUPPORT * push.sigma for push in mission.pushes]
-    ends += [phases.land_start, m.duration]
+    ends += [m.duration] if phases.land_start is None else [phases.land_start, m.duration]
     if mission.person.model != "none":
         ends.append(mission.person.start_time)
     later = [end for end in ends if end > hovers]
@@ -75,7 +75,9 @@ def flown_to(mission: Mission, at: float | None) -> OperatingPoint:
     for i in range(k):
         stepper.step(i)
         if stepper.lost:
-            raise InputError(f"{mission.mission.name} diverges at {i * plan.dt:g} s: nothing to linearize at {at:g} s")
+            raise InputError(
+                f"{mission.mission.name} diverges at {i * plan.dt:g} s: nothing to linearize at {k * plan.dt:g} s"
+            )
     return _point(stepper, k)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -41,7 +41,7 @@ class Recipe(NamedTuple):
     def waiting(self) -> list[tuple[int, int]]:
         """The states under way in delay lines: (place in `delayed`, steps ago)."""
         kept = set(self.choice.kept)
-        return [(i, j) for i, one in enumerate(self.delayed) if one.index in kept for j in range(1, one.under_way + 1)]
+        return [(i, j) for i, one in enumerate(self.delayed) if one.number in kept for j in range(1, one.under_way + 1)]
 
 
 class PeriodDerivative(NamedTuple):
@@ -79,11 +79,11 @@ class _Lines:
         """Exchange what a step has written for what arrives."""
         for one, values, under_way in zip(self.delayed, self.values, self.rows, strict=True):
             if one.under_way:
-                values.insert(0, numbers[one.index])
-                numbers[one.index] = values.pop()
-                if one.index in rows:
-                    under_way.insert(0, rows[one.index])
-                    rows[one.index] = under_way.pop()
+                values.insert(0, numbers[one.number])
+                numbers[one.number] = values.pop()
+                if one.number in rows:
+                    under_way.insert(0, rows[one.number])
+                    rows[one.number] = under_way.pop()
 
     def state(self) -> tuple[list[float], list[Array]]:
         """The values under way that are states, and their derivatives."""
@@ -96,7 +96,7 @@ def step_inputs(r: Recipe, numbers: Array, step: int) -> StepInputs:
     given = given_at(p.tables, (r.point.k + step) * p.dt, p.dt)
     given["noise"] = [0.0] * leaves(p.given.noise)
     eye = np.eye(len(kept) + len(r.inputs))
-    rows = {"fly": [None] * len(numbers), "hand": [None] * len(given["hand"]), "gust": [None] * 3}
+    rows: dict[str, list[Any]] = {"fly": [None] * len(numbers), "hand": [None] * len(given["hand"]), "gust": [None] * 3}
     for seed, index in zip(eye, kept, strict=False):
         rows["fly"][index] = seed
     fixed = {}

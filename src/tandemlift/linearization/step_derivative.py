@@ -91,7 +91,7 @@ class StepDerivative:
         for node in sorted(self.nodes.values):
             op, args = g.ops[node], g.args[node]
             if op == "in":
-                if args[0] in MADE and any(n in found for n in self.graph.sources(*args, True)):
+                if args[0] in MADE and any(n in found for n in self.graph.sources(args[0], args[1], every=True)):
                     found.add(node)
             elif op != "const" and any(a in found for a in args):
                 found.add(node)
@@ -106,7 +106,7 @@ class StepDerivative:
         if self.limits_active:
             given = [[table[n] for n in part] for part in (problem, search) for table in (d.values, d.rows)]
             values, rows = solved(limits.solver, *given)
-            self.margins = margins_of(limits.solver.rotors, *given[:2], values, rows)
+            self.margins = margins_of(limits.solver.rotors, given[0], given[1], values, rows)
         d.bind("solved", values, rows)
 
 

@@ -1,7 +1,7 @@
 """The graph of a step, never rolled, as derivatives need it: with pushes at points, and which numbers are states.
 
-A number of the flight is a state of the linear model if its derivative can reach the body's state or an output, over any
-number of steps: `StateChoice`. What acts only by comparisons has no derivative, and flags and counters are discrete.
+A number of the flight is a state of the linear model if its derivative can reach the body's state or an output, over
+any number of steps. What acts only by comparisons has no derivative, and flags and counters are discrete.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ class StepGraph:
             for i in range(size)
         }
 
-    def sources(self, kind: str, index: int, every: bool) -> list[int]:
+    def sources(self, kind: str, index: int, *, every: bool) -> list[int]:
         """The nodes of which an input within the step is made; `every`: also those that decide which."""
         x = self.traced
         if kind == "moved":
@@ -113,7 +113,7 @@ class StepGraph:
             seen.add(node)
             if g.ops[node] == "in":
                 inputs.add(g.args[node])
-                stack += self.sources(*g.args[node], every)
+                stack += self.sources(g.args[node][0], g.args[node][1], every=every)
             elif g.ops[node] != "const":
                 stack += g.args[node] if every else smooth_arguments(g, node)
         return seen, inputs
@@ -164,7 +164,8 @@ class StepGraph:
             cut: nodes that are inputs of the model: nothing before them is a state.
             delayed: numbers that pass through a delay line.
         """
-        fixed = dict.fromkeys(self.constant - delayed, CONSTANT) | dict.fromkeys(self.discrete - self.constant, DISCRETE)
+        fixed = dict.fromkeys(self.constant - delayed, CONSTANT)
+        fixed |= dict.fromkeys(self.discrete - self.constant, DISCRETE)
         fixed |= dict.fromkeys(self.tables, TABLE)
         body = [self.next[i] for i in self.body_state]
         smooth, kept = self._closed([*body, *outputs], cut, every=False, without=set(fixed))
