@@ -41,7 +41,7 @@ def test_a_sensor_period_is_composed_of_single_steps():
     for step in range(5):
         one = linearized("iris", QUIET, 13.6 + 0.001 * step, steps=1)
         product = one.made.A @ product
-    assert of.made.A == pytest.approx(product, rel=1e-9, abs=1e-9 * np.abs(product).max())
+    assert pytest.approx(product, rel=1e-9, abs=1e-9 * np.abs(product).max()) == of.made.A
 
 
 def test_the_solver_of_limits_is_differentiated_at_its_active_set():
@@ -69,11 +69,9 @@ def test_the_vertical_axis_of_paper_has_the_poles_of_its_transfer_function():
     model = tl.linearize(tl.load_mission("paper"), 9.5)
     gains = {"xi": 11.0, "lambda_1": 200.0, "lambda_2": 100.0, "boundary_layer": 0.1}
     kappa, T, drag = gains["lambda_1"] + gains["lambda_2"] / gains["boundary_layer"], 0.001, 6e-3 / 3.5
-    free = np.array([[0.0, 1.0], [0.0, -drag]])
     decay = np.exp(-drag * T)
     A = np.array([[1.0, (1.0 - decay) / drag], [0.0, decay]])
-    B = np.linalg.solve(free + [[1e-12, 0.0], [0.0, 0.0]], (A - np.eye(2)) @ [0.0, 1.0])
-    B = np.array([(T - (1.0 - decay) / drag) / drag, (1.0 - decay) / drag])
+    B = np.array([0.5 * T * T * (1.0 - drag * T / 3.0), (1.0 - decay) / drag])  # of a held acceleration
     closed = A - np.outer(B, [kappa * gains["xi"], kappa + gains["xi"] - drag])
     poles = np.sort(np.linalg.eigvals(closed))
     names = [v.name for v in model.states]
@@ -89,4 +87,4 @@ def test_the_body_alone_is_a_free_body_under_its_thrusts():
     v = [names.index(f"velocity.{axis}") for axis in "xyz"]
     assert model.B[v[2], :8] == pytest.approx(T / mass, rel=1e-5)
     assert model.B[v, 8:] == pytest.approx(T / mass * np.eye(3), rel=1e-5, abs=1e-12)
-    assert np.abs(model.B[v[:2], :8]).max() < 1e-12
+    assert np.abs(model.B[v[:2], :8]).max() < 1e-7  # a torque tilts the thrust within the step

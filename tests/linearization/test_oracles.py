@@ -16,7 +16,11 @@ POINTS: dict[str, tuple[str, dict[str, Any], float]] = {
     "iris, pushed": ("iris", {}, 13.6),
     "iris in wind": ("iris", {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0]}, 13.6),
     "zigzag, led by a person": ("zigzag", {}, 8.4),
-    "pid with a payload off its place": ("one-push", {"controller.name": "pid", "pushes.0.point": [0.1, 0.8, 0.0]}, 3.9),
+    "pid with a payload off its place": (
+        "one-push",
+        {"controller.name": "pid", "pushes.0.point": [0.1, 0.8, 0.0]},
+        3.9,
+    ),
 }
 
 

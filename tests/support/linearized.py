@@ -19,7 +19,11 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper
 
 QUIET = {  # sensors without noise, whose resolution is a straight line as it is in the model
-    **{f"sensors.joints.{kind}_{what}": 0.0 for kind in ("force", "torque") for what in ("noise", "drift", "resolution")},
+    **{
+        f"sensors.joints.{kind}_{what}": 0.0
+        for kind in ("force", "torque")
+        for what in ("noise", "drift", "resolution")
+    },
     **{f"sensors.{sensor}.{what}": 0.0 for sensor in ("accelerometer", "gyroscope") for what in ("noise", "drift")},
     **{f"sensors.motion.{what}_noise": 0.0 for what in ("position", "velocity", "attitude")},
 }
