@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from tandemlift.common.errors import FlightWarning, InputError
     from tandemlift.controllers.user_controller import load_controller
     from tandemlift.flight.record import Flight
+    from tandemlift.linearization.linear_model import LinearModel
+    from tandemlift.linearization.linearize import linearize
     from tandemlift.missions import load_mission
     from tandemlift.settings import Mission
     from tandemlift.simulation.fly import fly, fly_many
@@ -29,6 +31,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Flight": "flight.record",
     "FlightWarning": "common.errors",
     "InputError": "common.errors",
+    "LinearModel": "linearization.linear_model",
     "Mission": "settings",
     "Pilot": "simulation.pilot_api",
     "Simulation": "simulation.simulation",
@@ -36,6 +39,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "compile_mission": "targets.compiling",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
+    "linearize": "linearization.linearize",
     "load_controller": "controllers.user_controller",
     "load_mission": "missions",
 }
@@ -44,6 +48,7 @@ __all__ = [
     "Flight",
     "FlightWarning",
     "InputError",
+    "LinearModel",
     "Mission",
     "Pilot",
     "Simulation",
@@ -51,6 +56,7 @@ __all__ = [
     "compile_mission",
     "fly",
     "fly_many",
+    "linearize",
     "load_controller",
     "load_mission",
 ]

@@ -6,7 +6,7 @@ import threading
 import pytest
 
 from tandemlift.cli import console
-from tandemlift.cli.console import CompileNotices
+from tandemlift.cli.terminal.console import CompileNotices
 from tandemlift.machine_code.compile_events import Compiled, publish, watching
 
 LOOP = Compiled("flight loop", 0.5, is_made=True)
@@ -15,7 +15,7 @@ LOOP = Compiled("flight loop", 0.5, is_made=True)
 @pytest.fixture
 def clock(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("tandemlift.cli.console.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("tandemlift.cli.terminal.console.time.perf_counter", lambda: now[0])
     return now
 
 

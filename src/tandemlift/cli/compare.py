@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.console import compile_notices, echo, progress_bar
-from tandemlift.cli.results import results_folder
 from tandemlift.cli.run import DIVERGED, chosen_controller, engine_option, load, parse_setting, set_option
+from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
+from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from tandemlift.cli.console import echo
 from tandemlift.cli.run import load, set_option
+from tandemlift.cli.terminal.console import echo
 
 
 @click.command()

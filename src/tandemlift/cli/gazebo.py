@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.console import echo, progress_bar
 from tandemlift.cli.live import DEFAULT
-from tandemlift.cli.results import copy_recording, results_folder, write_flight
 from tandemlift.cli.run import DIVERGED, load, print_report_path, print_summary, set_option
+from tandemlift.cli.terminal.console import echo, progress_bar
+from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:

@@ -12,16 +12,16 @@ import click
 
 from tandemlift.cli.compare import compare
 from tandemlift.cli.compile import compile
-from tandemlift.cli.console import compile_notices, echo, exit_now, handle_interrupts
 from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
+from tandemlift.cli.linearize import linearize
 from tandemlift.cli.live import live
 from tandemlift.cli.render import render
-from tandemlift.cli.replay import replay
-from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run
+from tandemlift.cli.saved_flights import replay, report
+from tandemlift.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
 from tandemlift.cli.validate import validate
 from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.machine_code.compile_events import watching
@@ -69,6 +69,7 @@ cli.add_command(replay)
 cli.add_command(gazebo)
 cli.add_command(ros)
 cli.add_command(validate)
+cli.add_command(linearize)
 cli.add_command(export)
 cli.add_command(compile)
 cli.add_command(report)

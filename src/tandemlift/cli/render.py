@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.console import echo, progress_bar
-from tandemlift.cli.results import flight_file
 from tandemlift.cli.run import engine_option, load, set_option
+from tandemlift.cli.terminal.console import echo, progress_bar
+from tandemlift.cli.terminal.results import flight_file
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:

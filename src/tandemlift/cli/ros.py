@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.console import echo
 from tandemlift.cli.live import DEFAULT, session_of
 from tandemlift.cli.run import DIVERGED, engine_option, load, set_option
+from tandemlift.cli.terminal.console import echo
 from tandemlift.common.errors import InputError
 from tandemlift.ros.sample_queue import steps_between_samples
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.console import echo, progress_bar
-from tandemlift.cli.results import copy_recording, results_folder, write_flight
+from tandemlift.cli.terminal.console import echo, progress_bar
+from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:

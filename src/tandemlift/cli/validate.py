@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from tandemlift.cli.console import compile_notices, echo
 from tandemlift.cli.run import engine_option
+from tandemlift.cli.terminal.console import compile_notices, echo
 
 MISSED = 1
 NAMES = "tracking, observers, draws, losses, triggers, persons or yaw"

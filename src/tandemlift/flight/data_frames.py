@@ -9,6 +9,8 @@ import json
 from collections.abc import Iterator
 from typing import Any, NamedTuple, Protocol
 
+import numpy as np
+
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import Channel
@@ -90,13 +92,18 @@ def columns(flight: LoggedFlight) -> Iterator[tuple[str, Channel, Any]]:
     """Name, channel and values (T,) of every number of every channel."""
     for name, values in flight.channels.items():
         info = flight.info(name)
-        if values.ndim == 1:
-            yield name, info, values
-            continue
-        dims = dimensions(info, values.shape[1])
-        parts = itertools.product(*[[_part(d.name, label) for label in d.labels] for d in dims])
-        for part, column in zip(parts, values.T, strict=True):
-            yield "_".join((name, *part)), info, column
+        for column_name, column in zip(
+            column_names(name, info, values.shape[1:]), np.atleast_2d(values.T), strict=True
+        ):
+            yield column_name, info, column
+
+
+def column_names(name: str, channel: Channel, shape: tuple[int, ...]) -> list[str]:
+    """The name of every number of a channel's sample; `shape`: () for a single number, else how many there are."""
+    if not shape:
+        return [name]
+    parts = itertools.product(*[[_part(d.name, label) for label in d.labels] for d in dimensions(channel, shape[0])])
+    return ["_".join((name, *part)) for part in parts]
 
 
 def _part(dimension: str, label: Any) -> str:

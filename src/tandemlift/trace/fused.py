@@ -25,11 +25,13 @@ from typing import Any, Protocol, TypeGuard
 from tandemlift.algebra.law import LAWS, Choice, Elementwise
 from tandemlift.algebra.ops import PRIMITIVES
 from tandemlift.common.errors import InputError
+from tandemlift.trace.graph import LAW
 from tandemlift.trace.refusal import is_ours, refused
 from tandemlift.trace.symbol import Symbol, fma
 
 FMA = "_fma_"
 LEAVES = "_leaves_"
+ALGEBRA = ("tandemlift.algebra.ops", "tandemlift.algebra.vector")  # what they compare, the law that calls them compares
 ONE_AT_A_TIME = threading.RLock()
 FUSES: ContextVar[bool] = ContextVar("fuses", default=True)  # whether a·b + c is rounded once
 ENTERS: ContextVar[Enters | None] = ContextVar("enters", default=None)  # who is told of every law that is entered
@@ -179,6 +181,7 @@ def _run(law: Callable[..., Any], *args: Any) -> Any:
 
 def run(law: Callable[..., Any], *args: Any) -> Any:
     """Run a law on symbols; a user's law that fails on them is refused."""
+    outer = LAW.set(LAW.get() if law.__module__ in ALGEBRA else law)
     try:
         return fused(law)(*args)
     except InputError:
@@ -190,6 +193,8 @@ def run(law: Callable[..., Any], *args: Any) -> Any:
         lines = [f.lineno for f in trace if f.filename == law.__code__.co_filename and f.lineno]
         what = f"fails on symbols, {type(error).__name__}: {error}: use vectors and functions of tandemlift.algebra"
         raise refused(what, law.__code__, lines[-1] if lines else law.__code__.co_firstlineno) from error
+    finally:
+        LAW.reset(outer)
 
 
 def traced(thing: Any) -> Any:

@@ -9,7 +9,8 @@ Leaf i of lane l of `lanes` interleaved values (`algebra.layout`) is a[i * lanes
 from __future__ import annotations
 
 import struct
-from collections.abc import Container, Iterable
+from collections.abc import Callable, Container, Iterable
+from contextvars import ContextVar
 from typing import Any
 
 from tandemlift.algebra.layout import is_value, leaves
@@ -19,16 +20,18 @@ from tandemlift.trace.symbol import Symbol
 
 MOST_NODES = 1_000_000
 LEAVES = ("const", "in")
+LAW: ContextVar[Callable[..., Any] | None] = ContextVar("law", default=None)  # the one that runs on symbols now
 
 
 class Graph:
-    """Nodes by number, in the order of their creation: arguments come first."""
+    """Nodes by number, in the order of their creation: arguments come first; `laws`: which law made each first."""
 
     def __init__(self, rolls_from: int = 0) -> None:
         self.ops: list[str] = []
         self.args: list[tuple[Any, ...]] = []
         self.types: list[str] = []
         self.counts: list[int] = []
+        self.laws: list[Callable[..., Any] | None] = []
         self.rolls_from = rolls_from
         self._known: dict[Any, int] = {}
 
@@ -46,6 +49,7 @@ class Graph:
             self.args.append(args)
             self.types.append(kind)
             self.counts.append(count)
+            self.laws.append(LAW.get())
         return found
 
     def needed(self, roots: Iterable[int], known: Container[int] = ()) -> list[int]:

@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tandemlift.cli.console import progress_bar
+from tandemlift.cli.terminal.console import progress_bar
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
 

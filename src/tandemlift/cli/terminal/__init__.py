@@ -1,0 +1,1 @@
+"""What all verbs of the command line share: output, notices, the folder of results."""
