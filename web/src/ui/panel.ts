@@ -28,6 +28,7 @@ const OVERLAYS: Record<Overlay, string> = {
 export interface PanelPage {
   readonly hand: HandOptions;
   readonly overlays: Overlays;
+  readonly extra: readonly HTMLElement[];
   send(message: PageMessage): void;
   setGraphics(choice: GraphicsChoice): void;
 }
@@ -64,6 +65,7 @@ export class Panel {
       ...(groups.length ? [this.restoreAll()] : []),
       ...(this.rotors ? [this.group("rotors", [this.rotors.element])] : []),
       this.group("picture", this.picture(), !live),
+      ...this.page.extra,
     );
   }
 
