@@ -1,6 +1,5 @@
 // The worker: opens a flight, flies it in real time, and answers the page.
 
-import type { PageMessage } from "../wire/messages.generated.ts";
 import { BrokenFlight, unpacked } from "./manifest.ts";
 import { FlightModule } from "./module.ts";
 import type { FromWorker, OpenRequest, ToWorker } from "./protocol.ts";
@@ -57,7 +56,7 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>): void => {
     return;
   }
   const { seq, ...rest } = data;
-  loop?.receive(rest as PageMessage, seq);
+  loop?.receive(rest, seq);
 };
 
 /** Says why the flight cannot be flown. */
