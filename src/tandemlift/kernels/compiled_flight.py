@@ -34,7 +34,8 @@ class Kernels:
         return isinstance(self.templates.model.pilot.controller, PythonController)
 
     @cached_property
-    def _traced(self) -> TracedStep:
+    def traced(self) -> TracedStep:
+        """The graph of a step."""
         return TracedStep(self.templates, self.calls_python, fuses=self.fuses)
 
     def loop(self, lanes: int, going: Callable[[], bool] = always) -> Code:
@@ -61,7 +62,7 @@ class Kernels:
 
     def _written(self, kind: str, number: int) -> Written:
         with self._lock:
-            step = LoopWriter(self._traced, number if kind == "loop" else 1)
+            step = LoopWriter(self.traced, number if kind == "loop" else 1)
             text = step.write_loop() if kind == "loop" else step.write_parts(bool(number))
             spans = {name: span for name, span in step.scratch.spans.items() if "_" not in name}
             return Written(text, {"size": step.scratch.size, "rooms": spans})

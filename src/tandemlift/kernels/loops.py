@@ -6,6 +6,10 @@ one part to the next, and the values that are constant within a flight, which ar
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
+from typing import NamedTuple
+
 from tandemlift.kernels.compiled_limit_solver import write_limits, write_solver
 from tandemlift.kernels.external_inputs import SPAN
 from tandemlift.kernels.offsets import leaf_offset
@@ -14,7 +18,18 @@ from tandemlift.kernels.scratch import ScratchValues, steady
 from tandemlift.kernels.step_output import write_next_state, write_sample
 from tandemlift.kernels.step_writer import StepWriter
 from tandemlift.kernels.traced_step import Symbols
-from tandemlift.trace import Function, Place, Symbol, double
+from tandemlift.trace import LEAVES, Function, Place, Symbol, double
+
+
+class StepHalves(NamedTuple):
+    """A step of the loop in two halves, each to be written by a call: up to its sample, and what follows."""
+
+    sample: Callable[[], None]
+    go_on: Callable[[], None]
+
+
+def _write_nodes(nodes: list[int], f: Function) -> None:
+    f.write(nodes)
 
 
 class LoopWriter(StepWriter):
@@ -63,7 +78,7 @@ class LoopWriter(StepWriter):
     def step_body(self, f: Function) -> None:
         """Move the body over the step."""
         if not self.traced.body_in_free_air:
-            if self.graph.rolls_from:
+            if self.graph.rolls_from or self.largest:
                 self.store_values(f, self.moved, self.traced.body_in_contact)
             else:
                 f.read["moved"] = lambda i: f.value(self.traced.body_in_contact[i])  # computed where it is read
@@ -99,7 +114,9 @@ class LoopWriter(StepWriter):
         self.write_outside()
         f = self.function("fly_", result="i64")
         begin, stop, steps = self.context_word(f, "k"), self.context_word(f, "stop"), self.context_word(f, "steps")
-        self.prepare(f, begin, [*self.traced.next_state, *self.traced.sample, *self.body_roots(), *self.limit_roots()])
+        kept = self.prepare(
+            f, begin, [*self.traced.next_state, *self.traced.sample, *self.body_roots(), *self.limit_roots()]
+        )
         f.label("first")
         f.label("loop")
         f.lines.append(f"  %k = phi i64 [ {begin}, %first ], [ %next, %ahead ]")
@@ -110,13 +127,12 @@ class LoopWriter(StepWriter):
             f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
             f.lines.append("step:")
         self.begin_step(f, "%k")
-        self.limit_thrusts(f)
-        self.step_body(f)
-        write_sample(self, f, "%k")
+        sample, go_on = self._step_in_pieces(f, kept) if self.largest else self._step_in_place(f)
+        sample()
         ends = "over" if self.lanes == 1 else "ahead"
         f.do(f"br i1 {f.op(f'icmp eq i64 %k, {steps}')}, label %{ends}, label %on")
         f.lines.append("on:")
-        write_next_state(self, f, "%k")
+        go_on()
         f.label("ahead")
         f.lines.append("  %next = add i64 %k, 1")
         f.do("br label %loop")
@@ -124,6 +140,53 @@ class LoopWriter(StepWriter):
         f.end("i64 %k")
         self.export("fly")
         return self.module.text
+
+    def _step_in_place(self, f: Function) -> StepHalves:
+        def sample() -> None:
+            self.limit_thrusts(f)
+            self.step_body(f)
+            write_sample(self, f, "%k")
+
+        return StepHalves(sample, lambda: write_next_state(self, f, "%k"))
+
+    def _step_in_pieces(self, f: Function, kept: ScratchValues) -> StepHalves:
+        """Write a step as functions of some `largest` operations each, which are called one after another."""
+        x, sampling = self.traced, list[str]()
+        end = [*x.next_state, *x.sample]
+        body = [*self.body_roots(), *end]
+        acting = [*x.body.acting, *x.body.push]
+        if x.limits:
+            sampling += self._pieces("limits", kept, self.limit_roots(), [*acting, *body])
+            sampling += [self._piece("solving", self.limit_thrusts, kept, [*acting, *body])]
+        sampling += self._pieces("acting", kept, acting, body)
+        sampling += [self._piece("body", self.step_body, kept, end)]
+        sampling += self._pieces("end", kept, x.next_state, x.sample)
+        sampling += [self._piece("sample", lambda g: write_sample(self, g, "%k"), kept, [])]
+        last = self._piece("next", lambda g: write_next_state(self, g, "%k"), kept, [])
+
+        def sample() -> None:
+            for name in sampling:
+                self.call(f, name, "i64 %k")
+
+        return StepHalves(sample, lambda: self.call(f, last, "i64 %k"))
+
+    def _pieces(self, name: str, kept: ScratchValues, roots: Symbols, later: Symbols) -> list[str]:
+        """Compute roots in functions of some `largest` operations each; names of the functions."""
+        g, ids = self.graph, [s.node for s in roots]
+        nodes = [n for n in g.needed(ids, kept.at) if g.ops[n] not in LEAVES and n not in kept.at]
+        parts = [nodes[cut : cut + self.largest] for cut in range(0, len(nodes), self.largest)]
+        writers = [functools.partial(_write_nodes, part) for part in parts]
+        return [self._piece(f"{name}{i}", write, kept, [*roots, *later]) for i, write in enumerate(writers)]
+
+    def _piece(self, name: str, write: Callable[[Function], None], kept: ScratchValues, later: Symbols) -> str:
+        """Write a part of a step as a function, which stores what later parts need; its name."""
+        f = self.function(f"{name}_part", ", i64 %k")
+        kept.bind(f)
+        self.bind_inputs(f, "%k")
+        write(f)
+        kept.store_for_later(f, later)
+        f.end()
+        return f"{name}_part"
 
     def write_parts(self, leaves_body: bool) -> str:
         """Step k in parts: `ask` up to a controller in Python, `decide` up to another body, `complete` to its end."""

@@ -12,8 +12,6 @@ from tandemlift.laws.mechanics.wall_geometry import WALL
 from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.trace import Function, Place, double
 
-NORMAL_LANES = 8  # of the loop that draws normal numbers for a flight alone
-
 
 def write_push(step: StepWriter) -> None:
     """The sum of all pushes at the half steps of the span that holds step k."""
@@ -58,7 +56,7 @@ def _add_to(f: Function, at: str | int, more: Symbols) -> None:
 
 def write_draw(step: StepWriter) -> None:
     """Standard normals of one step in every lane; for a flight alone, of all steps of the span that holds step k."""
-    lanes = step.lanes if step.lanes > 1 else NORMAL_LANES
+    lanes = step.lanes if step.lanes > 1 else step.draw_lanes
     uniform = ("number",) if step.lanes > 1 else ("key",)
     f = Function(step.module, step.graph, lanes, f"internal void @draw_noise({MEMORY}, i64 %k) #1", uniform)
     keys = step.context_word(f, "keys")
@@ -69,11 +67,12 @@ def write_draw(step: StepWriter) -> None:
         f.end()
         return
     first = f.integer("and", "%k", -SPAN)
-    ramp = "<" + ", ".join(f"i64 {j}" for j in range(lanes)) + ">"
+    kind = f"<{lanes} x i64>" if lanes > 1 else "i64"
+    ramp = "<" + ", ".join(f"i64 {j}" for j in range(lanes)) + ">" if lanes > 1 else "0"
     f.read = {"key": lambda m: f.load(keys, m, "double")}
     with f.repeat(SPAN // lanes) as j:
         base = f.spread(f.integer("add", first, f.integer("mul", j, lanes)), "i64")
-        numbers = f.op(f"add <{lanes} x i64> {base}, {ramp}")
+        numbers = f.op(f"add {kind} {base}, {ramp}")
         f.read["number"] = lambda m: numbers
         for m, value in enumerate(v for four in step.traced.normals for v in f.values(four)):
             at = f.integer("add", f.integer("mul", j, lanes), step.noise + m * SPAN)

@@ -19,11 +19,13 @@ class StepWriter:
     Args:
         traced: the graph of a step.
         lanes: flights that one instruction serves: 1, or LANES for a block.
+        largest: operations of a function, about, where a step is cut into several; 0 for a step in one function.
+        draw_lanes: steps that one instruction draws random numbers for, in a flight alone: a power of two up to SPAN.
     """
 
-    def __init__(self, traced: TracedStep, lanes: int) -> None:
+    def __init__(self, traced: TracedStep, lanes: int, draw_lanes: int = 8, largest: int = 0) -> None:
         self.traced, self.templates, self.graph, self.lanes = traced, traced.templates, traced.graph, lanes
-        self.module, self.scratch = Module(), ScratchLayout()
+        self.module, self.scratch, self.draw_lanes, self.largest = Module(), ScratchLayout(), draw_lanes, largest
         self.width, self.draws = leaves(self.templates.given.hand.start), 0
         self.state_size = leaves(self.templates.model.flight_state)
         self.delayed = delayed_spans(self.templates.model)
@@ -84,8 +86,9 @@ class StepWriter:
         f.do(f"call void @{name}({', '.join([ARGUMENTS, *more])})")
 
     def context_word(self, f: Function, name: str) -> str:
-        """A word of the context."""
-        return f.load("%c", AT[name], "ptr" if name in POINTERS else "i64")
+        """A word of the context; words have 64 bits, also where addresses have 32."""
+        kind = "ptr" if name in POINTERS else "i64"
+        return f.op(f"load {kind}, ptr {f.at('%c', AT[name], 'i64')}, align 8")
 
     def time(self, f: Function, k: str) -> str:
         """The time of step k."""

@@ -40,6 +40,15 @@ class Nodes(Protocol):
     def number(self, value: Any) -> int:
         """The node of a value as a double."""
 
+    def truth(self, symbol: Symbol) -> bool:
+        """Whether a symbol is true, where a branch asks for it."""
+
+    def plain(self, symbol: Symbol) -> float:
+        """The value of a symbol, where a plain number is needed."""
+
+    def power(self, symbol: Symbol, exponent: Any) -> Any:
+        """A symbol to a plain power, written as `**`."""
+
 
 class Symbol:
     """A number that is not known yet, or a large set of such numbers, which machine code handles in loops."""
@@ -145,19 +154,23 @@ class Symbol:
         return _bitwise("ashr", self, count)
 
     def __pow__(self, power: Any) -> Any:
-        raise refused_here("takes a power by **: write a product, or power(x, p) of tandemlift.algebra")
+        return self.graph.power(self, power)
 
     __rpow__ = __pow__
 
     def __bool__(self) -> bool:
-        raise refused_here(
-            "branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra"
-        )
+        return self.graph.truth(self)
 
     def __float__(self) -> float:
-        raise refused_here("takes a plain number out of its data: use the functions of tandemlift.algebra")
+        return self.graph.plain(self)
 
-    __int__ = __index__ = __float__
+    def __int__(self) -> int:
+        return int(self.graph.plain(self))
+
+    __index__ = __trunc__ = __int__
+
+    def __round__(self, digits: int | None = None) -> Any:
+        return round(self.graph.plain(self), digits)
 
     def __iter__(self) -> Any:
         if self.rolled:
@@ -191,12 +204,14 @@ def _is_operand(value: Any, other: Any) -> bool:
     """Whether a value can be an operand next to another: a number, or a set next to a symbol of equal size."""
     if isinstance(value, tuple):
         return is_set(value) and isinstance(other, Symbol) and other.rolled == len(value)
-    return isinstance(value, (Symbol, float, int)) or hasattr(value, "__float__")
+    if isinstance(value, (Symbol, float, int)):
+        return True
+    return hasattr(value, "__float__") and not getattr(value, "ndim", 0)
 
 
 def _arithmetic(op: str, whole: str, a: Any, b: Any) -> Any:
     if not (_is_operand(a, b) and _is_operand(b, a)):
-        return NotImplemented
+        return _with_array(op, whole, a, b)
     graph = _graph_of(a, b)
     if whole and _is_integer(a) and _is_integer(b):
         return Symbol(graph, graph.node(whole, (_node_of(graph, a), _node_of(graph, b)), "i"), "i")
@@ -205,6 +220,17 @@ def _arithmetic(op: str, whole: str, a: Any, b: Any) -> Any:
     if op == "fmul" and not isinstance(a, Symbol) and a == 1.0:
         return b
     return _made(graph, op, a, b)
+
+
+def _with_array(op: str, whole: str, a: Any, b: Any) -> Any:
+    """Arithmetic of a symbol and a NumPy array, element by element; other operands are refused."""
+    array = a if getattr(a, "ndim", 0) else b
+    if not getattr(array, "ndim", 0):
+        return NotImplemented
+    made = array.astype(object)
+    for place, x in enumerate(array.flat):
+        made.flat[place] = _arithmetic(op, whole, *((x, b) if array is a else (a, x)))
+    return made
 
 
 def _made(graph: Nodes, op: str, *values: Any) -> Symbol:

@@ -124,7 +124,7 @@ class Text(ABC):
 
     def at(self, base: str, index: str | int, kind: str = "") -> str:
         """The address of a value in memory."""
-        return self.op(f"getelementptr {kind or self.vector}, ptr {base}, i64 {index}")
+        return self.op(f"getelementptr inbounds nuw {kind or self.vector}, ptr {base}, i64 {index}")
 
     def load(self, base: str, index: str | int = 0, kind: str = "") -> str:
         """A value of all lanes from memory, or of another kind (`double`, `i64`, `ptr`)."""

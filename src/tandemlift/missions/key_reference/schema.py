@@ -24,7 +24,7 @@ TYPES = {float: "number", int: "integer", bool: "boolean", str: "string"}
 
 def mission_schema() -> Schema:
     """The schema of a mission file; the settings of every registered controller are in it."""
-    properties = {name: _field(field) for name, field in Mission.model_fields.items() if name != "controller"}
+    properties = {name: schema_of(field) for name, field in Mission.model_fields.items() if name != "controller"}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "tandemlift mission",
@@ -46,7 +46,7 @@ def _table(model: Model) -> Schema:
     return {
         "type": "object",
         "description": _text(model),
-        "properties": {name: _field(field) for name, field in model.model_fields.items()},
+        "properties": {name: schema_of(field) for name, field in model.model_fields.items()},
         "additionalProperties": False,
     }
 
@@ -56,7 +56,8 @@ def _text(model: Model) -> str:
     return "\n\n".join([f"{first}.", *others])
 
 
-def _field(field: FieldInfo) -> Schema:
+def schema_of(field: FieldInfo) -> Schema:
+    """The schema of a key or of a table."""
     table = table_in(field.annotation)
     if table is not None and get_origin(field.annotation) is tuple:
         return {"type": "array", "description": _text(table), "items": {**_table(table), **_required(table)}}
@@ -140,7 +141,7 @@ def _controllers() -> Schema:
     known = {name: CONTROLLERS[name].settings for name in sorted(CONTROLLERS)}
     shown, cases = Schema(), list[Schema]()
     for name, model in known.items():
-        keys = {key: _field(field) for key, field in model.model_fields.items() if key != "name"}
+        keys = {key: schema_of(field) for key, field in model.model_fields.items() if key != "name"}
         for key, schema in keys.items():
             shown.setdefault(key, _described(schema))
         named = {"properties": {"name": {"const": name}}, "required": ["name"]}
