@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.live.session.frame_values import arrays_of, components_of, field_values
+from tandemlift.live.session.frame_values import arrays_of, components_of, field_values, phase_times
 from tandemlift.live.session.scene_builder import scene_of_tables
 from tandemlift.live.wire.frames import RATE, layout_for, pack_frames
 from tandemlift.live.wire.scene import FlightScene, SceneReplay
@@ -43,7 +43,7 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
     shown = np.flatnonzero(np.isin(flight.time, stage.time))
     shown = shown[:: _stride(flight.time[shown])]
     channels = {name: components_of(flight[name][shown]) for name in flight.channels}
-    values = arrays_of(field_values(channels, flight.time[shown], flight.mission["phases"]))
+    values = arrays_of(field_values(channels, flight.time[shown], phase_times(flight.mission["phases"])))
     frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(shown))
     scene = scene_of_tables(flight.mission, stage.vehicle, flight.version.get("engine", ""), stage.floor)
     scene["replay"] = SceneReplay(start=float(flight.time[shown[0]]), end=float(flight.time[shown[-1]]), speed=1)

@@ -36,13 +36,11 @@ export class Flight {
     now: readonly number[],
   ) {
     const { sizes, numbers, context } = module.manifest;
-    const prepared = Object.values(module.manifest.prepared);
-    const size = Math.max(...prepared.map(([at, rows, columns]) => at + rows * columns));
     [this.numbers, this.trial] = [module.allocate(numbers.length), module.allocate(numbers.length)];
-    [this.prepared, this.spare] = [module.allocate(size), module.allocate(size)];
+    [this.prepared, this.spare] = [module.allocate(sizes.prepared), module.allocate(sizes.prepared)];
     [this.flight, this.sampled] = [module.allocate(sizes.flight), module.allocate(sizes.sample)];
-    this.context = module.allocate(context.length);
-    this.at = Object.fromEntries(context.map((name, i) => [name, i]));
+    this.context = module.allocate(context.words.length);
+    this.at = Object.fromEntries(context.words.map((name, i) => [name, i]));
     this.begin(now);
   }
 

@@ -80,7 +80,7 @@ export class HandControl {
   private checkTouch(point: Vector): void {
     const { flight, page } = this;
     const hovered = page.hover_time < 0 ? 0 : flight.number(page.hover_time);
-    const [refusal] = this.module.values("touch_refusal", [flight.time, hovered, ...point]);
+    const [refusal] = this.module.values("touch_refusal", [...page.touch_rule, flight.time, hovered, ...point]);
     const text = page.texts.touch[String(refusal)];
     if (text) throw new Refusal(text, { point: `[${point.map(float).join(", ")}]` });
   }

@@ -9,10 +9,14 @@ export type Span = readonly [at: number, size: number];
 /** Of the module: where its numbers lie. */
 export interface ModuleManifest {
   version: string;
-  numbers: { key: string; value: number }[];
+  numbers: { key: string; value: number | string }[]; // a text where JSON has no number: inf, nan
   guards: string[][];
-  context: string[]; // names of 64-bit words, in order
-  sizes: Record<"flight" | "state" | "work" | "sample" | "ring_rows" | "ring_row", number>;
+  context: { words: string[] }; // names of 64-bit words, in order
+  sizes: Record<
+    "flight" | "state" | "prepared" | "work" | "prepare_work" | "sample" | "ring_rows" | "ring_row",
+    number
+  >;
+  functions: Record<string, readonly [given: number, returned: number]>;
   prepared: Record<Table | "flight", readonly [at: number, rows: number, columns: number]>;
   delayed: Span[];
   delays: number[]; // steps
@@ -100,6 +104,8 @@ export interface PageManifest {
   lost: number; // index of the number that is 0 until the flight diverges
   hover_time: number; // index, or −1 if no tare needs it
   frame: [field: string, count: number][]; // what `frame` returns
+  phase_times: number[]; // s
+  touch_rule: number[];
   ramp: number; // s
   request_time: number; // s
   pacing: PacingConstants;

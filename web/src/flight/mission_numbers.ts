@@ -11,7 +11,7 @@ export class MissionNumbers {
   constructor(
     private readonly manifest: FlightManifest,
     readonly tables: Tables = structuredClone(manifest.page.tables),
-    readonly numbers: number[] = manifest.module.numbers.map(({ value }) => value),
+    readonly numbers: number[] = manifest.module.numbers.map(({ value }) => doubleOf(value)),
   ) {
     manifest.module.numbers.forEach(({ key }, i) => this.places.set(key, i));
   }
@@ -53,4 +53,8 @@ export class MissionNumbers {
     const table = path.reduce<Tables>((inner, part) => inner[part] as Tables, this.tables);
     return { table, last, value: table[last] };
   }
+}
+
+function doubleOf(value: number | string): number {
+  return Number(String(value).replace("inf", "Infinity"));
 }

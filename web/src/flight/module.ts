@@ -31,6 +31,7 @@ export class FlightModule {
   private halves: Int32Array;
   private readonly arguments: Numbers;
   private readonly results: Numbers;
+  private readonly work: Numbers;
   private readonly kept: number; // first address that a flight may take
 
   constructor(
@@ -41,8 +42,10 @@ export class FlightModule {
     this.top = this.functions.__heap_base.value;
     this.doubles = new Float64Array(this.functions.memory.buffer);
     this.halves = new Int32Array(this.functions.memory.buffer);
-    this.arguments = this.allocate(Math.max(64, manifest.sizes.sample + 1));
-    this.results = this.allocate(256);
+    const sizes = Object.values(manifest.functions);
+    this.arguments = this.allocate(Math.max(...sizes.map(([given]) => given)));
+    this.results = this.allocate(Math.max(...sizes.map(([, returned]) => returned)));
+    this.work = this.allocate(manifest.sizes.prepare_work);
     this.kept = this.top;
   }
 
@@ -79,7 +82,7 @@ export class FlightModule {
 
   /** The numbers of a flight at its start, and its tables, from the mission's; the guard that fails, or null. */
   prepare(numbers: Numbers, prepared: Numbers): string[] | null {
-    const failed = Number(this.functions.prepare(numbers.address, prepared.address));
+    const failed = Number(this.functions.prepare(numbers.address, prepared.address, this.work.address));
     return failed ? this.manifest.guards[failed - 1] : null;
   }
 

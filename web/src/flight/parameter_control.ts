@@ -76,6 +76,7 @@ export class ParameterControl {
     const bounds = parameter ?? (key in absent ? absent[key] : null);
     if (!bounds) throw new Refusal(texts.unknown, { key });
     const said = { key, value: shown(value) };
+    if (!bounds.out_of_bounds) throw new Refusal(absent[key].refusal, said);
     for (const number of [value].flat()) {
       if (typeof number !== "number") throw new Refusal(texts.no_number, said);
       if (!(number >= bounds.min && number <= bounds.max)) throw new Refusal(bounds.out_of_bounds, said);

@@ -231,7 +231,7 @@ export class Session {
 
   private eachValue(use: (field: FlightScene["fields"][number][0], values: Float64Array) => void): void {
     const at = (this.flight.step - 1) * this.module.manifest.dt;
-    const values = this.module.values("frame", [...this.flight.sample, at]);
+    const values = this.module.values("frame", [...this.flight.sample, at, ...this.manifest.page.phase_times]);
     let from = 0;
     for (const [field, count] of this.manifest.page.frame) {
       use(field as FlightScene["fields"][number][0], values.subarray(from, from + count));

@@ -12,8 +12,10 @@ from tandemlift.common.errors import InputError
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.live.offline.message_rules import message_rules, name_rule
+from tandemlift.live.offline.page_functions import frame_fields
 from tandemlift.live.session import checks, pacing
 from tandemlift.live.session import refusal_texts as texts
+from tandemlift.live.session.frame_values import phase_times
 from tandemlift.live.session.hand_control import REQUEST_TIME
 from tandemlift.live.session.interactive_mission import NEVER
 from tandemlift.live.session.parameter_control import RAMP
@@ -39,14 +41,9 @@ OTHER_LAWS = "{key}: the module of this page cannot take it in flight; `tandemli
 STATUS_EVERY = RATE // 4  # frames
 
 
-def page_manifest(mission: Mission, plan: FlightPlan, fields: list[tuple[str, int]]) -> dict[str, Any]:
-    """What a page is told of a mission.
-
-    Args:
-        mission: made interactive.
-        plan: of the same mission.
-        fields: what the function `frame` of its module returns.
-    """
+def page_manifest(plan: FlightPlan) -> dict[str, Any]:
+    """What a page is told of a mission that was made interactive."""
+    mission = plan.mission
     scene = scene_of(mission, ENGINE)
     rule = checks.touch_rule(mission, scene["vehicle"])
     tables = tables_of(mission)
@@ -67,7 +64,9 @@ def page_manifest(mission: Mission, plan: FlightPlan, fields: list[tuple[str, in
         "plant": leaf_offset(plan.model, "plant"),
         "lost": leaf_offset(plan.model, "flight_state", "diverged").at,
         "hover_time": leaf_offset(plan.model, "flight_state", *checks.HOVER_TIME).at if rule.tare_duration else -1,
-        "frame": fields,
+        "frame": frame_fields(plan),
+        "phase_times": list(phase_times(tables["phases"])),
+        "touch_rule": list(rule),
         "ramp": RAMP,
         "request_time": REQUEST_TIME,
         "pacing": _pacing(),

@@ -32,7 +32,7 @@ class TouchRule(NamedTuple):
     Attributes:
         reach: farthest point from the centre of mass [m].
         tare_duration: hover that the tare of its force sensors takes, if the pilot tares by itself [s]; else 0.
-        tare_end: when a tare at a set time ends [s]; −∞ without one.
+        tare_end: when a tare at a set time ends [s]; 0 without one.
     """
 
     reach: Any
@@ -45,9 +45,9 @@ def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
     tare, start = mission.estimator, mission.estimator.tare_start
     reach = max(_reaches(vehicle))
     if mission.pilot.push == "truth" or (tare.tare != "hover" and start is None):
-        return TouchRule(reach, 0.0, -math.inf)
+        return TouchRule(reach, 0.0, 0.0)
     if tare.tare == "hover":
-        return TouchRule(reach, tare.tare_duration, -math.inf)
+        return TouchRule(reach, tare.tare_duration, 0.0)
     assert start is not None
     return TouchRule(reach, 0.0, start + tare.tare_duration)
 

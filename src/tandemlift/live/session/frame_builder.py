@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.common.types import Array
-from tandemlift.live.session.frame_values import Components, channel_columns, field_values
+from tandemlift.live.session.frame_values import Components, channel_columns, field_values, phase_times
 from tandemlift.live.session.scene_builder import scene_of
 from tandemlift.live.wire.frames import layout_for, pack_frames
 from tandemlift.missions import Mission, tables_of
@@ -32,7 +32,7 @@ class FrameBuilder:
     def __init__(self, mission: Mission, engine: str, setup: FlightSetup) -> None:
         self.scene = scene_of(mission, engine)
         self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
-        self._phases, self._columns = tables_of(mission)["phases"], channel_columns(setup.plan.sample)
+        self._phases, self._columns = phase_times(tables_of(mission)["phases"]), channel_columns(setup.plan.sample)
         self._start = setup.plan.model.flight_state.state
 
     def values(self, sample: Array, at: float) -> dict[str, Components]:

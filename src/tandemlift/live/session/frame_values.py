@@ -6,19 +6,20 @@ flies without a server (`live.offline`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.algebra.layout import leaves
+from tandemlift.algebra.layout import is_value, leaves
 from tandemlift.algebra.ops import absolute, maximum, where
 from tandemlift.algebra.vector import Quat, Vec3, cross, dot
 from tandemlift.common.phases import GUIDED, LAND, LIFT
 from tandemlift.common.types import Array
 from tandemlift.simulation.results import channels_of
 
+AGES = 1e300  # s, the time of a landing that never comes
 MIN_PUSH = 1e-9  # N, below which a push has no point of action
 CHANNELS = {  # of each field: the channels that it may come from, the best first
     "position": ("position",),
@@ -48,13 +49,28 @@ def components_of(channel: Array) -> Components:
     return tuple(channel.reshape(len(channel), -1).T)
 
 
-def field_values(channels: Mapping[str, Components], time: Any, phases: Mapping[str, Any]) -> dict[str, Components]:
+class PhaseTimes(NamedTuple):
+    """When a flight that is guided by the clock begins and ends to lift, and begins to land [s]."""
+
+    lift_start: Any
+    lift_end: Any
+    land_start: Any
+
+
+def phase_times(phases: Mapping[str, Any]) -> PhaseTimes:
+    """The times of a mission; `phases`: that table of it."""
+    start, land = phases["lift_start"], phases.get("land_start")
+    end = start + phases["lift_duration"] if phases["height"] != 0.0 else start
+    return PhaseTimes(start, end, AGES if land is None else land)
+
+
+def field_values(channels: Mapping[str, Components], time: Any, phases: PhaseTimes) -> dict[str, Components]:
     """The values of the fields, component by component, 0 where they are not a number.
 
     Args:
         channels: components of each channel.
         time: [s].
-        phases: that table of the mission.
+        phases: of a flight that is guided by the clock.
     """
     found = {field: next((channels[n] for n in names if n in channels), None) for field, names in CHANNELS.items()}
     values = {field: channel for field, channel in found.items() if channel is not None}
@@ -64,6 +80,27 @@ def field_values(channels: Mapping[str, Components], time: Any, phases: Mapping[
     values["push_point"] = point_of(Vec3(*values["push"]), moment, attitude)
     values["phase"] = channels["phase"] if "phase" in channels else (_phase_by_clock(time, phases),)
     return {field: tuple(map(_number_or_zero, parts)) for field, parts in values.items()}
+
+
+def fields_of_samples(layout: Any) -> Callable[[Any, Any, PhaseTimes], dict[str, Components]]:
+    """The function from a sample laid out like this, its time [s] and the phases to the values of the fields."""
+    columns = channel_columns(layout)
+
+    def fields_of(sample: Any, time: Any, phases: PhaseTimes) -> dict[str, Components]:
+        numbers = list(_numbers(sample))
+        return field_values({name: tuple(numbers[i] for i in at) for name, at in columns.items()}, time, phases)
+
+    return fields_of
+
+
+def frame_of_samples(layout: Any) -> Callable[[Any, Any, PhaseTimes], Components]:
+    """The same with all values in one row."""
+    fields_of = fields_of_samples(layout)
+
+    def frame(sample: Any, time: Any, phases: PhaseTimes) -> Components:
+        return tuple(part for parts in fields_of(sample, time, phases).values() for part in parts)
+
+    return frame
 
 
 def arrays_of(values: Mapping[str, Components]) -> dict[str, Array]:
@@ -96,11 +133,13 @@ def _number_or_zero(x: Any) -> Any:
     return where(absolute(x) >= 0.0, x, 0.0)
 
 
-def _phase_by_clock(time: Any, phases: Mapping[str, Any]) -> Any:
-    """The phase of a flight that is guided by the clock."""
-    start, end = phases["lift_start"], phases["lift_start"] + phases["lift_duration"]
-    flying: Any = time * 0.0 + GUIDED
-    if phases["height"] != 0.0:
-        flying = where(time >= start, where(time < end, LIFT, GUIDED), GUIDED)
-    return flying if phases.get("land_start") is None else where(time >= phases["land_start"], LAND, flying)
+def _numbers(value: Any) -> Iterator[Any]:
+    """The numbers of a nested value, depth first, as they are."""
+    for part in value:
+        yield from _numbers(part) if is_value(part) else (part,)
 
+
+def _phase_by_clock(time: Any, phases: PhaseTimes) -> Any:
+    """The phase of a flight that is guided by the clock."""
+    lifting = where(time >= phases.lift_start, where(time < phases.lift_end, LIFT, GUIDED), GUIDED)
+    return where(time >= phases.land_start, LAND, lifting)
