@@ -7,6 +7,7 @@ without a branch on data: products, sums, roots, inverses of small matrices, eig
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 import operator
 from collections.abc import Callable, Sequence
@@ -35,9 +36,7 @@ def mapped(function: Callable[[Any], Any], plain: Callable[[Any], Any], values: 
     """A function of every element of an array: `plain`, NumPy's, unless it holds symbols."""
     if not has_symbols(values):
         return plain(values)
-    made = np.empty(values.shape, dtype=object)
-    made.flat = [function(x) for x in values.flat]
-    return made
+    return np.array([function(x) for x in values.flat], dtype=object).reshape(values.shape)
 
 
 def square_roots(values: Any) -> Any:
@@ -71,8 +70,8 @@ def _is_zero(x: Any) -> bool:
 
 def _determinant(A: Any) -> Any:
     """By expansion along the first row; plain zeros are skipped."""
-    if len(A) == 1:
-        return A[0, 0]
+    if not len(A):
+        return 1.0
     total: Any = 0.0
     for j, x in enumerate(A[0]):
         if not _is_zero(x):
@@ -120,10 +119,11 @@ def eigenvectors(A: Any, vectors: bool = True) -> tuple[Any, Any]:
     Source: Golub and Van Loan, Matrix Computations, 4th ed., section 8.5.
     """
     if not has_symbols(A):
-        return tuple(np.linalg.eigh(A))
+        eigen: tuple[Any, Any] = np.linalg.eigh(A)
+        return eigen
     A, n = A.copy(), len(A)
     V = np.eye(n if vectors else 0).astype(object)
-    for p, q in [(p, q) for _ in range(SWEEPS) for p in range(n) for q in range(p + 1, n)]:
+    for p, q in [*itertools.combinations(range(n), 2)] * SWEEPS:
         off = A[p, q]
         if _is_zero(off):
             continue

@@ -44,9 +44,9 @@ def with_numbers(value: T, numbers: Mapping[str, Any], place: Place = ()) -> T:
     """The mission with other values for some of its numbers. They are not checked, so they may be symbols."""
     old = dict(_parts(value))
     if not old:
-        return numbers.get(dotted(place), value) if place else value  # type: ignore[return-value]
+        return numbers.get(dotted(place), value) if place else value
     new = {part: with_numbers(inner, numbers, (*place, part)) for part, inner in old.items()}
-    changed = {part: inner for part, inner in new.items() if inner is not old[part]}
+    changed: dict[Any, Any] = {part: inner for part, inner in new.items() if inner is not old[part]}
     if not changed:
         return value
     if isinstance(value, BaseModel):

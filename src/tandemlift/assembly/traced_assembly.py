@@ -94,7 +94,7 @@ def _tried(
         return None, _left_plain(keys, error)
     finally:
         FUSES.reset(before)
-    reasons = {keys[i]: f"is used as a plain number by {place}" for i, place in graph.used.items()}
+    reasons = {keys[i]: reason for i, reason in graph.used.items()}
     return TracedAssembly(graph, keys, tuple(inputs.values()), assembled, tuple(graph.guards.values()), fixed), reasons
 
 

@@ -1,5 +1,6 @@
 """The LLVM text of a mission's module: its loop over steps, the ramps of its numbers, and functions of values.
 
+    prepare(numbers, prepared, work) → 0, or 1 + …               see `prepare_text`
     fly(context) → the step reached                              as in `kernels`
     ramp(flight, before, after, active, first, count, k, begin, steps) → 1 while the ramp goes on
     NAME(x, y) → 0                                               y = function(x), numbers one after another

@@ -52,7 +52,7 @@ class ObjectSymbol(NamedTuple):
 
     kind: int
     name: str
-    index: int
+    number: int
     offset: int = 0
 
 
@@ -130,7 +130,7 @@ def linked(data: bytes, exports: Iterable[str]) -> bytes:
     places, segments, end = _placed(x.bodies.get(DATA, b"\0"))
     code = _relocated(x, CODE, "reloc.CODE", places)
     heap = -(-end // ALIGNMENT) * ALIGNMENT
-    functions = {s.name: s.index for s in x.symbols if s.kind == IS_FUNCTION}
+    functions = {s.name: s.number for s in x.symbols if s.kind == IS_FUNCTION}
     missing = [name for name in exports if name not in functions]
     if missing:
         raise LinkError(f"the object has no function {', '.join(missing)}")
@@ -177,9 +177,9 @@ def _relocated(x: WasmObject, kind: int, name: str, places: list[int]) -> bytes:
             continue  # types keep their numbers
         symbol = x.symbols[index]
         if relocation in WITH_ADDEND and symbol.kind == IS_DATA:
-            value = places[symbol.index] + symbol.offset + addend
+            value = places[symbol.number] + symbol.offset + addend
         elif relocation == FUNCTION_INDEX and symbol.kind == IS_FUNCTION:
-            value = symbol.index  # without imports, functions keep their numbers
+            value = symbol.number  # without imports, functions keep their numbers
         elif relocation == GLOBAL_INDEX and symbol.kind == IS_GLOBAL:
             value = 0  # the stack pointer, the only global that code uses
         else:

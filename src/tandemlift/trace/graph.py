@@ -130,11 +130,11 @@ class Graph:
             "branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra"
         )
 
-    def plain(self, symbol: Symbol) -> float:
+    def plain(self, symbol: Symbol, *, rounded: bool = False) -> float:
         """Refuse to give a number, which is known only when the graph is evaluated."""
         raise refused_here("takes a plain number out of its data: use the functions of tandemlift.algebra")
 
-    def power(self, symbol: Symbol, exponent: Any) -> Any:
+    def power(self, base: Any, exponent: Any) -> Any:
         """Refuse a power: NumPy and machine code would round it differently."""
         raise refused_here("takes a power by **: write a product, or power(x, p) of tandemlift.algebra")
 

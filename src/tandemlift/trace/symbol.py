@@ -9,45 +9,13 @@ import math
 import operator
 from fractions import Fraction
 from types import ModuleType
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 from tandemlift.algebra.vector import is_set
+from tandemlift.trace.nodes import Nodes
 from tandemlift.trace.refusal import refused_here
 
 NAMES = {"f": "a number", "b": "a truth", "i": "an integer"}
-
-
-class Nodes(Protocol):
-    """What a symbol needs of the `Graph` that holds its node; each method gives the number of a node."""
-
-    counts: list[int]
-
-    def node(self, op: str, args: tuple[Any, ...], kind: str, count: int = -1) -> int:
-        """The node of an operation."""
-
-    def pack(self, values: Any) -> int:
-        """The node of a set of numbers and symbols."""
-
-    def take(self, source: int, first: int, step: int, count: int) -> int:
-        """The node of some values of a set."""
-
-    def get(self, source: int, at: int) -> int:
-        """The node of one value of a set."""
-
-    def constant(self, value: Any) -> int:
-        """The node of a constant."""
-
-    def number(self, value: Any) -> int:
-        """The node of a value as a double."""
-
-    def truth(self, symbol: Symbol) -> bool:
-        """Whether a symbol is true, where a branch asks for it."""
-
-    def plain(self, symbol: Symbol) -> float:
-        """The value of a symbol, where a plain number is needed."""
-
-    def power(self, symbol: Symbol, exponent: Any) -> Any:
-        """A symbol to a plain power, written as `**`."""
 
 
 class Symbol:
@@ -156,7 +124,8 @@ class Symbol:
     def __pow__(self, power: Any) -> Any:
         return self.graph.power(self, power)
 
-    __rpow__ = __pow__
+    def __rpow__(self, base: Any) -> Any:
+        return self.graph.power(base, self)
 
     def __bool__(self) -> bool:
         return self.graph.truth(self)
@@ -165,12 +134,12 @@ class Symbol:
         return self.graph.plain(self)
 
     def __int__(self) -> int:
-        return int(self.graph.plain(self))
+        return int(self.graph.plain(self, rounded=True))
 
     __index__ = __trunc__ = __int__
 
     def __round__(self, digits: int | None = None) -> Any:
-        return round(self.graph.plain(self), digits)
+        return round(self.graph.plain(self, rounded=True), digits)
 
     def __iter__(self) -> Any:
         if self.rolled:

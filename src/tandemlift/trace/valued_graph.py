@@ -101,7 +101,7 @@ class ValuedGraph(Graph):
     Attributes:
         values: of the nodes.
         guards: the branches that were taken, by the node of their condition.
-        used: the inputs that plain numbers were made of, each with the place that asked first.
+        used: the inputs that plain numbers were made of, each with why and where it was first.
     """
 
     def __init__(self, numbers: Sequence[float]) -> None:
@@ -127,19 +127,21 @@ class ValuedGraph(Graph):
             self.guards[symbol.node] = Guard(symbol, holds)
         return holds
 
-    def plain(self, symbol: Symbol) -> float:
+    def plain(self, symbol: Symbol, *, rounded: bool = False) -> float:
         """The value of a symbol; the inputs that it depends on are kept."""
-        place = _asking()
+        reason = f"is {'rounded to a whole number' if rounded else 'used as a plain number'} by {_asking()}"
         for number in self.inputs_of(symbol):
-            self.used.setdefault(number, place)
+            self.used.setdefault(number, reason)
         return float(self.values[symbol.node])
 
-    def power(self, symbol: Symbol, exponent: Any) -> Any:
-        """A power: a product for whole exponents from 0, a root for a half, else by exponential and logarithm."""
-        if exponent in (0, 1, 2, 3):
-            return (1.0, symbol, symbol * symbol, symbol * symbol * symbol)[int(exponent)]
+    def power(self, base: Any, exponent: Any) -> Any:
+        """A power: a product for whole exponents to 3, a root for a half, else by exponential and logarithm."""
         functions: Any = Symbol.functions
-        return functions.sqrt(symbol) if exponent == 0.5 else functions.exp(functions.log(symbol) * exponent)
+        if not isinstance(exponent, Symbol) and exponent in (0, 1, 2, 3):
+            return (1.0, base, base * base, base * base * base)[int(exponent)]
+        if not isinstance(exponent, Symbol) and exponent == 0.5:
+            return functions.sqrt(base)
+        return functions.exp(functions.log(base) * exponent)
 
     def inputs_of(self, symbol: Symbol) -> list[int]:
         """The numbers of the inputs that a symbol depends on."""
@@ -151,4 +153,5 @@ def _asking() -> str:
     frame = sys._getframe(2)
     while frame.f_back and frame.f_code.co_filename.startswith(HERE):
         frame = frame.f_back
-    return f"{frame.f_globals.get('__name__', '')}.{frame.f_code.co_qualname}".removeprefix("tandemlift.")
+    name = frame.f_code.co_qualname.partition(".<locals>")[0]
+    return f"{frame.f_globals.get('__name__', '')}.{name}".removeprefix("tandemlift.")
