@@ -16,6 +16,7 @@ from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
 from tandemlift.cli.live import live
+from tandemlift.cli.page import page
 from tandemlift.cli.render import render
 from tandemlift.cli.replay import replay
 from tandemlift.cli.report import report
@@ -64,6 +65,7 @@ cli.add_command(run)
 cli.add_command(compare)
 cli.add_command(render)
 cli.add_command(live)
+cli.add_command(page)
 cli.add_command(replay)
 cli.add_command(gazebo)
 cli.add_command(ros)

@@ -26,6 +26,7 @@ from tandemlift.targets.mission_module import module_of
 MISSIONS = ("hover", "zigzag", "iris", "doorway", "rotor-loss")  # in the page's menu
 FORMAT = 1  # as in web/src/flight/manifest.ts
 ENDING = ".flight"
+SHIPPED = Path(__file__).resolve().parent.parent.parent / "data" / "flights"  # in an installed package
 
 
 class PackedFlight(NamedTuple):
@@ -58,11 +59,17 @@ def flight_manifest(mission: Mission) -> tuple[dict[str, Any], bytes]:
 
 
 def packed_flight(name: str) -> PackedFlight:
-    """The flight of a mission; its module is compiled if it is in no cache."""
-    manifest, code = flight_manifest(page_mission(name))
-    text = json.dumps(manifest, allow_nan=False, separators=(",", ":")).encode()
-    whole = len(text).to_bytes(4, "little") + text + code
-    return PackedFlight(name, built_in()[name], hashlib.sha256(whole).hexdigest(), gzip.compress(whole, 9, mtime=0))
+    """The flight of a mission: as it was shipped, or else made; its module is compiled if it is in no cache."""
+    shipped = SHIPPED / f"{name}{ENDING}"
+    if shipped.is_file():
+        data = shipped.read_bytes()
+        whole = gzip.decompress(data)
+    else:
+        manifest, code = flight_manifest(page_mission(name))
+        text = json.dumps(manifest, allow_nan=False, separators=(",", ":")).encode()
+        whole = len(text).to_bytes(4, "little") + text + code
+        data = gzip.compress(whole, 9, mtime=0)
+    return PackedFlight(name, built_in()[name], hashlib.sha256(whole).hexdigest(), data)
 
 
 def packed_flights(
