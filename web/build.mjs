@@ -1,26 +1,9 @@
 // Bundles the page into the Python package; with --tests, the tests into out/tests for node's own runner.
 import { build } from "esbuild";
 import { copyFile, mkdir, readdir, readFile, rm } from "node:fs/promises";
-import { resolve } from "node:path";
 
 const PAGE = process.env.TANDEMLIFT_PAGE ?? "../src/tandemlift/data/page";
 const SHARED = { bundle: true, format: "esm", target: "es2022", charset: "ascii", logLevel: "warning" };
-
-/** Makes a worker, bundled, a text that the page holds: a page from disk may load no other file. */
-const worker = {
-  name: "worker",
-  setup({ onResolve, onLoad }) {
-    onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => ({
-      path: resolve(resolveDir, path.replace("worker:", "")),
-      namespace: "worker",
-    }));
-    onLoad({ filter: /.*/, namespace: "worker" }, async ({ path }) => {
-      const options = { ...SHARED, format: "iife", minify: true, write: false, legalComments: "none" };
-      const { outputFiles } = await build({ ...options, entryPoints: [path] });
-      return { contents: outputFiles[0].text, loader: "text" };
-    });
-  },
-};
 
 async function page() {
   await mkdir(PAGE, { recursive: true });
@@ -30,8 +13,14 @@ async function page() {
     outdir: PAGE,
     minify: true,
     legalComments: "none",
-    plugins: [worker],
     footer: { js: await licences() },
+  });
+  await build({
+    ...SHARED,
+    entryPoints: { worker: "src/flight/worker.ts" },
+    outdir: PAGE,
+    format: "iife",
+    minify: true,
   });
   await copyFile("src/index.html", `${PAGE}/index.html`);
 }

@@ -10,11 +10,9 @@ import "./style/dialogs.css";
 import "./style/own_flight.css";
 import "./style/small_windows.css";
 
-import worker from "worker:./flight/worker.ts";
-
 import { App } from "./app.ts";
 import { OwnFlight } from "./flight/client.ts";
-import { embeddedIndex, obstacle } from "./flight/embedded.ts";
+import { embeddedIndex, newWorker, obstacle } from "./flight/embedded.ts";
 import { readLink } from "./flight/link.ts";
 import type { FlightIndex } from "./flight/manifest.ts";
 import { missionMenu, ownFlightGroup, showMission } from "./ui/own_flight.ts";
@@ -24,7 +22,7 @@ import { embeddedReplay } from "./wire/replay.ts";
 /** Flies a flight that the page carries. */
 function fly(index: FlightIndex): void {
   const link = () => readLink(window.location.hash);
-  const flight = new OwnFlight(index, worker, link);
+  const flight = new OwnFlight(index, newWorker, link);
   const address = (): string => window.location.href.replace(/#.*/, "") + flight.link;
   const show = (): void => {
     showMission(flight.mission);

@@ -33,7 +33,7 @@ test("Python unpacks an archive, and finds every checksum right", () => {
 test("an array begins with NumPy's header, at a multiple of 64 bytes", () => {
   const text = (bytes: Uint8Array): string => Buffer.from(bytes).toString("latin1");
   const doubles = npyOfDoubles([1.5, -0], [2, 1]);
-  assert.match(text(doubles), /^\x93NUMPY\x01\x00v\x00\{'descr': '<f8', 'fortran_order': False, 'shape': \(2, 1\), \} +\n/);
+  assert.ok(text(doubles).startsWith("\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1), } "));
   assert.deepEqual([...new Float64Array(doubles.slice(128).buffer)], [1.5, -0]);
   assert.match(text(npyOfIntegers([7])), /'<i8', 'fortran_order': False, 'shape': \(1,\)/);
   assert.match(text(npyOfText("compiled")), /'<U8', 'fortran_order': False, 'shape': \(\)/);

@@ -32,6 +32,11 @@ def data_element(name: str, data: Mapping[str, Any]) -> str:
     return f'<script type="application/json" id="{name}">{text}</script>\n'
 
 
+def text_element(name: str, script: str) -> str:
+    """An element with the text of a script that the page runs itself, as a worker."""
+    return f'<script type="text/plain" id="{name}">{_inside(script)}</script>\n'
+
+
 def with_data(html: str, element: str) -> str:
     """A page with an element of data before the script that reads it."""
     return re.sub(f"(?={SCRIPT})", lambda _: element, html, count=1, flags=re.I)
@@ -50,12 +55,17 @@ def in_one_file(html: str, files: Mapping[str, bytes], policy: str) -> str:
         files: of the page, by path.
         policy: what it may load; `{script}` stands for the hash of the script.
     """
-    script = re.sub(r"</(script)", r"<\\/\1", page_text(files, "/page.js"), flags=re.I).replace("<!--", r"<\!--")
+    script = _inside(page_text(files, "/page.js"))
     style = re.sub(r"</(style)", r"<\\/\1", page_text(files, "/page.css"), flags=re.I)
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     html = _once(STYLE, f"<style>{style}</style>", html)
     html = _once(SCRIPT, f'<script type="module">{script}</script>', html)
     return with_policy(html, policy.format(script=digest))
+
+
+def _inside(script: str) -> str:
+    """A script without texts that would end its element."""
+    return re.sub(r"</(script)", r"<\\/\1", script, flags=re.I).replace("<!--", r"<\!--")
 
 
 def _once(pattern: str, new: str, html: str) -> str:

@@ -17,7 +17,7 @@ export class OwnFlight implements FlightSource {
 
   constructor(
     private readonly index: FlightIndex,
-    private readonly code: string, // of the worker
+    private readonly newWorker: () => Worker,
     private readonly begin: () => Link,
   ) {}
 
@@ -52,9 +52,7 @@ export class OwnFlight implements FlightSource {
   open(mission: string, settings: Setting[]): void {
     this.worker?.terminate();
     [this.layout, this.mission] = [null, mission];
-    const address = URL.createObjectURL(new Blob([this.code], { type: "text/javascript" }));
-    const worker = new Worker(address);
-    URL.revokeObjectURL(address);
+    const worker = this.newWorker();
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
       if (worker === this.worker) this.receive(data);
     };

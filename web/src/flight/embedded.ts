@@ -13,3 +13,13 @@ export function obstacle(index: FlightIndex): string {
   if (index.format !== FORMAT) return index.other_version;
   return "WebAssembly" in globalThis && "DecompressionStream" in globalThis ? "" : index.no_module;
 }
+
+/** A worker that flies: its code is in a page that is one file, and beside any other. */
+export function newWorker(): Worker {
+  const code = document.getElementById("worker")?.textContent;
+  if (!code) return new Worker("worker.js");
+  const address = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
+  const worker = new Worker(address);
+  URL.revokeObjectURL(address);
+  return worker;
+}

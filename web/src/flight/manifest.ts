@@ -29,19 +29,19 @@ export interface ModuleManifest {
 export const TABLES = ["pushes", "gusts", "walls", "legs"] as const;
 export type Table = (typeof TABLES)[number];
 
-/** Bounds of a parameter, and the text of what is beyond them. */
+/** Bounds of a parameter and the numbers of its list (0 if it takes none), and the texts of what breaks them. */
 export interface ParameterBounds {
   min: number;
   max: number;
+  count: number;
   out_of_bounds: string;
+  wrong_shape: string;
 }
 
-/** A parameter of the scene, the mission's keys that it stands for, and the numbers of a list; 0 for one number. */
+/** A parameter of the scene, and the mission's keys that it stands for. */
 export interface TunableParameter extends ParameterBounds {
   shown: SceneParameter;
   keys: string[];
-  count: number;
-  wrong_shape: string;
 }
 
 /** A parameter that this mission does not have, and why it is refused. */

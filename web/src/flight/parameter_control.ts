@@ -81,10 +81,10 @@ export class ParameterControl {
       if (typeof number !== "number") throw new Refusal(texts.no_number, said);
       if (!(number >= bounds.min && number <= bounds.max)) throw new Refusal(bounds.out_of_bounds, said);
     }
-    if (!parameter) throw new Refusal(absent[key].refusal, said);
-    if (Array.isArray(value) && (value as unknown[]).length !== parameter.count) {
-      throw new Refusal(parameter.wrong_shape, said);
+    if (Array.isArray(value) && (value as unknown[]).length !== bounds.count) {
+      throw new Refusal(bounds.wrong_shape, said);
     }
+    if (!parameter) throw new Refusal(absent[key].refusal, said);
     return parameter;
   }
 

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from tandemlift.algebra.layout import flat
@@ -38,6 +39,7 @@ from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
 ENGINE = "compiled"
 ONLY_SERVER = "{what}: only a flight of `tandemlift live` has it"
 OTHER_LAWS = "{key}: the module of this page cannot take it in flight; `tandemlift live` can"
+MOST_NUMBERS = 6  # of a list that a key takes
 STATUS_EVERY = RATE // 4  # frames
 
 
@@ -79,18 +81,15 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
 
 def _tunable(mission: Mission, shown: SceneParameter) -> dict[str, Any]:
     """A parameter as the page has it, with the refusals of values out of bounds and of lists of another length."""
-    key, value = shown["key"], shown["value"]
-    keys = keys_of(mission, key)
-    count = len(value) if isinstance(value, list) else 0
-    too_many = [shown["min"]] * (count + 1 + (count == 0))
-    refusal = _refusal(mission, keys[0], too_many)
-    return {
-        "shown": shown,
-        "keys": keys,
-        "count": count,
-        **_bounds(shown["min"], shown["max"]),
-        "wrong_shape": f"mission: {keys[0]} = {{value}}: {refusal.rpartition(']: ')[2]}",
-    }
+    keys = keys_of(mission, shown["key"])
+    return {"shown": shown, "keys": keys, **_bounds(shown["min"], shown["max"]), **_shape(mission, keys[0])}
+
+
+def _shape(mission: Mission, key: str) -> dict[str, Any]:
+    """How many numbers a list for a key has, 0 if it takes no list; and the refusal of any other list."""
+    rule = _refusal(mission, key, [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
+    found = re.search(r"list of (\d+) numbers", rule)
+    return {"count": int(found[1]) if found else 0, "wrong_shape": f"mission: {key} = {{value}}: {rule}"}
 
 
 def _bounds(low: float, high: float) -> dict[str, Any]:
@@ -107,10 +106,11 @@ def _absent(mission: Mission) -> dict[str, dict[str, Any]]:
 
 def _absence(mission: Mission, key: str) -> dict[str, Any]:
     if key in CHOICES:
-        return {"min": 0.0, "max": 0.0, "out_of_bounds": "", "refusal": ONLY_SERVER.format(what=key)}
+        unbounded = {"min": 0.0, "max": 0.0, "out_of_bounds": "", "count": 0, "wrong_shape": ""}
+        return {**unbounded, "refusal": ONLY_SERVER.format(what=key)}
     low, high = bounds_of(BY_KEY[key], mission)
-    refusal = _refusal(mission, keys_of(mission, key)[0], high)
-    return {**_bounds(low, high), "refusal": refusal.replace(str(float(high)), "{value}")}
+    first = keys_of(mission, key)[0]
+    return {**_bounds(low, high), **_shape(mission, first), "refusal": _refusal(mission, first, high)}
 
 
 def _refusal(mission: Mission, key: str, value: Any) -> str:

@@ -10,7 +10,14 @@ from typing import Any
 
 from tandemlift.live.offline.page_modules import ENDING, FORMAT, PackedFlight
 from tandemlift.live.replay import replay_element
-from tandemlift.live.self_contained import data_element, in_one_file, page_text, with_data, with_policy
+from tandemlift.live.self_contained import (
+    data_element,
+    in_one_file,
+    page_text,
+    text_element,
+    with_data,
+    with_policy,
+)
 
 FOLDER = "flights"  # beside the page's other files
 SHOWN_INSTEAD = "one-push"  # mission of the flight that a browser without WebAssembly plays
@@ -28,13 +35,11 @@ NO_MODULE = (
 )
 BROKEN = "the flight in this page is damaged: its checksum is wrong. Get the page again."
 OTHER_VERSION = "the flight in this page was made by another version than the page. Get the page again."
-_COMMON = "style-src 'self' 'unsafe-inline'; img-src data: blob:; media-src blob:; worker-src blob:; base-uri 'none'; "
-IN_FILES = (
-    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; " + _COMMON + "form-action 'none'"
+_COMMON = (
+    "style-src 'self' 'unsafe-inline'; img-src data: blob:; media-src blob:; base-uri 'none'; form-action 'none'"
 )
-IN_ONE_FILE = (
-    "default-src 'none'; script-src 'sha256-{script}' 'wasm-unsafe-eval'; " + _COMMON + "form-action 'none'"
-)
+IN_FILES = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; " + _COMMON
+IN_ONE_FILE = "default-src 'none'; script-src 'sha256-{script}' 'wasm-unsafe-eval'; worker-src blob:; " + _COMMON
 
 
 def offline_files(flights: Sequence[PackedFlight], files: Mapping[str, bytes]) -> dict[str, bytes]:
@@ -49,8 +54,10 @@ def offline_files(flights: Sequence[PackedFlight], files: Mapping[str, bytes]) -
 
 def offline_html(flights: Sequence[PackedFlight], files: Mapping[str, bytes]) -> str:
     """The page as one file; its policy allows it no network."""
+    worker = page_text(files, "/worker.js")
     entries = [{**_entry(flight), "data": base64.b64encode(flight.data).decode()} for flight in flights]
-    return in_one_file(_with_flights(page_text(files, "/index.html"), entries), files, IN_ONE_FILE)
+    html = with_data(_with_flights(page_text(files, "/index.html"), entries), text_element("worker", worker))
+    return in_one_file(html, files, IN_ONE_FILE)
 
 
 def _entry(flight: PackedFlight) -> dict[str, Any]:

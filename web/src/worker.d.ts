@@ -1,4 +1,0 @@
-declare module "worker:*" {
-  const code: string; // of the worker, bundled
-  export default code;
-}
