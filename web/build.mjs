@@ -2,7 +2,7 @@
 import { build } from "esbuild";
 import { copyFile, mkdir, readdir, readFile, rm } from "node:fs/promises";
 
-const PAGE = "../src/tandemlift/data/page";
+const PAGE = process.env.TANDEMLIFT_PAGE ?? "../src/tandemlift/data/page";
 const SHARED = { bundle: true, format: "esm", target: "es2022", charset: "ascii", logLevel: "warning" };
 
 async function page() {
@@ -14,6 +14,13 @@ async function page() {
     minify: true,
     legalComments: "none",
     footer: { js: await licences() },
+  });
+  await build({
+    ...SHARED,
+    entryPoints: { worker: "src/flight/worker.ts" },
+    outdir: PAGE,
+    format: "iife",
+    minify: true,
   });
   await copyFile("src/index.html", `${PAGE}/index.html`);
 }

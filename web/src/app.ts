@@ -59,6 +59,7 @@ export class App implements FlightListener, ShellPage {
   constructor(
     private readonly source: FlightSource,
     readonly replay: Replay | null,
+    readonly extra: HTMLElement[] = [],
   ) {
     const surface = byId("surface");
     this.stage = new Stage(surface, suitableGraphics());
@@ -82,6 +83,11 @@ export class App implements FlightListener, ShellPage {
   start(): void {
     this.source.start(this);
     requestAnimationFrame(this.tick);
+  }
+
+  /** Shows a sentence that stays. */
+  explain(sentence: string): void {
+    this.shell.explain(sentence);
   }
 
   // ShellPage

@@ -7,12 +7,47 @@ import "./style/picture.css";
 import "./style/plots.css";
 import "./style/panel.css";
 import "./style/dialogs.css";
+import "./style/own_flight.css";
 import "./style/small_windows.css";
 
 import { App } from "./app.ts";
+import { OwnFlight } from "./flight/client.ts";
+import { embeddedIndex, newWorker, obstacle } from "./flight/embedded.ts";
+import { readLink } from "./flight/link.ts";
+import type { FlightIndex } from "./flight/manifest.ts";
+import { missionMenu, ownFlightGroup, showMission } from "./ui/own_flight.ts";
 import { Connection, socketAddress } from "./wire/connection.ts";
 import { embeddedReplay } from "./wire/replay.ts";
 
-const replay = embeddedReplay();
-const app = new App(replay ?? new Connection(socketAddress(window.location)), replay);
-app.start();
+/** Flies a flight that the page carries. */
+function fly(index: FlightIndex): void {
+  const link = () => readLink(window.location.hash);
+  const flight = new OwnFlight(index, newWorker, link);
+  const address = (): string => window.location.href.replace(/#.*/, "") + flight.link;
+  const show = (): void => {
+    showMission(flight.mission);
+  };
+  missionMenu(flight, (mission) => {
+    window.history.replaceState(null, "", `#mission=${mission}`);
+    flight.open(mission, []);
+  });
+  window.addEventListener("hashchange", () => {
+    flight.restart();
+    show();
+  });
+  new App(flight, null, [ownFlightGroup(flight, address)]).start();
+  show();
+}
+
+/** Shows a flight that the page carries, or that of the page's server. */
+function watch(sentence: string): void {
+  const replay = embeddedReplay();
+  const app = new App(replay ?? new Connection(socketAddress(window.location)), replay);
+  app.start();
+  if (sentence) app.explain(sentence);
+}
+
+const index = embeddedIndex();
+const sentence = index ? obstacle(index) : "";
+if (index && !sentence) fly(index);
+else watch(sentence);

@@ -17,6 +17,7 @@ from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
 from tandemlift.cli.linearize import linearize
 from tandemlift.cli.live import live
+from tandemlift.cli.page import page
 from tandemlift.cli.render import render
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run
@@ -65,6 +66,7 @@ cli.add_command(run)
 cli.add_command(compare)
 cli.add_command(render)
 cli.add_command(live)
+cli.add_command(page)
 cli.add_command(replay)
 cli.add_command(gazebo)
 cli.add_command(ros)

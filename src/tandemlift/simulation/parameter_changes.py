@@ -25,6 +25,7 @@ from tandemlift.simulation.plan import FlightPlan
 
 STEADY = {"changes": ()}
 LATER = "is chosen before a flight begins, and cannot be changed in flight"
+NO_EFFECT = "has no effect in this flight once it has begun"
 
 
 def changes_in_flight(mission: Mission) -> bool:
@@ -84,7 +85,7 @@ def _check(before: FlightPlan, after: FlightPlan, key: str) -> None:
         raise InputError(f"{key} {LATER}")
     if before.variant == after.variant:
         if _parameters(before) == _parameters(after) and before.mission.model_copy(update=STEADY) != after.mission:
-            raise InputError(f"{key} has no effect in this flight once it has begun")
+            raise InputError(f"{key} {NO_EFFECT}")
         return
     if before.interpreted or after.interpreted:
         name = (before if before.interpreted else after).mission.controller.name

@@ -32,6 +32,7 @@ from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_in
 
 MISSION, HAND, FLIGHT = "recorded.toml", "hand.npz", "flight.npz"
+EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
 
 
 @dataclass(frozen=True)
@@ -228,7 +229,7 @@ class RecordedFlight:
             InputError: nothing was flown yet.
         """
         if self.step < 2:
-            raise InputError("nothing was flown yet: there is nothing to save")
+            raise InputError(EMPTY_FLIGHT)
         steps = self.step if self.lost else self.step - 1
         hand = [(k, numbers) for k, numbers in self._hand if k <= steps]
         return FlightSnapshot(self.start, self.engine, self._flown(steps), hand, list(self._changes))

@@ -28,6 +28,15 @@ export class Notices {
     }, SHOWN_FOR);
   }
 
+  /** Shows a sentence until it is pressed. */
+  explain(sentence: string): void {
+    const notice = el("p", { class: "refused" }, sentence);
+    notice.addEventListener("click", () => {
+      notice.remove();
+    });
+    this.place.append(notice);
+  }
+
   disconnected(retryAt: number): void {
     this.banner.hidden = false;
     document.body.classList.add("lost");

@@ -29,6 +29,7 @@ const OVERLAYS: Record<Overlay, string> = {
 export interface PanelPage {
   readonly hand: HandOptions;
   readonly overlays: Overlays;
+  readonly extra: readonly HTMLElement[];
   send(message: PageMessage): void;
   readonly theme: ThemeChoice;
   setGraphics(choice: GraphicsChoice): void;
@@ -67,6 +68,7 @@ export class Panel {
       ...(groups.length ? [this.restoreAll()] : []),
       ...(this.rotors ? [this.group("rotors", [this.rotors.element])] : []),
       this.group("picture", this.picture(), !live),
+      ...this.page.extra,
     );
   }
 

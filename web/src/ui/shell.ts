@@ -39,6 +39,7 @@ const LOW = 380; // pixels of height: below it the plots start closed
 /** What the shell needs of the page. */
 export interface ShellPage {
   readonly replay: Replay | null;
+  readonly extra: readonly HTMLElement[]; // at the end of the panel
   readonly hand: HandOptions;
   readonly overlays: Overlays;
   readonly camera: ChaseCamera;
@@ -134,6 +135,10 @@ export class Shell {
   done(what: string, detail: string): void {
     if (what === "save") this.saving.done();
     this.notices.show(what === "save" ? `Saved as ${detail}` : `${what}: ${detail}`, "done");
+  }
+
+  explain(sentence: string): void {
+    this.notices.explain(sentence);
   }
 
   connected(): void {

@@ -7,15 +7,70 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
+from tandemlift.algebra.ops import sqrt, where
+from tandemlift.algebra.vector import ZERO, Vec3, dot
 from tandemlift.common.errors import InputError
 from tandemlift.common.phases import GUIDED, HOLD, PHASE_NAMES
+from tandemlift.live.session import refusal_texts as texts
 from tandemlift.live.wire.scene import SceneVehicle
 from tandemlift.missions import Mission
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
+HOVER_TIME = ("memory", "guidance", "phase", "hover_time")  # of a flight's state
 TARE_NOTICE = 1.0  # s, from the request until a tare begins: to prepare it, and to let go
+
+
+ALLOWED, TARED_IN_HOVER, TARED_UNTIL, BESIDE = 0.0, 1.0, 2.0, 3.0  # whether a push is, and else why not
+
+
+class TouchRule(NamedTuple):
+    """When and where a vehicle may be pushed.
+
+    Attributes:
+        reach: farthest point from the centre of mass [m].
+        tare_duration: hover that the tare of its force sensors takes, if the pilot tares by itself [s]; else 0.
+        tare_end: when a tare at a set time ends [s]; 0 without one.
+    """
+
+    reach: Any
+    tare_duration: Any
+    tare_end: Any
+
+
+def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
+    """The rule of a mission as it is now."""
+    tare, start = mission.estimator, mission.estimator.tare_start
+    reach = max(_reaches(vehicle))
+    if mission.pilot.push == "truth" or (tare.tare != "hover" and start is None):
+        return TouchRule(reach, 0.0, 0.0)
+    if tare.tare == "hover":
+        return TouchRule(reach, tare.tare_duration, 0.0)
+    assert start is not None
+    return TouchRule(reach, 0.0, start + tare.tare_duration)
+
+
+def touch_refusal(rule: TouchRule, at: Any, hover_time: Any, point: Vec3) -> Any:
+    """Why a push is refused, as a number; `ALLOWED` if it is not.
+
+    Args:
+        rule: of the mission as it is now.
+        at: time [s].
+        hover_time: for which the vehicle has hovered [s].
+        point: of the push [m, body axes].
+    """
+    beside = where(sqrt(dot(point, point)) > rule.reach, BESIDE, ALLOWED)
+    tared_until = where(at < rule.tare_end, TARED_UNTIL, beside)
+    return where(hover_time < rule.tare_duration, TARED_IN_HOVER, tared_until)
+
+
+def touch_texts(rule: TouchRule) -> dict[float, str]:
+    """The texts of the refusals, complete but for the point."""
+    beside = texts.BESIDE.format(point="{point}", reach=rule.reach)
+    tared_until = texts.TARED_UNTIL.format(end=rule.tare_end)
+    return {TARED_IN_HOVER: texts.TARED_IN_HOVER, TARED_UNTIL: tared_until, BESIDE: beside}
 
 
 def failed_rotors(flight: RecordedFlight) -> list[int]:
@@ -30,10 +85,11 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
     Raises:
         InputError: it is refused.
     """
-    check_hands_off(flight)
-    reach = max(_reaches(vehicle))
-    if math.hypot(*point) > reach:
-        raise InputError(f"point = {list(point)}: must be on the vehicle, within {reach:.3g} m of its centre of mass")
+    rule = touch_rule(flight.now, vehicle)
+    hover_time = flight.number(*HOVER_TIME) if rule.tare_duration else 0.0
+    refusal = touch_refusal(rule, flight.step * flight.dt, hover_time, Vec3(*point))
+    if refusal != ALLOWED:
+        raise InputError(touch_texts(rule)[refusal].format(point=list(point)))
 
 
 def check_takes_requests(mission: Mission, what: str) -> None:
@@ -43,38 +99,17 @@ def check_takes_requests(mission: Mission, what: str) -> None:
         InputError: it is.
     """
     if mission.pilot.guidance == "clock":
-        raise InputError(f"{what}: mission {mission.mission.name} is guided by the clock and takes no requests")
+        raise InputError(texts.NO_REQUESTS.format(what=what, mission=mission.mission.name))
 
 
-def check_hands_off(flight: RecordedFlight) -> None:
-    """Refuse a push while the force sensors are tared, as the tare would take it for a bias.
-
-    Raises:
-        InputError: they are.
-    """
-    mission = flight.now
-    start, at = mission.estimator.tare_start, flight.step * flight.dt
-    if mission.pilot.push == "truth":
-        return
-    if mission.estimator.tare == "hover":
-        if flight.number("memory", "guidance", "phase", "hover_time") < mission.estimator.tare_duration:
-            raise InputError("hands off until the force sensors are tared, in steady hover")
-        return
-    if start is None:
-        return
-    end = start + mission.estimator.tare_duration
-    if at < end:
-        raise InputError(f"hands off until {end:g} s: the force sensors are tared in hover")
-
-
-def check_may_tare(flight: RecordedFlight, phase: str) -> None:
+def check_may_tare(flight: RecordedFlight, vehicle: SceneVehicle, phase: str) -> None:
     """Refuse a tare except in hover and without a push; `phase`: of the flight.
 
     Raises:
         InputError: it does not hover, the beam is held, or a tare is under way.
     """
     if flight.now.estimator.tare == "clock":
-        check_hands_off(flight)
+        check_touch(flight, vehicle, ZERO)
     if phase not in (PHASE_NAMES[int(GUIDED)], PHASE_NAMES[int(HOLD)]):
         raise InputError(f"tare: only in the air, hovering; the phase is {phase}")
     if flight.hand.held or any(flight.hand.force):

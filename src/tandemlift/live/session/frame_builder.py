@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.common.types import Array
-from tandemlift.live.session.frame_values import channel_columns, field_values
+from tandemlift.live.session.frame_values import Components, channel_columns, field_values, phase_times
 from tandemlift.live.session.scene_builder import scene_of
 from tandemlift.live.wire.frames import layout_for, pack_frames
 from tandemlift.missions import Mission, tables_of
@@ -31,15 +32,15 @@ class FrameBuilder:
     def __init__(self, mission: Mission, engine: str, setup: FlightSetup) -> None:
         self.scene = scene_of(mission, engine)
         self._layout = layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)
-        self._phases, self._columns = tables_of(mission)["phases"], channel_columns(setup.plan.sample)
+        self._phases, self._columns = phase_times(tables_of(mission)["phases"]), channel_columns(setup.plan.sample)
         self._start = setup.plan.model.flight_state.state
 
-    def values(self, sample: Array, at: float) -> dict[str, Array]:
-        """The values of the fields in a sample, at a time [s]."""
-        channels = {name: sample[columns] for name, columns in self._columns.items()}
-        return field_values(channels, np.array([at]), self._phases)
+    def values(self, sample: Array, at: float) -> dict[str, Components]:
+        """The values of the fields in a sample, at a time [s], component by component."""
+        channels = {name: tuple(map(float, sample[columns])) for name, columns in self._columns.items()}
+        return field_values(channels, at, self._phases)
 
-    def frame(self, values: dict[str, ArrayLike]) -> bytes:
+    def frame(self, values: Mapping[str, ArrayLike]) -> bytes:
         """The frame of some values."""
         return pack_frames(self._layout, values).tobytes()
 

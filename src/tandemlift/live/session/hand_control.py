@@ -14,6 +14,11 @@ from tandemlift.simulation.recorded_flight import RecordedFlight
 REQUEST_TIME = 0.2  # s, for which a request to lift or to land is held
 
 
+def grip_offset(attitude: Quat, point: Vec3) -> Vec3:
+    """From where a cursor takes hold to the centre of mass [m, world]; `point`: where, in body axes."""
+    return -apply(rotation_from_quaternion(attitude), point)
+
+
 class HandControl:
     """Moves the hand of a flight. Callers hold the flight's lock.
 
@@ -38,7 +43,7 @@ class HandControl:
         """
         check_touch(self._flight, self._vehicle, m.point)
         point, centre = Vec3(*m.point), m.at == "centre"
-        self._offset = -apply(rotation_from_quaternion(attitude), point) if centre else ZERO
+        self._offset = grip_offset(attitude, point) if centre else ZERO
         target = Vec3(*m.target) + self._offset
         self._change(held=1.0, grip=ZERO if centre else point, target=target)
 

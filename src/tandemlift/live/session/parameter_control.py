@@ -9,6 +9,7 @@ import threading
 from typing import Any
 
 from tandemlift.common.errors import InputError
+from tandemlift.live.session import refusal_texts as texts
 from tandemlift.live.session.checks import TARE, check_in_time, tare_start_for
 from tandemlift.live.session.interactive_mission import NEVER
 from tandemlift.live.session.tunable_parameters import BY_KEY, CHOICES, CONTROLLER, bounds_of, keys_of, value_of
@@ -63,9 +64,9 @@ class ParameterControl:
         faults = flight.now.faults
         at = [i for i, f in enumerate(faults) if 4 * (f.quadrotor - 1) + f.rotor - 1 == rotor]
         if not at:
-            raise InputError(f"rotor = {rotor}: the rotors of this mission cannot fail")
+            raise InputError(texts.WHOLE_ROTORS.format(rotor=rotor))
         if faults[at[0]].time < NEVER:
-            raise InputError(f"rotor = {rotor}: fails at {faults[at[0]].time:g} s already")
+            raise InputError(texts.FAILED_ALREADY.format(rotor=rotor, time=faults[at[0]].time))
         self._change(flight, f"faults.{at[0]}.time", flight.step * flight.dt, 0.0)
 
     def tare(self, flight: RecordedFlight) -> str:
@@ -87,14 +88,13 @@ class ParameterControl:
         if key in CHOICES:
             return
         if key not in BY_KEY:
-            known = ", ".join([*CHOICES, *BY_KEY])
-            raise InputError(f"{key}: is not a parameter that can be changed in flight; there are {known}")
+            raise InputError(texts.UNKNOWN.format(key=key, known=", ".join([*CHOICES, *BY_KEY])))
         low, high = bounds_of(BY_KEY[key], self._first)
         for number in value if isinstance(value, list) else [value]:
             if isinstance(number, bool) or not isinstance(number, (int, float)):
-                raise InputError(f"{key} = {shown(value)}: must be a number, or a list of numbers")
+                raise InputError(texts.NO_NUMBER.format(key=key, value=shown(value)))
             if not low <= number <= high:
-                raise InputError(f"{key} = {shown(value)}: must be from {low:g} to {high:g}")
+                raise InputError(texts.OUT_OF_BOUNDS.format(key=key, value=shown(value), low=low, high=high))
 
     def _restore(self, flight: RecordedFlight, key: str) -> list[Answer]:
         first, now = tables_of(self._first), tables_of(flight.now)
@@ -116,7 +116,7 @@ class ParameterControl:
         """Prepare a change beside the flight, and let it begin."""
         with self.turn:
             if flight.over:
-                raise InputError(f"{key}: the flight is over; reset it first")
+                raise InputError(texts.OVER.format(key=key))
             if key == CONTROLLER and value == self._first.controller.name:  # with the mission's own settings
                 key, value = "controller", tables_of(self._first)["controller"]
             due = flight.prepare(key, value, duration)

@@ -203,7 +203,7 @@ class Session:
     @_handle.register
     def _grab(self, m: page.GrabMessage) -> None:
         with self._lock:
-            self._hand.grab(m, Quat(*map(float, self._values()["attitude"][0])))
+            self._hand.grab(m, Quat(*self._values()["attitude"]))
 
     @_handle.register
     def _move(self, m: page.MoveMessage) -> None:
@@ -260,7 +260,7 @@ class Session:
     @_handle.register
     def _tare(self, m: page.TareMessage) -> list[Answer]:
         with self._lock:
-            check_may_tare(self._flight, self._phase(int(self._values()["phase"][0])))
+            check_may_tare(self._flight, self._frames.scene["vehicle"], self._phase(int(self._values()["phase"][0])))
         return [DoneMessage(type="done", what="tare", detail=self._parameters.tare(self._flight))]
 
     @_handle.register

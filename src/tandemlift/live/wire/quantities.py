@@ -16,6 +16,8 @@ from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.settings.value_types import must
 
 MAX_WORD = 100  # characters of a key or of a word
+NAME_PATTERN = "[A-Za-z0-9][A-Za-z0-9._-]{0,63}"  # of the name of a saved flight
+NAME_RULE = "be 1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit"
 ENDS = ("failed", "lost", "over")  # phases of a flight that has ended: by an error, out of control, at its full length
 PREPARING = "preparing"  # the phase before the first step
 
@@ -34,8 +36,8 @@ def _key(key: str) -> str:
 
 
 def _name(name: str) -> str:
-    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}", name):
-        raise must("name", "be 1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit")
+    if not re.fullmatch(NAME_PATTERN, name):
+        raise must("name", NAME_RULE)
     return name
 
 

@@ -1,0 +1,91 @@
+"""`tandemlift page`: the live page for people who have nothing installed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tandemlift.cli.console import echo
+from tandemlift.common.errors import InputError, unknown
+from tandemlift.common.files import atomic_write
+
+if TYPE_CHECKING:
+    from tandemlift.live.offline.page_modules import PackedFlight
+
+
+@click.command()
+@click.argument("missions", nargs=-1)
+@click.option("--out", metavar="DIR", help="Write the page as files for a web server.")
+@click.option("--html", metavar="FILE", help="Write the page as one file, which works from disk.")
+def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
+    """Write a page that flies by itself: in the browser, without a server, pushed by hand.
+
+    MISSIONS are those of its menu, the first of which it begins with: hover, zigzag, iris, doorway, rotor-loss, or some
+    of them. The default is all. A flight saved in the page can be flown again by `tandemlift run`.
+
+    \b
+    Examples:
+      tandemlift page --html tandemlift.html
+      tandemlift page --out out/page
+      tandemlift page zigzag doorway --html corridor.html
+
+    \b
+    Exit code:
+      0   the page was written
+      2   bad input: one message, nothing is written
+    """
+    if not out and not html:
+        raise InputError("say where the page goes: --html FILE for one file, --out DIR for a web server")
+    one_file = _html_path(html) if html else None
+    folder = _folder(out) if out else None
+    from tandemlift.live.offline import pages
+    from tandemlift.live.page_files import page_files
+
+    files = page_files()
+    flights = _flights(missions)
+    if folder is not None:
+        _write_files(folder, pages.offline_files(flights, files))
+    if one_file is not None:
+        with atomic_write(one_file) as partial:
+            partial.write_text(pages.offline_html(flights, files), "utf-8")
+        echo(f"{one_file}: {one_file.stat().st_size / 1e6:.1f} MB; open it in a browser")
+
+
+def _flights(names: tuple[str, ...]) -> list[PackedFlight]:
+    """The flights of the menu.
+
+    Raises:
+        InputError: a page has no such mission.
+    """
+    from tandemlift.live.offline.page_modules import MISSIONS, packed_flights
+
+    for name in names:
+        if name not in MISSIONS:
+            raise unknown("mission of a page", name, MISSIONS)
+    return packed_flights(dict.fromkeys(names or MISSIONS), lambda name: echo(f"{name} …"))
+
+
+def _html_path(name: str) -> Path:
+    path = Path(name)
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"--html {path}: the name of a page must end in .html")
+    if path.is_dir():
+        raise InputError(f"--html {path}: is a folder, not a file")
+    return path
+
+
+def _folder(name: str) -> Path:
+    if Path(name).is_file():
+        raise InputError(f"--out {name}: is a file, not a folder")
+    return Path(name)
+
+
+def _write_files(folder: Path, files: dict[str, bytes]) -> None:
+    for name, content in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        with atomic_write(folder / name) as partial:
+            partial.write_bytes(content)
+    size = sum(map(len, files.values()))
+    echo(f"{folder}: {len(files)} files, {size / 1e6:.1f} MB; for a web server, such as: python -m http.server")

@@ -1,0 +1,30 @@
+"""The functions of values that a page calls in the module of its mission: each is the one that a session calls."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tandemlift.algebra.layout import zeroed
+from tandemlift.algebra.vector import ZERO, Quat
+from tandemlift.live.session.checks import TouchRule, touch_refusal
+from tandemlift.live.session.frame_values import PhaseTimes, fields_of_samples, frame_of_samples
+from tandemlift.live.session.hand_control import grip_offset
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.targets.module_text import ValuesFunction
+
+LEVEL, TIMES, RULE = Quat(1.0, 0.0, 0.0, 0.0), PhaseTimes(0.0, 0.0, 0.0), TouchRule(0.0, 0.0, 0.0)
+
+
+def page_functions(plan: FlightPlan) -> Sequence[ValuesFunction]:
+    """The functions of a mission's module."""
+    return (
+        ValuesFunction("frame", frame_of_samples(plan.sample), (zeroed(plan.sample), 0.0, TIMES)),
+        ValuesFunction("touch_refusal", touch_refusal, (RULE, 0.0, 0.0, ZERO)),
+        ValuesFunction("grip_offset", grip_offset, (LEVEL, ZERO)),
+    )
+
+
+def frame_fields(plan: FlightPlan) -> list[tuple[str, int]]:
+    """The fields that `frame` returns, with the number of their components."""
+    fields = fields_of_samples(plan.sample)(zeroed(plan.sample), 0.0, TIMES)
+    return [(name, len(parts)) for name, parts in fields.items()]

@@ -1,0 +1,155 @@
+"""What a page must know of a flight beside its module: the scene, the mission, parameters with bounds, and texts.
+
+`web/src/flight/manifest.ts` says the same in TypeScript.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from tandemlift.algebra.layout import flat
+from tandemlift.common.errors import InputError
+from tandemlift.kernels import leaf_offset
+from tandemlift.laws.person.virtual_hand import HAND_RELEASED
+from tandemlift.live.offline.message_rules import message_rules, name_rule
+from tandemlift.live.offline.page_functions import frame_fields
+from tandemlift.live.session import checks, pacing
+from tandemlift.live.session import refusal_texts as texts
+from tandemlift.live.session.frame_values import phase_times
+from tandemlift.live.session.hand_control import REQUEST_TIME
+from tandemlift.live.session.interactive_mission import NEVER
+from tandemlift.live.session.parameter_control import RAMP
+from tandemlift.live.session.scene_builder import scene_of
+from tandemlift.live.session.tunable_parameters import (
+    BY_KEY,
+    CHOICES,
+    bounds_of,
+    keys_of,
+    parameters_of,
+)
+from tandemlift.live.viewers import ECHO, FRESH, SILENT
+from tandemlift.live.wire.frames import RATE
+from tandemlift.live.wire.scene import SceneParameter
+from tandemlift.missions import Mission, changed, tables_of
+from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
+
+ENGINE = "compiled"
+ONLY_SERVER = "{what}: only a flight of `tandemlift live` has it"
+OTHER_LAWS = "{key}: the module of this page cannot take it in flight; `tandemlift live` can"
+MOST_NUMBERS = 6  # of a list that a key takes
+STATUS_EVERY = RATE // 4  # frames
+
+
+def page_manifest(plan: FlightPlan) -> dict[str, Any]:
+    """What a page is told of a mission that was made interactive."""
+    mission = plan.mission
+    scene = scene_of(mission, ENGINE)
+    rule = checks.touch_rule(mission, scene["vehicle"])
+    tables = tables_of(mission)
+    tables.pop("changes", None)
+    return {
+        "scene": scene,
+        "tables": tables,
+        "parameters": [_tunable(mission, shown) for shown in parameters_of(mission, mission) if "choices" not in shown],
+        "absent": _absent(mission),
+        "rotors": [
+            {"rotor": 4 * (f.quadrotor - 1) + f.rotor - 1, "key": f"faults.{i}.time"}
+            for i, f in enumerate(mission.faults)
+        ],
+        "never": NEVER,
+        "hand": {name: leaf_offset(HAND_RELEASED, name) for name in HAND_RELEASED._fields},
+        "released": flat(HAND_RELEASED),
+        "engine": ENGINE,
+        "plant": leaf_offset(plan.model, "plant"),
+        "lost": leaf_offset(plan.model, "flight_state", "diverged").at,
+        "hover_time": leaf_offset(plan.model, "flight_state", *checks.HOVER_TIME).at if rule.tare_duration else -1,
+        "frame": frame_fields(plan),
+        "phase_times": list(phase_times(tables["phases"])),
+        "touch_rule": list(rule),
+        "ramp": RAMP,
+        "request_time": REQUEST_TIME,
+        "pacing": _pacing(),
+        "texts": _texts(mission, rule),
+        "rules": message_rules(),
+        "save_name": name_rule()[0],
+        "files": {"mission": MISSION, "hand": HAND},
+    }
+
+
+def _tunable(mission: Mission, shown: SceneParameter) -> dict[str, Any]:
+    """A parameter as the page has it, with the refusals of values out of bounds and of lists of another length."""
+    keys = keys_of(mission, shown["key"])
+    return {"shown": shown, "keys": keys, **_bounds(shown["min"], shown["max"]), **_shape(mission, keys[0])}
+
+
+def _shape(mission: Mission, key: str) -> dict[str, Any]:
+    """How many numbers a list for a key has, 0 if it takes no list; and the refusal of any other list."""
+    rule = _refusal(mission, key, [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
+    found = re.search(r"list of (\d+) numbers", rule)
+    return {"count": int(found[1]) if found else 0, "wrong_shape": f"mission: {key} = {{value}}: {rule}"}
+
+
+def _bounds(low: float, high: float) -> dict[str, Any]:
+    """The bounds of a parameter, and the refusal of what is beyond them."""
+    text = texts.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=low, high=high)
+    return {"min": low, "max": high, "out_of_bounds": text}
+
+
+def _absent(mission: Mission) -> dict[str, dict[str, Any]]:
+    """The parameters that a mission does not have, with the refusal of a value within their bounds."""
+    present = {shown["key"] for shown in parameters_of(mission, mission)}
+    return {key: _absence(mission, key) for key in [*BY_KEY, *CHOICES] if key not in present or key in CHOICES}
+
+
+def _absence(mission: Mission, key: str) -> dict[str, Any]:
+    if key in CHOICES:
+        unbounded = {"min": 0.0, "max": 0.0, "out_of_bounds": "", "count": 0, "wrong_shape": ""}
+        return {**unbounded, "refusal": ONLY_SERVER.format(what=key)}
+    low, high = bounds_of(BY_KEY[key], mission)
+    first = keys_of(mission, key)[0]
+    return {**_bounds(low, high), **_shape(mission, first), "refusal": _refusal(mission, first, high)}
+
+
+def _refusal(mission: Mission, key: str, value: Any) -> str:
+    """Why a value of a key is refused in flight."""
+    try:
+        scheduled_change(FlightPlan(mission), changed(mission, key, value), key, 0, RAMP)
+    except InputError as error:
+        return str(error)
+    raise AssertionError(f"{key} = {value} is not refused")
+
+
+def _pacing() -> dict[str, float]:
+    return {
+        "most_behind": pacing.MOST_BEHIND,
+        "window": pacing.WINDOW,
+        "batch": pacing.BATCH,
+        "pause": pacing.PAUSE,
+        "echo": ECHO,
+        "fresh": FRESH,
+        "silent": SILENT,
+        "status_every": STATUS_EVERY,
+    }
+
+
+def _texts(mission: Mission, rule: checks.TouchRule) -> dict[str, Any]:
+    by_clock = mission.pilot.guidance == "clock"
+    return {
+        "unknown": texts.UNKNOWN.format(key="{key}", known=", ".join([*CHOICES, *BY_KEY])),
+        "no_number": texts.NO_NUMBER,
+        "over": texts.OVER,
+        "later": f"{{key}} {LATER}",
+        "no_effect": f"{{key}} {NO_EFFECT}",
+        "other_laws": OTHER_LAWS,
+        "whole_rotors": texts.WHOLE_ROTORS,
+        "failed_already": texts.FAILED_ALREADY.replace("{time:g}", "{time}"),
+        "no_requests": texts.NO_REQUESTS.format(what="{what}", mission=mission.mission.name) if by_clock else "",
+        "touch": {str(int(number)): text for number, text in checks.touch_texts(rule).items()},
+        "empty": EMPTY_FLIGHT,
+        "name": name_rule()[1],
+        "only_server": ONLY_SERVER,
+    }
+

@@ -1,0 +1,101 @@
+// The hand that pulls the vehicle, and the requests of the person. As `live.session.hand_control` does it.
+
+import type { PageMessage, Vector } from "../wire/messages.generated.ts";
+import type { Flight } from "./flight.ts";
+import type { PageManifest } from "./manifest.ts";
+import type { FlightModule } from "./module.ts";
+import { float } from "./python_text.ts";
+import { Refusal } from "./refusal.ts";
+
+type Message<T extends PageMessage["type"]> = Extract<PageMessage, { type: T }>;
+
+const ZERO: Vector = [0, 0, 0];
+
+export class HandControl {
+  seq = 0;
+  private offset: Vector = ZERO; // m, added to targets
+  private readonly requests = new Map<string, number>(); // until which step each is held
+
+  constructor(
+    private readonly flight: Flight,
+    private readonly module: FlightModule,
+    private readonly page: PageManifest,
+  ) {
+    flight.hold(Float64Array.from(page.released));
+  }
+
+  /** Takes hold at a point or at the centre of mass; `attitude`: of the vehicle. */
+  grab({ point, target, at }: Message<"grab">, attitude: ArrayLike<number>): void {
+    this.checkTouch(point);
+    const centre = at === "centre";
+    this.offset = centre ? vector(this.module.values("grip_offset", [...Array.from(attitude), ...point])) : ZERO;
+    this.change({ held: [1], grip: centre ? ZERO : point, target: this.moved(target) });
+  }
+
+  move({ target }: Message<"move">): void {
+    if (this.holds) this.change({ target: this.moved(target) });
+  }
+
+  push({ force, point }: Message<"force">): void {
+    const any = force.some((part) => part !== 0);
+    if (any) this.checkTouch(point);
+    this.change({ force, ...(any && !this.holds ? { grip: point } : {}) });
+  }
+
+  release(): void {
+    this.change({ held: [0], force: ZERO });
+  }
+
+  ask({ what }: Message<"ask">): void {
+    this.change({ [what]: [1] });
+    const { dt } = this.module.manifest;
+    if (what !== "stop") this.requests.set(what, this.flight.step + Math.round(this.page.request_time / dt));
+  }
+
+  enable(on: boolean): void {
+    this.change({ enabled: [Number(on)] });
+  }
+
+  /** Withdraws the requests that have been held for long enough; before every step. */
+  expireRequests(): void {
+    const over = [...this.requests].filter(([, until]) => this.flight.step >= until).map(([what]) => what);
+    for (const what of over) this.requests.delete(what);
+    if (over.length) this.change(Object.fromEntries(over.map((what) => [what, [0]])));
+  }
+
+  get holds(): boolean {
+    return this.part("held")[0] !== 0;
+  }
+
+  get pushes(): boolean {
+    return this.part("force").some((value) => value !== 0);
+  }
+
+  /** A part of the hand's numbers. */
+  part(name: string): Float64Array {
+    const [at, size] = this.page.hand[name];
+    return this.flight.hand.subarray(at, at + size);
+  }
+
+  private checkTouch(point: Vector): void {
+    const { flight, page } = this;
+    const hovered = page.hover_time < 0 ? 0 : flight.number(page.hover_time);
+    const [refusal] = this.module.values("touch_refusal", [...page.touch_rule, flight.time, hovered, ...point]);
+    const text = page.texts.touch[String(refusal)];
+    if (text) throw new Refusal(text, { point: `[${point.map(float).join(", ")}]` });
+  }
+
+  private moved(target: Vector): Vector {
+    return [target[0] + this.offset[0], target[1] + this.offset[1], target[2] + this.offset[2]];
+  }
+
+  private change(parts: Record<string, readonly number[]>): void {
+    const hand = this.flight.hand.slice();
+    for (const [name, values] of Object.entries(parts)) hand.set(values, this.page.hand[name][0]);
+    this.flight.hold(hand);
+  }
+}
+
+function vector(values: Float64Array): Vector {
+  return [values[0], values[1], values[2]];
+}

@@ -1,0 +1,241 @@
+// A flight in real time, pushed by the page. As `live.session.session` does it.
+
+import type { FlightScene, PageMessage, Phase, ServerMessage, StatusMessage } from "../wire/messages.generated.ts";
+import { Layout } from "../wire/frames.ts";
+import { Flight } from "./flight.ts";
+import { HandControl } from "./hand_control.ts";
+import type { FlightManifest } from "./manifest.ts";
+import { checkMessage } from "./message_rules.ts";
+import { MissionNumbers } from "./mission_numbers.ts";
+import type { FlightModule } from "./module.ts";
+import { Pacer } from "./pacer.ts";
+import { ParameterControl } from "./parameter_control.ts";
+import { recordedFlight } from "./recording.ts";
+import { Refusal } from "./refusal.ts";
+import type { Tables } from "./toml.ts";
+
+export type Answer = Exclude<ServerMessage, { type: "status" | "pong" | "done" }> | SavedFile;
+
+type TouchMessage = Extract<PageMessage, { type: "grab" | "move" | "release" | "force" }>;
+type RequestMessage = Extract<PageMessage, { type: "ask" | "enable" }>;
+
+/** A file that the page offers to the person. */
+export interface SavedFile {
+  type: "saved";
+  name: string;
+  bytes: Uint8Array<ArrayBuffer>;
+}
+
+export class Session {
+  readonly pacer: Pacer;
+  private flight!: Flight;
+  private hand!: HandControl;
+  private parameters!: ParameterControl;
+  private start!: Tables;
+  private failed = false;
+  private readonly layout: Layout;
+
+  constructor(
+    private readonly module: FlightModule,
+    private readonly manifest: FlightManifest,
+    clock: () => number, // s
+  ) {
+    this.pacer = new Pacer(module.manifest.dt, manifest.page.pacing, clock);
+    this.layout = new Layout(manifest.page.scene.fields);
+    this.begin(new MissionNumbers(manifest));
+  }
+
+  /** Flies some steps, at most to the end of the flight; how many. */
+  fly(steps: number): number {
+    const before = this.flight.step;
+    try {
+      while (this.flight.step < before + steps && !this.flight.over && !this.failed) {
+        this.hand.expireRequests();
+        this.flight.advance();
+      }
+    } catch (error) {
+      this.failed = true; // until a reset
+      console.error(error);
+    }
+    return this.flight.step - before;
+  }
+
+  get scene(): FlightScene {
+    const { scene } = this.manifest.page;
+    const { now, parameters } = this.parameters;
+    const number = (key: string): number => now.value(key) as number;
+    const spring = {
+      stiffness: number("person.stiffness"),
+      damping: number("person.damping"),
+      max_force: number("person.max_force"),
+    };
+    const threshold = now.value("admittance.threshold") as unknown as FlightScene["threshold"];
+    return { ...scene, threshold, spring, parameters };
+  }
+
+  /** The latest frame. */
+  frame(): Float32Array<ArrayBuffer> {
+    const frame = new Float32Array(this.layout.size);
+    this.eachValue((field, values) => {
+      frame.set(values, this.layout.place(field).start);
+    });
+    const { hand } = this;
+    const own = { held: "held", hand_point: "grip", hand_target: "target", push_point: "grip" } as const;
+    for (const [field, part] of Object.entries(own)) {
+      frame.set(hand.part(part), this.layout.place(field as keyof typeof own).start);
+    }
+    frame[this.layout.place("seq").start] = hand.seq % 2 ** 24;
+    return frame;
+  }
+
+  status(): StatusMessage {
+    const { flight, pacer, hand } = this;
+    const behind = pacer.mostBehind;
+    pacer.mostBehind = 0;
+    return {
+      type: "status",
+      phase: this.phase(),
+      alarm: this.manifest.page.scene.alarms[this.value("alarm")[0] ?? 0],
+      enabled: hand.part("enabled")[0] !== 0,
+      paused: pacer.paused,
+      speed: pacer.speed,
+      factor: Number(pacer.factor.toFixed(3)),
+      behind_ms: Number((1e3 * behind).toFixed(2)),
+      recorded_s: Number(flight.time.toFixed(3)),
+      failed_rotors: this.parameters.failed(flight.time),
+      viewers: 1,
+      holder: this.held ? "you" : "none",
+    };
+  }
+
+  /** Whether the person pulls or pushes. */
+  get held(): boolean {
+    return this.hand.holds || this.hand.pushes;
+  }
+
+  release(): void {
+    this.hand.release();
+  }
+
+  /** Takes the settings of a link, and begins again with those that are allowed; the others and why they are not. */
+  take(settings: readonly (readonly [key: string, value: number | string | readonly number[]])[]): Answer[] {
+    const refused: Answer[] = [];
+    for (const [key, value] of settings) {
+      try {
+        this.parameters.set(this.flight, key, value);
+      } catch (error) {
+        if (!(error instanceof Refusal)) throw error;
+        refused.push({ type: "refused", what: "link", reason: error.message });
+      }
+    }
+    this.begin(this.parameters.withWholeRotors());
+    return refused;
+  }
+
+  /** Does what a message says; what to answer. */
+  apply(message: PageMessage, seq: number): Answer[] {
+    checkMessage(message, this.manifest.page);
+    switch (message.type) {
+      case "grab":
+      case "move":
+      case "release":
+      case "force":
+        this.hand.seq = seq;
+        return this.touch(message);
+      case "set":
+      case "restore":
+      case "kill":
+      case "reset":
+      case "save":
+      case "tare":
+      case "ping":
+        return this.change(message);
+      case "ask":
+      case "enable":
+        return this.request(message);
+      case "pause":
+        this.pacer.paused = message.on;
+        return [];
+      case "speed":
+        this.pacer.speed = message.factor;
+        return [];
+    }
+  }
+
+  private change(message: Exclude<PageMessage, TouchMessage | RequestMessage | { type: "pause" | "speed" }>): Answer[] {
+    switch (message.type) {
+      case "set":
+        return this.parameters.set(this.flight, message.key, message.value);
+      case "restore":
+        return this.parameters.restore(this.flight, message.key);
+      case "kill":
+        this.parameters.stopRotor(this.flight, message.rotor);
+        return [];
+      case "reset":
+        this.begin(this.parameters.withWholeRotors());
+        return [{ type: "scene", ...this.scene }];
+      case "save":
+        return [this.saved(message.name)];
+      case "tare":
+        throw new Refusal(this.manifest.page.texts.only_server, { what: message.type });
+      case "ping":
+        return [];
+    }
+  }
+
+  private touch(message: TouchMessage): [] {
+    if (message.type === "grab") this.hand.grab(message, this.value("attitude"));
+    else if (message.type === "move") this.hand.move(message);
+    else if (message.type === "force") this.hand.push(message);
+    else this.hand.release();
+    return [];
+  }
+
+  private request(message: RequestMessage): [] {
+    const { no_requests: none } = this.manifest.page.texts;
+    if (none) throw new Refusal(none, { what: message.type === "ask" ? message.what : "enable" });
+    if (message.type === "ask") this.hand.ask(message);
+    else this.hand.enable(message.on);
+    return [];
+  }
+
+  private begin(start: MissionNumbers): void {
+    this.module.free();
+    this.flight = new Flight(this.module, this.manifest.page, start.numbers);
+    this.parameters = new ParameterControl(this.manifest, start);
+    this.start = structuredClone(start.tables);
+    this.hand = new HandControl(this.flight, this.module, this.manifest.page);
+    this.failed = false;
+    this.flight.advance();
+  }
+
+  private saved(name: string): SavedFile {
+    const bytes = recordedFlight(name, this.flight, this.manifest.page, this.start, this.parameters.changes);
+    return { type: "saved", name: `${name}.zip`, bytes };
+  }
+
+  private phase(): Phase {
+    if (this.failed) return "failed";
+    if (this.flight.lost) return "lost";
+    return this.flight.over ? "over" : this.manifest.page.scene.phases[this.value("phase")[0]];
+  }
+
+  /** The values of a field of the latest sample; empty if the mission does not have it. */
+  private value(field: string): number[] {
+    let found: number[] = [];
+    this.eachValue((name, values) => {
+      if (name === field) found = [...values];
+    });
+    return found;
+  }
+
+  private eachValue(use: (field: FlightScene["fields"][number][0], values: Float64Array) => void): void {
+    const at = (this.flight.step - 1) * this.module.manifest.dt;
+    const values = this.module.values("frame", [...this.flight.sample, at, ...this.manifest.page.phase_times]);
+    let from = 0;
+    for (const [field, count] of this.manifest.page.frame) {
+      use(field as FlightScene["fields"][number][0], values.subarray(from, from + count));
+      from += count;
+    }
+  }
+}

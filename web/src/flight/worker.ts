@@ -1,0 +1,68 @@
+// The worker: opens a flight, flies it in real time, and answers the page.
+
+import { BrokenFlight, unpacked } from "./manifest.ts";
+import { FlightModule } from "./module.ts";
+import type { FromWorker, OpenRequest, ToWorker } from "./protocol.ts";
+import { RealTimeLoop } from "./real_time.ts";
+import { Refusal } from "./refusal.ts";
+import { Session } from "./session.ts";
+
+const clock = (): number => performance.now() / 1000;
+
+function post(message: FromWorker, moved: Transferable[] = []): void {
+  self.postMessage(message, { transfer: moved });
+}
+
+const FAILED = {
+  type: "status",
+  phase: "failed",
+  alarm: "",
+  enabled: true,
+  paused: false,
+  speed: 1,
+  factor: 0,
+  behind_ms: 0,
+  recorded_s: 0,
+  failed_rotors: [],
+  viewers: 1,
+  holder: "none",
+} as const;
+
+let loop: RealTimeLoop | null = null;
+
+async function open(request: OpenRequest): Promise<void> {
+  const [manifest, code] = unpacked(await content(request), request.entry, request.index);
+  const module = new FlightModule(await WebAssembly.compile(code), manifest.module);
+  const session = new Session(module, manifest, clock);
+  const refused = session.take(request.settings);
+  post({ type: "scene", ...session.scene });
+  for (const answer of refused) post(answer);
+  loop = new RealTimeLoop(session, manifest.page, clock, post);
+  loop.start();
+}
+
+async function content({ entry, file }: OpenRequest): Promise<Uint8Array<ArrayBuffer>> {
+  const compressed = file ?? Uint8Array.from(atob(entry.data!), (letter) => letter.charCodeAt(0)).buffer;
+  const stream = new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+self.onmessage = ({ data }: MessageEvent<ToWorker>): void => {
+  if (data.type === "open") {
+    open(data).catch((error: unknown) => {
+      const known = error instanceof BrokenFlight || error instanceof Refusal;
+      fail(known ? error.message : `${data.index.broken} (${String(error)})`);
+    });
+    return;
+  }
+  const { seq, ...rest } = data;
+  loop?.receive(rest, seq);
+};
+
+/** Says why the flight cannot be flown. */
+function fail(failure: string): void {
+  post({
+    ...FAILED,
+    preparing: { step: "", seconds: 0, failure },
+  });
+}
