@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.console import echo
+from tandemlift.cli.terminal.console import echo
 from tandemlift.common.errors import InputError, unknown
 from tandemlift.common.files import atomic_write
 
