@@ -168,3 +168,16 @@ def test_a_bad_argument_is_refused(arguments, pieces):
     with pytest.raises(tl.InputError) as refused:
         tl.linearize(tl.load_mission("paper"), **arguments)
     assert all(piece in str(refused.value) for piece in pieces), str(refused.value)
+
+
+def test_a_lost_flight_and_a_simulation_that_is_over_are_refused():
+    lost = tl.load_mission("paper", {"controller.gains.xi": 2000.0})
+    with pytest.raises(tl.InputError, match="diverges at"):
+        tl.linearize(lost, 60.0)
+    simulation = tl.Simulation(tl.load_mission("paper", {"mission.duration": 0.01}))
+    with pytest.raises(tl.InputError, match="at its own time"):
+        tl.linearize(simulation, 0.005)
+    for _ in range(10):
+        simulation.step()
+    with pytest.raises(tl.InputError, match="is over"):
+        tl.linearize(simulation)

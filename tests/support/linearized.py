@@ -9,10 +9,10 @@ from law_values import flat, rebuilt
 
 import tandemlift as tl
 from tandemlift.linearization.delay_lines import values_under_way
-from tandemlift.linearization.linearize import _recipe
+from tandemlift.linearization.linearize import linearization_plan
 from tandemlift.linearization.model_inputs import given_at
 from tandemlift.linearization.operating_point import flown_to
-from tandemlift.linearization.period import PeriodDerivative, LinearizationPlan, differentiate
+from tandemlift.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
 from tandemlift.linearization.step_graph import NO_PUSH
 from tandemlift.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan
@@ -38,7 +38,7 @@ class Linearized(NamedTuple):
 
 def linearized(name: str, changes: dict[str, Any], at: float | None, steps: int | None = None) -> Linearized:
     """A built-in mission, linearized at a time."""
-    recipe, _ = _recipe(flown_to(tl.load_mission(name, changes), at), "loop", None, None, steps)
+    recipe, _ = linearization_plan(flown_to(tl.load_mission(name, changes), at), "loop", None, None, steps)
     return Linearized(recipe, differentiate(recipe))
 
 

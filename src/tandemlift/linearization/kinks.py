@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.linearization.derivative import CURVED, Derivative, Sides, meet
-from tandemlift.linearization.period import PeriodDerivative, LinearizationPlan
+from tandemlift.linearization.period import LinearizationPlan, PeriodDerivative
 from tandemlift.linearization.step_derivative import StepDerivative
 from tandemlift.trace import LEAVES
 

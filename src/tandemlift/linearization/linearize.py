@@ -18,7 +18,7 @@ from tandemlift.linearization.kinks import kinks_near, law_name
 from tandemlift.linearization.linear_model import LinearizationPoint, LinearModel
 from tandemlift.linearization.model_inputs import given_at, input_columns, operating_values, push_sum
 from tandemlift.linearization.operating_point import OperatingPoint, as_it_stands, flown_to
-from tandemlift.linearization.period import PeriodDerivative, LinearizationPlan, differentiate
+from tandemlift.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
 from tandemlift.linearization.step_graph import step_graph
 from tandemlift.linearization.variables import Outputs, outputs_from, state_variable
 from tandemlift.missions.values import shown
@@ -51,7 +51,7 @@ def linearize(
     Args:
         flight: a mission, which is flown to the time `at` with the compiled body; or a simulation as it stands.
         at: time of the point [s]. By default the end of the first calm after the lift: just before the first push,
-            before a person begins or the landing, else the mission's end. None for a simulation.
+            fault or landing, or before a person begins, else the mission's end. None for a simulation.
         of: "loop" for pilot and body together; "body" for the body alone, whose inputs are the rotor thrusts.
         inputs: names of inputs: `push_force` [N, world axes, at the centre of mass], `push_moment` [N m, body axes],
             `disturbance_force` [N, world axes], `disturbance_moment` [N m, body axes], `wind_velocity` [m/s, world
@@ -72,16 +72,21 @@ def linearize(
     if isinstance(flight, Simulation) and at is not None:
         raise InputError(f"at = {shown(at)}: a simulation is linearized at its own time; step it there")
     point = as_it_stands(flight) if isinstance(flight, Simulation) else flown_to(flight, at)
-    recipe, chosen = _recipe(point, of, inputs, outputs, steps)
+    recipe, chosen = linearization_plan(point, of, inputs, outputs, steps)
     made = differentiate(recipe)
     _check_finite(recipe, made)
     kinks = kinks_near(recipe, made, kink_tolerance)
     return _model(recipe, made, chosen, of, kinks)
 
 
-def _recipe(
+def linearization_plan(
     point: OperatingPoint, of: str, inputs: Sequence[str] | None, outputs: Sequence[str] | None, steps: int | None
 ) -> tuple[LinearizationPlan, Outputs]:
+    """What is differentiated about a point, and its outputs; arguments as for `linearize`.
+
+    Raises:
+        InputError: an argument is not allowed.
+    """
     plan = point.plan
     graph, delayed = step_graph(plan), delayed_numbers(plan)
     if of == "body" and outputs is not None:
