@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from tandemlift.cli import console
+from tandemlift.cli.terminal import console
 from tandemlift.cli.terminal.console import CompileNotices
 from tandemlift.machine_code.compile_events import Compiled, publish, watching
 

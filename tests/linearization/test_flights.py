@@ -7,6 +7,7 @@ import pytest
 from linearized import QUIET, NativePeriod, linearized
 
 import tandemlift as tl
+from tandemlift.missions import tables_of
 
 MOST_ROTORS = {f"vehicle.quadrotors.{i}.max_speed": 862.0 for i in (0, 1)}  # rad/s, little more than hovering takes
 MOVING = {"initial.euler": [0.05, -0.04, 0.1], "initial.position": [0.3, -0.2, 0.0]}
@@ -32,6 +33,22 @@ def test_a_period_is_that_of_the_compiled_flight(name, changes, at):
     native = NativePeriod(of.recipe)
     assert native(of.made.x0) == pytest.approx(of.made.x1, rel=1e-12, abs=1e-12)
     check_differences(of, native.jacobian(of.made.x0, 1e-7))
+
+
+def test_many_quadrotors_whose_flight_is_compiled_in_loops_are_linearized_too():
+    (first, _) = tables_of(tl.load_mission("hover"))["vehicle"]["quadrotors"]
+    turns = 2.0 * np.pi * np.arange(6) / 6.0
+    fleet = [{**first, "position": [1.2 * np.cos(turn), 1.2 * np.sin(turn), 0.075]} for turn in turns]
+    of = linearized("hover", {"vehicle.quadrotors": fleet, **MOVING}, 2.2)
+    native = NativePeriod(of.recipe)
+    assert native(of.made.x0) == pytest.approx(of.made.x1, rel=1e-12, abs=1e-12)
+    check_differences(of, native.jacobian(of.made.x0, 1e-7))
+
+
+def test_a_mission_that_rounds_products_and_sums_apart_is_linearized_as_it_flies():
+    of = linearized("hover", {"mission.fused": False, **MOVING}, 2.2)
+    assert "fma" not in of.recipe.graph.graph.ops
+    assert np.array_equal(NativePeriod(of.recipe)(of.made.x0), of.made.x1)
 
 
 def test_a_sensor_period_is_composed_of_single_steps():

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.controllers import control
 from tandemlift.linearization.analysis import frequency_response, modes_of
 from tandemlift.linearization.step_graph import CONSTANT, DISCRETE, UNSEEN
+from tandemlift.simulation.plan import FlightPlan
 
 
 @pytest.fixture(scope="module")
@@ -168,3 +170,24 @@ def test_a_bad_argument_is_refused(arguments, pieces):
     with pytest.raises(tl.InputError) as refused:
         tl.linearize(tl.load_mission("paper"), **arguments)
     assert all(piece in str(refused.value) for piece in pieces), str(refused.value)
+
+
+def test_a_controller_in_plain_python_is_refused_by_its_name(monkeypatch):
+    mission = tl.load_mission("paper")
+    gains = type(FlightPlan(mission).model.pilot.controller)
+    monkeypatch.setattr(control, "interpreted", {gains})
+    with pytest.raises(tl.InputError, match="'nftsmc' is plain Python, which has no derivative"):
+        tl.linearize(mission)
+
+
+def test_a_lost_flight_and_a_simulation_that_is_over_are_refused():
+    lost = tl.load_mission("paper", {"controller.gains.xi": 2000.0})
+    with pytest.raises(tl.InputError, match="diverges at"):
+        tl.linearize(lost, 60.0)
+    simulation = tl.Simulation(tl.load_mission("paper", {"mission.duration": 0.01}))
+    with pytest.raises(tl.InputError, match="at its own time"):
+        tl.linearize(simulation, 0.005)
+    for _ in range(10):
+        simulation.step()
+    with pytest.raises(tl.InputError, match="is over"):
+        tl.linearize(simulation)

@@ -9,10 +9,10 @@ from law_values import flat, rebuilt
 
 import tandemlift as tl
 from tandemlift.linearization.delay_lines import values_under_way
-from tandemlift.linearization.linearize import _recipe
+from tandemlift.linearization.linearize import linearization_plan
 from tandemlift.linearization.model_inputs import given_at
 from tandemlift.linearization.operating_point import flown_to
-from tandemlift.linearization.period import PeriodDerivative, Recipe, differentiate
+from tandemlift.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
 from tandemlift.linearization.step_graph import NO_PUSH
 from tandemlift.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan
@@ -32,13 +32,13 @@ QUIET = {  # sensors without noise, whose resolution is a straight line as it is
 class Linearized(NamedTuple):
     """What is differentiated, and its derivative."""
 
-    recipe: Recipe
+    recipe: LinearizationPlan
     made: PeriodDerivative
 
 
 def linearized(name: str, changes: dict[str, Any], at: float | None, steps: int | None = None) -> Linearized:
     """A built-in mission, linearized at a time."""
-    recipe, _ = _recipe(flown_to(tl.load_mission(name, changes), at), "loop", None, None, steps)
+    recipe, _ = linearization_plan(flown_to(tl.load_mission(name, changes), at), "loop", None, None, steps)
     return Linearized(recipe, differentiate(recipe))
 
 
@@ -52,7 +52,7 @@ def local_jacobian(of: Linearized) -> np.ndarray:
 class PlainStep:
     """The first step in plain Python as a function of states and inputs, for other tools that differentiate it."""
 
-    def __init__(self, r: Recipe) -> None:
+    def __init__(self, r: LinearizationPlan) -> None:
         plan, t = r.point.plan, r.point.k * r.point.plan.dt
         self.r, self.t, self.dt, self.model, given = r, t, plan.dt, plan.model, plan.given
         outer = given_at(plan.tables, t, plan.dt)
@@ -86,7 +86,7 @@ class PlainStep:
 class NativePeriod:
     """A period of the compiled flight as a function of its state at the point."""
 
-    def __init__(self, r: Recipe) -> None:
+    def __init__(self, r: LinearizationPlan) -> None:
         self.r, self.plan = r, FlightPlan(r.point.plan.mission)
         self.stepper = Stepper(self.plan)
         for k in range(r.point.k):

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.linearization.derivative import CURVED, Derivative, Sides, meet
-from tandemlift.linearization.period import PeriodDerivative, Recipe
+from tandemlift.linearization.period import LinearizationPlan, PeriodDerivative
 from tandemlift.linearization.step_derivative import StepDerivative
 from tandemlift.trace import LEAVES
 
@@ -50,7 +50,7 @@ class Edge(NamedTuple):
     nodes: dict[int, bool]
 
 
-def kinks_near(r: Recipe, made: PeriodDerivative, tolerance: float) -> list[Kink]:
+def kinks_near(r: LinearizationPlan, made: PeriodDerivative, tolerance: float) -> list[Kink]:
     """The kinks at a point.
 
     Args:
@@ -74,7 +74,7 @@ def kinks_near(r: Recipe, made: PeriodDerivative, tolerance: float) -> list[Kink
     return found + ([solver_kink(dict(margins))] if margins else [])
 
 
-def edges_of(r: Recipe, step: int, d: StepDerivative, tolerance: float) -> list[Edge]:
+def edges_of(r: LinearizationPlan, step: int, d: StepDerivative, tolerance: float) -> list[Edge]:
     """The edges within a distance of a step, those on one surface together."""
     found = list[Edge]()
     for node, value, row, is_upward in compared(r, d):
@@ -96,7 +96,7 @@ def edges_of(r: Recipe, step: int, d: StepDerivative, tolerance: float) -> list[
     return found
 
 
-def compared(r: Recipe, d: StepDerivative) -> Iterator[tuple[int, float, Any, bool]]:
+def compared(r: LinearizationPlan, d: StepDerivative) -> Iterator[tuple[int, float, Any, bool]]:
     """What decides by a number's sign: (node, number, its derivative, whether the node is true where it is above 0)."""
     g, rows, values = r.graph.graph, d.nodes.rows, d.nodes.values
     deciding = deciding_nodes(r)
@@ -115,7 +115,7 @@ def compared(r: Recipe, d: StepDerivative) -> Iterator[tuple[int, float, Any, bo
             yield node, value, row, op == "fabs" or op.endswith(UPWARD)
 
 
-def deciding_nodes(r: Recipe) -> list[int]:
+def deciding_nodes(r: LinearizationPlan) -> list[int]:
     """The comparisons and absolute values that choose between derivatives of the model."""
     g, seen = r.graph.graph, set[int]()
     stack = [g.args[node][0] for node in r.choice.smooth if g.ops[node] == "select"]
@@ -132,7 +132,7 @@ def deciding_nodes(r: Recipe) -> list[int]:
     return sorted([*found, *[node for node in r.choice.smooth if g.ops[node] == "fabs"]])
 
 
-def is_kink(r: Recipe, edge: Edge, d: StepDerivative) -> bool:
+def is_kink(r: LinearizationPlan, edge: Edge, d: StepDerivative) -> bool:
     """Whether the step, or its derivative, differs on the two sides of an edge."""
     if not any(differs_here(r, node, edge, d) for node in choosing(r, edge.nodes)):
         return False
@@ -163,7 +163,7 @@ def is_true(d: StepDerivative, node: int) -> bool:
     return values[g.args[node][0]] >= 0.0 if g.ops[node] == "fabs" else values[node]
 
 
-def choosing(r: Recipe, nodes: Iterable[int]) -> Iterator[int]:
+def choosing(r: LinearizationPlan, nodes: Iterable[int]) -> Iterator[int]:
     """The selections whose condition depends on a comparison of `nodes`, and the absolute values among these."""
     g, reached = r.graph.graph, set(nodes)
     for node in range(min(reached), len(g.ops)):
@@ -180,7 +180,7 @@ def choosing(r: Recipe, nodes: Iterable[int]) -> Iterator[int]:
         yield r.graph.traced.limits.beyond.node
 
 
-def differs_here(r: Recipe, node: int, edge: Edge, d: StepDerivative) -> bool:
+def differs_here(r: LinearizationPlan, node: int, edge: Edge, d: StepDerivative) -> bool:
     """Whether the branches of a selection differ, in value or in derivative."""
     g, values, rows = r.graph.graph, d.nodes.values, d.nodes.rows
     if g.ops[node] != "select":

@@ -18,7 +18,7 @@ from tandemlift.linearization.kinks import kinks_near, law_name
 from tandemlift.linearization.linear_model import LinearizationPoint, LinearModel
 from tandemlift.linearization.model_inputs import given_at, input_columns, operating_values, push_sum
 from tandemlift.linearization.operating_point import OperatingPoint, as_it_stands, flown_to
-from tandemlift.linearization.period import PeriodDerivative, Recipe, differentiate
+from tandemlift.linearization.period import LinearizationPlan, PeriodDerivative, differentiate
 from tandemlift.linearization.step_graph import step_graph
 from tandemlift.linearization.variables import Outputs, outputs_from, state_variable
 from tandemlift.missions.values import shown
@@ -51,7 +51,7 @@ def linearize(
     Args:
         flight: a mission, which is flown to the time `at` with the compiled body; or a simulation as it stands.
         at: time of the point [s]. By default the end of the first calm after the lift: just before the first push,
-            before a person begins or the landing, else the mission's end. None for a simulation.
+            fault or landing, or before a person begins, else the mission's end. None for a simulation.
         of: "loop" for pilot and body together; "body" for the body alone, whose inputs are the rotor thrusts.
         inputs: names of inputs: `push_force` [N, world axes, at the centre of mass], `push_moment` [N m, body axes],
             `disturbance_force` [N, world axes], `disturbance_moment` [N m, body axes], `wind_velocity` [m/s, world
@@ -72,16 +72,21 @@ def linearize(
     if isinstance(flight, Simulation) and at is not None:
         raise InputError(f"at = {shown(at)}: a simulation is linearized at its own time; step it there")
     point = as_it_stands(flight) if isinstance(flight, Simulation) else flown_to(flight, at)
-    recipe, chosen = _recipe(point, of, inputs, outputs, steps)
+    recipe, chosen = linearization_plan(point, of, inputs, outputs, steps)
     made = differentiate(recipe)
     _check_finite(recipe, made)
     kinks = kinks_near(recipe, made, kink_tolerance)
     return _model(recipe, made, chosen, of, kinks)
 
 
-def _recipe(
+def linearization_plan(
     point: OperatingPoint, of: str, inputs: Sequence[str] | None, outputs: Sequence[str] | None, steps: int | None
-) -> tuple[Recipe, Outputs]:
+) -> tuple[LinearizationPlan, Outputs]:
+    """What is differentiated about a point, and its outputs; arguments as for `linearize`.
+
+    Raises:
+        InputError: an argument is not allowed.
+    """
     plan = point.plan
     graph, delayed = step_graph(plan), delayed_numbers(plan)
     if of == "body" and outputs is not None:
@@ -96,7 +101,7 @@ def _recipe(
     late = {one.number for one in delayed if one.under_way}
     choice = graph.choose(nodes, cut, late)
     period = 1 if of == "body" else sensor_period(plan.model.sensors)
-    return Recipe(point, graph, choice, columns, nodes, delayed, _steps(period, steps)), chosen
+    return LinearizationPlan(point, graph, choice, columns, nodes, delayed, _steps(period, steps)), chosen
 
 
 def _flight_state(point: OperatingPoint) -> Any:
@@ -125,7 +130,7 @@ def _steps(period: int, steps: int | None) -> int:
     return steps
 
 
-def _check_finite(r: Recipe, made: PeriodDerivative) -> None:
+def _check_finite(r: LinearizationPlan, made: PeriodDerivative) -> None:
     if all(np.isfinite(getattr(made, name)).all() for name in ("A", "B", "C", "D")):
         return
     g = r.graph.graph
@@ -141,7 +146,7 @@ def _check_finite(r: Recipe, made: PeriodDerivative) -> None:
     raise InputError("no derivative at this point: choose another time")
 
 
-def _model(r: Recipe, made: PeriodDerivative, chosen: Outputs, of: str, kinks: Any) -> LinearModel:
+def _model(r: LinearizationPlan, made: PeriodDerivative, chosen: Outputs, of: str, kinks: Any) -> LinearModel:
     plan, names = r.point.plan, r.graph.names
     late = [state_variable(names[r.delayed[i].number], ago) for i, ago in r.waiting]
     return LinearModel(
@@ -163,7 +168,7 @@ def _model(r: Recipe, made: PeriodDerivative, chosen: Outputs, of: str, kinks: A
     )
 
 
-def _inputs_at(r: Recipe, made: PeriodDerivative) -> Array:
+def _inputs_at(r: LinearizationPlan, made: PeriodDerivative) -> Array:
     plan, t = r.point.plan, r.point.k * r.point.plan.dt
     attitude = _flight_state(r.point).state.attitude
     moment = push_moment(push_sum(plan.tables, t), attitude)
@@ -173,7 +178,7 @@ def _inputs_at(r: Recipe, made: PeriodDerivative) -> Array:
     return np.array([thrusts[i] if kind == "thrust" else v for (kind, i, _), v in zip(seeds, values, strict=True)])
 
 
-def assumptions(r: Recipe, made: PeriodDerivative, of: str) -> list[str]:
+def assumptions(r: LinearizationPlan, made: PeriodDerivative, of: str) -> list[str]:
     """What a model leaves out or holds fixed, a sentence each."""
     plan, x = r.point.plan, r.graph.traced.templates
     said = ["Inputs are held over the sample time; outputs are at its start, the rotor thrusts act until its end."]

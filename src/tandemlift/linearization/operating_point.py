@@ -36,12 +36,13 @@ class OperatingPoint(NamedTuple):
 def calm_time(mission: Mission) -> float:
     """The default time [s]: the end of the first calm after the lift.
 
-    This is before the first push, before a person begins and before the landing; without any, it is the mission's end.
+    This is before the first push, fault or landing and before a person begins; without any, it is the mission's end.
     """
     phases, m = mission.phases, mission.mission
     hovers = phases.lift_start + phases.lift_duration
     ends = [push.time - SUPPORT * push.sigma for push in mission.pushes]
     ends += [m.duration] if phases.land_start is None else [phases.land_start, m.duration]
+    ends += [fault.time for fault in mission.faults]
     if mission.person.model != "none":
         ends.append(mission.person.start_time)
     later = [end for end in ends if end > hovers]

@@ -12,11 +12,11 @@ from tandemlift.common.types import Array
 from tandemlift.linearization.delay_lines import DelayedNumber, values_under_way
 from tandemlift.linearization.model_inputs import InputColumn, given_at
 from tandemlift.linearization.operating_point import OperatingPoint
-from tandemlift.linearization.step_derivative import StepDerivative, StepInputs
+from tandemlift.linearization.step_derivative import StepDerivative, StepSeeds
 from tandemlift.linearization.step_graph import StateChoice, StepGraph
 
 
-class Recipe(NamedTuple):
+class LinearizationPlan(NamedTuple):
     """What is differentiated.
 
     Attributes:
@@ -67,7 +67,7 @@ class PeriodDerivative(NamedTuple):
 class _Lines:
     """The values under way in the delay lines and their derivatives, the newest first."""
 
-    def __init__(self, r: Recipe, rows: Array) -> None:
+    def __init__(self, r: LinearizationPlan, rows: Array) -> None:
         self.delayed = r.delayed
         self.values = [list(v) for v in values_under_way(list(r.delayed), r.point.ring, r.point.k)]
         self.rows: list[list[Array]] = [[] for _ in r.delayed]
@@ -90,7 +90,7 @@ class _Lines:
         return [self.values[i][j - 1] for i, j in self.waiting], [self.rows[i][j - 1] for i, j in self.waiting]
 
 
-def step_inputs(r: Recipe, numbers: Array, step: int) -> StepInputs:
+def step_inputs(r: LinearizationPlan, numbers: Array, step: int) -> StepSeeds:
     """The inputs of a step of the period, with a seed for each state but those under way, and for each input."""
     p, kept = r.point.plan, r.choice.kept
     given = given_at(p.tables, (r.point.k + step) * p.dt, p.dt)
@@ -107,10 +107,10 @@ def step_inputs(r: Recipe, numbers: Array, step: int) -> StepInputs:
             else:
                 before = rows[kind][index]
                 rows[kind][index] = seed * weight if before is None else before + seed * weight
-    return StepInputs(numbers.tolist(), given, rows, fixed)
+    return StepSeeds(numbers.tolist(), given, rows, fixed)
 
 
-def differentiate(r: Recipe) -> PeriodDerivative:
+def differentiate(r: LinearizationPlan) -> PeriodDerivative:
     """The derivative over a period about the point."""
     kept, n, m = list(r.choice.kept), len(r.choice.kept), len(r.inputs)
     numbers, waiting = r.point.numbers.copy(), len(r.waiting)

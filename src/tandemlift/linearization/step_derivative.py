@@ -18,7 +18,7 @@ MADE = ("moved", "solved")  # inputs that are made within the step
 RESTING = ("opening", "repeated", "ended")
 
 
-class StepInputs(NamedTuple):
+class StepSeeds(NamedTuple):
     """What a step depends on.
 
     Attributes:
@@ -62,7 +62,7 @@ class StepDerivative:
     def __init__(
         self,
         graph: StepGraph,
-        x: StepInputs,
+        x: StepSeeds,
         sides: Sides | None = None,
         known: tuple[StepDerivative, set[int]] | None = None,
     ) -> None:

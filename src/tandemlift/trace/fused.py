@@ -22,6 +22,7 @@ from collections.abc import Callable, Iterator
 from contextvars import ContextVar
 from typing import Any, Protocol, TypeGuard
 
+from tandemlift.algebra import ops, vector
 from tandemlift.algebra.law import LAWS, Choice, Elementwise
 from tandemlift.algebra.ops import PRIMITIVES
 from tandemlift.common.errors import InputError
@@ -31,7 +32,7 @@ from tandemlift.trace.symbol import Symbol, fma
 
 FMA = "_fma_"
 LEAVES = "_leaves_"
-ALGEBRA = ("tandemlift.algebra.ops", "tandemlift.algebra.vector")  # what they compare, the law that calls them compares
+ALGEBRA = (ops.__name__, vector.__name__)  # what they compare, the law that calls them compares
 ONE_AT_A_TIME = threading.RLock()
 FUSES: ContextVar[bool] = ContextVar("fuses", default=True)  # whether a·b + c is rounded once
 ENTERS: ContextVar[Enters | None] = ContextVar("enters", default=None)  # who is told of every law that is entered
