@@ -122,7 +122,7 @@ def drawn(mission, number):
     at = leaf_offset(p.model, "flight_state", "state", "velocity").at
     turn = leaf_offset(p.model, "flight_state", "state", "rates").at
     hard = number % 5 == 4
-    start.numbers[at : at + 3] += chance.normal(scale=500.0 if hard else 0.1, size=3)
+    start.numbers[at : at + 3] += chance.normal(scale=5000.0 if hard else 0.1, size=3)
     start.numbers[turn : turn + 3] += chance.normal(scale=50.0 if hard else 0.2, size=3)
     return p, start
 

@@ -10,7 +10,7 @@ import numpy as np
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
 from tandemlift.simulation.pilot_api import INPUT
-from tandemlift.targets.c.literals import number
+from tandemlift.targets.c.language.literals import number
 from tandemlift.targets.c.write import code_texts, written
 
 HERE = Path(__file__).parents[1] / "targets" / "cortex_m7"
@@ -40,7 +40,10 @@ def closed_loop(mission, count):
 def vectors_header(vectors, real):
     """The samples as C."""
     columns = [f"    {real} {n}[{len(v)}];" for n, v in zip(("memory", "input", "thrusts"), vectors[0], strict=True)]
-    rows = ["{" + ", ".join("{" + ", ".join(number(float(x), real) for x in part) + "}" for part in v) + "}," for v in vectors]
+    rows = [
+        "{" + ", ".join("{" + ", ".join(number(float(x), real) for x in part) + "}" for part in v) + "},"
+        for v in vectors
+    ]
     lines = [f"typedef {real} number;", f"#define VECTOR_COUNT {len(vectors)}", "static const struct {", *columns]
     return "\n".join([*lines, "} VECTOR[VECTOR_COUNT] = {", *rows, "};", ""])
 
@@ -60,9 +63,19 @@ def measured(mission, vectors, folder, single=False):
         options = (*MACHINE, *OPTIONS, *includes, "-c", str(source), "-o", str(objects[-1]))
         subprocess.run(["arm-none-eabi-gcc", *options], check=True)
     program = folder / "measure.elf"
-    link = ("-nostartfiles", f"-T{HERE / 'mps2.ld'}", "-Wl,--gc-sections", "-o", str(program), *map(str, objects), "-lm")
+    link = (
+        "-nostartfiles",
+        f"-T{HERE / 'mps2.ld'}",
+        "-Wl,--gc-sections",
+        "-o",
+        str(program),
+        *map(str, objects),
+        "-lm",
+    )
     subprocess.run(["arm-none-eabi-gcc", *MACHINE, *link], check=True)
-    run = subprocess.run([*EMULATOR, *SEMIHOSTING, "-kernel", str(program)], capture_output=True, text=True, timeout=300)
+    run = subprocess.run(
+        [*EMULATOR, *SEMIHOSTING, "-kernel", str(program)], capture_output=True, text=True, timeout=300
+    )
     lines = [line.split() for line in (run.stdout + run.stderr).splitlines() if len(line.split()) == 2]
     size = subprocess.run(["arm-none-eabi-size", str(objects[0])], capture_output=True, text=True, check=True).stdout
     code, data, *_ = size.splitlines()[1].split()

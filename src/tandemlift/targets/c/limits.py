@@ -6,9 +6,9 @@ from tandemlift.algebra.layout import leaves, rebuilt
 from tandemlift.kernels.traced_step import LimitProblem
 from tandemlift.laws.rotors.allocation import AllocationState, ConstrainedAllocation
 from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
-from tandemlift.targets.c.law_functions import law_function
-from tandemlift.targets.c.statements import Statements
-from tandemlift.targets.c.unit import Unit
+from tandemlift.targets.c.language.law_functions import law_function
+from tandemlift.targets.c.language.statements import Statements
+from tandemlift.targets.c.language.unit import Unit
 
 SOLVE = """/* The thrusts within limits that come closest to the wanted wrench
  * (tandemlift.laws.rotors.thrust_limit_solver.limited_thrusts); it ends after {most} steps at the latest. */
@@ -24,8 +24,8 @@ static {state} {name}(const {problem} *problem, const {state} *held)
     return search.found;
 }}
 """
-WIDENED = """/* The same in single precision. The search is in double precision: where part of a wrench is out of reach, its sums
- * cancel all digits of a float. */
+WIDENED = """/* The same in single precision. The search is in doubles: where part of a wrench is out of reach,
+ * its sums cancel all digits of a float. */
 static AllocationState solve(const BoundedProblem *problem, const AllocationState *held)
 {{
     float given[{size}], before[{held}];

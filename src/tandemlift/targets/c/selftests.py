@@ -15,8 +15,8 @@ from tandemlift.settings import Mission
 from tandemlift.simulation.fly import fly
 from tandemlift.simulation.pilot_api import INPUT, Pilot
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.targets.c.function_text import wrapped
-from tandemlift.targets.c.literals import number
+from tandemlift.targets.c.language.function_text import wrapped
+from tandemlift.targets.c.language.literals import number
 from tandemlift.targets.c.source_file import SourceFile
 
 VECTORS = 40  # stored samples of a pilot
@@ -32,7 +32,7 @@ def braced(file: SourceFile, values: Iterable[float]) -> str:
 
 
 def pilot_vectors(mission: Mission, flight: Flight) -> list[tuple[Array, Array, Array]]:
-    """(Memory, input, thrusts) of samples all over a flight, whose logged states a pilot is given one after the other."""
+    """(Memory, input, thrusts) of samples; the pilot is given the logged states of a flight one after the other."""
     pilot, found = Pilot(mission), []
     rows = np.hstack([flight[name] for name in MEASURED])
     rows = rows[np.isfinite(rows).all(axis=1)]

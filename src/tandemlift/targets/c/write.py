@@ -36,9 +36,8 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
     """
     if mission.controller.name in _interpreted_names(mission):
         name = mission.controller.name
-        raise InputError(
-            f"controller.name = {name!r}: is plain Python, which C cannot call; register it as a law, without compiled=False"
-        )
+        way = "register it as a law, without compiled=False"
+        raise InputError(f"controller.name = {name!r}: is plain Python, which C cannot call; {way}")
     texts = code_texts(mission, single)
     unfused, flight = native_flight(mission)
     file = SourceFile(mission.mission.name, single, mission.mission.step)
