@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from c_flights import STRICT, same, unfused
 from repository import ROOT
-from tools import need
 
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
 from tandemlift.controllers import load_controller
 from tandemlift.simulation.pilot_api import INPUT
 from tandemlift.targets.c.write import code_texts, pilot_data, write_c, written
+from tools import need
 
 GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
 LAW, _ = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
@@ -82,9 +82,8 @@ def test_the_self_tests_pass_and_fail_when_a_bit_is_other(tmp_path):
         source = next(f for f in files if f.name.endswith(f"_{part}_selftest.c"))
         assert subprocess.run([build(source, part)], check=False, capture_output=True).stdout.startswith(b"ok")
         text = source.read_text()
-        data = text.index("= {\n") + 4
-        place = re.compile(r"\d\.\d{3,}").search(text, data)
-        digit = place.end() - 1
+        data = text[: text.index("\n};")]  # its last number is one that must come
+        digit = [place.end() - 1 for place in re.finditer(r"\d\.\d{3,}", data)][-1]
         source.write_text(text[:digit] + str((int(text[digit]) + 5) % 10) + text[digit + 1 :])
         assert subprocess.run([build(source, part)], check=False, capture_output=True).returncode == 1
 
@@ -122,8 +121,8 @@ def test_its_functions_are_short_allocate_nothing_and_name_their_laws(name):
     assert max(lengths.values()) <= 300
     assert not re.search(r"\b(malloc|calloc|realloc|alloca|free)\(", source)
     assert set(re.findall(r"#include <(.+)>", source)) <= {"math.h", "stdbool.h", "stddef.h", "stdint.h", "string.h"}
-    assert "tandemlift.laws.guidance.admittance.admittance_response" in source
-    assert "paper: equ4" in source
+    assert source.count("\n/* tandemlift.") > 100
+    assert source.count("\n * paper: ") > 5
     assert len(texts["README.md"].split("\n")) <= 45
 
 
@@ -143,7 +142,9 @@ def test_the_self_tests_pass_under_sanitizers_and_on_aarch64(name, tmp_path):
     for part in ("pilot", "flight"):
         source = next(f for f in files if f.name.endswith(f"_{part}_selftest.c"))
         for compiler in ("gcc", "clang"):
-            run = subprocess.run([build(source, part, "-O1", *SANITIZERS, compiler=compiler)], check=False, capture_output=True)
+            run = subprocess.run(
+                [build(source, part, "-O1", *SANITIZERS, compiler=compiler)], check=False, capture_output=True
+            )
             assert run.stdout.startswith(b"ok"), run.stderr.decode()
         program = build(source, part, "-O2", "-static", compiler="aarch64-linux-gnu-gcc")
         run = subprocess.run(["qemu-aarch64", program], check=False, capture_output=True)
