@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from tandemlift.algebra.arrays import array, condition_number, has_symbols, inverse, square_roots
 from tandemlift.algebra.constants import GRAVITY
+from tandemlift.common.caching import kept
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.settings import Drag, Payload, Quadrotor, VehicleTable
@@ -36,12 +38,12 @@ def mixer_inverse(quadrotor: Quadrotor) -> Array:
     A = mixer(quadrotor)
     if quadrotor.rotor_positions is None and quadrotor.spins == (1, -1, 1, -1):
         return A.T / np.sum(A * A, axis=1)  # its columns are orthogonal
-    if np.linalg.cond(A) > 1e9:
+    if condition_number(A, lambda: inverse(A)) > 1e9:
         raise InputError(
             f"vehicle.quadrotors: rotors at {[list(r) for r in quadrotor.rotors]} with spins {list(quadrotor.spins)} "
             "cannot make every thrust and moment: they may not all stand in a line, and their spins must differ"
         )
-    return np.asarray(np.linalg.inv(A), dtype=np.float64)
+    return inverse(A)
 
 
 def parallel_axis_term(mass: float, d: Array) -> Array:
@@ -75,7 +77,7 @@ class Vehicle:
             raise InputError("vehicle.quadrotors is empty; a vehicle needs at least one quadrotor")
 
     @staticmethod
-    @lru_cache(maxsize=64)
+    @kept
     def from_settings(table: VehicleTable) -> Vehicle:
         """The vehicle that a mission describes; the same object for the same table, as many missions share one."""
         return Vehicle(table.payload, table.quadrotors, table.drag)
@@ -135,9 +137,7 @@ class Vehicle:
         # paper: b_matrix_equ, u_inputs
         blocks = []
         for x, y, _ in self.lever_arms:
-            block = np.eye(4)
-            block[1, 0], block[2, 0] = y, -x
-            blocks.append(block)
+            blocks.append(array([[1.0, 0.0, 0.0, 0.0], [y, 1.0, 0.0, 0.0], [-x, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]))
         return np.hstack(blocks)
 
     @cached_property
@@ -155,19 +155,23 @@ class Vehicle:
             InputError: the number of rows is neither 1 nor N.
         """
         # paper: h_matrix_equ, cost_fun_equ
-        rows = np.array(weights, dtype=float)
+        rows = array(weights)
         if rows.shape not in ((1, 4), (self.count, 4)):
             raise InputError(
                 f"allocation.weights = {[list(r) for r in weights]} does not fit {self.count} quadrotors: "
                 "give one number, four, or four for each quadrotor"
             )
-        return np.diag(np.sqrt(np.broadcast_to(rows, (self.count, 4)).ravel()))
+        return np.diag(square_roots(np.broadcast_to(rows, (self.count, 4)).ravel()))
 
     def pseudo_inverse(self, weights: Sequence[Sequence[float]] = EQUAL) -> Array:
         """(4N × 4): the u_q of least ‖H u_q‖ that gives a wrench: H⁻²Bᵀ(BH⁻²Bᵀ)⁻¹."""
         # paper: optim_fun_equ, optim_cont_final_equ
-        scaled = np.linalg.inv(self.H(weights) ** 2) @ self.B.T
-        return scaled @ np.linalg.inv(self.B @ scaled)
+        H = self.H(weights)
+        if has_symbols(H) or has_symbols(self.B):
+            scaled = self.B.T / np.square(np.diag(H))[:, None]
+        else:
+            scaled = inverse(H**2) @ self.B.T
+        return scaled @ inverse(self.B @ scaled)
 
     def allocation(self, weights: Sequence[Sequence[float]] = EQUAL) -> Array:
         """(4N × 4): thrusts of all rotors from a wrench, by `pseudo_inverse` and each quadrotor's mixer inverse."""

@@ -31,7 +31,7 @@ def check_compiled(name: str, arguments: int = 1) -> Callable[..., np.ndarray]:
 
 @pytest.fixture(scope="module")
 def f() -> dict[str, Callable[..., np.ndarray]]:
-    found = {name: check_compiled(name) for name in ("exp", "tanh", "log", "sin", "cos", "sqrt")}
+    found = {name: check_compiled(name) for name in ("exp", "expm1", "tanh", "log", "sin", "cos", "tan", "sqrt")}
     return found | {name: check_compiled(name, 2) for name in ("atan2", "power")}
 
 
@@ -53,6 +53,10 @@ RANGES: list[tuple[str, str, float, Callable[[np.random.Generator], np.ndarray]]
     ("exp", "all of it", 1.25, lambda r: r.uniform(-708.0, 709.0, COUNT)),
     ("exp", "about 0", 1.25, lambda r: r.uniform(-1.0, 1.0, COUNT)),
     ("exp", "tiny", 1.25, lambda r: log_uniform(r, 1e-300, 1.0)),
+    ("expm1", "all of it", 2.0, lambda r: r.uniform(-708.0, 709.0, COUNT)),
+    ("expm1", "about 0", 2.0, lambda r: r.uniform(-0.3, 0.3, COUNT)),
+    ("expm1", "tiny", 2.0, lambda r: log_uniform(r, 1e-300, 1.0)),
+    ("tan", "a quarter turn", 5.0, lambda r: r.uniform(-1.5, 1.5, COUNT)),
     ("tanh", "all of it", 2.75, lambda r: r.uniform(-22.0, 22.0, COUNT)),
     ("tanh", "about 0", 2.75, lambda r: r.uniform(-0.3, 0.3, COUNT)),
     ("tanh", "tiny", 2.75, lambda r: log_uniform(r, 1e-300, 1.0)),

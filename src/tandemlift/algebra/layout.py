@@ -15,6 +15,11 @@ def flat(value: Any) -> list[float]:
     return [number for part in value for number in flat(part)] if is_value(value) else [float(value)]
 
 
+def numbers_of(value: Any) -> list[Any]:
+    """The numbers of a nested value, depth first, as they are: symbols, too."""
+    return [leaf for part in value for leaf in numbers_of(part)] if is_value(value) else [value]
+
+
 def leaves(value: Any) -> int:
     """Number of leaves of a nested value."""
     return sum(map(leaves, value)) if is_value(value) else 1

@@ -21,7 +21,9 @@ _NAMES = {  # ours: (NumPy and jax.numpy, CasADi)
     "cos": ("cos", "cos"),
     "atan2": ("arctan2", "atan2"),
     "tanh": ("tanh", "tanh"),
+    "tan": ("tan", "tan"),
     "exp": ("exp", "exp"),
+    "expm1": ("expm1", "expm1"),
     "log": ("log", "log"),
     "absolute": ("abs", "fabs"),
     "minimum": ("minimum", "fmin"),
@@ -73,14 +75,16 @@ _sin = primitive("sin", lambda x: math.sin(x) if math.isfinite(x) else math.nan)
 _cos = primitive("cos", lambda x: math.cos(x) if math.isfinite(x) else math.nan)
 _atan2 = primitive("atan2", math.atan2)
 _tanh = primitive("tanh", math.tanh)
+_tan = primitive("tan", math.tan)
 _exp = primitive("exp", _exp_of_float)
+_expm1 = primitive("expm1", lambda x: math.expm1(min(x, 709.0)))
 _log = primitive("log", math.log)
 _absolute = primitive("absolute", abs)
 _minimum = primitive("minimum", lambda a, b: a if a < b else b)
 _maximum = primitive("maximum", lambda a, b: a if a > b else b)
 _where = primitive("where", lambda condition, a, b: a if condition else b)
 
-PRIMITIVES = (_sqrt, _sin, _cos, _atan2, _tanh, _exp, _log, _absolute, _minimum, _maximum, _where)
+PRIMITIVES = (_sqrt, _sin, _cos, _tan, _atan2, _tanh, _exp, _expm1, _log, _absolute, _minimum, _maximum, _where)
 
 
 @elementwise
@@ -123,6 +127,18 @@ def tanh(x: Number) -> Number:
 def exp(x: Number) -> Number:
     """eˣ, with x held below 709 (compiled: and above −708)."""
     return _exp(x)
+
+
+@elementwise
+def tan(x: Number) -> Number:
+    """tan x, x in rad (compiled: |x| < 1e5)."""
+    return _tan(x)
+
+
+@elementwise
+def expm1(x: Number) -> Number:
+    """eˣ − 1, precise near 0, with x held below 709."""
+    return _expm1(x)
 
 
 @elementwise

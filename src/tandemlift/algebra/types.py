@@ -17,3 +17,13 @@ PerQuadrotor: TypeAlias = Any
 
 Condition: TypeAlias = Any
 """Whether something holds: a truth value, an array or a symbol of such."""
+
+
+def is_symbol(value: Any) -> bool:
+    """Whether a value is a symbol of `trace`: a number that is not known yet."""
+    return hasattr(type(value), "functions")
+
+
+def number(value: Any) -> Number:
+    """A value as a float; a symbol unchanged."""
+    return value if is_symbol(value) else float(value)

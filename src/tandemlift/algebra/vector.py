@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from tandemlift.algebra.law import Nothing as Nothing
 from tandemlift.algebra.law import law
+from tandemlift.algebra.types import number
 
 C = TypeVar("C", bound=type)
 V = TypeVar("V", bound=tuple[Any, ...])
@@ -169,8 +170,8 @@ def layout(value: Any) -> Any:
 
 
 def vec3(values: Any) -> Vec3:
-    """A Vec3 of floats from any three numbers."""
-    x, y, z = (float(v) for v in values)
+    """A Vec3 of floats from any three numbers; of symbols from symbols."""
+    x, y, z = (number(v) for v in values)
     return Vec3(x, y, z)
 
 
@@ -217,7 +218,7 @@ def __getattr__(name: str) -> Any:
 
 def spread(values: Any) -> Vec3:
     """A `Vec3` of sets from any n × 3 array: a vector for each of n."""
-    rows = [[float(v) for v in row] for row in values]
+    rows = [[number(v) for v in row] for row in values]
     return Vec3(*[each(len(rows))(*column) for column in zip(*rows, strict=True)])
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from tandemlift.algebra.ops import maximum, minimum
 from tandemlift.algebra.vector import Nothing, each, spread
 from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import wrench_scale
@@ -73,6 +74,6 @@ def start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, delayed: boo
         wrench_scale=wrench_scale(vehicle.effect),
     )
     cls, share = type(hover), 1.0 if mission.actuators.start == "hover" else 0.0
-    start = cls(*[share * min(max(f, 0.0), most) for f, most in zip(hover, rotors.max_thrust, strict=True)])
+    start = cls(*[share * minimum(maximum(f, 0.0), most) for f, most in zip(hover, rotors.max_thrust, strict=True)])
     speed = cls(*[(f * c) ** 0.5 for f, c in zip(start, rotors.per_constant, strict=True)])
     return rotors, RotorState(speed, start), start

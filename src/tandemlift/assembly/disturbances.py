@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.algebra.layout import flat, leaves
+from tandemlift.algebra.arrays import array, distance
+from tandemlift.algebra.layout import leaves, numbers_of
+from tandemlift.algebra.ops import maximum
 from tandemlift.algebra.vector import ZERO, Nothing, mat3, spread, vec3
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
 from tandemlift.laws.mechanics.air_drag import AirDrag
@@ -42,7 +44,7 @@ def input_tables_from(mission: Mission, legs: list[PathLeg]) -> InputTables:
 
 
 def _table(rows: list[Any], like: Any) -> NDArray[np.float64]:
-    return np.array([flat(row) for row in rows], dtype=float).reshape(len(rows), leaves(like))
+    return array([numbers_of(row) for row in rows]).reshape(len(rows), leaves(like))
 
 
 def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
@@ -50,7 +52,7 @@ def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
     payload, quadrotors = vehicle.payload, vehicle.quadrotors
     return AirDrag(
         vec3(payload.areas) * (0.5 * density * payload.drag_coefficient),
-        spread([np.multiply(q.drag_area, 0.5 * density * q.drag_coefficient) for q in quadrotors]),
+        spread([[a * (0.5 * density * q.drag_coefficient) for a in q.drag_area] for q in quadrotors]),
     )
 
 
@@ -61,7 +63,9 @@ def start_weather(mission: Mission, vehicle: Vehicle, chance: np.random.Generato
         return Nothing(), Nothing()
     turbulence: Any = Nothing()
     if w.turbulence > 0.0:
-        airspeed = w.airspeed or max(math.dist(w.velocity, ZERO), LEAST_AIRSPEED)
+        airspeed = w.airspeed
+        if airspeed is None:
+            airspeed = maximum(distance(w.velocity, ZERO), LEAST_AIRSPEED)
         turbulence = dryden(w.turbulence, w.height, airspeed, w.velocity, mission.mission.step)
     wind = Wind(vec3(w.velocity), turbulence)
     return WindModel(wind, air_drag_from(vehicle, w.density)), start_turbulence(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from tandemlift.algebra.ops import where
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.person import (
@@ -34,7 +36,7 @@ def person_settings_from(p: PersonTable) -> PersonSettings:
 def waypoints_from(mission: Mission) -> tuple[WaypointTable, ...]:
     """The path of the person: their own, or the centreline of the corridor."""
     centreline = mission.corridor.centreline
-    return mission.person.path or tuple(WaypointTable(point=point) for point in centreline)
+    return mission.person.path or tuple(WaypointTable.model_construct(point=point) for point in centreline)
 
 
 def grip_from(mission: Mission, vehicle: Vehicle) -> Vec3:
@@ -51,12 +53,12 @@ def path_legs_from(mission: Mission, person: Any, state: State) -> list[PathLeg]
     at, _ = guided_point(person.settings, person_view(person.grip, state))
     at, heading, legs = Vec3(at.x, at.y, at.z + mission.phases.height), mission.initial.euler[2], list[PathLeg]()
     level = at.z
-    for number, w in enumerate(waypoints):
-        end = Vec3(float(w.point[0]), float(w.point[1]), level + w.rise)
+    for place, w in enumerate(waypoints):
+        end = Vec3(number(w.point[0]), number(w.point[1]), level + w.rise)
         heading = heading if w.heading is None else w.heading
-        stops = 1.0 if w.dwell > 0.0 or number == len(waypoints) - 1 else 0.0
-        radius = p.arrival_radius if stops else p.corner_distance
-        legs.append(PathLeg(at, end, heading, w.dwell, stops, radius, float(number)))
+        stops = 1.0 if place == len(waypoints) - 1 else where(w.dwell > 0.0, 1.0, 0.0)
+        radius = where(stops > 0.0, p.arrival_radius, p.corner_distance)
+        legs.append(PathLeg(at, end, heading, w.dwell, stops, radius, float(place)))
         at = end
     return legs
 

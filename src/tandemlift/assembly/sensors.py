@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.algebra.arrays import array
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import Nothing, vec3
 from tandemlift.common.sensors import additional_sensor
 from tandemlift.common.types import Array
@@ -86,9 +88,9 @@ def _additional(s: AdditionalSensorTable, step: float, chance: np.random.Generat
 
 def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> PayloadDrag:
     """The windage of the nominal vehicle, with a low-pass of a bandwidth [rad/s]."""
-    beam = np.array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
-    quadrotors = np.sum([np.array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
-    return PayloadDrag(float(beam[0] / quadrotors[0]), float(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
+    beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
+    quadrotors = np.sum([array(q.drag_area) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
+    return PayloadDrag(number(beam[0] / quadrotors[0]), number(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
 
 
 def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings: Any) -> tuple[Any, Any]:
@@ -106,7 +108,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         quadrotor_masses=[q.mass for q in quadrotors],
         step=step,
         imu_period=period,
-        length=payload.length or math.inf,
+        length=math.inf if payload.length is None else payload.length,
         bandwidth=e.push_bandwidth,
         min_force=e.min_force,
         tare_start=0.0 if e.tare == "hover" else e.tare_start,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from tandemlift.algebra.ops import exp, minimum, where
+from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Nothing, vec3
 from tandemlift.assembly.sensors import steps_of
 from tandemlift.common.sensors import sensors_named
@@ -61,8 +63,8 @@ def _limits(mission: Mission) -> PerSensor:
     """The limits of every sensor; one without noise is never frozen."""
     s, w = mission.sensors, mission.supervision.watchdog
 
-    def frozen(noise: float) -> float:
-        return float(w.frozen_samples) if noise > 0.0 else math.inf
+    def frozen(noise: Number) -> Number:
+        return where(noise > 0.0, float(w.frozen_samples), math.inf)
 
     return PerSensor(
         joints=JointLimits(w.max_force, w.max_torque, frozen(s.joints.force_noise)),
@@ -84,12 +86,12 @@ def with_watchdogs(mission: Mission, estimators: Any, memory: Any, readings: Any
         stale_time=w.stale_time,
         invalid_time=w.invalid_time,
         sensors=_limits(mission),
-        forgetting=min(interval / w.window, 1.0),
+        forgetting=minimum(interval / w.window, 1.0),
         attitude_gap=w.attitude_gap,
         position_gap=w.position_gap,
         velocity_gap=w.speed_gap,
-        rates_gain=1.0 - math.exp(-w.rates_bandwidth * interval),
-        velocity_gain=1.0 - math.exp(-w.velocity_bandwidth * interval),
+        rates_gain=1.0 - exp(-w.rates_bandwidth * interval),
+        velocity_gain=1.0 - exp(-w.velocity_bandwidth * interval),
         motion_rate=1.0 / interval,
     )
     return WatchedEstimators(watchdog, estimators), WatchedEstimatorsState(start_watchdog(readings), memory)

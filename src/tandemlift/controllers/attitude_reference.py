@@ -7,10 +7,10 @@ law tracks its output, whose derivatives are exact.
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.ops import exp
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.laws.signals.trajectories import Reference
@@ -83,5 +83,5 @@ def with_heading(tracked: AttitudeReference, reference: Reference) -> AttitudeRe
 def command_filter(bandwidth: float, step: float) -> CommandFilter:
     """The command filter of bandwidth ω_f [rad/s], sampled every `step` [s]."""
     wh = bandwidth * step
-    decay = math.exp(-wh)
+    decay = exp(-wh)
     return CommandFilter(bandwidth, (1.0 + wh) * decay, step * decay, -bandwidth * wh * decay, (1.0 - wh) * decay)

@@ -20,14 +20,13 @@ Tune first: the ratio of position to moment weights; then the rates' for damping
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
-from tandemlift.algebra.ops import clip
+from tandemlift.algebra.ops import clip, expm1
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Vec3
 from tandemlift.common.types import Array
@@ -154,7 +153,7 @@ def integrator_chain(length: int, lag: float, *, gravity: bool) -> tuple[Array, 
 
 def regulator(A: Array, B: Array, Q: Array, R: float) -> Array:
     """K (n,) = R⁻¹BᵀX of a single input, with X the stabilising solution of AᵀX + XA − XBR⁻¹BᵀX + Q = 0."""
-    n = len(A)
+    n, Q, R = len(A), np.asarray(Q, dtype=float), float(R)
     values, vectors = np.linalg.eig(np.block([[A, -B @ B.T / R], [-Q, -A.T]]))
     stable = vectors[:, np.argsort(values.real)[:n]]
     X = np.real(np.linalg.solve(stable[:n].T, stable[n:].T).T)
@@ -187,6 +186,6 @@ def start(s: LQRSettings, vehicle: Vehicle, step: float) -> tuple[LQR, LQRState]
         angles=Vec3(float(roll[2]), float(pitch[2]), float(yaw[0])),
         rates=Vec3(float(roll[3]), float(pitch[3]), float(yaw[1])),
         accelerations=Vec3(float(roll[4]), float(pitch[4]), float(yaw[2])),
-        lag_fraction=-math.expm1(-step / s.lag),
+        lag_fraction=-expm1(-step / s.lag),
     )
     return gains, LQRState(LEVEL, ZERO, 0.0)

@@ -17,7 +17,7 @@ from pydantic import Field
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.types import Number
+from tandemlift.algebra.types import Number, is_symbol
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.common.errors import FlightWarning
 from tandemlift.controllers.attitude_reference import (
@@ -197,7 +197,7 @@ def _surface(s: NFTSMCSettings, first: int) -> Surface:
     per_width = Vec3(1.0 / widths.x, 1.0 / widths.y, 1.0 / widths.z)
     kinds: dict[str, Sign | Saturation | Tanh]
     kinds = {"sign": Sign(), "saturation": Saturation(per_width), "tanh": Tanh(per_width)}
-    exponent = Cubic() if set(pick(g.a)) == {3.0} else Power(pick(g.a))
+    exponent = Cubic() if all(a == 3.0 for a in pick(g.a)) else Power(pick(g.a))
     return Surface(pick(g.xi), pick(g.eta), exponent, pick(g.lambda_1), pick(g.lambda_2), kinds[s.switching])
 
 
@@ -205,6 +205,8 @@ def _warn_of_chatter(s: NFTSMCSettings, step: float) -> None:
     if s.switching == "sign":
         return
     loop = [l1 + l2 / w for l1, l2, w in zip(s.gains.lambda_1, s.gains.lambda_2, s.boundary_layer, strict=True)]
+    if any(map(is_symbol, loop)):
+        return  # the mission was warned of when its numbers were known
     worst = max(range(6), key=loop.__getitem__)
     if loop[worst] * step >= 2.0:
         axis = ("x", "y", "z", "roll", "pitch", "yaw")[worst]

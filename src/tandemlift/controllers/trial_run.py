@@ -7,6 +7,7 @@ import traceback
 from pathlib import Path
 from typing import Any
 
+from tandemlift.algebra.types import is_symbol
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, layout
 from tandemlift.common.errors import InputError
 from tandemlift.controllers.interface import Command, Disturbance, Measured, control
@@ -54,7 +55,7 @@ def _check_numbers(name: str, path: str, value: Any) -> None:
     if hasattr(value, "_fields"):
         for field, part in zip(value._fields, value, strict=True):
             _check_numbers(name, f"{path}.{field}", part)
-    elif path in ("gains", "memory") or not isinstance(value, numbers.Real):
+    elif path in ("gains", "memory") or not (isinstance(value, numbers.Real) or is_symbol(value)):
         allowed = "a NamedTuple" if path in ("gains", "memory") else "a number, a Vec3 or a NamedTuple of them"
         raise InputError(f"controller {name!r}: {path} is {form(value)}; it must be {allowed} to be compiled")
 

@@ -6,13 +6,14 @@ and the nearest walls held.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.algebra.arrays import array, inverse, square_roots
 from tandemlift.algebra.law import law
 from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.common.caching import kept
 from tandemlift.engines.compiled_contact import (
     BodySurroundings,
     CompiledPlant,
@@ -100,19 +101,19 @@ def readings_at_rest(
     return readings_in(b, s, motion(b, s, wrench(plant.effect, thrusts), hand.start), air, thrusts)
 
 
-@lru_cache(maxsize=64)
+@kept
 def _effect(vehicle: VehicleTable) -> Mixer:
     return mixer_from(Vehicle.from_settings(vehicle).effect)
 
 
 def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> CompiledPlant:
     """The body of a mission, on a floor and between walls, or `Nothing`."""
-    scale = np.diag(np.sqrt(mission.plant.inertia_scale))
+    scale = np.diag(square_roots(array(mission.plant.inertia_scale)))
     J = scale @ vehicle.inertia @ scale
     body = RigidBody(
         inverse_mass=1.0 / (vehicle.mass * mission.plant.mass_scale),
         inertia=inertia_value(J),
-        inverse_inertia=inertia_value(np.linalg.inv(J)),
+        inverse_inertia=inertia_value(inverse(J)),
         drag_force=vec3(vehicle.drag.force),
         drag_moment=vec3(vehicle.drag.moment),
         force=vec3(mission.disturbance.force),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import each, quarters, spread, vec3
 from tandemlift.laws.mechanics.loads import PartsLayout
 from tandemlift.vehicle import Vehicle
@@ -20,7 +21,7 @@ def parts_layout_from(vehicle: Vehicle) -> PartsLayout:
         joints=spread([np.subtract(q.joint_position, q.position) for q in quadrotors]),
         mass=each(N)(*[q.mass for q in quadrotors]),
         inertia=spread([q.inertia for q in quadrotors]),
-        x=quarters(each(4 * N)(*map(float, x))),
-        y=quarters(each(4 * N)(*map(float, y))),
+        x=quarters(each(4 * N)(*map(number, x))),
+        y=quarters(each(4 * N)(*map(number, y))),
         torque=quarters(each(4 * N)(*torque)),
     )

@@ -36,7 +36,7 @@ def walls_from(mission: Mission, vehicle: Vehicle) -> Any:
 def wall_contact_from(mission: Mission, vehicle: Vehicle) -> Walls:
     """The contact shapes and parameters for walls, even if the mission has none."""
     payload, fleet = vehicle.payload, vehicle.quadrotors
-    beam = (payload.length, payload.radius) if payload.length and payload.radius else None
+    beam = (payload.length, payload.radius) if payload.length is not None and payload.radius is not None else None
     return walls(
         vehicle.lever_arms,
         [q.guard_radius for q in fleet],

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 from typing import Any
 
+from tandemlift.algebra.ops import minimum
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
+from tandemlift.common.caching import kept
 from tandemlift.controllers import controller
 from tandemlift.laws.guidance.admittance import Admittance, AdmittanceState, HardGate, SoftGate
 from tandemlift.laws.guidance.guidance import AlwaysRunning, RunningInFlight
@@ -30,16 +32,16 @@ from tandemlift.settings import AdmittanceTable, Mission, PhasesTable, VehicleTa
 from tandemlift.vehicle import Vehicle
 
 
-@lru_cache(maxsize=64)
+@kept
 def _inverse(vehicle: VehicleTable, weights: tuple[tuple[float, ...], ...]) -> Mixer:
     return mixer_from(Vehicle.from_settings(vehicle).allocation(weights).T)
 
 
-@lru_cache(maxsize=64)
+@kept
 def _weighted(vehicle: VehicleTable, priorities: tuple[float, ...]) -> tuple[Mixer, Wrench]:
     effect = Vehicle.from_settings(vehicle).effect
     weights = weights_of(effect, priorities)
-    thrust, roll, pitch, yaw = map(float, weights)
+    thrust, roll, pitch, yaw = map(number, weights)
     return mixer_from(weighted_rows(effect, weights)), Wrench(thrust, Vec3(roll, pitch, yaw))
 
 
@@ -77,7 +79,9 @@ def _phases(p: PhasesTable) -> ScheduledPhases:
 def known_faults(mission: Mission, vehicle: Vehicle) -> Any:
     """The rotor faults that the pilot knows of, each from the time when it does."""
     known = [math.inf if f.known_after is None else f.time + f.known_after for f in mission.faults]
-    failures = [(f.quadrotor, f.rotor, min(t, NEVER), f.efficiency) for f, t in zip(mission.faults, known, strict=True)]
+    failures = [
+        (f.quadrotor, f.rotor, minimum(t, NEVER), f.efficiency) for f, t in zip(mission.faults, known, strict=True)
+    ]
     return rotor_faults(vehicle.rotor_count, failures)
 
 

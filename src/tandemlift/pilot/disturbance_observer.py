@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.algebra.arrays import array, inverse
+from tandemlift.algebra.ops import minimum
 from tandemlift.algebra.vector import ZERO, Nothing, vec3
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceFilter, DisturbanceObserver, ObserverState
 from tandemlift.laws.mechanics.inertia import inertia_value
@@ -19,7 +21,7 @@ UNBOUNDED = 1e18  # a slope that nothing reaches
 
 def _follower(bandwidth: Any, slope: Any, linear: bool, size: np.ndarray) -> DisturbanceFilter:
     """A filter with a slope in N/s or N·m/s, for axes of a mass [kg] or inertia [kg·m²]."""
-    most = [UNBOUNDED] * 3 if linear else [min(s / m, UNBOUNDED) for s, m in zip(slope, size.tolist(), strict=True)]
+    most = [UNBOUNDED] * 3 if linear else [minimum(s / m, UNBOUNDED) for s, m in zip(slope, size.tolist(), strict=True)]
     return DisturbanceFilter(vec3(bandwidth), vec3(most))
 
 
@@ -33,13 +35,13 @@ def start_observer(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[A
     observer = DisturbanceObserver(
         mass=vehicle.mass,
         inertia=inertia_value(inertia),
-        inverse_inertia=inertia_value(np.linalg.inv(inertia)),
+        inverse_inertia=inertia_value(inverse(inertia)),
         drag_force=vec3(vehicle.drag.force),
         drag_moment=vec3(vehicle.drag.moment),
         effect=effect,
         thrust=rotors,
         moment=rotors,
-        force_follower=_follower(o.force_bandwidth, o.force_slope, linear, np.full(3, vehicle.mass)),
+        force_follower=_follower(o.force_bandwidth, o.force_slope, linear, array([vehicle.mass] * 3)),
         moment_follower=_follower(o.moment_bandwidth, o.moment_slope, linear, np.diag(inertia)),
     )
     i = mission.initial

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
+from tandemlift.algebra.ops import tan
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.common.phases import IDLE
 from tandemlift.laws.guidance.admittance import Admittance
@@ -70,7 +71,7 @@ def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
         input_filter=low_pass(c.input_bandwidth, step),
         band=DeadBand(y.threshold, y.threshold * c.release_fraction, c.dwell, 1.0 / c.bias_time_constant),
         output_filter=low_pass(c.output_bandwidth, step),
-        inverse_inertia=1.0 / (y.inertia or float(vehicle.inertia[2, 2])),
+        inverse_inertia=1.0 / (number(vehicle.inertia[2, 2]) if y.inertia is None else y.inertia),
         damping=y.damping,
         max_moment=y.max_moment,
         max_lead_angle=y.max_lead_angle,
@@ -96,7 +97,7 @@ def start_hand_guidance(
         moment_lead=c.moment_lead,
         mass=vehicle.mass,
         max_thrust=vehicle.max_thrust * c.thrust_fraction,
-        tangent=math.tan(c.max_tilt),
+        tangent=tan(c.max_tilt),
         supervision=supervision,
     )
     quiet = DeadBandState(active=ZERO, above_time=ZERO, inactive_time=ZERO, mean=ZERO, bias=ZERO)

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.algebra.arrays import largest
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import Nothing, each
 from tandemlift.laws.estimation.rotor_loss_decision import DecisionRules, DecisionState
 from tandemlift.laws.estimation.rotor_loss_detection import FOUR, START_SCATTER, DetectionState, RotorLossDetection
@@ -30,7 +32,7 @@ def _rules(d: DetectionTable) -> DecisionRules:
 
 
 def _four(values: Any) -> Any:
-    return FOUR(*map(float, values))
+    return FOUR(*map(number, values))
 
 
 def start_detection(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[Any, Any]:
@@ -39,7 +41,7 @@ def start_detection(mission: Mission, vehicle: Vehicle, effect: Mixer) -> tuple[
     if d.model == "none":
         return Nothing(), Nothing()
     rotors, hover = each(vehicle.rotor_count), vehicle.weight / vehicle.rotor_count
-    bound = (BOUND * hover * np.abs(vehicle.effect).max(axis=1)) ** 2
+    bound = (BOUND * hover * largest(np.abs(vehicle.effect), axis=1)) ** 2
     detection = RotorLossDetection(
         mass=vehicle.mass,
         inertia=inertia_value(vehicle.inertia),

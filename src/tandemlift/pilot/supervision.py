@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
+from tandemlift.algebra.ops import cos
 from tandemlift.algebra.vector import Nothing, Vec3, each, vec3
 from tandemlift.common.faults import REACTIONS
 from tandemlift.laws.guidance.fault_detection import NO_TIME, Fence, SupervisionLimits
@@ -49,7 +49,7 @@ def _checks(mission: Mission, vehicle: Vehicle) -> PreflightChecks:
     c, payload = mission.supervision.checks, vehicle.payload.mass
     return PreflightChecks(
         thrust_fraction=c.thrust_fraction,
-        min_upright=math.cos(c.tilt),
+        min_upright=cos(c.tilt),
         speed=c.speed,
         rates=c.rates,
         min_payload=payload * c.min_payload_ratio,
@@ -61,7 +61,7 @@ def _limits(mission: Mission) -> SupervisionLimits:
     b, w = mission.supervision.limits, mission.supervision.watchdog
     return SupervisionLimits(
         thrust=b.thrust_fraction,
-        min_upright=math.cos(b.tilt),
+        min_upright=cos(b.tilt),
         rates=b.rates,
         tracking_error=b.tracking_error,
         thrust_time=b.thrust_time,

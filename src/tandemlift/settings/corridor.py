@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from tandemlift.algebra.arrays import array, lengths
 from tandemlift.settings.key_description import key
 from tandemlift.settings.value_types import PerAxis, Table, must
 
@@ -37,9 +38,9 @@ class WallTable(Table):
 
 def sides(centreline: Sequence[Sequence[float]], width: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The corners (n, 2) of the walls to the left and to the right of a centreline (n, 2) [m], `width` [m] apart."""
-    line = np.array(centreline, dtype=float)
+    line = array(centreline)
     along = np.diff(line, axis=0)
-    along /= np.linalg.norm(along, axis=1)[:, None]
+    along = along / lengths(along)[:, None]
     left = np.column_stack([-along[:, 1], along[:, 0]])
     before, after = np.vstack([left[:1], left]), np.vstack([left, left[-1:]])
     mitre = (before + after) / (1.0 + np.sum(before * after, axis=1))[:, None]
@@ -98,7 +99,7 @@ class CorridorTable(Table):
         lines = [*pairwise(left), *pairwise(right)]
         if self.ends == "closed":
             lines += [(left[0], right[0]), (left[-1], right[-1])]
-        return tuple(WallTable(start=tuple(a), end=tuple(b), top=self.height) for a, b in lines)
+        return tuple(WallTable.model_construct(start=tuple(a), end=tuple(b), top=self.height) for a, b in lines)
 
 
 def wall_tables(mission: Mapping[str, Any]) -> list[dict[str, Any]]:

@@ -72,7 +72,7 @@ class Payload(Table):
         """Principal moments [kg m²]: as given, or of a thin rod along y (m L²/12) with a solid section (m r²/2)."""
         if self.inertia is not None:
             return self.inertia
-        length, radius = self.length or 0.0, self.radius or 0.0
+        length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
         across = self.mass * length**2 / 12.0
         return (across, self.mass * radius**2 / 2.0, across)
 
@@ -81,7 +81,7 @@ class Payload(Table):
         """Areas [m²] seen along the body axes: as given, or of a beam along y; zero for a payload without size."""
         if self.drag_area is not None:
             return self.drag_area
-        length, radius = self.length or 0.0, self.radius or 0.0
+        length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
         return (2.0 * radius * length, math.pi * radius**2, 2.0 * radius * length)
 
 
@@ -188,7 +188,7 @@ class Quadrotor(Table):
         """Position (x, y) [m] of each rotor from the centre of mass, body axes."""
         if self.rotor_positions is not None:
             return self.rotor_positions
-        arm = self.arm or 0.0
+        arm = 0.0 if self.arm is None else self.arm
         if self.layout == "+":
             return ((arm, 0.0), (0.0, arm), (-arm, 0.0), (0.0, -arm))
         angles = [math.pi / 4 + i * math.pi / 2 for i in range(4)]
@@ -197,7 +197,7 @@ class Quadrotor(Table):
     @property
     def joint_position(self) -> Triple:
         """Where it is fixed to the payload [m], from the payload's centre of mass, body axes."""
-        return self.joint or (self.position[0], self.position[1], 0.0)
+        return (self.position[0], self.position[1], 0.0) if self.joint is None else self.joint
 
     @property
     def max_thrust(self) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from tandemlift.algebra.layout import flat, leaves
 from tandemlift.algebra.vector import ZERO, Nothing, Quat
+from tandemlift.assembly.traced_assembly import assembled_by_graph
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.controllers import control
@@ -30,6 +31,12 @@ INPUT = PilotInput(
 SHAPE, FLOAT64 = (16,), np.dtype(np.float64)
 
 
+def pilot_at_start(mission: Mission) -> PilotData:
+    """The pilot of a mission before its first sample."""
+    parameters, memory = start_pilot(mission, Vehicle.from_settings(mission.vehicle))
+    return PilotData(0.0, memory, parameters)
+
+
 class Pilot:
     """A mission's pilot, to be sampled every `mission.step` seconds.
 
@@ -44,14 +51,12 @@ class Pilot:
     """
 
     def __init__(self, mission: Mission) -> None:
-        vehicle = Vehicle.from_settings(mission.vehicle)
-        parameters, memory = start_pilot(mission, vehicle)
-        if type(parameters.controller) in control.interpreted:
+        self._start = assembled_by_graph(mission, pilot_at_start)
+        if type(self._start.parameters.controller) in control.interpreted:
             raise InputError(f"controller {mission.controller.name!r} is plain Python; write it as a law to use Pilot")
-        self._start = PilotData(0.0, memory, parameters)
         self._dt, self._fuses = mission.mission.step, mission.mission.fused
         self._numbers = np.array(flat(self._start))
-        self.thrusts: Array = np.zeros(vehicle.rotor_count)
+        self.thrusts: Array = np.zeros(4 * len(mission.vehicle.quadrotors))
         self._input = np.zeros(leaves(INPUT))
 
     @cached_property

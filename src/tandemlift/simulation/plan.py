@@ -10,7 +10,7 @@ import numpy as np
 
 from tandemlift.algebra.layout import flat
 from tandemlift.algebra.vector import ZERO, each, layout
-from tandemlift.assembly.assemble import assemble
+from tandemlift.assembly.traced_assembly import assembled_flight
 from tandemlift.controllers import NoMemory, control
 from tandemlift.flight.record import LATE
 from tandemlift.kernels import FlightStart, Kernels, PythonController, TimeGrid
@@ -35,7 +35,7 @@ class FlightPlan:
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
         self.dt = mission.mission.step
-        self.model, self.given, self.tables, self.delays, self.seeds = assemble(mission)
+        self.model, self.given, self.tables, self.delays, self.seeds = assembled_flight(mission)
         if interactive:
             rotors = each(4 * len(mission.vehicle.quadrotors))
             nothing = CallerInput(ZERO, ZERO, rotors(*[0.0] * len(rotors._fields)), 0.0)

@@ -134,6 +134,13 @@ def exp(x: Any) -> Any:
 
 
 @polynomial
+def expm1(x: Any) -> Any:
+    """eˣ − 1, with x limited to [−708, 709]; exact in the limit of small x."""
+    p, q = _exp_parts(select(x < -708.0, -708.0, select(x > 709.0, 709.0, x)))
+    return (p - 1.0) + p * q
+
+
+@polynomial
 def tanh(x: Any) -> Any:
     """E / (E + 2) with E = e²ᵃ − 1 of a = |x|, and the sign of x: odd to the last bit, of slope 1 at 0."""
     a = abs(x)
@@ -194,6 +201,13 @@ def cos(x: Any) -> Any:
     """cos x, |x| < 1e5 rad."""
     _, cosine = _sin_cos(x)
     return cosine
+
+
+@polynomial
+def tan(x: Any) -> Any:
+    """tan x, |x| < 1e5 rad."""
+    sine, cosine = _sin_cos(x)
+    return sine / cosine
 
 
 @polynomial

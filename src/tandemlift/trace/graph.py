@@ -124,6 +124,20 @@ class Graph:
             return value.node
         return self.node("sitofp" if value.type == "i" else "uitofp", (value.node,), "f")
 
+    def truth(self, symbol: Symbol) -> bool:
+        """Refuse a branch: the graph must hold for all data."""
+        raise refused_here(
+            "branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra"
+        )
+
+    def plain(self, symbol: Symbol, *, rounded: bool = False) -> float:
+        """Refuse to give a number, which is known only when the graph is evaluated."""
+        raise refused_here("takes a plain number out of its data: use the functions of tandemlift.algebra")
+
+    def power(self, base: Any, exponent: Any) -> Any:
+        """Refuse a power: NumPy and machine code would round it differently."""
+        raise refused_here("takes a power by **: write a product, or power(x, p) of tandemlift.algebra")
+
 
 def written_out(value: Any) -> Any:
     """A nested value whose sets are tuples of symbols instead of single symbols."""

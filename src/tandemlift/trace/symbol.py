@@ -9,36 +9,13 @@ import math
 import operator
 from fractions import Fraction
 from types import ModuleType
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 from tandemlift.algebra.vector import is_set
+from tandemlift.trace.nodes import Nodes
 from tandemlift.trace.refusal import refused_here
 
 NAMES = {"f": "a number", "b": "a truth", "i": "an integer"}
-
-
-class Nodes(Protocol):
-    """What a symbol needs of the `Graph` that holds its node; each method gives the number of a node."""
-
-    counts: list[int]
-
-    def node(self, op: str, args: tuple[Any, ...], kind: str, count: int = -1) -> int:
-        """The node of an operation."""
-
-    def pack(self, values: Any) -> int:
-        """The node of a set of numbers and symbols."""
-
-    def take(self, source: int, first: int, step: int, count: int) -> int:
-        """The node of some values of a set."""
-
-    def get(self, source: int, at: int) -> int:
-        """The node of one value of a set."""
-
-    def constant(self, value: Any) -> int:
-        """The node of a constant."""
-
-    def number(self, value: Any) -> int:
-        """The node of a value as a double."""
 
 
 class Symbol:
@@ -145,19 +122,24 @@ class Symbol:
         return _bitwise("ashr", self, count)
 
     def __pow__(self, power: Any) -> Any:
-        raise refused_here("takes a power by **: write a product, or power(x, p) of tandemlift.algebra")
+        return self.graph.power(self, power)
 
-    __rpow__ = __pow__
+    def __rpow__(self, base: Any) -> Any:
+        return self.graph.power(base, self)
 
     def __bool__(self) -> bool:
-        raise refused_here(
-            "branches on data: choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra"
-        )
+        return self.graph.truth(self)
 
     def __float__(self) -> float:
-        raise refused_here("takes a plain number out of its data: use the functions of tandemlift.algebra")
+        return self.graph.plain(self)
 
-    __int__ = __index__ = __float__
+    def __int__(self) -> int:
+        return int(self.graph.plain(self, rounded=True))
+
+    __index__ = __trunc__ = __int__
+
+    def __round__(self, digits: int | None = None) -> Any:
+        return round(self.graph.plain(self, rounded=True), digits)
 
     def __iter__(self) -> Any:
         if self.rolled:
@@ -191,12 +173,14 @@ def _is_operand(value: Any, other: Any) -> bool:
     """Whether a value can be an operand next to another: a number, or a set next to a symbol of equal size."""
     if isinstance(value, tuple):
         return is_set(value) and isinstance(other, Symbol) and other.rolled == len(value)
-    return isinstance(value, (Symbol, float, int)) or hasattr(value, "__float__")
+    if isinstance(value, (Symbol, float, int)):
+        return True
+    return hasattr(value, "__float__") and not getattr(value, "ndim", 0)
 
 
 def _arithmetic(op: str, whole: str, a: Any, b: Any) -> Any:
     if not (_is_operand(a, b) and _is_operand(b, a)):
-        return NotImplemented
+        return _with_array(op, whole, a, b)
     graph = _graph_of(a, b)
     if whole and _is_integer(a) and _is_integer(b):
         return Symbol(graph, graph.node(whole, (_node_of(graph, a), _node_of(graph, b)), "i"), "i")
@@ -205,6 +189,17 @@ def _arithmetic(op: str, whole: str, a: Any, b: Any) -> Any:
     if op == "fmul" and not isinstance(a, Symbol) and a == 1.0:
         return b
     return _made(graph, op, a, b)
+
+
+def _with_array(op: str, whole: str, a: Any, b: Any) -> Any:
+    """Arithmetic of a symbol and a NumPy array, element by element; other operands are refused."""
+    array = a if getattr(a, "ndim", 0) else b
+    if not getattr(array, "ndim", 0):
+        return NotImplemented
+    made = array.astype(object)
+    for place, x in enumerate(array.flat):
+        made.flat[place] = _arithmetic(op, whole, *((x, b) if array is a else (a, x)))
+    return made
 
 
 def _made(graph: Nodes, op: str, *values: Any) -> Symbol:

@@ -20,7 +20,8 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
-from tandemlift.algebra.ops import maximum, where
+from tandemlift.algebra.ops import exp, maximum, where
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply, apply_transposed, cross, vec3
 from tandemlift.laws.mechanics.rigid_body import UP, State
 from tandemlift.laws.mechanics.rotation import normalised, rotated_by, rotation_between, rotation_from_quaternion
@@ -157,18 +158,18 @@ def navigator(
         age: by how much the motion measurement's delay exceeds the IMU's [s].
     """
     T, interval = step * motion_period, step * imu_period
-    pole_of_velocity = math.exp(-(position_bandwidth if velocity_bandwidth is None else velocity_bandwidth) * T)
-    pole_of_attitude = math.exp(-attitude_bandwidth * T)
+    pole_of_velocity = exp(-(position_bandwidth if velocity_bandwidth is None else velocity_bandwidth) * T)
+    pole_of_attitude = exp(-attitude_bandwidth * T)
     return Navigator(
         interval=interval,
         centre=vec3(centre),
-        age=float(age),
+        age=number(age),
         attitude=1.0 - pole_of_attitude**2,
         velocity=1.0 - pole_of_velocity**2,
-        position=1.0 - math.exp(-position_bandwidth * T),
+        position=1.0 - exp(-position_bandwidth * T),
         gyroscope=(1.0 - pole_of_attitude) ** 2 / T,
         accelerometer=(1.0 - pole_of_velocity) ** 2 / T,
-        rates=1.0 - math.exp(-rates_bandwidth * interval),
+        rates=1.0 - exp(-rates_bandwidth * interval),
     )
 
 

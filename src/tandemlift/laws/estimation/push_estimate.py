@@ -21,8 +21,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.algebra.arrays import array
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total
 from tandemlift.laws.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
 from tandemlift.laws.estimation.wind_compensation import start_payload_drag, wind_on_payload
@@ -240,21 +242,21 @@ def push_estimator(
         ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
     """
     _check_tare(tare_start, tare_duration, identify_mass, step * imu_period)
-    J, N = np.array(inertia, dtype=float), len(joints)
+    J, N = array(inertia), len(joints)
     return PushEstimator(
-        mass=float(mass),
+        mass=number(mass),
         inertia=inertia_value(np.diag(J) if J.ndim == 1 else J),
         joints=spread(joints),
         quadrotors=spread(quadrotors),
-        quadrotor_mass=each(N)(*map(float, quadrotor_masses)),
+        quadrotor_mass=each(N)(*map(number, quadrotor_masses)),
         reach=0.5 * length,
         per_interval=1.0 / (step * imu_period),
         low_pass=low_pass(bandwidth, step),
         least=min_force**2,
-        tare_start=0.0 if tare_start is None else float(tare_start),
+        tare_start=0.0 if tare_start is None else number(tare_start),
         tare_end=-math.inf if tare_start is None else tare_start + tare_duration,
         identify=1.0 if identify_mass else 0.0,
-        limit=float(disagreement_limit),
+        limit=number(disagreement_limit),
         share=1.0 / N,
         alone=N / (N - 1) if N > 1 else 0.0,
         windage=windage,

@@ -18,10 +18,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tandemlift.algebra.arrays import array, eigenvectors, has_symbols, inverse, largest, largest_eigenvalue, lengths
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import elementwise, law
-from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt, where
-from tandemlift.algebra.types import Condition, Number, PerQuadrotor
+from tandemlift.algebra.ops import absolute, greatest, maximum, minimum, sqrt, where
+from tandemlift.algebra.types import Condition, Number, PerQuadrotor, number
 from tandemlift.algebra.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
 from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, add_to_each
 from tandemlift.laws.mechanics.rigid_body import State
@@ -187,18 +188,23 @@ def mobility(points: NDArray[np.float64], mass: float, inertia: NDArray[np.float
         mass: of the body [kg].
         inertia: 3 × 3 about its centre of mass [kg·m²].
     """
-    stiffness, inertias = np.zeros((6, 6)), np.zeros((6, 6))
-    inertias[:3, :3], inertias[3:, 3:] = mass * np.eye(3), inertia
-    for x, y, z in points:
-        G = np.hstack([np.eye(3), [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]])
-        stiffness += G.T @ G
-    return float(np.linalg.eigvals(np.linalg.solve(inertias, stiffness)).real.max())
+    turns = [array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]) for x, y, z in points]  # motion of each, by rates
+    if len(turns) == 1 and has_symbols(inertia):  # the same eigenvalue, but of a smaller matrix
+        at_point = np.diag(array([1.0 / mass] * 3)) + turns[0] @ inverse(inertia) @ turns[0].T
+        return greatest(tuple(eigenvectors(at_point, vectors=False)[0]))
+    zero = np.zeros((3, 3))
+    inertias = np.block([[np.diag(array([mass] * 3)), zero], [zero, inertia]])
+    stiffness = np.zeros((6, 6))
+    for turn in turns:
+        G = np.hstack([np.eye(3), turn])
+        stiffness = stiffness + G.T @ G
+    return largest_eigenvalue(inertias, stiffness)
 
 
 def surface_mobility(center: NDArray[np.float64], radius: float, mass: float, inertia: NDArray[np.float64]) -> float:
     """The largest `mobility` [1/kg] of the points where the principal axes leave a sphere."""
-    axes = np.linalg.eigh(inertia)[1].T * radius
-    return max(mobility(center + side[None], mass, inertia) for side in (*axes, *-axes))
+    axes = eigenvectors(inertia)[1].T * radius
+    return greatest([mobility(center + side[None], mass, inertia) for side in (*axes, *-axes)])
 
 
 def softened_for_step(stiffness: float, damping: float, body_mobility: float, step: float) -> tuple[float, float]:
@@ -206,10 +212,10 @@ def softened_for_step(stiffness: float, damping: float, body_mobility: float, st
 
     The damping ratio stays. `body_mobility` [1/kg]: the `mobility` of the body that stands on such springs.
     """
-    frequency, rate = np.sqrt(stiffness * body_mobility), 0.5 * damping * body_mobility
-    decay = rate + np.sqrt(max(rate**2 - frequency**2, 0.0))
-    factor = 1.0 / max(1.0, frequency * step / OSCILLATION, decay * step / DECAY)
-    return float(stiffness * factor**2), float(damping * factor)
+    frequency, rate = sqrt(stiffness * body_mobility), 0.5 * damping * body_mobility
+    decay = rate + sqrt(maximum(rate**2 - frequency**2, 0.0))
+    factor = 1.0 / greatest([1.0, frequency * step / OSCILLATION, decay * step / DECAY])
+    return number(stiffness * factor**2), number(damping * factor)
 
 
 def sole_positions(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> NDArray[np.float64]:
@@ -220,7 +226,7 @@ def sole_positions(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> NDA
         span: of a foot along x and along y from there [m], one number or N.
         depth: of the soles below there [m], one number or N.
     """
-    d = np.asarray(centers, dtype=float)
+    d = array(centers)
     size = np.stack([np.broadcast_to(v, len(d)) for v in (span, span, depth)], axis=1)
     return d[:, None] + size[:, None] * [[1.0, 1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, -1.0], [1.0, -1.0, -1.0]]
 
@@ -254,19 +260,25 @@ def floor(
     points = places.reshape(-1, 3)
     share = mass / len(points)
     wanted = share * GRAVITY / sinkage
-    body_mobility = mobility(points, mass, np.asarray(inertia, dtype=float))
-    k, c = softened_for_step(wanted, 2.0 * damping_ratio * np.sqrt(wanted * share), body_mobility, step)
-    reach = float(np.linalg.norm(points, axis=1).max()) + radius
+    body_mobility = mobility(points, mass, array(inertia))
+    k, c = softened_for_step(wanted, 2.0 * damping_ratio * sqrt(wanted * share), body_mobility, step)
+    reach = number(greatest(lengths(points))) + radius
     feet = Quarters(*[spread(places[:, j]) for j in range(4)])
-    extent = vec3(np.abs(points).max(axis=0))
-    return Floor(float(height), k, c, float(friction), k, c, float(radius), feet, extent, reach)
+    extent = vec3(largest(np.abs(points), axis=0))
+    return Floor(number(height), k, c, number(friction), k, c, float(radius), feet, extent, reach)
 
 
 def standing_height(floor: Floor, weight: float) -> float:
     """Height of the level vehicle's centre of mass above the floor where its feet bear its weight [N], in m."""
-    touching = floor.radius - np.sort(np.concatenate([np.array(f.z) for f in floor.feet]))
-    count = np.arange(1, len(touching) + 1)
-    return float(np.max((np.cumsum(touching) - weight / floor.stiffness) / count))
+    touching = [floor.radius - z for foot in floor.feet for z in foot.z]
+    return greatest([_height_on(touching, lowest, weight / floor.stiffness) for lowest in touching])
+
+
+def _height_on(touching: list[Number], lowest: Number, load: Number) -> Number:
+    """Height [m] at which the soles that touch no later than one of them bear a load over their stiffness [m]."""
+    bears = [touch >= lowest for touch in touching]
+    share = [where(down, touch, 0.0) for down, touch in zip(bears, touching, strict=True)]
+    return (sum(share) - load) / sum(where(down, 1.0, 0.0) for down in bears)
 
 
 def sinkage_of(floor: Floor, weight: float) -> float:

@@ -5,6 +5,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.algebra.arrays import largest
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import Mat3, Vec3, apply, cross, mat3, vec3
 
@@ -34,5 +35,5 @@ def gyroscopic(J: Inertia, rates: Vec3) -> Vec3:
 
 def inertia_value(J: NDArray[np.floating]) -> Inertia:
     """A 3 × 3 tensor as a Vec3 if it is diagonal to rounding, else as a Mat3."""
-    off = np.abs(J - np.diag(np.diag(J))).max()
-    return vec3(np.diag(J)) if off <= 1e-12 * np.abs(J).max() else mat3(J)
+    off = largest(np.abs(J - np.diag(np.diag(J))).reshape(1, -1), axis=1)
+    return vec3(np.diag(J)) if off[0] <= 1e-12 * largest(np.abs(J).reshape(1, -1), axis=1)[0] else mat3(J)

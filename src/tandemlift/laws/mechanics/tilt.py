@@ -1,10 +1,9 @@
 """Virtual inputs: the force that the position law commands, and the thrust and tilt that produce it."""
 
-import math
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.ops import atan_ratio, cos, maximum, minimum, sin, sqrt, where
+from tandemlift.algebra.ops import atan_ratio, cos, maximum, minimum, sin, sqrt, tan, where
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Nothing, Vec3
 from tandemlift.laws.mechanics.rotation import Euler
@@ -38,7 +37,7 @@ def _tilted(limit: TiltLimit, u: Vec3) -> Vec3:
 
 def tilt_limit(angle: float | None) -> TiltLimit | Nothing:
     """The limit of a tilt [rad]; `Nothing` for no limit."""
-    return Nothing() if angle is None else TiltLimit(math.tan(angle))
+    return Nothing() if angle is None else TiltLimit(tan(angle))
 
 
 @law

@@ -7,15 +7,16 @@ of the continuous process, σ² exp(−τ/T) and σ² (1 − τ/2T) exp(−τ/T)
 """
 
 import functools
-import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.algebra.arrays import mapped
 from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.types import Number
+from tandemlift.algebra.ops import atan2, cos, exp, expm1, maximum, minimum, sin, sqrt
+from tandemlift.algebra.types import Number, number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 
 FOOT = 0.3048  # m
@@ -78,7 +79,7 @@ class WindNoise(NamedTuple):
 
 def longitudinal_step(passed: float) -> Longitudinal:
     """The step of `passed` = V dt / L of the process with the autocorrelation exp(−Vτ/L)."""
-    return Longitudinal(math.exp(-passed), math.sqrt(-math.expm1(-2.0 * passed)))
+    return Longitudinal(exp(-passed), sqrt(-expm1(-2.0 * passed)))
 
 
 @functools.cache
@@ -97,15 +98,15 @@ def transverse_step(passed: float) -> Transverse:
     N = np.array([[-0.5, ROOT_3 / 2.0 - 1.0], [ROOT_3 / 2.0 + 1.0, 0.5]])
     b = np.array([ROOT_3, -1.0])
     c = N @ b
-    vv, vh, hv, hh = map(float, (math.exp(-passed) * (np.eye(2) + passed * N)).ravel())
-    half = 0.5 * min(passed, 20.0)  # beyond, e^−2s adds nothing
+    vv, vh, hv, hh = map(number, (exp(-passed) * (np.eye(2) + passed * N)).ravel())
+    half = 0.5 * minimum(passed, 20.0)  # beyond, e^−2s adds nothing
     nodes, weights = _nodes()
     s = half * (nodes + 1.0)
-    m0, m1, m2 = (float(np.sum(half * weights * np.exp(-2.0 * s) * s**k)) for k in range(3))
+    m0, m1, m2 = (number(np.sum(half * weights * mapped(exp, np.exp, -2.0 * s) * s**k)) for k in range(3))
     Q = m0 * np.outer(b, b) + m1 * (np.outer(b, c) + np.outer(c, b)) + m2 * np.outer(c, c)
-    root = abs(b[0] * c[1] - b[1] * c[0]) * math.sqrt(m0 * m2 - m1 * m1)  # √det Q
-    vn = math.sqrt(Q[0, 0])
-    return Transverse(vv, vh, hv, hh, vn, float(Q[1, 0]) / vn, root / vn)
+    root = abs(b[0] * c[1] - b[1] * c[0]) * sqrt(m0 * m2 - m1 * m1)  # √det Q
+    vn = sqrt(Q[0, 0])
+    return Transverse(vv, vh, hv, hh, vn, number(Q[1, 0]) / vn, root / vn)
 
 
 def dryden(wind_20ft: float, height: float, airspeed: float, direction: Sequence[float], step: float) -> Dryden:
@@ -122,11 +123,11 @@ def dryden(wind_20ft: float, height: float, airspeed: float, direction: Sequence
         direction: of the mean wind, any length (3), world axes; its horizontal part counts, x if there is none.
         step: dt [s].
     """
-    h = min(max(height / FOOT, LOWEST), HIGHEST)
+    h = minimum(maximum(height / FOOT, LOWEST), HIGHEST)
     layer = 0.177 + 0.000823 * h
     vertical, horizontal = 0.1 * wind_20ft, 0.1 * wind_20ft / layer**0.4
-    heading = math.atan2(direction[1], direction[0])
-    x, y = math.cos(heading), math.sin(heading)
+    heading = atan2(direction[1], direction[0])
+    x, y = cos(heading), sin(heading)
     path = airspeed * step / FOOT  # ft
     across_length = h / layer**1.2
     return Dryden(

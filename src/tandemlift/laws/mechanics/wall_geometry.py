@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import clip, maximum, where
-from tandemlift.algebra.types import Number
+from tandemlift.algebra.types import Number, number
 from tandemlift.algebra.vector import Vec3, dot
 
 SEAM = 1e-8  # m²: rectangles nearer to each other than this are joined there
@@ -36,8 +36,8 @@ def wall(start: tuple[float, float], end: tuple[float, float], top: float) -> Wa
     """The wall from `start` to `end` (x, y) [m] with its `top` at z [m]; a post if they are the same."""
     x, y = end[0] - start[0], end[1] - start[1]
     square = x * x + y * y
-    per_square = 1.0 / square if square > SEAM else 0.0
-    return Wall(float(start[0]), float(start[1]), float(x), float(y), per_square, float(top))
+    per_square = where(square > SEAM, 1.0 / where(square > SEAM, square, 1.0), 0.0)
+    return Wall(number(start[0]), number(start[1]), number(x), number(y), per_square, number(top))
 
 
 @elementwise

@@ -17,9 +17,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tandemlift.algebra.arrays import array, lengths
 from tandemlift.algebra.law import choice, elementwise, law
-from tandemlift.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.algebra.types import Number, PerQuadrotor
+from tandemlift.algebra.ops import clip, greatest, maximum, minimum, sqrt, where
+from tandemlift.algebra.types import Number, PerQuadrotor, number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
 from tandemlift.laws.mechanics.contact import (
     friction_factor,
@@ -276,25 +277,23 @@ def walls(
         stiffness: of a contact [N/m].
         damping_ratio: of the vehicle oscillating on one contact, without turning.
     """
-    J, centers = np.asarray(inertia, dtype=float), np.asarray(quadrotors, dtype=float)
+    J, centers = array(inertia), array(quadrotors)
     radii = np.broadcast_to(guards, len(centers))
     spheres = list(zip(centers, radii, strict=True))
     if beam:
         half = 0.5 * beam[0]
         spheres += [(np.add(payload, [0.0, end, 0.0]), beam[1]) for end in (-half, half)]
-    centers = np.array([center for center, _ in spheres])  # where N acts, were all in contact at once
-    k, c = softened_for_step(
-        stiffness, 2.0 * damping_ratio * np.sqrt(stiffness * mass), mobility(centers, mass, J), step
-    )
+    centers = array([tuple(center) for center, _ in spheres])  # where N acts, were all in contact at once
+    k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), mobility(centers, mass, J), step)
     tangential_mobility = sum(surface_mobility(center, radius, mass, J) for center, radius in spheres)
-    shape = Beam(float(beam[1]), each(2)(-half, half)) if beam else Nothing()
-    reach = max(float(np.linalg.norm(center)) + float(radius) for center, radius in spheres)
+    shape = Beam(number(beam[1]), each(2)(-half, half)) if beam else Nothing()
+    reach = greatest([number(far + radius) for far, (_, radius) in zip(lengths(centers), spheres, strict=True)])
     return Walls(
         k,
         c,
-        float(friction),
-        min(c, 1.0 / (tangential_mobility * step)),
-        each(len(radii))(*map(float, radii)),
+        number(friction),
+        minimum(c, 1.0 / (tangential_mobility * step)),
+        each(len(radii))(*map(number, radii)),
         shape,
         reach,
     )

@@ -9,6 +9,7 @@ import math
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import law
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import ZERO, Vec3
 
 MIDDLE, HALF = 10.0, 1.5  # Hz
@@ -66,5 +67,5 @@ def tremor(size: float, step: float) -> Tremor:
         sine=decay * math.sin(turn),
         first=math.sqrt(1.0 - square),
         second=(1.0 - square) / math.sqrt(1.0 + square),
-        size=float(size),
+        size=number(size),
     )

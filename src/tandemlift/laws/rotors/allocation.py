@@ -5,9 +5,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tandemlift.algebra.arrays import array, square_roots
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
-from tandemlift.algebra.types import Number, PerRotor
+from tandemlift.algebra.types import Number, PerRotor, number
 from tandemlift.algebra.vector import Vec3, dot, each
 from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, efficiency_at
@@ -114,7 +115,7 @@ def achieved_fraction(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: Per
 def mixer_from(rows: NDArray[Any]) -> Mixer:
     """A 4 × 4N matrix as a Mixer."""
     cls = each(rows.shape[1])
-    thrust, roll, pitch, yaw = (cls(*map(float, row)) for row in rows)
+    thrust, roll, pitch, yaw = (cls(*map(number, row)) for row in rows)
     return Mixer(thrust, roll, pitch, yaw)
 
 
@@ -125,7 +126,7 @@ def weights_of(effect: NDArray[np.float64], priorities: ArrayLike) -> NDArray[np
         effect: B (4 × n), rows thrust, roll, pitch, yaw.
         priorities: four numbers > 0, thrust, roll, pitch, yaw.
     """
-    return np.asarray(priorities, dtype=float) / np.sqrt(np.mean(np.square(effect), axis=1))
+    return array(priorities) / square_roots(np.mean(np.square(effect), axis=1))
 
 
 def weighted_rows(effect: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -135,5 +136,5 @@ def weighted_rows(effect: NDArray[np.float64], weights: NDArray[np.float64]) -> 
 
 def wrench_scale(effect: NDArray[np.float64]) -> Wrench:
     """1 / row rms of the effect B (4 × n): makes the four components of a wrench comparable (`achieved_fraction`)."""
-    thrust, roll, pitch, yaw = (float(w) for w in weights_of(effect, np.ones(4)))
+    thrust, roll, pitch, yaw = (number(w) for w in weights_of(effect, np.ones(4)))
     return Wrench(thrust, Vec3(roll, pitch, yaw))

@@ -10,9 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.algebra.arrays import array, mapped
 from tandemlift.algebra.law import elementwise, law
-from tandemlift.algebra.ops import where
-from tandemlift.algebra.types import Number, PerRotor
+from tandemlift.algebra.ops import exp, expm1, where
+from tandemlift.algebra.types import Number, PerRotor, number
 from tandemlift.algebra.vector import each
 
 REST = 1e-100  # rad/s, lost in any speed; one that dies ends near 1e-115, not in slow denormal numbers
@@ -51,7 +52,8 @@ def lag_step(up: Lag, down: Lag, speed: PerRotor, command: PerRotor) -> tuple[Pe
 
 def lag(time_constants: list[float], step: float) -> Lag:
     """The lag of each rotor over a step [s] with these time constants [s], 0 for none."""
-    ratio = np.array([step / tau if tau > 0.0 else np.inf for tau in time_constants])
-    mean, mean_square = -np.expm1(-ratio) / ratio, -np.expm1(-2.0 * ratio) / (2.0 * ratio)
+    ratio = array([where(tau > 0.0, step / where(tau > 0.0, tau, 1.0), np.inf) for tau in time_constants])
+    mean = -mapped(expm1, np.expm1, -ratio) / ratio
+    mean_square = -mapped(expm1, np.expm1, -2.0 * ratio) / (2.0 * ratio)
     cls = each(len(time_constants))
-    return Lag(*[cls(*map(float, row)) for row in (np.exp(-ratio), mean, mean_square)])
+    return Lag(*[cls(*map(number, row)) for row in (mapped(exp, np.exp, -ratio), mean, mean_square)])

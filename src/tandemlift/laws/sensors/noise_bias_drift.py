@@ -16,8 +16,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.algebra.arrays import array
 from tandemlift.algebra.law import choice, elementwise
-from tandemlift.algebra.ops import clip, maximum, where
+from tandemlift.algebra.ops import clip, maximum, sqrt, where
+from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import ZERO, Mat3, Nothing, Quat, Vec3, apply, each, is_set, spread, vec3
 from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.rotation import quaternion_from_rotation_vector, rotated_by, rotation_from_quaternion
@@ -167,7 +169,7 @@ def no_noise(model: Any) -> Any:
 
 
 def _rows(value: Any, count: int) -> Array:
-    return np.broadcast_to(np.asarray(value, dtype=float), (count, 3))
+    return np.broadcast_to(array(value), (count, 3))
 
 
 def _sensor_axes(turn: Array) -> Array:
@@ -186,13 +188,13 @@ class _Errors(NamedTuple):
 
 
 def _errors(grade: SensorGrade, interval: float) -> _Errors:
-    walk = grade.drift * math.sqrt(interval)
+    walk, stepped = grade.drift * sqrt(interval), grade.resolution > 0.0
     return _Errors(
-        noise=0.5 * (walk + math.sqrt(walk * walk + 4.0 * grade.noise * grade.noise)),
+        noise=0.5 * (walk + sqrt(walk * walk + 4.0 * grade.noise * grade.noise)),
         walk=walk,
         limit=grade.limit,
         step=grade.resolution,
-        per_step=1.0 / grade.resolution if grade.resolution > 0.0 else 0.0,
+        per_step=where(stepped, 1.0 / where(stepped, grade.resolution, 1.0), 0.0),
     )
 
 
@@ -215,4 +217,4 @@ def sensor_model(grade: SensorGrade, interval: float, count: int | None = None) 
 
 def scalar_sensor_model(grade: SensorGrade, interval: float) -> ScalarSensorModel:
     """The sensor of a number of this grade, whose `bias` is a number; `interval` from sample to sample [s]."""
-    return ScalarSensorModel(float(grade.bias), *_errors(grade, interval))
+    return ScalarSensorModel(number(grade.bias), *_errors(grade, interval))

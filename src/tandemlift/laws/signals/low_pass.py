@@ -5,10 +5,10 @@ every T, leaves with the variance σ² ω T/4 (for ω T ≪ 1). Method: sampling
 Computer-Controlled Systems.
 """
 
-import math
 from typing import NamedTuple
 
 from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.ops import exp
 from tandemlift.algebra.types import Number
 
 REST = 1e-200  # of any unit: far below what matters, and lost in the rounding of numbers above 1e-184
@@ -49,5 +49,5 @@ def low_pass_step(k: LowPass, memory: LowPassState, value: Number) -> LowPassSta
 def low_pass(bandwidth: float, step: float) -> LowPass:
     """The low-pass of bandwidth ω [rad/s], run every `step` [s]."""
     wh = bandwidth * step
-    decay = math.exp(-wh)
+    decay = exp(-wh)
     return LowPass((1.0 + wh) * decay, step * decay, -bandwidth * wh * decay, (1.0 - wh) * decay)
