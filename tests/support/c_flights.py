@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import ctypes
-import shutil
 import subprocess
 from pathlib import Path
 
 import numpy as np
 
-from tandemlift.algebra.layout import flat, leaves
-from tandemlift.kernels import FlightMemory
+from tandemlift.algebra.layout import leaves
+from tandemlift.kernels import FlightMemory, leaf_offset
 from tandemlift.missions import changed
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.targets.c.write import write_c
+from tandemlift.targets.c.write import code_texts, written
 
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-ffp-contract=off")
 HARNESS = """#include "{p}_flight.h"
@@ -55,7 +54,7 @@ class CFlight:
 
     def __init__(self, mission, folder: Path, compiler: str = "gcc", *options: str) -> None:
         self.mission, self.folder = mission, Path(folder)
-        files = write_c(mission, self.folder)
+        files = written(code_texts(mission), self.folder)
         self.header = next(f for f in files if f.name.endswith("_flight.h"))
         self.prefix = self.header.name.removesuffix("_flight.h")
         harness = self.folder / "harness.c"
@@ -64,8 +63,7 @@ class CFlight:
         source = self.folder / f"{self.prefix}_flight.c"
         sources = [str(source), str(harness)]
         subprocess.run(
-            [shutil.which(compiler), *STRICT, *(options or ("-O2",)), "-shared", "-fPIC", *sources, "-o", str(library), "-lm"],
-            check=True,
+            [compiler, *STRICT, *(options or ("-O2",)), "-shared", "-fPIC", *sources, "-o", library, "-lm"], check=True
         )
         self.library = ctypes.CDLL(str(library))
         self.library.fly.restype = ctypes.c_int64
@@ -94,29 +92,48 @@ class CFlight:
         values["keys"] = tuple(map(float, start.keys))
         return type("Inputs", (ctypes.Structure,), {"_fields_": fields})(**values), kept
 
-    def fly(self, mission):
-        """(Step reached, log, last sample, all numbers at the end) of a mission of the same variant."""
-        p = FlightPlan(mission)
-        start, columns = p.start(), leaves(p.sample)
+    def fly(self, p, start):
+        """(Step reached, log, last sample, all numbers at the end) of a flight of the same variant."""
+        columns = leaves(p.sample)
         log, last = np.zeros((p.steps // p.every + 1, columns)), np.full(columns, np.nan)
         end, numbers = np.zeros(len(start.numbers)), np.ascontiguousarray(start.numbers)
         inputs, kept = self.inputs(start, p.delays)
         places = [ctypes.c_void_p(a.ctypes.data) for a in (log, last, end)]
-        k = self.library.fly(
-            ctypes.c_void_p(numbers.ctypes.data), ctypes.byref(inputs), ctypes.c_int64(p.steps), *places
-        )
+        given = ctypes.c_void_p(numbers.ctypes.data), ctypes.byref(inputs), ctypes.c_int64(p.steps)
+        k = self.library.fly(*given, *places)
         del kept
         return k, log, last, end
 
 
-def native(mission):
-    """(Step reached, log, last sample, all numbers at the end) of a mission in machine code."""
-    p = FlightPlan(mission)
-    memory = FlightMemory(p.kernels.loop(1), [p.start()], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
+def native(p, start):
+    """(Step reached, log, last sample, all numbers at the end) of a flight in machine code."""
+    memory = FlightMemory(p.kernels.loop(1), [start], p.grid(p.steps // p.every + 1, p.every), leaves(p.sample))
     memory.fly(p.steps + 1)
     return memory.k, memory.log[0], memory.last, np.array(memory.numbers)
 
 
-def flat_of(mission):
-    """The numbers of a mission's flight at its start."""
-    return np.array(flat(FlightPlan(mission).model))
+def drawn(mission, number):
+    """(Plan, start) of a flight with another seed, another payload, and a blow at its start; every fifth diverges."""
+    chance = np.random.default_rng(number)
+    mission = changed(mission, "mission.seed", number)
+    mass = mission.vehicle.payload.mass * float(chance.uniform(0.97, 1.03))
+    p = FlightPlan(changed(mission, "vehicle.payload.mass", mass))
+    start = p.start()
+    at = leaf_offset(p.model, "flight_state", "state", "velocity").at
+    turn = leaf_offset(p.model, "flight_state", "state", "rates").at
+    hard = number % 5 == 4
+    start.numbers[at : at + 3] += chance.normal(scale=5000.0 if hard else 0.1, size=3)
+    start.numbers[turn : turn + 3] += chance.normal(scale=50.0 if hard else 0.2, size=3)
+    return p, start
+
+
+def differences(c_flight, mission, draws):
+    """(Names of what differs, how many flights diverged) over draws of a mission, each flown in C and natively."""
+    wrong, lost = [], 0
+    for number in draws:
+        p, start = drawn(mission, number)
+        in_c, by_us = c_flight.fly(p, start), native(p, start)
+        lost += by_us[0] < p.steps
+        parts = zip(("step", "log", "last", "end"), in_c, by_us, strict=True)
+        wrong += [f"draw {number}: {name}" for name, a, b in parts if not same(np.float64(a), np.float64(b))]
+    return wrong, lost

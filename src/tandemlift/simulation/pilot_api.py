@@ -114,6 +114,11 @@ class Pilot:
         self._sample()
         return self.thrusts
 
+    @property
+    def memory(self) -> Array:
+        """What changes from sample to sample: the samples taken so far, then the numbers of the pilot's memory."""
+        return self._numbers[: 1 + leaves(self._start.memory)].copy()
+
     def reset(self) -> None:
         """Start anew at t = 0."""
         self._numbers[:] = flat(self._start)

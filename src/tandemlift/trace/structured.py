@@ -20,7 +20,7 @@ from typing import Any
 from tandemlift.common.errors import InputError
 from tandemlift.trace.fused import ENTERS, FUSES, run
 from tandemlift.trace.graph import LEAVES, Graph
-from tandemlift.trace.symbol import Symbol
+from tandemlift.trace.symbol import Nodes, Symbol
 
 SMALL = 1  # operations or calls of a law that stays in its caller's graph
 
@@ -118,7 +118,7 @@ class Laws:
 
     def __init__(self) -> None:
         self.all: list[TracedLaw] = []
-        self.given: dict[tuple[Graph, int], list[int]] = {}
+        self.given: dict[tuple[Nodes, int], list[int]] = {}
         self._known: dict[Any, TracedLaw | None] = {}
         self._frames: list[TracedLaw | None] = []
 
@@ -158,7 +158,7 @@ class Laws:
         return result
 
     def trace(self, law: Callable[..., Any], arguments: dict[str, Any]) -> TracedLaw:
-        """A law, or any function that calls laws, traced on its own whatever its size; arguments laid out like these."""
+        """A law, or any function of laws, traced on its own whatever its size; arguments laid out like these."""
         with self.recording():
             return self._traced(law, arguments, counts=True)
 

@@ -17,10 +17,10 @@ from tandemlift.laws.mechanics.wall_geometry import WALL
 from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.targets.c import outside
 from tandemlift.targets.c.flight_step import FlightStep
-from tandemlift.targets.c.law_functions import law_function
-from tandemlift.targets.c.literals import number
+from tandemlift.targets.c.language.law_functions import law_function
+from tandemlift.targets.c.language.literals import number
+from tandemlift.targets.c.language.unit import Unit
 from tandemlift.targets.c.source_file import SourceFile
-from tandemlift.targets.c.unit import Unit
 from tandemlift.trace.structured import TracedLaw
 
 ROWS = InputTables(GAUSSIAN, GUST, WALL, PATH_LEG)
@@ -192,4 +192,3 @@ def call_text(unit: Unit, law: TracedLaw, given: dict[str, str]) -> str:
 def count_of(value: Any) -> int:
     """Numbers of an argument."""
     return leaves(value) if hasattr(value, "_fields") else 1
-

@@ -7,11 +7,11 @@ from typing import Any
 from tandemlift.algebra.layout import leaves, rebuilt
 from tandemlift.algebra.vector import ZERO
 from tandemlift.kernels.traced_step import TracedStep
-from tandemlift.targets.c.function_text import FunctionHead, function
-from tandemlift.targets.c.law_functions import law_function
+from tandemlift.targets.c.language.function_text import FunctionHead, function
+from tandemlift.targets.c.language.law_functions import law_function
+from tandemlift.targets.c.language.statements import Statements
 from tandemlift.targets.c.limits import Solver, write_limits
 from tandemlift.targets.c.source_file import SourceFile
-from tandemlift.targets.c.statements import Statements
 
 COMMENT = """/* One step of a flight from time t [s] by dt [s]: its state after it, and the sample at its start
  * (tandemlift.kernels.traced_step). */

@@ -2,28 +2,54 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from tandemlift.algebra.layout import rebuilt
+from tandemlift.algebra.layout import leaves, rebuilt
 from tandemlift.kernels.traced_step import LimitProblem
 from tandemlift.laws.rotors.allocation import AllocationState, ConstrainedAllocation
 from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
-from tandemlift.targets.c.law_functions import law_function
-from tandemlift.targets.c.statements import Statements
-from tandemlift.targets.c.unit import Unit
+from tandemlift.targets.c.language.law_functions import law_function
+from tandemlift.targets.c.language.statements import Statements
+from tandemlift.targets.c.language.unit import Unit
 
 SOLVE = """/* The thrusts within limits that come closest to the wanted wrench
  * (tandemlift.laws.rotors.thrust_limit_solver.limited_thrusts); it ends after {most} steps at the latest. */
-static AllocationState solve(const BoundedProblem *problem, const AllocationState *held)
+static {state} {name}(const {problem} *problem, const {state} *held)
 {{
-    Search search = {start}(&problem->limits, held);
+    {search} search = {start}(&problem->limits, held);
     for (int step = 1; step <= {most}; step++) {{
         search = {step}(problem, &search);
-        if (!(search.ended == {zero})) {{
+        if (!(search.ended == 0.0)) {{
             break;
         }}
     }}
     return search.found;
+}}
+"""
+WIDENED = """/* The same in single precision. The search is in doubles: where part of a wrench is out of reach,
+ * its sums cancel all digits of a float. */
+static AllocationState solve(const BoundedProblem *problem, const AllocationState *held)
+{{
+    float given[{size}], before[{held}];
+    double numbers[{size}], start[{held}];
+    {problem} exact;
+    {state} found;
+    AllocationState result;
+    memcpy(given, problem, sizeof given);
+    memcpy(before, held, sizeof before);
+    for (int i = 0; i < {size}; i++) {{
+        numbers[i] = (double)given[i];
+    }}
+    for (int i = 0; i < {held}; i++) {{
+        start[i] = (double)before[i];
+    }}
+    memcpy(&exact, numbers, sizeof exact);
+    memcpy(&found, start, sizeof found);
+    found = {name}(&exact, &found);
+    memcpy(start, &found, sizeof start);
+    for (int i = 0; i < {held}; i++) {{
+        before[i] = (float)start[i];
+    }}
+    memcpy(&result, before, sizeof result);
+    return result;
 }}
 """
 
@@ -50,25 +76,38 @@ def write_limits(body: Statements, needs: LimitProblem, allocation: ConstrainedA
 
 
 class Solver:
-    """The functions of the solver in a unit."""
+    """The functions of the solver in a file: in double precision always.
+
+    Args:
+        unit: of the file.
+        allocation: of the mission.
+    """
 
     def __init__(self, unit: Unit, allocation: ConstrainedAllocation) -> None:
-        self.unit, limits = unit, allocation.limits
-        held = AllocationState(limits, limits)
-        self.most = 8 * len(limits)
-        self.start = unit.laws.trace(start_search, {"limits": limits, "held": held})
-        given: dict[str, Any] = {"p": problem_like(allocation), "s": Search(held, 0.0, 0.0, 0.0)}
-        self.step = unit.laws.trace(search_step, given)
+        limits = allocation.limits
+        self.held, self.problem, self.most = AllocationState(limits, limits), problem_like(allocation), 8 * len(limits)
+        unit.structs.of(self.problem)
+        self.file_unit, self.widens = unit, unit.real == "float"
+        self.unit = Unit("double", "exact_", unit.names) if self.widens else unit
+        self.search = Search(self.held, 0.0, 0.0, 0.0)
+        self.start = self.unit.laws.trace(start_search, {"limits": limits, "held": self.held})
+        self.step = self.unit.laws.trace(search_step, {"p": self.problem, "s": self.search})
 
     def functions(self, done: list[int]) -> list[str]:
         """The text of the functions that are not done yet."""
-        texts = []
+        texts, ready = list[str](), [] if self.widens else done
         for law in (self.start, self.step):
             for number in [*self.unit.reached(law.graph, [s.node for s in law.ends]), law.number]:
-                if number not in done:
-                    done.append(number)
+                if number not in ready:
+                    ready.append(number)
                     texts.append(law_function(self.unit, number))
-        zero = "0.0f" if self.unit.real == "float" else "0.0"
-        names = {law: self.unit.signature(law.number).name for law in (self.start, self.step)}
-        return [*texts, SOLVE.format(most=self.most, start=names[self.start], step=names[self.step], zero=zero)]
-
+        kinds = {"state": self.held, "problem": self.problem, "search": self.search}
+        words = {word: self.unit.structs.of(value).name for word, value in kinds.items()}
+        words["start"], words["step"] = (self.unit.signature(x.number).name for x in (self.start, self.step))
+        words |= {"most": str(self.most), "name": "exact_solve" if self.widens else "solve"}
+        texts.append(SOLVE.format(**words))
+        if self.widens:
+            own = [struct.definition("", "double") for struct in self.unit.structs.all.values()]
+            sizes = {"size": str(leaves(self.problem)), "held": str(leaves(self.held))}
+            texts = ["\n".join([*own, ""]), *texts, WIDENED.format(**words, **sizes)]
+        return texts

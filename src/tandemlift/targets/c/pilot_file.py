@@ -8,11 +8,11 @@ from tandemlift.algebra.layout import leaves, rebuilt
 from tandemlift.algebra.vector import each
 from tandemlift.kernels.pilot_sampling import PilotData, PilotDataState, PilotSampler
 from tandemlift.pilot.pilot import PilotInput
-from tandemlift.targets.c.function_text import FunctionHead, function
-from tandemlift.targets.c.law_functions import law_function
+from tandemlift.targets.c.language.function_text import FunctionHead, function
+from tandemlift.targets.c.language.law_functions import law_function
+from tandemlift.targets.c.language.statements import Statements
 from tandemlift.targets.c.limits import Solver, write_limits
 from tandemlift.targets.c.source_file import SourceFile
-from tandemlift.targets.c.statements import Statements
 from tandemlift.trace import Graph
 
 
@@ -77,8 +77,12 @@ class PilotFile:
             "/* A sample of the pilot (tandemlift.kernels.pilot_sampling). */\n",
             "void",
             "sample",
-            [f"{self.pilot.name} *pilot", f"const {self.input.name} *input", f"{unit.real} dt",
-             f"{unit.structs.of(thrusts).name} *thrusts"],
+            [
+                f"{self.pilot.name} *pilot",
+                f"const {self.input.name} *input",
+                f"{unit.real} dt",
+                f"{unit.structs.of(thrusts).name} *thrusts",
+            ],
         )
         return [*texts, function(head, body.made, "\n".join(last))]
 

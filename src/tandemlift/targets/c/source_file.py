@@ -7,11 +7,11 @@ from collections.abc import Iterable
 from importlib.resources import files
 from typing import Any
 
-from tandemlift.targets.c.function_text import wrapped
-from tandemlift.targets.c.identifiers import identifier
-from tandemlift.targets.c.literals import number
-from tandemlift.targets.c.structs import Struct, Structs, parts_of
-from tandemlift.targets.c.unit import Unit
+from tandemlift.targets.c.language.function_text import wrapped
+from tandemlift.targets.c.language.identifiers import identifier
+from tandemlift.targets.c.language.literals import number
+from tandemlift.targets.c.language.structs import Struct, Structs, parts_of
+from tandemlift.targets.c.language.unit import Unit
 from tandemlift.trace.structured import is_nested
 
 TEXTS = files("tandemlift") / "data" / "c"
@@ -70,7 +70,9 @@ class SourceFile:
         """The definitions of public structs, with the mission's name before theirs."""
         return "\n".join(s.definition(self.prefix, self.real) for s in self.public(roots))
 
-    def source(self, name: str, roots: list[Struct], functions: str, has: Iterable[str] = (), used: str = "", **words: str) -> str:
+    def source(
+        self, name: str, roots: list[Struct], functions: str, has: Iterable[str] = (), used: str = "", **words: str
+    ) -> str:
         """A source: short names for public structs, the other structs, the functions of laws, and a text behind them.
 
         Args:

@@ -1,4 +1,4 @@
-"""A mission as C99: its pilot and its whole flight, with tests, a build file and a README."""
+"""A mission as C99: its pilot and its whole flight, with self-tests, a build file and a README."""
 
 from __future__ import annotations
 
@@ -13,12 +13,15 @@ from tandemlift.settings import Mission
 from tandemlift.simulation.pilot_api import INPUT
 from tandemlift.targets.c.flight_file import FlightFile
 from tandemlift.targets.c.pilot_file import PilotFile
+from tandemlift.targets.c.selftests import flight_selftest, native_flight, pilot_selftest
 from tandemlift.targets.c.source_file import SourceFile
 from tandemlift.vehicle import Vehicle
 
 
 def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[Path]:
-    """Write a mission as C99.
+    """Write a mission as C99: the pilot, the whole flight, self-tests, CMakeLists.txt and README.md.
+
+    In double precision the code computes the bits of a native flight with `mission.fused = false`.
 
     Args:
         mission: from `load_mission`.
@@ -31,21 +34,56 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
     Raises:
         InputError: the mission's controller is plain Python.
     """
-    parameters, memory = start_pilot(mission, Vehicle.from_settings(mission.vehicle))
-    if type(parameters.controller) in control.interpreted:
+    if mission.controller.name in _interpreted_names(mission):
         name = mission.controller.name
-        raise InputError(f"controller {name!r} is plain Python: C needs a law; register it without compiled=False")
+        way = "register it as a law, without compiled=False"
+        raise InputError(f"controller.name = {name!r}: is plain Python, which C cannot call; {way}")
+    texts = code_texts(mission, single)
+    unfused, flight = native_flight(mission)
     file = SourceFile(mission.mission.name, single, mission.mission.step)
-    pilot = PilotFile(file, PilotData(0.0, memory, parameters), INPUT)
-    texts = {"checks.h": file.filled("checks.h"), "pilot.c": pilot.source(), "pilot.h": pilot.header()}
-    file = SourceFile(mission.mission.name, single, mission.mission.step)
-    flight = FlightFile(file, assemble(mission), mission.mission.steps, mission.mission.log_every)
-    texts |= {"flight.c": flight.source(), "flight.h": flight.header()}
-    folder = Path(folder)
+    texts |= {
+        f"{file.name}_pilot_selftest.c": pilot_selftest(file, unfused, flight),
+        f"{file.name}_flight_selftest.c": flight_selftest(file, unfused),
+    }
+    return written(texts, Path(folder))
+
+
+def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
+    """The texts of all files but the self-tests, by name."""
+    start = pilot_data(mission)
+    given = mission.mission.name, single, mission.mission.step
+    file = SourceFile(*given)
+    pilot = PilotFile(SourceFile(*given), start, INPUT)
+    flight = FlightFile(SourceFile(*given), assemble(mission), mission.mission.steps, mission.mission.log_every)
+    how = {"PRECISION": "single" if single else "double"}
+    how["COMPARED"] = "within 1e-3 of the range of thrusts" if single else "to the last bit"
+    return {
+        f"{file.name}_checks.h": file.filled("checks.h"),
+        f"{file.name}_pilot.c": pilot.source(),
+        f"{file.name}_pilot.h": pilot.header(),
+        f"{file.name}_flight.c": flight.source(),
+        f"{file.name}_flight.h": flight.header(),
+        "CMakeLists.txt": file.filled("CMakeLists.txt"),
+        "README.md": file.filled("README.md", **how),
+    }
+
+
+def pilot_data(mission: Mission) -> PilotData:
+    """The numbers of a mission's pilot before its first sample."""
+    parameters, memory = start_pilot(mission, Vehicle.from_settings(mission.vehicle))
+    return PilotData(0.0, memory, parameters)
+
+
+def _interpreted_names(mission: Mission) -> set[str]:
+    """The name of the mission's controller, if that is plain Python."""
+    is_python = type(pilot_data(mission).parameters.controller) in control.interpreted
+    return {mission.controller.name} if is_python else set()
+
+
+def written(texts: dict[str, str], folder: Path) -> list[Path]:
+    """Write texts to files of a folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    paths = []
-    for name, text in texts.items():
-        path = folder / (file.prefix + name)
+    paths = [folder / name for name in texts]
+    for path, text in zip(paths, texts.values(), strict=True):
         path.write_text(text, encoding="utf-8")
-        paths.append(path)
     return paths

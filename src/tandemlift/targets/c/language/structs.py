@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.vector import is_set
-from tandemlift.targets.c.identifiers import NO_MEMBER, Names, identifier
+from tandemlift.targets.c.language.identifiers import NO_MEMBER, Names, identifier
 from tandemlift.trace import Symbol
 from tandemlift.trace.structured import is_nested, numbers_in
 

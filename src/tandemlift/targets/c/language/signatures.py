@@ -9,8 +9,8 @@ import textwrap
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from tandemlift.targets.c.identifiers import Names
-from tandemlift.targets.c.structs import BY_VALUE, Struct, Structs, has_numbers, type_name
+from tandemlift.targets.c.language.identifiers import Names
+from tandemlift.targets.c.language.structs import BY_VALUE, Struct, Structs, has_numbers, type_name
 from tandemlift.trace.structured import TracedLaw, is_nested, numbers_in
 
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")

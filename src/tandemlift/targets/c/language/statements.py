@@ -1,37 +1,26 @@
 """The statements of a function of C, made from a graph: a variable where a value has a name or is used twice.
 
-Values that the law calls by a name have that name here. A vector that it names is a struct here, so that it is passed on
-as a whole. All other operations stand where they are used.
+Values that the law calls by a name have that name here. A vector that it names is a struct here, which is passed on as
+a whole. All other operations stand where they are used.
 """
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
-from tandemlift.targets.c.function_text import Statement, token
-from tandemlift.targets.c.identifiers import Names
-from tandemlift.targets.c.literals import literal
-from tandemlift.targets.c.operations import ATOM, CHOSEN, UNARY, Expression, expression
-from tandemlift.targets.c.signatures import Signature
-from tandemlift.targets.c.structs import Struct, parts_of, type_name
-from tandemlift.targets.c.unit import Unit
-from tandemlift.trace import LEAVES, Graph
+from tandemlift.targets.c.language.function_text import Statement, token
+from tandemlift.targets.c.language.identifiers import Names
+from tandemlift.targets.c.language.literals import literal
+from tandemlift.targets.c.language.operations import ATOM, CHOSEN, UNARY, Expression, expression
+from tandemlift.targets.c.language.structs import Struct, parts_of, type_name
+from tandemlift.targets.c.language.unit import Unit
+from tandemlift.targets.c.language.variables import Group, Variables
+from tandemlift.trace import Graph
 from tandemlift.trace.structured import as_symbol, calls_in, is_nested, numbers_in
 
-LONGEST = 12  # operations in one expression
 FEW = 4  # numbers of a struct whose members need no names where it is written
-
-
-class Group(NamedTuple):
-    """A nested value that the law calls by a name; `nodes`: of its numbers; `at`: the last of them."""
-
-    name: str
-    value: Any
-    nodes: tuple[int, ...]
-    at: int
 
 
 class Whole(NamedTuple):
@@ -63,94 +52,7 @@ class Statements:
         self._whole: dict[Any, Whole] = {}
         self._done = set[int | float]()
         self._depth = 0
-        self._needed = graph.needed(roots)
-        self._last_use, self._first_use, self._uses = dict[int, int](), dict[int, int](), Counter(roots)
-        self._count_uses()
-        self._weights: dict[int, int] = {}
-        self._local: dict[int, str] = {}
-        self._parts: dict[tuple[int, ...], str] = {}
-        self._groups: list[Group] = []
-        self._find_names(names or {})
-        self._owner = self._owners()
-        self._named = self._find_named()
-
-    # what gets a name
-
-    def _count_uses(self) -> None:
-        g = self.graph
-        for node in self._needed:
-            if g.ops[node] in LEAVES or g.ops[node].startswith("out "):
-                continue
-            for argument in g.args[node]:
-                self._uses[argument] += 1
-                self._first_use.setdefault(argument, node)
-
-    def _find_names(self, names: dict[str, Any]) -> None:
-        needed, known = set(self._needed), set[tuple[int, ...]]()
-        for name, value in names.items():
-            nodes = tuple([as_symbol(self.graph, x).node for x in numbers_in(value)])
-            if not nodes or not needed.issuperset(nodes):
-                continue
-            if not is_nested(value):
-                self._local.setdefault(nodes[0], name)
-            elif not hasattr(value, "_fields") or nodes in known:
-                continue
-            elif self._is_result(nodes):
-                self._parts.setdefault(nodes, name)
-            elif any(self._is_operation(n) for n in nodes):
-                known.add(nodes)
-                self._groups.append(Group(name, value, nodes, max(nodes)))
-        self._groups.sort(key=lambda group: group.at)
-
-    def _is_operation(self, node: int) -> bool:
-        op = self.graph.ops[node]
-        return op not in LEAVES and not op.startswith(("out ", "call "))
-
-    def _is_result(self, nodes: tuple[int, ...]) -> bool:
-        """Whether numbers are consecutive results of one call."""
-        g = self.graph
-        if not all(g.ops[n].startswith("out ") for n in nodes) or len({g.args[n] for n in nodes}) > 1:
-            return False
-        first = int(g.ops[nodes[0]][4:])
-        return [int(g.ops[n][4:]) for n in nodes] == list(range(first, first + len(nodes)))
-
-    def _owners(self) -> dict[int, Group]:
-        """The group that defines each operation: the first, unless one of its own numbers needs it before."""
-        owner: dict[int, Group] = {}
-        for group in self._groups:
-            for node in group.nodes:
-                if node not in owner and self._is_operation(node) and self._first_use.get(node, group.at + 1) > group.at:
-                    owner[node] = group
-        return owner
-
-    def _find_named(self) -> set[int]:
-        g, named = self.graph, set[int]()
-        for node in self._needed:
-            op, weight = g.ops[node], 0
-            if op in LEAVES:
-                continue
-            if op.startswith("call "):
-                weight = LONGEST // 2
-            for argument in g.args[node]:
-                weight += self._weights.get(argument, 0) + (not op.startswith("out "))
-            heavy = weight > LONGEST or (self._uses[node] > 1 and not self._is_cheap(node))
-            if (self._is_operation(node) or self._is_scalar_result(node)) and (heavy or node in self._local):
-                named.add(node)
-                weight = 0
-            stands_alone = op.startswith("call ") and not self._signature(node).returns_number
-            self._weights[node] = 0 if node in self._owner or stands_alone else weight
-        return named - self._owner.keys()
-
-    def _is_cheap(self, node: int) -> bool:
-        g = self.graph
-        return g.ops[node] == "fneg" and g.ops[g.args[node][0]] in LEAVES
-
-    def _is_scalar_result(self, node: int) -> bool:
-        op = self.graph.ops[node]
-        return op.startswith("out ") and self._signature(self.graph.args[node][0]).returns_number
-
-    def _signature(self, call: int) -> Signature:
-        return self.unit.signature(int(self.graph.ops[call][5:]))
+        self._variables = Variables(unit, graph, roots, names or {})
 
     # what exists
 
@@ -161,7 +63,9 @@ class Statements:
 
     def _know(self, value: Any, whole: Whole, access: str) -> None:
         if not is_nested(value):
-            self._text[as_symbol(self.graph, value).node] = Expression(whole.value, UNARY if whole.value[0] == "*" else ATOM)
+            self._text[as_symbol(self.graph, value).node] = Expression(
+                whole.value, UNARY if whole.value[0] == "*" else ATOM
+            )
             return
         nodes = tuple([as_symbol(self.graph, x).node for x in numbers_in(value)])
         self._whole.setdefault((self.unit.structs.of(value), nodes), whole)
@@ -178,7 +82,7 @@ class Statements:
         self._add("raw", (), text)
 
     def variable(self, value: Any, wish: str) -> str:
-        """A variable of a nested value's type, which the caller fills: its name between marks. Its numbers are known."""
+        """A variable of a nested value's type, which the caller fills: its name between marks."""
         name = self._new(wish)
         self._add("call", ((type_name(self.unit.structs.of(value), self.unit.real), name),), "")
         self.know(value, token(name))
@@ -204,9 +108,11 @@ class Statements:
         needed = g.needed(roots, self._text)
         inside = set(needed)
         events: list[tuple[float, Any]] = [(n, n) for n in needed if self._needs_statement(n)]
-        events += [(q.at + 0.5, q) for q in self._groups if q.at + 0.5 not in self._done and inside.issuperset(
-            n for n in q.nodes if self._is_operation(n)
-        )]
+        events += [
+            (q.at + 0.5, q)
+            for q in self._variables.groups
+            if q.at + 0.5 not in self._done and inside.issuperset(n for n in q.nodes if self._variables.is_operation(n))
+        ]
         for at, what in sorted(events, key=lambda event: event[0]):
             if at in self._done:
                 continue
@@ -215,7 +121,9 @@ class Statements:
 
     def _needs_statement(self, node: int) -> bool:
         op = self.graph.ops[node]
-        return node in self._named or (op.startswith("call ") and not self._signature(node).returns_number)
+        return node in self._variables.named or (
+            op.startswith("call ") and not self._variables.signature(node).returns_number
+        )
 
     def _write_node(self, node: int) -> None:
         g = self.graph
@@ -223,7 +131,7 @@ class Statements:
             self._write_call(node)
             return
         text = self.number(node).text
-        name = self._new(self._local.get(node, "v"))
+        name = self._new(self._variables.local.get(node, "v"))
         self._add("value", ((type_name(g.types[node], self.unit.real), name),), text)
         self._text[node] = Expression(token(name), ATOM)
 
@@ -237,13 +145,18 @@ class Statements:
         self.know(group.value, token(name))
 
     def _write_call(self, call: int) -> None:
-        signature = self._signature(call)
+        signature = self._variables.signature(call)
         ends = self.unit.results_of(self.graph, call)
         names = []
         for (wish, like), value in zip(signature.results, ends, strict=True):
             nodes = tuple([x.node for x in numbers_in(value)])
             struct = self.unit.structs.of(like)
-            wish = self._parts.get(nodes, self._local.get(nodes[0], "") if not is_nested(value) else "") or wish
+            wish = (
+                self._variables.parts.get(
+                    nodes, self._variables.local.get(nodes[0], "") if not is_nested(value) else ""
+                )
+                or wish
+            )
             names.append((type_name(struct, self.unit.real), self._new(wish)))
         text = self._call_text(call, [f"&{token(name)}" for _, name in names] if signature.returns_many else [])
         self._add("call" if signature.returns_many else "value", tuple(names), text)
@@ -267,14 +180,14 @@ class Statements:
             return self._text[node]
         if op.startswith("out "):
             call = g.args[node][0]
-            assert self._signature(call).returns_number, f"a result of {op} before its call"
+            assert self._variables.signature(call).returns_number, f"a result of {op} before its call"
             return Expression(self._call_text(call, []), ATOM)
         assert op != "in", f"an input without a place: {g.args[node]}"
         operands = [self.number(a) for a in g.args[node]]
         return expression(op, g.types[node], g.types[g.args[node][0]], operands, self.unit.real)
 
     def _call_text(self, call: int, more: list[str]) -> str:
-        signature, given = self._signature(call), self.graph.args[call]
+        signature, given = self._variables.signature(call), self.graph.args[call]
         every, used = self.unit.laws.given[self.graph, call], iter(given)
         places = set(signature.used)
         nodes = [next(used) if i in places else -1 - n for i, n in enumerate(every)]
@@ -330,4 +243,3 @@ class Statements:
         struct = self.unit.structs.of(part)
         whole = self._whole.get((struct, tuple([n if n >= 0 else -1 - n for n in nodes])))
         return whole.value if whole else self._initialiser(part, nodes)
-

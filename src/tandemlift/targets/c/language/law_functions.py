@@ -1,4 +1,4 @@
-"""The function of C for a traced law: with its Python name, the first line of its docstring and its labels in the paper."""
+"""The function of C for a traced law, with its Python name, what its docstring says first, and its paper labels."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import inspect
 import re
 from typing import Any
 
-from tandemlift.targets.c.function_text import FunctionHead, comment, function
-from tandemlift.targets.c.signatures import Signature, head
-from tandemlift.targets.c.statements import Statements
-from tandemlift.targets.c.unit import Unit
+from tandemlift.targets.c.language.function_text import FunctionHead, comment, function
+from tandemlift.targets.c.language.signatures import Signature, head
+from tandemlift.targets.c.language.statements import Statements
+from tandemlift.targets.c.language.unit import Unit
 
 LABEL = re.compile(r"#\s*(paper: .+)")
 
@@ -43,4 +43,6 @@ def law_function(unit: Unit, number: int) -> str:
         )
     else:
         last = f"return {body.value(signature.results[0].value)};"
-    return function(FunctionHead(comment(description(law.law)), result, signature.name, [*given, *outs]), body.made, last)
+    return function(
+        FunctionHead(comment(description(law.law)), result, signature.name, [*given, *outs]), body.made, last
+    )

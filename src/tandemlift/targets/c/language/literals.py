@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 EPSILON = 2.220446049250313e-16  # of a double; in single precision, that of a float stands in its place
+ROUNDS = 6755399441055744.0, 12582912.0  # adding it rounds to whole numbers: 1.5 · 2⁵², for a float 1.5 · 2²³
 SMALLEST, LARGEST = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
 
@@ -44,6 +45,8 @@ def single(x: float) -> str:
     """The shortest text of the float that stands for a number."""
     if x == EPSILON:
         x = float(np.finfo(np.float32).eps)
+    if abs(x) == ROUNDS[0]:
+        x = math.copysign(ROUNDS[1], x)
     if x:
         x = math.copysign(min(max(abs(x), SMALLEST), LARGEST), x)
     text = str(np.float32(x))

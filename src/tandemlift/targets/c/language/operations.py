@@ -18,7 +18,12 @@ class Expression(NamedTuple):
         return self.text if self.loose <= loosest else f"({self.text})"
 
 
-ARITHMETIC = {"fadd": ("+", SUM, SUM), "fsub": ("-", SUM, SUM), "fmul": ("*", PRODUCT, PRODUCT), "fdiv": ("/", PRODUCT, PRODUCT)}
+ARITHMETIC = {
+    "fadd": ("+", SUM, SUM),
+    "fsub": ("-", SUM, SUM),
+    "fmul": ("*", PRODUCT, PRODUCT),
+    "fdiv": ("/", PRODUCT, PRODUCT),
+}
 WRAPPING = {"add": "+", "sub": "-", "mul": "*", "and": "&", "or": "|", "xor": "^"}
 TRUTHS = {"and": "&&", "or": "||", "xor": "!="}
 COMPARISONS = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "==", "ne": "!="}

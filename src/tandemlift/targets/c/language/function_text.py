@@ -48,7 +48,8 @@ class FunctionHead(NamedTuple):
     @property
     def text(self) -> str:
         """The lines up to the body."""
-        line = f"{'static ' * self.static}{self.result} {self.name}({', '.join(p.replace(' ', JOINED) for p in self.parameters) or 'void'})"
+        given = ", ".join(p.replace(" ", JOINED) for p in self.parameters) or "void"
+        line = f"{'static ' * self.static}{self.result} {self.name}({given})"
         return self.comment + wrapped(line, "")
 
 

@@ -6,14 +6,17 @@ import itertools
 import re
 from collections.abc import Iterable, Iterator
 
-KEYWORDS = """auto break case char const continue default do double else enum extern float for goto if inline int long
-register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while""".split()
-LIBRARY = """abs acos asin atan atan2 bool cbrt ceil cos cosh div erf exp exp2 expm1 fabs false fdim floor fma fmax fmin
-fmod frexp gamma hypot isfinite isinf isnan j0 j1 jn ldexp lgamma log log10 log1p log2 lrint lround memcpy memset
-modf nan nearbyint pow remainder rint round scalbn signbit sin sinh sqrt tan tanh tgamma true trunc y0 y1 yn
-size_t int32_t int64_t uint32_t uint64_t to_integer bits_of number_of shifted_right""".split()
-RESERVED = frozenset([*KEYWORDS, *LIBRARY])
-NO_MEMBER = frozenset([*KEYWORDS, "bool", "true", "false"])
+KEYWORDS = """auto bool break case char const continue default do double else enum extern false float for goto if inline
+int long register restrict return short signed sizeof static struct switch true typedef union unsigned void volatile
+while and catch class delete explicit export friend mutable namespace new not operator or private protected public
+template this throw try typename using virtual xor"""
+LIBRARY = """abs acos asin atan atan2 cbrt ceil cos cosh div erf exp exp2 expm1 fabs fdim floor fma fmax fmin fmod frexp
+gamma
+hypot isfinite isinf isnan j0 j1 jn ldexp lgamma log log10 log1p log2 lrint lround memcpy memset modf nan nearbyint
+pow remainder rint round scalbn signbit sin sinh sqrt tan tanh tgamma trunc y0 y1 yn size_t int32_t int64_t uint32_t
+uint64_t to_integer bits_of number_of shifted_right"""
+NO_MEMBER = frozenset(KEYWORDS.split())
+RESERVED = NO_MEMBER | set(LIBRARY.split())
 
 
 def identifier(name: str) -> str:

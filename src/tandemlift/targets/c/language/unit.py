@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from tandemlift.targets.c.identifiers import Names
-from tandemlift.targets.c.signatures import Signature, signature_of
-from tandemlift.targets.c.structs import Structs
+from tandemlift.targets.c.language.identifiers import Names
+from tandemlift.targets.c.language.signatures import Signature, signature_of
+from tandemlift.targets.c.language.structs import Structs
 from tandemlift.trace import Graph, Symbol
 from tandemlift.trace.structured import Laws, calls_in, numbers_in, with_numbers
 

@@ -1,0 +1,31 @@
+"""The pilot of `iris` in C on a Cortex-M7 under QEMU: the same bits, and what docs/c-target.md says of a sample."""
+
+import re
+
+import numpy as np
+import pytest
+from c_flights import unfused
+from cortex_m7 import closed_loop, measured
+from repository import ROOT
+
+import tandemlift as tl
+from tools import need
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", ["paper", "iris"])
+def test_a_sample_has_the_bits_of_the_native_pilot_and_costs_what_the_guide_says(name, tmp_path):
+    need("arm-none-eabi-gcc", "qemu-system-arm")
+    mission = unfused(tl.load_mission(name))
+    vectors = closed_loop(mission, 40)
+    span = np.ptp([thrusts for *_, thrusts in vectors])
+    guide = (ROOT / "docs" / "c-target.md").read_text("utf-8")
+    for precision in ("double", "single"):
+        found = measured(mission, vectors, tmp_path / precision, precision == "single")
+        if precision == "double":
+            assert found["wrong"] == 0
+        assert found["farthest_uN"] <= 1e3 * span
+        row = re.search(rf"^\| `{name}`, {precision} \|(.*)\|$", guide, re.MULTILINE)[1]
+        said = [int(x.replace(",", "")) for x in re.findall(r"[\d,]+", row)]
+        wanted = [found[key] for key in ("mean", "most", "stack", "flash")]
+        assert said == pytest.approx(wanted, rel=0.1)
