@@ -15,11 +15,15 @@ from typing import Any
 
 import pytest
 from patience import PATIENCE, ended, until
+from screen import Screen
 from websockets.sync.client import connect
 
-FIREFOX = shutil.which("firefox-esr")
-if FIREFOX is None and not os.environ.get("TANDEMLIFT_REQUIRE_ALL"):
-    pytest.skip("Debian's Firefox is not installed", allow_module_level=True)
+FIREFOX, XVFB = shutil.which("firefox-esr"), shutil.which("Xvfb")
+if not (FIREFOX and XVFB) and not os.environ.get("TANDEMLIFT_REQUIRE_ALL"):
+    pytest.skip("Debian's Firefox or Xvfb is not installed", allow_module_level=True)
+
+
+SETTINGS = 'user_pref("webgl.force-enabled", true);\n'  # also without a graphics card
 
 
 class Firefox:
@@ -79,8 +83,11 @@ class Firefox:
 def firefox() -> Iterator[Firefox]:
     """A browser without windows, with a profile of its own."""
     with tempfile.TemporaryDirectory() as profile:
-        command = [FIREFOX or "firefox-esr", "--headless", "--no-remote", "--profile", profile, "--remote-debugging-port=0"]
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        (Path(profile) / "user.js").write_text(SETTINGS, "utf-8")
+        screen = Screen(XVFB or "Xvfb", Path(profile) / "screen")  # without one, Firefox has no WebGL
+        command = [FIREFOX or "firefox-esr", "--no-remote", "--profile", profile, "--remote-debugging-port=0"]
+        environment = os.environ | {"DISPLAY": screen.name, "LIBGL_ALWAYS_SOFTWARE": "1"}
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
         try:
             port = Path(profile) / "WebDriverBiDiServer.json"
             until(lambda: port.exists() and port.read_text().strip().endswith("}"), "a port of Firefox")
@@ -91,3 +98,4 @@ def firefox() -> Iterator[Firefox]:
         finally:
             process.terminate()
             ended(process)
+            screen.close()
