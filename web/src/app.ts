@@ -198,6 +198,7 @@ export class App implements FlightListener, ShellPage {
     // the same picture again would keep the processor from receiving what is new
     if (frame === this.drawn && !this.moved() && now - this.drawnAt <= REDRAW_AFTER) return;
     picture.draw();
+    if (!this.drawn) performance.mark("first picture");
     [this.drawn, this.drawnAt] = [frame, now];
     this.eye.copy(this.stage.camera.matrixWorld);
     this.latency.drawn(frame.scalar("seq"), performance.now());
