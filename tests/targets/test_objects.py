@@ -14,9 +14,9 @@ import tandemlift as tl
 from tandemlift.missions import built_in, changed
 from tandemlift.targets.compiling import compile_mission
 
-SUPPORT = Path(__file__).parents[1] / "support"
+CORTEX = Path(__file__).parent / "cortex_m7"
 CORTEX_M7 = ("-mcpu=cortex-m7", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv5-d16", "--specs=rdimon.specs")
-START = ("-T", str(SUPPORT / "cortex_m7.ld"), str(SUPPORT / "cortex_m7_start.c"))
+START = ("-T", str(CORTEX / "newlib.ld"), str(CORTEX / "newlib_start.c"))
 COMPILERS = {
     "aarch64": ("aarch64-linux-gnu-gcc", "-static"),
     "cortex-m7": ("arm-none-eabi-gcc", *CORTEX_M7, *START),
