@@ -13,7 +13,7 @@ CUSTOM, TYPE, IMPORT, FUNCTION, MEMORY, GLOBAL, EXPORT, CODE, DATA = 0, 1, 2, 3,
 PADDED = 5  # bytes of a number whose value is filled in by a linker
 
 
-class Section(NamedTuple):
+class WasmSection(NamedTuple):
     """A section: its number, its name if it is a custom one, and its content."""
 
     kind: int
@@ -109,7 +109,7 @@ def section(kind: int, body: bytes) -> bytes:
     return bytes([kind]) + unsigned(len(body)) + body
 
 
-def sections(data: bytes) -> Iterator[Section]:
+def sections(data: bytes) -> Iterator[WasmSection]:
     """The sections of a file.
 
     Raises:
@@ -122,4 +122,4 @@ def sections(data: bytes) -> Iterator[Section]:
         kind = reader.byte()
         body = Reader(reader.bytes(reader.unsigned()))
         name = body.name() if kind == CUSTOM else ""
-        yield Section(kind, name, body.data[body.at :])
+        yield WasmSection(kind, name, body.data[body.at :])
