@@ -12,8 +12,8 @@ from repository import ROOT
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
 from tandemlift.controllers import load_controller
-from tandemlift.simulation.pilot_api import INPUT
-from tandemlift.targets.c.write import code_texts, pilot_data, write_c, written
+from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
+from tandemlift.targets.c.write import code_texts, write_c, written
 from tools import need
 
 GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
@@ -31,7 +31,7 @@ class PilotInC:
         subprocess.run([compiler, *STRICT, "-O2", "-shared", "-fPIC", source, "-o", library, "-lm"], check=True)
         self.real = np.float32 if single else np.float64
         name, self.library = source.name.removesuffix("_pilot.c"), ctypes.CDLL(str(library))
-        self.numbers = np.zeros(leaves(pilot_data(mission)), self.real)
+        self.numbers = np.zeros(leaves(pilot_at_start(mission)), self.real)
         self.input = np.zeros(leaves(INPUT), self.real)
         self.thrusts = np.zeros(4 * len(mission.vehicle.quadrotors), self.real)
         self._step = getattr(self.library, f"{name}_pilot_step")
