@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page test lint types imports tests test-pythons test-gazebo bench compare-engines bench-peers lock clean help
+.PHONY: run live page test lint types imports tests test-pythons test-targets test-gazebo bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -44,6 +44,9 @@ tests: .venv/dev ## all tests
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons
+
+test-targets: .venv/dev  ## missions as code for other machines: all built-in ones, compilers, sanitizers, QEMU
+	TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -n auto -m targets tests/targets
 
 test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and RViz; installs them, as root
 	tools/gazebo-root $(GAZEBO_ROOT)

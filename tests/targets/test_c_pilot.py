@@ -162,7 +162,7 @@ def test_in_single_precision_it_flies_within_a_thousandth_of_the_range_of_thrust
     for pilot in (exact, single):
         sim, thrusts = tl.Simulation(mission), []
         for push in pushes[:-1]:
-            thrusts.append(np.float64(pilot.step(np.concatenate([sim.state, push]))))
+            thrusts.append(np.array(pilot.step(np.concatenate([sim.state, push])), float))
             sim.step(thrusts=thrusts[-1])
         flown.append(np.array(thrusts))
     assert np.abs(flown[1] - flown[0]).max() <= 1e-3 * np.ptp(flown[0])
