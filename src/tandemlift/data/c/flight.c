@@ -136,6 +136,12 @@ void mission_flight_start_from(mission_Flight *flight, const mission_FlightModel
 //end delays
 }
 
+void mission_flight_mission(mission_FlightModel *model, mission_Inputs *inputs)
+{
+    *model = START;
+    *inputs = INPUTS;
+}
+
 void mission_flight_start(mission_Flight *flight)
 {
     mission_flight_start_from(flight, &START, &INPUTS);

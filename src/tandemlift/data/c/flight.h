@@ -61,6 +61,9 @@ typedef struct {
 /* The mission's flight before its first step. */
 void mission_flight_start(mission_Flight *flight);
 
+/* The numbers of the mission, and its inputs. */
+void mission_flight_mission(mission_FlightModel *model, mission_Inputs *inputs);
+
 /* A flight of other numbers before its first step; `inputs` must outlive it. */
 void mission_flight_start_from(mission_Flight *flight, const mission_FlightModel *model, const mission_Inputs *inputs);
 

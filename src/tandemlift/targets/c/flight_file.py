@@ -65,6 +65,13 @@ class FlightFile:
         )
 
     @property
+    def traced_tables(self) -> tuple[tuple[str, str, int], ...]:
+        """Name, type and rows of each table that the mission has."""
+        names, kinds = ("pushes", "gusts", "walls", "legs"), (self.file.unit.structs.of(row).name for row in ROWS)
+        rows = zip(names, kinds, map(len, self.assembled.tables), self._has_tables, strict=True)
+        return tuple((name, kind, count) for name, kind, count, has in rows if has and count)
+
+    @property
     def ring_rows(self) -> int:
         """Rows of the delay lines."""
         delays = self.assembled.delays

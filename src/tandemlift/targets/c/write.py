@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tandemlift.assembly.assemble import assemble
+from tandemlift.assembly.traced_assembly import assembled_by_graph, assembled_flight, trace_assembly
 from tandemlift.common.errors import InputError
 from tandemlift.controllers import control
-from tandemlift.kernels.pilot_sampling import PilotData
-from tandemlift.pilot.assemble import start_pilot
+from tandemlift.missions import changed
 from tandemlift.settings import Mission
-from tandemlift.simulation.pilot_api import INPUT
+from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.targets.c.flight_file import FlightFile
 from tandemlift.targets.c.pilot_file import PilotFile
+from tandemlift.targets.c.prepare_file import PrepareFile
 from tandemlift.targets.c.selftests import flight_selftest, native_flight, pilot_selftest
 from tandemlift.targets.c.source_file import SourceFile
-from tandemlift.vehicle import Vehicle
 
 
 def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[Path]:
@@ -50,11 +49,14 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
-    start = pilot_data(mission)
+    mission = changed(mission, "mission.fused", False)
+    start = assembled_by_graph(mission, pilot_at_start)
     given = mission.mission.name, single, mission.mission.step
     file = SourceFile(*given)
     pilot = PilotFile(SourceFile(*given), start, INPUT)
-    flight = FlightFile(SourceFile(*given), assemble(mission), mission.mission.steps, mission.mission.log_every)
+    flight = FlightFile(SourceFile(*given), assembled_flight(mission), mission.mission.steps, mission.mission.log_every)
+    pilot_prepare = PrepareFile(SourceFile(*given), trace_assembly(mission, pilot_at_start), "pilot")
+    flight_prepare = PrepareFile(SourceFile(*given), trace_assembly(mission), "flight")
     how = {"PRECISION": "single" if single else "double"}
     how["COMPARED"] = "within 1e-3 of the range of thrusts" if single else "to the last bit"
     return {
@@ -63,20 +65,18 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
         f"{file.name}_pilot.h": pilot.header(),
         f"{file.name}_flight.c": flight.source(),
         f"{file.name}_flight.h": flight.header(),
+        f"{file.name}_pilot_prepare.c": pilot_prepare.source(),
+        f"{file.name}_pilot_prepare.h": pilot_prepare.header(),
+        f"{file.name}_flight_prepare.c": flight_prepare.source(flight.traced_tables),
+        f"{file.name}_flight_prepare.h": flight_prepare.header(flight.traced_tables),
         "CMakeLists.txt": file.filled("CMakeLists.txt"),
         "README.md": file.filled("README.md", **how),
     }
 
 
-def pilot_data(mission: Mission) -> PilotData:
-    """The numbers of a mission's pilot before its first sample."""
-    parameters, memory = start_pilot(mission, Vehicle.from_settings(mission.vehicle))
-    return PilotData(0.0, memory, parameters)
-
-
 def _interpreted_names(mission: Mission) -> set[str]:
     """The name of the mission's controller, if that is plain Python."""
-    is_python = type(pilot_data(mission).parameters.controller) in control.interpreted
+    is_python = type(pilot_at_start(mission).parameters.controller) in control.interpreted
     return {mission.controller.name} if is_python else set()
 
 

@@ -1,0 +1,25 @@
+/* The flight's numbers from those of the mission "/*@NAME@*/". Written by tandemlift; see README.md. */
+#ifndef MISSION_FLIGHT_PREPARE_H
+#define MISSION_FLIGHT_PREPARE_H
+
+#include "mission_flight.h"
+
+/* Numbers of the mission, each by its key. */
+typedef struct {
+/*@MEMBERS@*/
+} mission_FlightNumbers;
+
+extern const mission_FlightNumbers mission_flight_numbers; /* as in the mission */
+
+/* A flight before its first step, for mission_flight_start_from(flight, &prepared->model, &prepared->inputs). */
+typedef struct {
+    mission_FlightModel model;
+/*@TABLES@*/
+    mission_Inputs inputs;
+} mission_Prepared;
+
+/* 0, or 1 and the number of the first condition that other code would need:
+ * /*@GUARDS@*/ */
+int mission_flight_prepare(const mission_FlightNumbers *numbers, mission_Prepared *prepared);
+
+#endif

@@ -1,0 +1,18 @@
+/* The pilot's numbers from those of the mission "/*@NAME@*/". Written by tandemlift; see README.md. */
+#ifndef MISSION_PILOT_PREPARE_H
+#define MISSION_PILOT_PREPARE_H
+
+#include "mission_pilot.h"
+
+/* Numbers of the mission, each by its key. */
+typedef struct {
+/*@MEMBERS@*/
+} mission_PilotNumbers;
+
+extern const mission_PilotNumbers mission_pilot_numbers; /* as in the mission */
+
+/* The pilot before its first sample. 0, or 1 and the number of the first condition that other code would need:
+ * /*@GUARDS@*/ */
+int mission_pilot_prepare(const mission_PilotNumbers *numbers, mission_PilotData *prepared);
+
+#endif
