@@ -133,6 +133,13 @@ def test_a_controller_in_plain_python_is_refused(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+def test_a_mission_that_changes_while_it_is_flown_is_refused(tmp_path):
+    change = {"key": "admittance.damping", "value": [5.0, 5.0, 5.0], "time": 3.0}
+    with pytest.raises(tl.InputError, match="changes: 1 given, but C flies a mission as it begins"):
+        write_c(tl.load_mission("hover", {"changes": [change]}), tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.mark.targets
 @pytest.mark.parametrize("name", ["paper", "iris", "zigzag", "rotor-loss"])
 def test_the_self_tests_pass_under_sanitizers_and_on_aarch64(name, tmp_path):

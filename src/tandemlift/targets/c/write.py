@@ -31,12 +31,9 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
         The files.
 
     Raises:
-        InputError: the mission's controller is plain Python.
+        InputError: the mission's controller is plain Python, or the mission changes while it is flown.
     """
-    if mission.controller.name in _interpreted_names(mission):
-        name = mission.controller.name
-        way = "register it as a law, without compiled=False"
-        raise InputError(f"controller.name = {name!r}: is plain Python, which C cannot call; {way}")
+    _check(mission)
     texts = code_texts(mission, single)
     unfused, flight = native_flight(mission)
     file = SourceFile(mission.mission.name, single, mission.mission.step)
@@ -74,10 +71,18 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     }
 
 
-def _interpreted_names(mission: Mission) -> set[str]:
-    """The name of the mission's controller, if that is plain Python."""
-    is_python = type(pilot_at_start(mission).parameters.controller) in control.interpreted
-    return {mission.controller.name} if is_python else set()
+def _check(mission: Mission) -> None:
+    """Refuse a mission that cannot be written as C."""
+    if type(pilot_at_start(mission).parameters.controller) in control.interpreted:
+        name = mission.controller.name
+        way = "register it as a law, without compiled=False"
+        raise InputError(f"controller.name = {name!r}: is plain Python, which C cannot call; {way}")
+    if mission.changes:
+        count = len(mission.changes)
+        raise InputError(f"changes: {count} given, but C flies a mission as it begins; remove them")
+    if mission.person.recording:
+        recording = str(mission.person.recording)
+        raise InputError(f"person.recording = {recording!r}: C has no recorded pushes; give them as pushes")
 
 
 def written(texts: dict[str, str], folder: Path) -> list[Path]:
