@@ -16,9 +16,8 @@ from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
 from tandemlift.cli.live import live
-from tandemlift.cli.page import page
+from tandemlift.cli.pages import page, replay
 from tandemlift.cli.render import render
-from tandemlift.cli.replay import replay
 from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run
