@@ -5,11 +5,14 @@ import { Matrix4 } from "three";
 import { ForceInput } from "./hand/force_input.ts";
 import { Grab } from "./hand/grab.ts";
 import type { HandOptions } from "./hand/options.ts";
+import { forgetColors } from "./ui/colors.ts";
 import { byId } from "./ui/dom.ts";
 import { Shell, type ShellPage } from "./ui/shell.ts";
+import { type ThemeChoice, ThemeSwitch } from "./ui/theme.ts";
 import { ChaseCamera, type View } from "./view/camera.ts";
 import { FrameRate, type Graphics, type GraphicsChoice, suitableGraphics } from "./view/graphics.ts";
 import { Label } from "./view/labels.ts";
+import { setPalette, type Theme } from "./view/palette.ts";
 import { type Overlays, Picture } from "./view/picture.ts";
 import { Stage } from "./view/stage.ts";
 import { beamAxis } from "./view/vehicle.ts";
@@ -38,6 +41,9 @@ export class App implements FlightListener, ShellPage {
   readonly camera: ChaseCamera;
   current: Frame | null = null;
   private readonly stage: Stage;
+  private readonly themes = new ThemeSwitch((theme) => {
+    this.recolor(theme);
+  });
   private readonly grab: Grab;
   private readonly force: ForceInput;
   private readonly shell: Shell;
@@ -111,6 +117,14 @@ export class App implements FlightListener, ShellPage {
   setGraphics(choice: GraphicsChoice): void {
     this.choice = choice;
     this.rebuild(choice === "auto" ? suitableGraphics() : choice);
+  }
+
+  get theme(): ThemeChoice {
+    return this.themes.choice;
+  }
+
+  setTheme(choice: ThemeChoice): void {
+    this.themes.choose(choice);
   }
 
   // FlightListener
@@ -200,10 +214,24 @@ export class App implements FlightListener, ShellPage {
   private rebuild(graphics: Graphics): void {
     if (graphics === this.stage.graphics) return;
     this.stage.build(graphics);
+    this.repaint();
+  }
+
+  /** Takes the colours of a theme; the first time before there is a stage. */
+  private recolor(theme: Theme): void {
+    setPalette(theme);
+    forgetColors();
+    (this.stage as Stage | undefined)?.recolor();
+    this.repaint();
+  }
+
+  /** Makes the picture anew, of the same scene. */
+  private repaint(): void {
     if (!this.picture) return;
     const { scene, threshold, stiffness } = this.picture;
     this.picture.remove();
     this.picture = new Picture(scene, this.stage, this.labels);
     Object.assign(this.picture, { threshold, stiffness });
+    this.drawn = null;
   }
 }

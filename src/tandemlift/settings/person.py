@@ -43,9 +43,9 @@ class PersonTable(Table):
     waypoint, when the vehicle is slow, the person asks to land (a pilot with `guidance = "hand"` obeys) and lets go.
 
     Model "grab" is a hand that is moved from outside. It holds on to a point of the vehicle by a spring of `stiffness`
-    and `damping` to a target, smoothed by twice `lag`, or pushes with a given force, always within `max_force`; the
-    other keys do not apply. Its movement is the file `recording`, a NumPy archive (.npz) with `engine` (the engine that
-    was flown in, the default of `tandemlift run`), `step` (n,) int64, rising, and `hand` (n, 14)
+    to a target, smoothed by twice `lag`, brakes that point by `damping`, or pushes with a given force, always within
+    `max_force`; the other keys do not apply. Its movement is the file `recording`, a NumPy archive (.npz) with `engine`
+    (the engine that was flown in, the default of `tandemlift run`), `step` (n,) int64, rising, and `hand` (n, 14)
     float64, which holds from that step on: holding on (1 or 0); grip [m, body axes, from the centre of mass]; its
     target [m] and a force [N], world axes; requests to lift, to land and to stop; whether the vehicle may respond to a
     push.

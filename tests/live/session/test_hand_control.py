@@ -56,7 +56,7 @@ def test_a_key_pushes_with_its_force_and_stops_when_it_is_let_go(session):
     fly(session, 1.0)
     assert seen(session)["push"] == pytest.approx([2.0, 0.0, 0.0], abs=1e-3)
     say(session, "force", force=(0.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
-    fly(session, 1.0)
+    fly(session, 1.5)
     assert np.abs(seen(session)["push"]).max() < 1e-4
 
 

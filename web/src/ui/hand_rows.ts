@@ -46,6 +46,7 @@ function forceInput(options: HandOptions): { input: HTMLInputElement; force: Lim
   return { input, force: { limit } };
 }
 
-function row(name: string, content: HTMLElement): HTMLElement {
+/** A name and what belongs to it, side by side. */
+export function row(name: string, content: HTMLElement): HTMLElement {
   return el("div", { class: "row" }, el("span", {}, name), content);
 }

@@ -11,9 +11,10 @@ import {
   type SceneParameter,
 } from "../wire/messages.generated.ts";
 import { choice, el, icon, toggle } from "./dom.ts";
-import { handRows, type LimitedForce } from "./hand_rows.ts";
+import { handRows, type LimitedForce, row } from "./hand_rows.ts";
 import { ParameterEditor } from "./parameter_editor.ts";
 import { RotorMap } from "./rotor_map.ts";
+import type { ThemeChoice } from "./theme.ts";
 
 const OVERLAYS: Record<Overlay, string> = {
   push: "push",
@@ -30,7 +31,9 @@ export interface PanelPage {
   readonly overlays: Overlays;
   readonly extra: readonly HTMLElement[];
   send(message: PageMessage): void;
+  readonly theme: ThemeChoice;
   setGraphics(choice: GraphicsChoice): void;
+  setTheme(choice: ThemeChoice): void;
 }
 
 export class Panel {
@@ -117,8 +120,11 @@ export class Panel {
     const graphics = choice("Graphics", { auto: "auto", full: "full", light: "light" }, "auto", (value) => {
       this.page.setGraphics(value);
     });
-    const label = el("div", { class: "row" }, el("span", {}, "Graphics"), graphics);
-    return [el("div", { class: "toggles-list" }, ...toggles), label];
+    const themes = { auto: "automatic", light: "light", dark: "dark" };
+    const colours = choice("Colours", themes, this.page.theme, (value) => {
+      this.page.setTheme(value);
+    });
+    return [el("div", { class: "toggles-list" }, ...toggles), row("Graphics", graphics), row("Colours", colours)];
   }
 
   private restoreAll(): HTMLElement {

@@ -2,12 +2,13 @@
 
 import uPlot from "uplot";
 
+import { color, type ColorName } from "./colors.ts";
 import { el } from "./dom.ts";
 import type { Graphics } from "../view/graphics.ts";
 import { SPAN } from "./history.ts";
 
 export interface Curve {
-  color: string;
+  color: ColorName;
   label?: string; // in the legend
   dash?: number[];
   width?: number;
@@ -25,8 +26,10 @@ export interface PlotOptions {
 }
 
 const FONT = "10px system-ui, sans-serif";
-const INK = "#5d6875";
-const HAIR = { stroke: "#e4e8ec", width: 1 };
+const INK = () => color("--soft");
+const HAIR = { stroke: () => color("--grid"), width: 1 };
+const LEAST_AXIS = 34; // pixels, of the axis of values
+const LAST_TIME = "0000 s"; // as wide as a label of time becomes
 
 export class Plot {
   readonly card: HTMLElement;
@@ -79,7 +82,7 @@ function key(curve: Curve, text: string): HTMLElement {
   // one letter is coloured itself; more have a piece of their line
   const named = text.length > 1;
   const mark = el(named ? "i" : "b", { class: curve.dash ? "dashed" : "" }, named ? "" : text);
-  mark.style.color = curve.color;
+  mark.style.color = `var(${curve.color})`;
   return el("span", {}, mark, named ? text : "");
 }
 
@@ -89,7 +92,7 @@ function options(look: PlotOptions): uPlot.Options {
     height: 100,
     legend: { show: false },
     cursor: { show: false },
-    padding: [6, 8, 0, 0],
+    padding: [6, (plot) => Math.ceil(textWidth(plot, [LAST_TIME]) / 2) + 1, 0, 0],
     scales: { x: { time: false }, y: { range: (_, low, high) => span(low, high, look) } },
     axes: [
       {
@@ -101,15 +104,30 @@ function options(look: PlotOptions): uPlot.Options {
         gap: 2,
         values: (_, at) => at.map(seconds),
       },
-      { stroke: INK, font: FONT, grid: HAIR, ticks: { show: false }, size: 34, gap: 3, space: 22 },
+      { stroke: INK, font: FONT, grid: HAIR, ticks: { show: false }, size: axisSize, gap: 3, space: 22 },
     ],
     series: [{}, ...look.curves.map(({ color, dash, width }) => series(color, dash, width))],
     hooks: look.under ? { drawAxes: [look.under] } : {},
   };
 }
 
-function series(stroke: string, dash: number[] | undefined, width = 1.5): uPlot.Series {
-  return { stroke, width, points: { show: false }, ...(dash && { dash }) };
+/** The width that the labels of values need; kept while uPlot comes back to it, so that it comes to an end. */
+function axisSize(plot: uPlot, labels: string[] | null, axis: number, cycle: number): number {
+  if (cycle > 1) return (plot.axes[axis] as { _size?: number })._size ?? LEAST_AXIS;
+  return Math.max(LEAST_AXIS, Math.ceil(textWidth(plot, labels ?? [])) + 7);
+}
+
+/** The width of the widest text [pixels of the page]. */
+function textWidth({ ctx }: uPlot, texts: string[]): number {
+  ctx.save();
+  ctx.font = FONT;
+  const widest = Math.max(0, ...texts.map((text) => ctx.measureText(text).width));
+  ctx.restore();
+  return widest;
+}
+
+function series(name: ColorName, dash: number[] | undefined, width = 1.5): uPlot.Series {
+  return { stroke: () => color(name), width, points: { show: false }, ...(dash && { dash }) };
 }
 
 const seconds = (value: number): string => (value < 0 ? "" : `${value} s`);
@@ -125,13 +143,13 @@ function span(low: number | null, high: number | null, options: PlotOptions): [n
 }
 
 /** A dashed level line across a plot. */
-export function level(plot: uPlot, value: number, color: string): void {
+export function level(plot: uPlot, value: number, name: ColorName): void {
   const y = plot.valToPos(value, "y", true);
   const { left, top, width, height } = plot.bbox;
   if (y < top || y > top + height) return;
   const { ctx } = plot;
   ctx.save();
-  ctx.strokeStyle = color;
+  ctx.strokeStyle = color(name);
   ctx.lineWidth = devicePixelRatio;
   ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
   ctx.beginPath();
@@ -142,15 +160,15 @@ export function level(plot: uPlot, value: number, color: string): void {
 }
 
 /** A coloured band over a stretch of time, with its name. */
-export function band(plot: uPlot, from: number, to: number, color: string, name: string): void {
+export function band(plot: uPlot, from: number, to: number, tint: string, name: string): void {
   const { left, top, width, height } = plot.bbox;
   const place = (time: number) => Math.min(Math.max(plot.valToPos(time, "x", true), left), left + width);
   const [a, b] = [place(from), place(to)];
   const { ctx } = plot;
   ctx.save();
-  ctx.fillStyle = color;
+  ctx.fillStyle = tint;
   ctx.fillRect(a, top, b - a, height);
-  ctx.fillStyle = INK;
+  ctx.fillStyle = INK();
   ctx.textAlign = "left";
   ctx.font = `${10 * devicePixelRatio}px system-ui, sans-serif`;
   if (b - a > ctx.measureText(name).width + 8) ctx.fillText(name, a + 4, top + 11 * devicePixelRatio);

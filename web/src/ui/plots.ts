@@ -6,15 +6,16 @@ import { ahead } from "../view/quadrotor.ts";
 import type { Graphics } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { FlightScene, Vector } from "../wire/messages.generated.ts";
+import type { ColorName } from "./colors.ts";
 import { choice } from "./dom.ts";
 import { History } from "./history.ts";
 import { phaseTint } from "./phases.ts";
 import { band, level, Plot } from "./plot.ts";
 
-const AXES = ["#c8372d", "#2c8a57", "#2f6fb0"];
+const AXES: ColorName[] = ["--axis-x", "--axis-y", "--axis-z"];
 const NAMES = ["x", "y", "z"];
-const FRONTS = ["#e8641b", "#f29a4a", "#b5440a", "#f7b977"];
-const REARS = ["#2f6fb0", "#6ea3d6", "#1b4a7d", "#9cc3e6"];
+const FRONTS: ColorName[] = ["--front-1", "--front-2", "--front-3", "--front-4"];
+const REARS: ColorName[] = ["--rear-1", "--rear-2", "--rear-3", "--rear-4"];
 
 /** A plot, and the columns that it shows. */
 interface PlotWithData {
@@ -61,8 +62,8 @@ export class Plots {
     const pilot = AXES.map((color, i) => ({ color, dash: [4, 3], width: 1, ...(i === 2 && { label: "pilot" }) }));
     const under = (plot: uPlot): void => {
       for (const limit of new Set(this.threshold)) {
-        level(plot, limit, "#8d949e");
-        level(plot, -limit, "#8d949e");
+        level(plot, limit, "--level");
+        level(plot, -limit, "--level");
       }
     };
     const look = { title: "Push", unit: "N", curves: [...pilot, ...actual], least: 1.2, under };
@@ -96,7 +97,7 @@ export class Plots {
     );
     const limits = new Set(quadrotors.flatMap((q) => q.rotors.map((r) => r.max_thrust)));
     const under = (plot: uPlot): void => {
-      for (const limit of limits) level(plot, limit, "#d5281b");
+      for (const limit of limits) level(plot, limit, "--red");
     };
     const labelled = curves.map((c, i) => ({
       ...c,

@@ -26,6 +26,7 @@ import { Panel } from "./panel.ts";
 import { Plots } from "./plots.ts";
 import { SaveDialog } from "./save_dialog.ts";
 import { StatusBar } from "./status_bar.ts";
+import type { ThemeChoice } from "./theme.ts";
 import { Timeline } from "./timeline.ts";
 import { VideoRecorder } from "./video_recorder.ts";
 
@@ -50,7 +51,9 @@ export interface ShellPage {
   send(message: PageMessage): void;
   retry(): void;
   look(view: View): void;
+  readonly theme: ThemeChoice;
   setGraphics(choice: GraphicsChoice): void;
+  setTheme(choice: ThemeChoice): void;
 }
 
 export class Shell {

@@ -15,7 +15,7 @@ import {
   Vector3,
 } from "three";
 
-import { HAND } from "./palette.ts";
+import { palette } from "./palette.ts";
 
 const COILS = 14;
 const WIDTH = 0.035; // m, of the spring's zigzag
@@ -29,11 +29,11 @@ export class HandMarker {
   private readonly places = new Float32Array(3 * (2 * COILS + 2));
 
   constructor() {
-    const paint = new MeshBasicMaterial({ color: HAND, depthTest: false, transparent: true, opacity: 0.9 });
+    const paint = new MeshBasicMaterial({ color: palette.hand, depthTest: false, transparent: true, opacity: 0.9 });
     this.point = new Mesh(new SphereGeometry(0.03, 14, 10), paint);
     this.end = new Mesh(new SphereGeometry(0.022, 12, 8), paint);
     const shape = new BufferGeometry().setAttribute("position", new BufferAttribute(this.places, 3));
-    this.spring = new Line(shape, new LineBasicMaterial({ color: HAND, depthTest: false, transparent: true }));
+    this.spring = new Line(shape, new LineBasicMaterial({ color: palette.hand, depthTest: false, transparent: true }));
     this.spring.frustumCulled = false;
     this.zone.add(...zoneParts());
     this.group.add(this.point, this.end, this.spring, this.zone);
@@ -87,7 +87,7 @@ export class HandMarker {
 
 function zoneParts(): [Mesh, LineSegments] {
   const cube = new BoxGeometry(1, 1, 1);
-  const glass = new MeshBasicMaterial({ color: HAND, transparent: true, opacity: 0.16, depthTest: false });
-  const edge = new LineBasicMaterial({ color: HAND, transparent: true, opacity: 0.8, depthTest: false });
+  const glass = new MeshBasicMaterial({ color: palette.hand, transparent: true, opacity: 0.16, depthTest: false });
+  const edge = new LineBasicMaterial({ color: palette.hand, transparent: true, opacity: 0.8, depthTest: false });
   return [new Mesh(cube, glass), new LineSegments(new EdgesGeometry(cube), edge)];
 }

@@ -1,23 +1,53 @@
 // The colours of the project's pictures.
 
-export const CARBON = "#2b2f36";
 export const METAL = "#8d949e";
 export const SHELL = "#d9dce0";
 export const WOOD = "#c2853f";
 export const FRONT = "#e8641b"; // the rotors of a quadrotor's front half, to show its heading
 export const REAR = "#2f6fb0";
 export const JOINT = "#f0b429";
-export const GUARD = "#5b636e";
-export const PUSH = "#d5281b";
-export const HAND = "#7a3fb5";
-export const PATH = "#1f5fbf";
-export const FLOOR = "#d3d7db";
-export const PALE = "#d9dee2"; // floor and sky of light graphics
-export const LANE = "#e3e6e9";
-export const GRID = "#a9b1ba";
-export const HAZE = "#e9edf1";
-export const ZENITH = "#b4cbe1";
-export const WALL = "#7f8fa3";
-export const FRAME = "#4d5a6b";
-export const WIND = "#2a93b8";
-export const SHADE = "#aeb5bd";
+
+export type Theme = "light" | "dark";
+
+const LIGHT = {
+  carbon: "#2b2f36",
+  guard: "#5b636e",
+  push: "#d5281b",
+  hand: "#7a3fb5",
+  path: "#1f5fbf",
+  wind: "#2a93b8",
+  floor: "#d3d7db",
+  pale: "#d9dee2", // floor and sky of light graphics
+  lane: "#e3e6e9",
+  grid: "#a9b1ba",
+  haze: "#e9edf1",
+  zenith: "#b4cbe1",
+  wall: "#7f8fa3",
+  frame: "#4d5a6b",
+  shade: "#aeb5bd",
+};
+
+const DARK: typeof LIGHT = {
+  carbon: "#5c6672",
+  guard: "#8b95a1",
+  push: "#ff5f52",
+  hand: "#c08cff",
+  path: "#6ea8ff",
+  wind: "#4fc3e8",
+  floor: "#262d35",
+  pale: "#20272f",
+  lane: "#303944",
+  grid: "#56626f",
+  haze: "#1d242c",
+  zenith: "#0c1118",
+  wall: "#6f8299",
+  frame: "#9fb0c4",
+  shade: "#11161b",
+};
+
+/** The colours that differ between the themes, as they are now; a picture takes them when it is built. */
+export const palette = { ...LIGHT };
+
+export function setPalette(theme: Theme): void {
+  Object.assign(palette, theme === "dark" ? DARK : LIGHT);
+}

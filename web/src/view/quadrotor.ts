@@ -3,7 +3,7 @@
 import type { BufferGeometry } from "three";
 
 import type { SceneQuadrotor } from "../wire/messages.generated.ts";
-import { CARBON, FRONT, GUARD, JOINT, METAL, REAR, SHELL } from "./palette.ts";
+import { FRONT, JOINT, METAL, REAR, SHELL, palette } from "./palette.ts";
 import { at, ball, box, lathe, type Place, ring, rod, strut } from "./shapes.ts";
 
 const POSTS = 12; // of a guard
@@ -40,14 +40,14 @@ function shell(size: number, sides: number): BufferGeometry[] {
     at(0.36 * size, 0, 0.03 * size),
     at(0.52 * size, 0, 0.03 * size),
     0.1 * size,
-    CARBON,
+    palette.carbon,
     sides,
     0.06 * size,
   );
   const lens = ball(at(0.52 * size, 0, 0.03 * size), 0.06 * size, "#15181d", sides);
-  const battery = box(at(0, 0, -0.2 * size), [0.5 * size, 0.26 * size, 0.12 * size], CARBON);
+  const battery = box(at(0, 0, -0.2 * size), [0.5 * size, 0.26 * size, 0.12 * size], palette.carbon);
   const light = ball(at(-0.2 * size, 0, 0.2 * size), 0.035 * size, JOINT, sides);
-  return [lathe(profile, SHELL, sides), lathe(band, CARBON, sides), nose, lens, battery, light];
+  return [lathe(profile, SHELL, sides), lathe(band, palette.carbon, sides), nose, lens, battery, light];
 }
 
 /** Booms out to the guard, with a motor and a coloured hub under each rotor. */
@@ -60,9 +60,9 @@ function arms(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGeo
     const color = ahead(quadrotor, i) ? FRONT : REAR;
     const hub = hubHeight(quadrotor, i);
     return [
-      strut(center, center.clone().addScaledVector(outward, reach), 0.05 * size, CARBON, sides),
+      strut(center, center.clone().addScaledVector(outward, reach), 0.05 * size, palette.carbon, sides),
       rod(lifted(foot, -0.05 * size), at(foot.x, foot.y, hub - 0.08 * size), 0.1 * size, METAL, sides),
-      rod(at(foot.x, foot.y, hub - 0.08 * size), at(foot.x, foot.y, hub), 0.085 * size, CARBON, sides),
+      rod(at(foot.x, foot.y, hub - 0.08 * size), at(foot.x, foot.y, hub), 0.085 * size, palette.carbon, sides),
       rod(at(foot.x, foot.y, hub), at(foot.x, foot.y, hub + 0.05 * size), 0.05 * size, color, sides, 0.025 * size),
     ];
   });
@@ -76,9 +76,9 @@ function guard(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGe
   const posts = Array.from({ length: POSTS }, (_, i) => {
     const turn = (2 * Math.PI * i) / POSTS;
     const way = at(radius * Math.cos(turn), radius * Math.sin(turn), 0);
-    return strut(low.clone().add(way), high.clone().add(way), 0.013 * size, GUARD, Math.min(sides, 5));
+    return strut(low.clone().add(way), high.clone().add(way), 0.013 * size, palette.guard, Math.min(sides, 5));
   });
-  return [ring(low, radius, 0.035 * size, GUARD, sides), ring(high, radius, 0.018 * size, GUARD, sides), ...posts];
+  return [ring(low, radius, 0.035 * size, palette.guard, sides), ring(high, radius, 0.018 * size, palette.guard, sides), ...posts];
 }
 
 function legs(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGeometry[] {
@@ -94,7 +94,7 @@ function legs(quadrotor: SceneQuadrotor, size: number, sides: number): BufferGeo
   return corners.flatMap(([x, y]) => {
     const foot = at(across * x, across * y, 0.05 * size - depth).add(center);
     const knee = at(0.5 * across * x, 0.5 * across * y, -0.05 * size).add(center);
-    return [strut(knee, foot, 0.03 * size, CARBON, sides), ball(foot, 0.05 * size, CARBON, sides)];
+    return [strut(knee, foot, 0.03 * size, palette.carbon, sides), ball(foot, 0.05 * size, palette.carbon, sides)];
   });
 }
 

@@ -20,7 +20,7 @@ import {
 
 import type { FlightScene } from "../wire/messages.generated.ts";
 import type { Graphics } from "./graphics.ts";
-import { CARBON, FRONT, REAR } from "./palette.ts";
+import { FRONT, REAR, palette } from "./palette.ts";
 import { ahead, hubHeight } from "./quadrotor.ts";
 
 const TURN = 26; // rad/s as shown at full thrust; the true speed would be a blur
@@ -60,7 +60,7 @@ export class Rotors {
       })),
     );
     const sides = graphics === "full" ? 12 : 6;
-    this.blades = this.instances(bladePair(), new MeshLambertMaterial({ color: CARBON, side: DoubleSide }));
+    this.blades = this.instances(bladePair(), new MeshLambertMaterial({ color: palette.carbon, side: DoubleSide }));
     this.discs = this.instances(new CircleGeometry(1, 28), seenThrough(0.26, true));
     this.shafts = this.instances(onFoot(new CylinderGeometry(1, 1, 1, sides)), seenThrough(0.85));
     this.heads = this.instances(onFoot(new ConeGeometry(1, 1, sides)), seenThrough(0.85));

@@ -2,7 +2,7 @@
 
 import { type BufferGeometry, Matrix4, Mesh, MeshBasicMaterial, type Object3D, Vector3 } from "three";
 
-import { SHADE } from "./palette.ts";
+import { palette } from "./palette.ts";
 
 export const SUN = new Vector3(0.35, -0.42, 0.84).normalize();
 
@@ -11,7 +11,7 @@ export class FlatShadow {
   private readonly press: Matrix4;
 
   constructor(solid: BufferGeometry, floor: number) {
-    this.mesh = new Mesh(solid, new MeshBasicMaterial({ color: SHADE }));
+    this.mesh = new Mesh(solid, new MeshBasicMaterial({ color: palette.shade }));
     this.mesh.matrixAutoUpdate = false;
     this.mesh.frustumCulled = false;
     const [x, y] = [SUN.x / SUN.z, SUN.y / SUN.z];

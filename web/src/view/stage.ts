@@ -13,7 +13,7 @@ import {
 } from "three";
 
 import type { Graphics } from "./graphics.ts";
-import { HAZE, PALE } from "./palette.ts";
+import { palette } from "./palette.ts";
 import { SUN } from "./shadow.ts";
 
 const LIGHT_RATIO = 0.75; // pixels of the picture per pixel of the page, in light graphics
@@ -24,7 +24,7 @@ export class Stage {
   canvas!: HTMLCanvasElement;
   private renderer!: WebGLRenderer;
   private readonly sun = new DirectionalLight("#fffaf3", 2.3);
-  private readonly fog = new Fog(HAZE, 20, 60);
+  private readonly fog = new Fog(palette.haze, 20, 60);
 
   constructor(
     private readonly surface: HTMLElement,
@@ -47,8 +47,7 @@ export class Stage {
   build(graphics: Graphics): void {
     this.graphics = graphics;
     const full = graphics === "full";
-    this.scene.background = new Color(full ? HAZE : PALE);
-    this.fog.color.set(full ? HAZE : PALE);
+    this.recolor();
     const renderer = rendererOf(full);
     renderer.shadowMap.enabled = this.sun.castShadow = full;
     renderer.shadowMap.type = PCFShadowMap;
@@ -63,6 +62,13 @@ export class Stage {
     this.canvas = renderer.domElement;
     this.surface.prepend(this.canvas);
     this.resize();
+  }
+
+  /** Takes the colours of the palette for what is far away. */
+  recolor(): void {
+    const far = this.graphics === "full" ? palette.haze : palette.pale;
+    this.scene.background = new Color(far);
+    this.fog.color.set(far);
   }
 
   /** Draws the surroundings of a vehicle of a reach [m]. */

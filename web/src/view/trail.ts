@@ -3,7 +3,7 @@
 import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, LineSegments } from "three";
 
 import type { Vector } from "../wire/messages.generated.ts";
-import { PATH } from "./palette.ts";
+import { palette } from "./palette.ts";
 
 const KEPT = 600;
 const STEP = 0.03; // m between points
@@ -15,7 +15,7 @@ export class Trail {
 
   constructor() {
     const shape = new BufferGeometry().setAttribute("position", new BufferAttribute(this.places, 3));
-    this.line = new Line(shape, new LineBasicMaterial({ color: PATH, transparent: true, opacity: 0.75 }));
+    this.line = new Line(shape, new LineBasicMaterial({ color: palette.path, transparent: true, opacity: 0.75 }));
     this.line.frustumCulled = false;
     this.clear();
   }
@@ -43,7 +43,7 @@ export class Plumb {
 
   constructor(private readonly floor: number) {
     const shape = new BufferGeometry().setAttribute("position", new BufferAttribute(this.ends, 3));
-    this.line = new LineSegments(shape, new LineBasicMaterial({ color: PATH, transparent: true, opacity: 0.5 }));
+    this.line = new LineSegments(shape, new LineBasicMaterial({ color: palette.path, transparent: true, opacity: 0.5 }));
     this.line.frustumCulled = false;
   }
 

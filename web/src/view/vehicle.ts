@@ -13,7 +13,7 @@ import {
 
 import type { FlightScene, Quaternion, ScenePayload, SceneQuadrotor, Vector } from "../wire/messages.generated.ts";
 import type { Graphics } from "./graphics.ts";
-import { CARBON, JOINT, METAL, PATH, WOOD } from "./palette.ts";
+import { JOINT, METAL, WOOD, palette } from "./palette.ts";
 import { quadrotorParts } from "./quadrotor.ts";
 import { Rotors } from "./rotors.ts";
 import { at, rod, strut, together } from "./shapes.ts";
@@ -55,7 +55,7 @@ export class Vehicle {
 /** The reference pose: transparent, and visible only where it is off the vehicle. */
 export class Ghost {
   readonly group = new Group();
-  private readonly veil = new MeshBasicMaterial({ color: PATH, transparent: true, depthWrite: false });
+  private readonly veil = new MeshBasicMaterial({ color: palette.path, transparent: true, depthWrite: false });
 
   constructor(solid: BufferGeometry) {
     const depth = new Mesh(solid, new MeshBasicMaterial({ colorWrite: false, transparent: true }));
@@ -89,7 +89,7 @@ function beamParts(payload: ScenePayload, sides: number): BufferGeometry[] {
   const { from, to, radius } = beamAxis(payload);
   const ends = [from, to].map((end) => {
     const cap = 0.012;
-    return rod(at(end[0], end[1] - cap, end[2]), at(end[0], end[1] + cap, end[2]), 1.12 * radius, CARBON, 2 * sides);
+    return rod(at(end[0], end[1] - cap, end[2]), at(end[0], end[1] + cap, end[2]), 1.12 * radius, palette.carbon, 2 * sides);
   });
   return [rod(at(...from), at(...to), radius, WOOD, 2 * sides), ...ends];
 }

@@ -21,7 +21,7 @@ import {
 import type { FlightScene, SceneWall } from "../wire/messages.generated.ts";
 import type { Graphics } from "./graphics.ts";
 import { together } from "./shapes.ts";
-import { FLOOR, FRAME, GRID, HAZE, LANE, WALL, ZENITH } from "./palette.ts";
+import { palette } from "./palette.ts";
 
 const EXTENT = 30; // m, half of the grid that moves with the vehicle
 const NEAR = 15; // m, half of the fine lines of light graphics
@@ -68,13 +68,13 @@ class Walls {
     const boxes = walls.map((wall) => new BoxGeometry(...wall.size).rotateZ(wall.heading).translate(...wall.center));
     const edges = together(boxes.map((box) => new EdgesGeometry(box)));
     const shape = together(boxes);
-    const { r, g, b } = new Color(WALL);
+    const { r, g, b } = new Color(palette.wall);
     const colors = Array.from({ length: CORNERS * walls.length }, () => [r, g, b, CLOUDY]).flat();
     this.paint = new BufferAttribute(new Float32Array(colors), 4);
     shape.setAttribute("color", this.paint);
     const look = { vertexColors: true, transparent: true, depthWrite: false };
     const glass = graphics === "light" ? new MeshBasicMaterial(look) : new MeshLambertMaterial(look);
-    this.parts = [new Mesh(shape, glass), new LineSegments(edges, new LineBasicMaterial({ color: FRAME }))];
+    this.parts = [new Mesh(shape, glass), new LineSegments(edges, new LineBasicMaterial({ color: palette.frame }))];
     this.parts[0].renderOrder = 2;
     this.places = walls.map(({ center, size, heading }) => {
       const [x, y] = size[0] < size[1] ? [1, 0] : [0, 1];
@@ -99,7 +99,7 @@ class Walls {
 function floor(): Mesh {
   const size = 6 * EXTENT;
   // nothing is below it, so it needs no depth
-  const mesh = new Mesh(new PlaneGeometry(size, size), new MeshLambertMaterial({ color: FLOOR, depthWrite: false }));
+  const mesh = new Mesh(new PlaneGeometry(size, size), new MeshLambertMaterial({ color: palette.floor, depthWrite: false }));
   mesh.receiveShadow = true;
   mesh.renderOrder = -2;
   return mesh;
@@ -112,7 +112,7 @@ function floor(): Mesh {
 function grid(near: number): LineSegments {
   const ends: number[] = [];
   const colors: number[] = [];
-  const { r, g, b } = new Color(GRID);
+  const { r, g, b } = new Color(palette.grid);
   for (let i = -EXTENT; i <= EXTENT; i++) {
     const bold = i % COARSE === 0;
     for (let j = -EXTENT; j < EXTENT; j += PIECE) {
@@ -144,7 +144,7 @@ function lane(scene: FlightScene, graphics: Graphics): Mesh {
   shape.setAttribute("position", new BufferAttribute(new Float32Array(corners), 3));
   shape.setIndex(faces);
   shape.computeVertexNormals();
-  const look = { color: LANE, depthWrite: false };
+  const look = { color: palette.lane, depthWrite: false };
   const mesh = new Mesh(shape, graphics === "light" ? new MeshBasicMaterial(look) : new MeshLambertMaterial(look));
   mesh.receiveShadow = graphics === "full";
   mesh.position.z = scene.floor;
@@ -168,7 +168,7 @@ function mitre(line: [number, number][], i: number, half: number): [number, numb
 function sky(): Mesh {
   const shape = new SphereGeometry(300, 24, 16).rotateX(Math.PI / 2);
   const places = shape.getAttribute("position");
-  const [low, high] = [new Color(HAZE), new Color(ZENITH)];
+  const [low, high] = [new Color(palette.haze), new Color(palette.zenith)];
   const colors = Array.from({ length: places.count }, (_, i) => {
     const height = Math.min(Math.max(places.getZ(i) / 300, 0), 1);
     return low.clone().lerp(high, Math.sqrt(height)).toArray();

@@ -1,10 +1,17 @@
 """A hand that is moved from outside: it pulls the body by a spring, or pushes it with a given force.
 
-target, from outside → low-pass → place of the hand → spring and damper → force at the grip, bounded
+target, from outside → low-pass → place of the hand → spring, with a damper of the grip → force at the grip, bounded
 
 The spring is a part of the loop, so that a recorded hand gives the same flight again, to the last bit. The target is
-smoothed, because a mouse moves in steps and the damper would pass them on; so are grasp and release. World axes; the
-grip is a point of the body. The input also has requests to lift, to land and to stop.
+smoothed, because a mouse moves in steps; so are grasp and release. World axes; the grip is a point of the body. The
+input also has requests to lift, to land and to stop.
+
+The damper c brakes the grip's own velocity, not that relative to the hand, as a viscous medium at rest would. Between
+hand and grip it would lead: a target x pulls a grip at rest by (k + c s) x, above k/c = 3 rad/s in proportion to the
+mouse's velocity, at 3 Hz six times as hard as the spring k. A vehicle with wide arms has to roll for a push across
+them, which takes up to 5 N of thrust at a rotor per newton at 2 to 8 Hz. Here a target pulls by k x at most, at any
+frequency, and the damping of the coupled motion is the same: M s² + c s + k. The price is that in a steady drag at
+velocity v the grip trails by c v/k more.
 
 Source: virtual coupling, Colgate, Stanley and Brown, Issues in the haptic display of tool use, 1995.
 """
@@ -85,8 +92,7 @@ def pull_by(k: VirtualHand, m: VirtualHandState, state: State) -> Any:
         k.lag, start_place(h, m, now.grip, now.grip_velocity), h.target * h.held + now.grip * (1.0 - h.held)
     )
     grasp, force = low_pass_step(k.lag, m.grasp, h.held), low_pass_step(k.lag, m.force, h.force)
-    reach, slip = place.value - now.grip, place.rate - now.grip_velocity
-    spring = (reach * k.stiffness + slip * k.damping) * grasp.value
+    spring = ((place.value - now.grip) * k.stiffness - now.grip_velocity * k.damping) * grasp.value
     push = bounded(spring + force.value, k.max_force)
     after = VirtualHandState(
         place, grasp, force, holding=h.held, lift=h.lift, land=h.land, stop=h.stop, enabled=h.enabled

@@ -11,7 +11,7 @@ from tandemlift.missions import Mission, changed
 
 MAX_DURATION = 3600.0  # s
 NEVER = 1e6  # s
-SPRING = {"model": "grab", "stiffness": 6.0, "damping": 2.0, "lag": 0.06, "max_force": 4.0}  # N/m, N s/m, s, N
+SPRING = {"model": "grab", "stiffness": 6.0, "damping": 2.0, "lag": 0.08, "max_force": 4.0}  # N/m, N s/m, s, N
 FAINT_TURBULENCE = 1e-3  # m/s: the mission has a wind, which can be raised in flight
 
 
