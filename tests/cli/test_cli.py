@@ -104,7 +104,7 @@ def test_the_version_is_told(run):
             ("rnu", "paper"),
             [
                 "No such command 'rnu'",
-                "run, compare, render, live, page, replay, gazebo, ros, validate, linearize, export, compile, report, mi",
+                "run, compare, render, live, page, replay, gazebo, ros, validate, linearize, export, compile,",
                 "Did you mean 'run'?",
             ],
         ),

@@ -65,7 +65,12 @@ class Firefox:
         """Press, move in some pieces, and stay pressed."""
         x, y = start
         moves = [
-            {"type": "pointerMove", "x": round(x + way[0] * i / pieces), "y": round(y + way[1] * i / pieces), "duration": 25}
+            {
+                "type": "pointerMove",
+                "x": round(x + way[0] * i / pieces),
+                "y": round(y + way[1] * i / pieces),
+                "duration": 25,
+            }
             for i in range(1, pieces + 1)
         ]
         press = [{"type": "pointerMove", "x": round(x), "y": round(y)}, {"type": "pointerDown", "button": 0}]

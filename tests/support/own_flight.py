@@ -79,4 +79,3 @@ class OwnFlight:
     def close(self) -> None:
         """End Node.js."""
         self._node.communicate()
-

@@ -15,6 +15,7 @@ import { OwnFlight } from "./flight/client.ts";
 import { embeddedIndex, newWorker, obstacle } from "./flight/embedded.ts";
 import { readLink } from "./flight/link.ts";
 import type { FlightIndex } from "./flight/manifest.ts";
+import { byId } from "./ui/dom.ts";
 import { missionMenu, ownFlightGroup, showMission } from "./ui/own_flight.ts";
 import { Connection, socketAddress } from "./wire/connection.ts";
 import { embeddedReplay } from "./wire/replay.ts";
@@ -47,7 +48,19 @@ function watch(sentence: string): void {
   if (sentence) app.explain(sentence);
 }
 
-const index = embeddedIndex();
-const sentence = index ? obstacle(index) : "";
-if (index && !sentence) fly(index);
-else watch(sentence);
+/** Says why there is no picture. */
+function explainNoPicture(error: unknown): void {
+  byId("mode").textContent = "no picture";
+  byId("hint").hidden = false;
+  byId("hint").textContent = "This browser shows no 3D graphics (WebGL), which the page needs.";
+  console.error(error);
+}
+
+try {
+  const index = embeddedIndex();
+  const sentence = index ? obstacle(index) : "";
+  if (index && !sentence) fly(index);
+  else watch(sentence);
+} catch (error) {
+  explainNoPicture(error);
+}

@@ -17,11 +17,11 @@ from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
 from tandemlift.cli.linearize import linearize
 from tandemlift.cli.live import live
-from tandemlift.cli.page import page
+from tandemlift.cli.pages import page, replay
 from tandemlift.cli.render import render
+from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run
-from tandemlift.cli.saved_flights import replay, report
 from tandemlift.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
 from tandemlift.cli.validate import validate
 from tandemlift.common.errors import FlightWarning, InputError, suggestion

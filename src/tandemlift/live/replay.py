@@ -68,4 +68,3 @@ def _stride(time: Array) -> int:
         return 1
     interval = float(np.median(np.diff(time)))
     return max(1, math.ceil(1.0 / (RATE * interval) - 1e-6), math.ceil(len(time) / MAX_FRAMES))
-

@@ -10,18 +10,23 @@ from typing import Any, Literal
 from pydantic_core import to_json
 from websockets.asyncio.server import ServerConnection, broadcast
 
-from tandemlift.live.wire.page_messages import ForceMessage, GrabMessage, MoveMessage, PageMessage, ReleaseMessage
+from tandemlift.live.wire.frames import ECHO, FRESH
+from tandemlift.live.wire.page_messages import (
+    SILENT,
+    ForceMessage,
+    GrabMessage,
+    MoveMessage,
+    PageMessage,
+    ReleaseMessage,
+)
 from tandemlift.live.wire.reading import Refusal
 from tandemlift.live.wire.server_messages import FlightStatus, RefusedMessage, StatusMessage
 
 BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is behind
 LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
-SILENT = 2.0  # s without a message, after which a page that holds the beam counts as hung
 MAX_MESSAGES = 2_000  # a second; a page sends about a hundred
 FAREWELL = 1.0  # s, for pages to close their connections
 MAX_REFUSALS = 20  # a second
-ECHO = 0.003  # s, within which the flight has followed a move
-FRESH = 0.012  # s after an echo, in which a page needs no other frame
 
 
 def text_of(what: Mapping[str, Any]) -> str:

@@ -25,9 +25,7 @@ def opened(flight, settings=None):
 
 
 def failure_of(flight):
-    (said,) = opened(flight)
-    assert said["phase"] == "failed"
-    return said["preparing"]["failure"]
+    return [said["preparing"]["failure"] for said in opened(flight) if said["phase"] == "failed"]
 
 
 # damaged flights
@@ -35,9 +33,9 @@ def failure_of(flight):
 
 @pytest.mark.parametrize("cut", [10, 1000, -1])
 def test_a_flight_that_was_cut_short_is_refused(hover, cut):
-    assert failure_of(hover._replace(data=hover.data[:cut])).startswith("broken")
+    assert failure_of(hover._replace(data=hover.data[:cut]))[0].startswith("broken")
     whole = gzip.decompress(hover.data)
-    assert failure_of(hover._replace(data=gzip.compress(whole[:cut]))) == "broken"
+    assert failure_of(hover._replace(data=gzip.compress(whole[:cut]))) == ["broken"]
 
 
 def test_a_flight_with_one_bit_changed_is_refused_wherever_it_is(hover):
@@ -45,12 +43,12 @@ def test_a_flight_with_one_bit_changed_is_refused_wherever_it_is(hover):
     for at in np.random.default_rng(1).integers(len(whole), size=5):
         edited = bytearray(whole)
         edited[at] ^= 1 << int(at) % 8
-        assert failure_of(hover._replace(data=gzip.compress(bytes(edited)))) == "broken"
+        assert failure_of(hover._replace(data=gzip.compress(bytes(edited)))) == ["broken"]
 
 
 def test_a_flight_of_another_version_is_refused(hover, monkeypatch):
     monkeypatch.setitem(INDEX, "version", "0.0.1")
-    assert failure_of(hover) == "other"
+    assert failure_of(hover) == ["other"]
 
 
 # links

@@ -28,8 +28,8 @@ from tandemlift.live.session.tunable_parameters import (
     keys_of,
     parameters_of,
 )
-from tandemlift.live.viewers import ECHO, FRESH, SILENT
-from tandemlift.live.wire.frames import RATE
+from tandemlift.live.wire.frames import ECHO, FRESH, RATE
+from tandemlift.live.wire.page_messages import SILENT
 from tandemlift.live.wire.scene import SceneParameter
 from tandemlift.missions import Mission, changed, tables_of
 from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
@@ -152,4 +152,3 @@ def _texts(mission: Mission, rule: checks.TouchRule) -> dict[str, Any]:
         "name": name_rule()[1],
         "only_server": ONLY_SERVER,
     }
-

@@ -10,11 +10,13 @@ from __future__ import annotations
 import gzip
 import hashlib
 import json
+import warnings
 from collections.abc import Callable, Iterable
 from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tandemlift.common.errors import FlightWarning
 from tandemlift.common.files import atomic_write
 from tandemlift.live.offline.page_functions import page_functions
 from tandemlift.live.offline.page_manifest import page_manifest
@@ -47,13 +49,17 @@ class PackedFlight(NamedTuple):
 
 def page_mission(name: str) -> Mission:
     """A mission as a page flies it: pushed by hand, and rounded alike on every machine."""
-    return changed(interactive_mission(load_mission(name)), "mission.fused", False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)
+        return changed(interactive_mission(load_mission(name)), "mission.fused", False)
 
 
 def flight_manifest(mission: Mission) -> tuple[dict[str, Any], bytes]:
     """The manifest of a page's flight, and its module."""
-    module = module_of(mission, "wasm32", page_functions)
-    page = page_manifest(FlightPlan(mission))
+    with warnings.catch_warnings():  # rotors that may fail raise warnings of their own
+        warnings.simplefilter("ignore", FlightWarning)
+        module = module_of(mission, "wasm32", page_functions)
+        page = page_manifest(FlightPlan(mission))
     manifest = {"format": FORMAT, "version": metadata.version("tandemlift"), "module": module.manifest, "page": page}
     return manifest, module.code
 

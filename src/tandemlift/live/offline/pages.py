@@ -35,9 +35,7 @@ NO_MODULE = (
 )
 BROKEN = "the flight in this page is damaged: its checksum is wrong. Get the page again."
 OTHER_VERSION = "the flight in this page was made by another version than the page. Get the page again."
-_COMMON = (
-    "style-src 'self' 'unsafe-inline'; img-src data: blob:; media-src blob:; base-uri 'none'; form-action 'none'"
-)
+_COMMON = "style-src 'self' 'unsafe-inline'; img-src data: blob:; media-src blob:; base-uri 'none'; form-action 'none'"
 IN_FILES = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; " + _COMMON
 IN_ONE_FILE = "default-src 'none'; script-src 'sha256-{script}' 'wasm-unsafe-eval'; worker-src blob:; " + _COMMON
 

@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 RATE = 60  # frames a second, at most
+ECHO = 0.003  # s, within which the flight has followed a move
+FRESH = 0.012  # s after an echo, in which a page needs no other frame
 
 
 class FrameField(NamedTuple):

@@ -11,6 +11,8 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from tandemlift.live.wire.quantities import BodyPoint, Key, NewValue, Number, SaveName, WorldForce, WorldPoint
 
+SILENT = 2.0  # s without a message, after which a page that holds the beam counts as hung
+
 
 class NumberedMessage(BaseModel):
     """What all messages of a page have in common."""
