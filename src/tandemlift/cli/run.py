@@ -63,7 +63,8 @@ def run(
 ) -> None:
     """Fly MISSION, print a summary and write the results.
 
-    MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file.
+    MISSION is a built-in mission (see `tandemlift missions`), the path of a .toml file, or a flight that a page saved
+    (.zip).
 
     \b
     Examples:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from tandemlift.common.errors import InputError, suggestion, unknown
 from tandemlift.flight.old_names import renamed_tables, warn_of_old_names
+from tandemlift.missions.recording import unpacked_recording
 from tandemlift.missions.values import MISSING, Tables, merge, shown, value_at
 
 DATA = Path(__file__).resolve().parent.parent / "data"
@@ -33,17 +34,17 @@ def built_in() -> Mapping[str, str]:
 
 
 def path_of(name: str | os.PathLike[str], folder: Path) -> Path:
-    """The file of a built-in mission, or the path given, relative to a folder."""
+    """The file of a built-in mission, or the path given, relative to a folder; of a saved flight (.zip) its mission."""
     if isinstance(name, str) and name in built_in():
         return DATA / "missions" / f"{name}.toml"
-    if isinstance(name, str) and not name.endswith(".toml") and not re.search(r"[/\\]", name):
+    if isinstance(name, str) and not name.endswith((".toml", ".zip")) and not re.search(r"[/\\]", name):
         raise InputError(f"{unknown('mission', name, built_in())} The name of a file of your own ends in .toml.")
     path = folder / name
     if path.is_dir():
         raise InputError(f"{path} is a folder, not a mission file")
     if not path.exists():
         raise InputError(f"mission file {path} does not exist.{suggestion(path.stem, built_in())}")
-    return path
+    return unpacked_recording(path, path.stat().st_mtime_ns) if path.suffix == ".zip" else path
 
 
 @functools.lru_cache(maxsize=32)

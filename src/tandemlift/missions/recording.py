@@ -7,6 +7,10 @@ recorded in ("compiled" where there is none).
 
 from __future__ import annotations
 
+import atexit
+import functools
+import shutil
+import tempfile
 import zipfile
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,6 +24,8 @@ from tandemlift.settings import Mission
 
 WIDTH = 14  # numbers of a `VirtualHandInput`
 ENGINE = "compiled"  # the default engine
+MISSION_FILE, HAND_FILE = "recorded.toml", "hand.npz"  # of a saved flight
+MAX_UNPACKED = 200_000_000  # bytes of one of them
 
 
 class Recording(NamedTuple):
@@ -60,6 +66,30 @@ def _check(path: str, recording: Recording) -> None:
         raise InputError(f"person.recording = {path!r}: `step` must be int64 (n,), rising from 0 or more")
     if hands.dtype != np.float64 or hands.shape != (steps.size, WIDTH) or not np.isfinite(hands).all():
         raise InputError(f"person.recording = {path!r}: `hand` must be finite float64 ({steps.size}, {WIDTH})")
+
+
+@functools.lru_cache(maxsize=32)
+def unpacked_recording(path: Path, changed: int) -> Path:
+    """The mission of a flight that a page saved as a .zip file, unpacked until the process ends.
+
+    Args:
+        path: of the file.
+        changed: when it was changed last [ns].
+
+    Raises:
+        InputError: the file is not a saved flight.
+    """
+    folder = Path(tempfile.mkdtemp(prefix="tandemlift-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    try:
+        with zipfile.ZipFile(path) as archive:
+            for name in (MISSION_FILE, HAND_FILE):
+                if archive.getinfo(name).file_size > MAX_UNPACKED:
+                    raise InputError(f"{path}: {name} in it is larger than {MAX_UNPACKED} bytes")
+                (folder / name).write_bytes(archive.read(name))
+    except (KeyError, RuntimeError, NotImplementedError, zipfile.BadZipFile) as error:
+        raise InputError(f"{path} is not a flight that a page saved: {error}") from None
+    return folder / MISSION_FILE
 
 
 def engine_of(mission: Mission) -> str:

@@ -24,14 +24,14 @@ from tandemlift.kernels import leaf_offset
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
-from tandemlift.missions.recording import WIDTH, Recording, write_recording
+from tandemlift.missions.recording import HAND_FILE, MISSION_FILE, WIDTH, Recording, write_recording
 from tandemlift.settings import Mission
 from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_in
 
-MISSION, HAND, FLIGHT = "recorded.toml", "hand.npz", "flight.npz"
+MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, "flight.npz"
 EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
 
 

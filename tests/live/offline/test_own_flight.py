@@ -3,6 +3,7 @@
 import gzip
 import html.parser
 import json
+import zipfile
 
 import numpy as np
 import pytest
@@ -98,6 +99,28 @@ def test_a_saved_flight_flies_again_to_the_last_bit(flight, tmp_path):
     again = fly_stepwise(plan, plan.steps + 1, 1)
     np.testing.assert_array_equal(again.last.view(np.int64), last.view(np.int64))
     assert np.abs(tl.fly(mission)["position"][-1] - [0.0, 0.0, 1.0]).max() > 0.01  # it was pulled
+
+
+def test_a_saved_file_is_flown_as_it_is(flight, tmp_path):
+    flight.fly(0.4)
+    flight.saved(tmp_path, "mine")
+    with zipfile.ZipFile(tmp_path / "mine.zip", "w") as archive:
+        for name in ("recorded.toml", "hand.npz", "last_sample.npy"):
+            archive.write(tmp_path / name, name)
+    packed, unpacked = (
+        tl.fly(tl.load_mission(tmp_path / "mine.zip")),
+        tl.fly(tl.load_mission(tmp_path / "recorded.toml")),
+    )
+    np.testing.assert_array_equal(packed["position"], unpacked["position"])
+
+
+def test_a_zip_file_that_is_no_saved_flight_is_refused(tmp_path):
+    with zipfile.ZipFile(tmp_path / "other.zip", "w") as archive:
+        archive.writestr("readme.txt", "nothing")
+    (tmp_path / "damaged.zip").write_bytes(b"PK\3\4 and no more")
+    for name in ("other.zip", "damaged.zip"):
+        with pytest.raises(tl.InputError, match=f"{name} is not a flight that a page saved"):
+            tl.load_mission(tmp_path / name)
 
 
 def test_a_flight_that_diverged_is_saved_and_diverges_again_at_the_same_step(tmp_path, hover):
