@@ -23,7 +23,7 @@ SCALED = (  # key, or its beginning; largest relative change
     ("plant.inertia_scale", 0.1),
 )
 ADDED = (("disturbance.force.", 0.3), ("disturbance.moment.", 0.02), ("initial.velocity.", 0.1))  # largest change
-LOST = {"initial.velocity.0": 3000.0}  # m/s: leaves the world
+LOST = {"initial.velocity.0": 3000.0, "disturbance.force.0": 1e6}  # m/s, N: leaves the world in any air
 
 
 def drawn_numbers(mission: Mission, count: int, inputs: set[str]) -> list[dict[str, float]]:
