@@ -11,8 +11,10 @@ from click.testing import CliRunner
 from own_flight import INDEX, OwnFlight
 
 import tandemlift as tl
+from tandemlift.assembly.traced_assembly import trace_assembly
 from tandemlift.cli.main import cli
 from tandemlift.live.offline import page_modules, pages
+from tandemlift.live.offline.page_manifest import page_manifest
 from tandemlift.live.page_files import page_files
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import fly_stepwise
@@ -212,3 +214,17 @@ def test_what_the_verb_cannot_do_is_refused(arguments, text, tmp_path, monkeypat
     assert isinstance(done.exception, tl.InputError)
     assert text in str(done.exception)
     assert not list(tmp_path.iterdir())
+
+
+# the modules
+
+
+@pytest.mark.targets
+@pytest.mark.parametrize("name", page_modules.MISSIONS)
+def test_every_setting_and_every_rotor_of_a_page_is_a_number_that_its_module_takes(name):
+    mission = page_modules.page_mission(name)
+    taken, manifest = trace_assembly(mission).keys, page_manifest(FlightPlan(mission))
+    keys = [key for one in manifest["parameters"] for key in one["keys"]] + [one["key"] for one in manifest["rotors"]]
+    assert keys
+    for key in keys:
+        assert any(one == key or one.startswith(f"{key}.") for one in taken), key
