@@ -128,14 +128,16 @@ def test_its_functions_are_short_allocate_nothing_and_name_their_laws(name):
 def test_a_controller_in_plain_python_is_refused(tmp_path):
     path = tmp_path / "mine.py"
     path.write_text(LAW.replace("@control.register(Gains)", "@control.register(Gains, compiled=False)"))
-    with pytest.raises(tl.InputError, match=r"controller.name = '.*': is plain Python, which C cannot call"):
+    with pytest.raises(
+        tl.InputError, match=r"controller.name = '.*': is plain Python, of which no other machine has code"
+    ):
         write_c(tl.load_mission("hover", controller=load_controller(path)), tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 
 def test_a_mission_that_changes_while_it_is_flown_is_refused(tmp_path):
     change = {"key": "admittance.damping", "value": [5.0, 5.0, 5.0], "time": 3.0}
-    with pytest.raises(tl.InputError, match="changes: 1 given, but C flies a mission as it begins"):
+    with pytest.raises(tl.InputError, match="changes: 1 given, but other machines fly a mission as it begins"):
         write_c(tl.load_mission("hover", {"changes": [change]}), tmp_path / "out")
     assert not (tmp_path / "out").exists()
 

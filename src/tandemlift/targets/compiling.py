@@ -11,7 +11,7 @@ from tandemlift.common.files import atomic_write
 from tandemlift.settings import Mission
 from tandemlift.targets.c.write import write_c
 from tandemlift.targets.machines import MACHINES
-from tandemlift.targets.mission_module import module_of, portable_mission
+from tandemlift.targets.mission_module import module_of
 
 TARGETS = {"c": "C99 sources, for any compiler", **{name: machine.meaning for name, machine in MACHINES.items()}}
 ENDINGS = {"wasm32": "wasm"}
@@ -37,7 +37,7 @@ def compile_mission(mission: Mission, target: str, folder: Path | str, *, single
     if single and target != "c":
         raise InputError(f"single = true: only for target 'c'; {target} computes in double precision")
     if target == "c":
-        return write_c(portable_mission(mission), folder, single)
+        return write_c(mission, folder, single)
     return list(_write_module(mission, target, Path(folder)))
 
 

@@ -11,14 +11,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.assembly.traced_assembly import TracedAssembly, trace_assembly
-from tandemlift.common.errors import InputError
 from tandemlift.machine_code import store
-from tandemlift.missions import changed
 from tandemlift.settings import Mission
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.targets.machines import Machine, machine_named, object_code
 from tandemlift.targets.manifest import manifest_of
 from tandemlift.targets.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
+from tandemlift.targets.portable import portable_mission
 from tandemlift.targets.prepare_text import PreparedLayout, write_prepare
 from tandemlift.targets.wasm_linker import linked
 
@@ -40,24 +39,6 @@ class WrittenModule(NamedTuple):
     prepared: PreparedLayout
     work: int
     functions: dict[str, tuple[int, int]]
-
-
-def portable_mission(mission: Mission) -> Mission:
-    """The mission with `mission.fused = false`, as code for other machines flies it.
-
-    Raises:
-        InputError: its controller is plain Python, or it changes in flight.
-    """
-    if mission.changes or mission.person.recording:
-        key = "changes" if mission.changes else "person.recording"
-        raise InputError(f"{key}: a module flies one mission without changes; its caller makes them by `ramp`")
-    portable = changed(mission, "mission.fused", False)
-    if FlightPlan(portable).interpreted is not None:
-        raise InputError(
-            f"controller.name = {mission.controller.name!r}: is plain Python, of which no other machine has code; "
-            "write it as a law (docs/controllers.md)"
-        )
-    return portable
 
 
 def _nothing_more(plan: FlightPlan) -> Sequence[ValuesFunction]:
@@ -108,9 +89,9 @@ def _identity(traced: TracedAssembly) -> str:
 
 
 def _sources(functions: Sequence[ValuesFunction]) -> str:
-    """What identifies the sources of this folder, and those of further functions."""
-    theirs = {Path(inspect.getfile(inspect.unwrap(f.function))) for f in functions}
-    files = sorted(theirs.union(Path(__file__).parent.glob("*.py")))
+    """What identifies the sources of this folder, and of the folders that further functions are in."""
+    theirs = {Path(inspect.getfile(inspect.unwrap(f.function))).parent for f in functions}
+    files = sorted(path for folder in {*theirs, Path(__file__).parent} for path in folder.glob("*.py"))
     return hashlib.sha256(b"".join(map(store.content, files))).hexdigest()
 
 

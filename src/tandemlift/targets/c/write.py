@@ -5,9 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from tandemlift.assembly.traced_assembly import assembled_by_graph, assembled_flight, trace_assembly
-from tandemlift.common.errors import InputError
-from tandemlift.controllers import control
-from tandemlift.missions import changed
 from tandemlift.settings import Mission
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.targets.c.flight_file import FlightFile
@@ -15,6 +12,7 @@ from tandemlift.targets.c.pilot_file import PilotFile
 from tandemlift.targets.c.prepare_file import PrepareFile
 from tandemlift.targets.c.selftests import flight_selftest, native_flight, pilot_selftest
 from tandemlift.targets.c.source_file import SourceFile
+from tandemlift.targets.portable import portable_mission
 
 
 def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[Path]:
@@ -33,7 +31,7 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
     Raises:
         InputError: the mission's controller is plain Python, or the mission changes while it is flown.
     """
-    _check(mission)
+    mission = portable_mission(mission)
     texts = code_texts(mission, single)
     unfused, flight = native_flight(mission)
     file = SourceFile(mission.mission.name, single, mission.mission.step)
@@ -46,7 +44,7 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
-    mission = changed(mission, "mission.fused", False)
+    mission = portable_mission(mission)
     start = assembled_by_graph(mission, pilot_at_start)
     given = mission.mission.name, single, mission.mission.step
     file = SourceFile(*given)
@@ -69,20 +67,6 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
         "CMakeLists.txt": file.filled("CMakeLists.txt"),
         "README.md": file.filled("README.md", **how),
     }
-
-
-def _check(mission: Mission) -> None:
-    """Refuse a mission that cannot be written as C."""
-    if type(pilot_at_start(mission).parameters.controller) in control.interpreted:
-        name = mission.controller.name
-        way = "register it as a law, without compiled=False"
-        raise InputError(f"controller.name = {name!r}: is plain Python, which C cannot call; {way}")
-    if mission.changes:
-        count = len(mission.changes)
-        raise InputError(f"changes: {count} given, but C flies a mission as it begins; remove them")
-    if mission.person.recording:
-        recording = str(mission.person.recording)
-        raise InputError(f"person.recording = {recording!r}: C has no recorded pushes; give them as pushes")
 
 
 def written(texts: dict[str, str], folder: Path) -> list[Path]:
