@@ -17,9 +17,7 @@ def portable_mission(mission: Mission) -> Mission:
     """
     if mission.changes:
         count = len(mission.changes)
-        raise InputError(
-            f"changes: {count} given, but code for other machines flies a mission as it begins; remove them"
-        )
+        raise InputError(f"changes: {count} given, but other machines fly a mission as it begins; remove them")
     if mission.person.recording:
         recording = str(mission.person.recording)
         raise InputError(f"person.recording = {recording!r}: other machines play no recorded hand; remove it")
