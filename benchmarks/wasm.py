@@ -24,7 +24,8 @@ import tandemlift as tl
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.targets.mission_module import module_of
 
-SCRIPT = Path(__file__).with_name("wasm_steps.js")
+HERE = Path(__file__).resolve().parent
+SCRIPT = (HERE.parent / "examples" / "fly_module.js").read_text() + (HERE / "wasm_steps.js").read_text()
 MISSIONS = ("paper", "iris", "zigzag")
 TURNS, REPEAT = 5, 3
 CHROMIUM = "/usr/bin/chromium"
@@ -49,14 +50,14 @@ def optimised(mission: tl.Mission) -> None:
 
 def in_node(job: dict[str, Any]) -> float:
     """Nanoseconds a step in Node.js."""
-    text = f"{SCRIPT.read_text()}\nconsole.log(stepTime({json.dumps(job)}));"
+    text = f"{SCRIPT}\nconsole.log(stepTime({json.dumps(job)}));"
     done = subprocess.run(["node", "--input-type=module", "-"], input=text, capture_output=True, text=True, check=True)
     return float(done.stdout)
 
 
 def in_browser(page: Page) -> Callable[[dict[str, Any]], float]:
     """Nanoseconds a step in a page of a browser."""
-    page.add_script_tag(content=SCRIPT.read_text())
+    page.add_script_tag(content=SCRIPT)
     return lambda job: float(page.evaluate("job => stepTime(job)", job))
 
 
