@@ -23,6 +23,7 @@ from tandemlift.targets.compiling import TARGETS, compile_mission
 from tandemlift.targets.mission_module import module_of
 from tandemlift.targets.module_text import write_flight_loop, write_ramp
 from tandemlift.targets.wasm_linker import LinkError, linked
+from tandemlift.targets.wasm_sections import Reader, signed, unsigned
 from tandemlift.trace import Module
 
 
@@ -120,3 +121,15 @@ def test_missions_that_no_module_can_fly_are_refused(tmp_path: Path) -> None:
     with pytest.raises(tl.InputError, match="changes: 1 given, but other machines fly a mission as it begins"):
         compile_mission(tl.load_mission("hover", {"changes": change}), "wasm32", tmp_path / "x")
     assert not (tmp_path / "x").exists()
+
+
+@pytest.mark.parametrize("value", [0, 1, 63, 64, 127, 128, 300, 2**31 - 1])
+@pytest.mark.parametrize("padded", [0, 5])
+def test_numbers_of_webassembly_are_read_as_they_were_written(value: int, padded: int) -> None:
+    assert Reader(unsigned(value, padded)).unsigned() == value
+    for x in (value, -value):
+        assert Reader(signed(x, padded)).signed() == x
+
+
+def test_numbers_of_webassembly_are_those_of_its_specification() -> None:
+    assert (unsigned(624485), signed(-123456)) == (b"\xe5\x8e\x26", b"\xc0\xbb\x78")  # the examples of DWARF 5, 7.6

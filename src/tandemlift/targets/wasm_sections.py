@@ -46,23 +46,22 @@ class Reader:
 
     def unsigned(self) -> int:
         """A number in LEB128."""
-        value, shift = 0, 0
-        while True:
-            byte = self.byte()
-            value |= (byte & 0x7F) << shift
-            shift += 7
-            if not byte & 0x80:
-                return value
+        return self._number()[0]
 
     def signed(self) -> int:
         """A signed number in LEB128."""
-        value, shift = 0, 0
+        value, bits = self._number()
+        return value - (1 << bits) if value >> (bits - 1) else value
+
+    def _number(self) -> tuple[int, int]:
+        """The bits of a number in LEB128, and how many they are."""
+        value, bits = 0, 0
         while True:
             byte = self.byte()
-            value |= (byte & 0x7F) << shift
-            shift += 7
+            value |= (byte & 0x7F) << bits
+            bits += 7
             if not byte & 0x80:
-                return value - (1 << shift) if byte & 0x40 else value
+                return value, bits
 
     def name(self) -> str:
         """A name."""
