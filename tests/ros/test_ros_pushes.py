@@ -104,7 +104,7 @@ def test_a_push_without_another_message_is_over_after_half_a_second(up):
     assert up.session.flight.hand.force == (1.0, 0.0, 0.0)
     up.fly(0.002)
     assert up.session.flight.hand.force == (0.0, 0.0, 0.0)
-    force, _ = push_after(up, 0.6)
+    force, _ = push_after(up, 0.8)
     assert np.abs(force).max() < 1e-3
     assert "push over: no message for 0.5 s" in up.said()
 
@@ -112,7 +112,7 @@ def test_a_push_without_another_message_is_over_after_half_a_second(up):
 def test_a_push_goes_on_while_messages_come_and_ends_by_a_zero(up):
     for _ in range(5):
         up.heed(wrench("base_world", (1.0, 0.0, 0.0)))
-        force, _ = push_after(up, 0.4)
+        force, _ = push_after(up, 0.48)
         assert force == pytest.approx([1.0, 0.0, 0.0], abs=0.02)
     up.heed(wrench("base_world"))
     assert not any(up.session.flight.hand.force)
