@@ -14,10 +14,10 @@ from tandemlift.assembly.traced_assembly import TracedAssembly, trace_assembly
 from tandemlift.machine_code import store
 from tandemlift.settings import Mission
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.portable_mission import portable_mission
 from tandemlift.targets.machines import Machine, machine_named, object_code
 from tandemlift.targets.manifest import manifest_of
 from tandemlift.targets.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
-from tandemlift.targets.portable import portable_mission
 from tandemlift.targets.prepare_text import PreparedLayout, write_prepare
 from tandemlift.targets.wasm_linker import linked
 
