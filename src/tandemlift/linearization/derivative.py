@@ -20,15 +20,14 @@ import numpy as np
 from tandemlift.common.types import Array
 from tandemlift.laws.sensors.noise_bias_drift import displayed
 from tandemlift.trace import LEAVES, Graph
+from tandemlift.trace.valued_graph import OPERATIONS
 
 ROUNDS = 2.0**52  # adding a constant at least so large rounds to an integer
 ROUNDED = 1e-9  # relative, of values that are equal
 CURVED = 100.0  # by how much more than its derivative says a value changes on a short way
-MASK, SIGN = (1 << 64) - 1, 1 << 63
 LARGEST = 1e150  # of a factor whose product is split exactly
 SMOOTH = ("fadd", "fsub", "fmul", "fdiv", "fneg", "fabs", "fma", "sqrt", "bitcast_f")
 FIRST_ONLY = ("bitcast_i", "add", "sub")  # of the bits of a number
-NUMPY = {"fdiv": np.divide, "sqrt": np.sqrt}  # where Python raises
 
 
 def is_rounding(graph: Graph, node: int) -> bool:
@@ -51,11 +50,6 @@ def smooth_arguments(graph: Graph, node: int) -> Sequence[int]:
     return args[:1] if op in FIRST_ONLY else ()
 
 
-def _wrapped(i: int) -> int:
-    """An integer of 64 bits with sign."""
-    return ((i + SIGN) & MASK) - SIGN
-
-
 def once_rounded(a: float, b: float, c: float) -> float:
     """a b + c as machine code rounds it: once, by exact products and sums of halves (Dekker, Numer. Math. 18, 1971)."""
     p = a * b
@@ -70,45 +64,7 @@ def once_rounded(a: float, b: float, c: float) -> float:
     return s + (((p - (s - t)) + (c - t)) + e)
 
 
-COMPARE: dict[str, Callable[[Any, Any], bool]] = {
-    "olt": lambda a, b: a < b,
-    "ole": lambda a, b: a <= b,
-    "ogt": lambda a, b: a > b,
-    "oge": lambda a, b: a >= b,
-    "oeq": lambda a, b: a == b,
-    "une": lambda a, b: a != b,
-    "slt": lambda a, b: a < b,
-    "sle": lambda a, b: a <= b,
-    "sgt": lambda a, b: a > b,
-    "sge": lambda a, b: a >= b,
-    "eq": lambda a, b: a == b,
-    "ne": lambda a, b: a != b,
-}
-VALUE: dict[str, Callable[..., Any]] = {
-    "fadd": lambda a, b: a + b,
-    "fsub": lambda a, b: a - b,
-    "fmul": lambda a, b: a * b,
-    "fdiv": lambda a, b: a / b if b else float(np.divide(a, b)),
-    "fneg": lambda a: -a,
-    "fabs": abs,
-    "fma": once_rounded,
-    "sqrt": lambda a: math.sqrt(a) if a >= 0.0 else math.nan,
-    "floor": lambda a: math.copysign(math.floor(a), a) if math.isfinite(a) else a,
-    "select": lambda c, a, b: a if c else b,
-    "and": lambda a, b: a & b,
-    "or": lambda a, b: a | b,
-    "xor": lambda a, b: a ^ b,
-    "add": lambda a, b: _wrapped(a + b),
-    "sub": lambda a, b: _wrapped(a - b),
-    "mul": lambda a, b: _wrapped(a * b),
-    "shl": lambda a, b: _wrapped(a << b),
-    "ashr": lambda a, b: a >> b,
-    "sitofp": float,
-    "uitofp": float,
-    "fptosi": lambda a: 0 if math.isnan(a) else int(max(-9.3e18, min(9.2e18, a))),
-    "bitcast_i": lambda a: struct.unpack("<q", struct.pack("<d", a))[0],
-    "bitcast_f": lambda i: struct.unpack("<d", struct.pack("<q", i))[0],
-}
+VALUE: dict[str, Callable[..., Any]] = {**OPERATIONS, "fma": once_rounded}
 
 
 def _sum(a: Any, b: Any) -> Any:
@@ -214,8 +170,7 @@ class Derivative:
                     values[node], rows[node] = self._leaf(node)
                     continue
                 x = [values[a] for a in args]
-                name, _, predicate = op.partition(" ")
-                values[node] = v = COMPARE[predicate](*x) if predicate else VALUE[name](*x)
+                values[node] = v = VALUE[op](*x)
                 d = [rows[a] for a in args]
                 row = ROW.get(op)
                 if row is None or all(r is None for r in d) or is_rounding(g, node):

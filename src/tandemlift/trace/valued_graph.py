@@ -50,7 +50,7 @@ def _truncated(x: float) -> int:
 
 COMPARISONS = {"eq": operator.eq, "ne": operator.ne, "lt": operator.lt, "le": operator.le}
 COMPARISONS |= {"gt": operator.gt, "ge": operator.ge}
-OPERATIONS: dict[str, Callable[..., Any]] = {
+OPERATIONS: dict[str, Callable[..., Any]] = {  # of plain numbers, by the name of their node
     "fadd": operator.add,
     "fsub": operator.sub,
     "fmul": operator.mul,
