@@ -6,10 +6,21 @@ import shutil
 import hypothesis
 import pytest
 
+from tandemlift.controllers import CONTROLLERS
+
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # hundreds of variants fly once each: what is tested is asked for
 SLOW = hypothesis.HealthCheck.too_slow
 hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_health_check=[SLOW], derandomize=True)
 hypothesis.settings.load_profile("tandemlift")
+
+
+@pytest.fixture(autouse=True)
+def _controllers_are_forgotten():
+    """Forget the controllers that a test registers: the next test may run in the same process."""
+    before = dict(CONTROLLERS)
+    yield
+    CONTROLLERS.clear()
+    CONTROLLERS.update(before)
 
 
 @pytest.fixture(scope="session")

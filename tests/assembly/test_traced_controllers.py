@@ -11,7 +11,7 @@ from tandemlift.algebra.vector import layout
 from tandemlift.assembly.assemble import assemble
 from tandemlift.assembly.mission_numbers import numbers_of_mission
 from tandemlift.assembly.traced_assembly import trace_assembly, with_values
-from tandemlift.controllers import CONTROLLERS, load_controller
+from tandemlift.controllers import load_controller
 
 OWN = '''
 from typing import NamedTuple
@@ -78,14 +78,10 @@ def test_the_weights_of_the_linear_quadratic_regulator_are_fixed_but_not_the_veh
 
 @pytest.mark.parametrize(("weight", "fixed"), STARTS.values(), ids=STARTS)
 def test_what_a_users_own_start_needs_as_plain_numbers_is_fixed(weight, fixed, tmp_path):
-    before, path = dict(CONTROLLERS), tmp_path / "own.py"
+    path = tmp_path / "own.py"
     path.write_text(OWN.replace("{weight}", weight), "utf-8")
-    try:
-        mission = tl.load_mission("hover", {"mission.fused": False}, controller=load_controller(path))
-        traced = check_trace(mission, fixed)
-        assert "vehicle.drag.force.0" in traced.keys or "controller.stiffness" in fixed
-        assert ("controller.stiffness" in traced.keys) == ("controller.stiffness" not in fixed)
-        assert tl.fly(tl.load_mission("hover", {"mission.fused": False, "mission.duration": 0.1}, controller="own"))
-    finally:
-        CONTROLLERS.clear()
-        CONTROLLERS.update(before)
+    mission = tl.load_mission("hover", {"mission.fused": False}, controller=load_controller(path))
+    traced = check_trace(mission, fixed)
+    assert "vehicle.drag.force.0" in traced.keys or "controller.stiffness" in fixed
+    assert ("controller.stiffness" in traced.keys) == ("controller.stiffness" not in fixed)
+    assert tl.fly(tl.load_mission("hover", {"mission.fused": False, "mission.duration": 0.1}, controller="own"))

@@ -22,19 +22,14 @@ AWAY = {"mission.duration": 1.0, "initial.position": [0.1, 0.0, 0.0]}
 
 @pytest.fixture
 def own(tmp_path, monkeypatch):
-    """Write a controller file of one's own beside which the test runs; no other is registered, and it is forgotten."""
+    """Write a controller file of one's own beside which the test runs."""
     monkeypatch.chdir(tmp_path)
-    before = dict(CONTROLLERS)
-    for name in set(CONTROLLERS) - set(REGISTERED):
-        del CONTROLLERS[name]
 
     def write(text: str, name: str = "my_pd.py") -> str:
         Path(name).write_text(text, "utf-8")
         return name
 
-    yield write
-    CONTROLLERS.clear()
-    CONTROLLERS.update(before)
+    return write
 
 
 def edited(text: str, *changes: tuple[str, str]) -> str:
@@ -273,20 +268,22 @@ def test_an_unknown_controller_is_refused_with_a_suggestion():
 
 
 def test_registering_again_in_the_same_module_replaces():
-    before = dict(CONTROLLERS)
-
     class Settings(ControllerTable):
         pass
 
     def start(s, vehicle, step):
         """Nothing."""
 
-    try:
-        register("temporary", Settings)(start)
-        first = CONTROLLERS["temporary"]
-        register("temporary", Settings)(start)
-        assert CONTROLLERS["temporary"] is not first
-        assert first.summary == "Nothing."
-    finally:
-        CONTROLLERS.clear()
-        CONTROLLERS.update(before)
+    register("temporary", Settings)(start)
+    first = CONTROLLERS["temporary"]
+    register("temporary", Settings)(start)
+    assert CONTROLLERS["temporary"] is not first
+    assert first.summary == "Nothing."
+
+
+def test_a_controller_that_says_nothing_of_itself_is_listed_with_its_file():
+    class Settings(ControllerTable):
+        pass
+
+    register("temporary", Settings)(lambda s, vehicle, step: None)
+    assert CONTROLLERS["temporary"].summary == "of test_controller_files.py, which does not describe it"

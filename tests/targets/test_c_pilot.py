@@ -11,7 +11,7 @@ from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
-from tandemlift.controllers import CONTROLLERS, load_controller
+from tandemlift.controllers import load_controller
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.targets.c.write import code_texts, write_c, written
 from tools import need
@@ -125,16 +125,6 @@ def test_its_functions_are_short_allocate_nothing_and_name_their_laws(name):
     assert len(texts["README.md"].split("\n")) <= 45
 
 
-@pytest.fixture
-def own_controllers():
-    """Forgets the controllers that a test registers."""
-    before = dict(CONTROLLERS)
-    yield
-    CONTROLLERS.clear()
-    CONTROLLERS.update(before)
-
-
-@pytest.mark.usefixtures("own_controllers")
 def test_a_controller_in_plain_python_is_refused(tmp_path):
     path = tmp_path / "mine.py"
     path.write_text(LAW.replace("@control.register(Gains)", "@control.register(Gains, compiled=False)"))

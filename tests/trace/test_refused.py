@@ -12,7 +12,7 @@ from repository import ROOT
 import tandemlift as tl
 from tandemlift.algebra.law import LAWS, law
 from tandemlift.algebra.vector import Vec3
-from tandemlift.controllers import CONTROLLERS, load_controller
+from tandemlift.controllers import load_controller
 from tandemlift.machine_code.functions import compiled, written
 from tandemlift.trace import TraceError, graph
 
@@ -50,19 +50,15 @@ WRONG = {  # what stands in the law, and why it is refused
 
 @pytest.fixture
 def own(tmp_path, monkeypatch):
-    """Write the guide's controller with a line more; it is forgotten afterwards."""
+    """Write the guide's controller with a line more."""
     monkeypatch.chdir(tmp_path)
-    before = dict(CONTROLLERS)
-    CONTROLLERS.pop("my-pd", None)  # of another test
 
     def write(line: str, text: str = LAW) -> Path:
         path = tmp_path / "my_pd.py"
         path.write_text(text.replace(HERE, f"    {line}\n{HERE}", 1), "utf-8")
         return path
 
-    yield write
-    CONTROLLERS.clear()
-    CONTROLLERS.update(before)
+    return write
 
 
 def refusal(run):

@@ -49,7 +49,8 @@ def register(name: str, settings: type[ControllerTable]) -> Callable[[Start], St
         file = held and file_of(held)
         if held and held.start.__module__ != start.__module__ and file != start.__code__.co_filename:
             raise InputError(f"the name {name!r} is taken by the controller in {Path(str(file)).name}; choose another")
-        summary = (inspect.getdoc(start) or "").partition("\n")[0]
+        nothing = f"of {Path(start.__code__.co_filename).name}, which does not describe it"
+        summary = (inspect.getdoc(start) or nothing).partition("\n")[0]
         own = start.__module__.startswith("tandemlift.")
         CONTROLLERS[name] = Controller(name, summary, settings, start if own else _checked(name, settings, start))
         return start
