@@ -22,6 +22,7 @@ from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
 from tandemlift.laws.person.person import landing_request, person_step
 from tandemlift.laws.rotors.rotors import rotors_step
+from tandemlift.loop.detectors import Detectors, FindingLimits, detect
 from tandemlift.loop.log_sample import errors_of, log_sample
 from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
 from tandemlift.loop.running_metrics import RunningMetrics, count
@@ -47,6 +48,7 @@ class FlightState(NamedTuple):
     person: Any
     metrics: RunningMetrics
     diverged: Any
+    detectors: Detectors
 
 
 class FlightModel(NamedTuple):
@@ -65,6 +67,7 @@ class FlightModel(NamedTuple):
     sources: Any
     person: Any
     delays: Any
+    finding_limits: FindingLimits
 
 
 class StepNoise(NamedTuple):
@@ -168,9 +171,12 @@ def has_diverged(state: State) -> Any:
 
 @law
 def finish_sample(
-    model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs
+    model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs, t: Any, dt: Any
 ) -> Any:
-    """The end of a step once the body has moved: (`FlightState` after it, `Sample` at its start)."""
+    """The end of a step from t [s] by dt [s], once the body has moved: (`FlightState` after it, `Sample` at its start).
+
+    The detectors come last in the state: compiled loops write them only where they changed.
+    """
     before, noise = model.flight_state, inputs.noise.sensors
     readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
     sample = log_sample(model, output, acting, moved, inputs.hand)
@@ -187,6 +193,7 @@ def finish_sample(
         person=inputs.person,
         metrics=count(before.metrics, errors_of(model, output, sample)),
         diverged=maximum(before.diverged, has_diverged(moved.state)),
+        detectors=detect(model, output, sample, t, dt),
     )
     return after, sample
 
@@ -204,7 +211,7 @@ def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: 
     output = with_caller_thrusts(output, inputs.external)
     acting = actuate(model, output.decision.thrusts, inputs, t)
     moved = step_body(model.plant, model.flight_state, acting, inputs.hand, dt)
-    return finish_sample(model, output, acting, moved, inputs)
+    return finish_sample(model, output, acting, moved, inputs, t, dt)
 
 
 @law

@@ -11,6 +11,7 @@ from tandemlift.settings.changes import ChangeTable
 from tandemlift.settings.corridor import CorridorTable, WallTable
 from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
 from tandemlift.settings.key_description import key
+from tandemlift.settings.outcomes import FindingsTable, PromiseTable
 from tandemlift.settings.parts import VehicleTable
 from tandemlift.settings.person import PersonTable
 from tandemlift.settings.pilot import (
@@ -109,6 +110,8 @@ class Mission(Table):
     walls: tuple[WallTable, ...] = ()
     corridor: CorridorTable = CorridorTable()
     person: PersonTable = PersonTable()
+    promise: PromiseTable = PromiseTable()
+    findings: FindingsTable = FindingsTable()
     changes: tuple[ChangeTable, ...] = ()
 
     @property

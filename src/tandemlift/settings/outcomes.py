@@ -1,0 +1,143 @@
+"""What a flight is judged by: what tracking the mission promises, and from where on a flight has findings."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import Field
+
+from tandemlift.common.findings import FINDING_NAMES, KIND_OF, FindingName
+from tandemlift.settings.key_description import key
+from tandemlift.settings.value_types import NonNegative, Positive, Table
+
+Fraction = Annotated[float, Field(gt=0.0, le=1.0)]
+Angle = Annotated[float, Field(gt=0.0, le=3.14)]  # rad
+Frequency = Annotated[float, Field(gt=0.0, le=1e4)]  # Hz
+Periods = Annotated[int, Field(ge=2, le=1000)]
+
+
+class PromiseTable(Table):
+    """`[promise]`: how closely the vehicle follows its reference; where it does not, the flight has a finding.
+
+    It holds in flight, from the settling time on. See docs/outcomes.md.
+    """
+
+    distance: Positive | None = key(
+        None,
+        "m",
+        "largest distance from the reference",
+        unset="0.5 m by the clock, 0.25 m guided by hand",
+        source="chosen: above every built-in mission (0.34 m and 0.03 m)",
+        example=0.5,
+    )
+    rms_distance: Positive | None = key(
+        None,
+        "m",
+        "root mean square of the distance from the reference",
+        rule="not above the largest distance",
+        unset="0.15 m by the clock, 0.05 m guided by hand",
+        source="chosen: above every built-in mission (0.10 m and 0.01 m)",
+        example=0.15,
+    )
+    heading: Angle = key(
+        0.15, "rad", "largest difference from the reference heading", source="chosen: 9°; built-in missions keep 0.02"
+    )
+    tilt: Angle = key(
+        0.5,
+        "rad",
+        "largest angle of body z from upright",
+        rule="below `crash.tilt`",
+        source="chosen: as compliance.max_tilt; built-in missions keep 0.2",
+    )
+    settling_time: NonNegative | None = key(
+        None,
+        "s",
+        "time from the start until the promise holds",
+        unset="10 s by the clock, where the start may be disturbed; 0 s guided by hand",
+        source="chosen: as metrics after 10 s",
+        example=10.0,
+    )
+
+
+class Promise(NamedTuple):
+    """What a mission promises, with a value for every key: distances [m], angles [rad], and from when on [s]."""
+
+    distance: Any
+    rms_distance: Any
+    heading: Any
+    tilt: Any
+    settling_time: Any
+
+
+BY_GUIDANCE = {"clock": (0.5, 0.15, 10.0), "hand": (0.25, 0.05, 0.0)}  # m, m, s, where the mission leaves them out
+
+
+def promise_of(p: PromiseTable, guidance: str) -> Promise:
+    """What a mission with this guidance promises."""
+    given = (p.distance, p.rms_distance, p.settling_time)
+    distance, rms, settled = (y if x is None else x for x, y in zip(given, BY_GUIDANCE[guidance], strict=True))
+    return Promise(distance, rms, p.heading, p.tilt, settled)
+
+
+class FindingsTable(Table):
+    """`[findings]`: from where on a flight has findings; see docs/outcomes.md."""
+
+    ignore: tuple[FindingName, ...] = key(
+        (),
+        None,
+        "kinds of findings that are not reported",
+        choices={name: KIND_OF[name].meaning for name in FINDING_NAMES},
+    )
+    oscillation_rate: Positive = key(
+        0.3, "rad/s", "smallest amplitude of an oscillation of a body rate", source="chosen: twice what a person excites"
+    )
+    oscillation_speed: Positive = key(
+        0.15,
+        "m/s",
+        "smallest amplitude of an oscillation of the vertical speed about its reference",
+        source="chosen: twice what a landing excites",
+    )
+    slowest_oscillation: Frequency = key(
+        0.3, "Hz", "lowest frequency of an oscillation", source="chosen: slower motion is a person's"
+    )
+    fastest_oscillation: Frequency = key(
+        25.0,
+        "Hz",
+        "highest frequency of an oscillation",
+        rule="above slowest_oscillation, at most a quarter of 1/`mission.step`",
+        source="chosen: beyond it is noise",
+    )
+    oscillation_periods: Periods = key(
+        3, "1", "periods in a row that make an oscillation", source="chosen: two may be a push and its echo"
+    )
+    saturated_time: Positive = key(
+        1.0, "s", "longest time at a stretch with a rotor at its limit", source="chosen: built-in missions keep 0.2 s"
+    )
+    saturated_fraction: Fraction = key(
+        0.1,
+        "1",
+        "largest fraction of the time in flight with a rotor at its limit",
+        source="chosen: built-in missions keep 0.02",
+    )
+    push_time: Positive = key(
+        1.0,
+        "s",
+        "time for which a push may go unanswered, beyond the admittance's time constant",
+        source="chosen: a person notices",
+    )
+    push_response: Fraction = key(
+        0.2,
+        "1",
+        "smallest work that a push must do, as a fraction of that at the speed that the admittance ends with",
+        source="chosen: built-in missions reach 0.5",
+    )
+    reach_time: NonNegative = key(
+        0.1, "s", "time for which the reference may ask for more thrust than there is", source="chosen"
+    )
+    reach_distance: Positive = key(
+        2.0,
+        "m",
+        "distance from the vehicle at which the reference has left it behind",
+        rule="above the promised distance",
+        source="chosen: the vehicle's length",
+    )
