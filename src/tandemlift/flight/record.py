@@ -14,6 +14,7 @@ import numpy as np
 
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.files import atomic_write
+from tandemlift.common.findings import Finding, finding_from
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
@@ -51,6 +52,7 @@ class Flight(Mapping[str, Array]):
         results: the metrics, formed from every step and not from the log.
         divergence: why the flight was stopped before its end, or None.
         version: of tandemlift and of what it flew with.
+        findings: what went badly, in the order of time; formed from every step, as the metrics.
     """
 
     time: Array
@@ -59,6 +61,7 @@ class Flight(Mapping[str, Array]):
     results: dict[str, Any]
     divergence: Divergence | None = None
     version: dict[str, str] = field(default_factory=dict)
+    findings: tuple[Finding, ...] = ()
 
     @property
     def name(self) -> str:
@@ -95,7 +98,7 @@ class Flight(Mapping[str, Array]):
 
     def _parts(self) -> tuple[Any, ...]:
         arrays = {name: (a.shape, a.tobytes()) for name, a in {"time": self.time, **self.channels}.items()}
-        return arrays, self.mission, self.results, str(self.divergence), self.version
+        return arrays, self.mission, self.results, str(self.divergence), self.version, self.findings
 
     def info(self, name: str) -> Channel:
         """Unit, frame and meaning of a channel."""
@@ -138,6 +141,7 @@ class Flight(Mapping[str, Array]):
             "metrics": self.results,
             "divergence": _written(self.divergence),
             "version": self.version,
+            "findings": [f.as_table() for f in self.findings],
             "channels": {name: _described(self.info(name)) for name in self.channels},
         }
         text = np.array(json.dumps(header, allow_nan=False))
@@ -213,4 +217,5 @@ def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
         quantity, at, value, limit = divergence
         divergence = Divergence(quantity, at, float(value), limit)
     mission, metrics, version = (dict(header[key]) for key in ("mission", "metrics", "version"))
-    return Flight(time, arrays, mission, metrics, divergence, version)
+    findings = tuple(finding_from(table) for table in header.get("findings", ()))
+    return Flight(time, arrays, mission, metrics, divergence, version, findings)

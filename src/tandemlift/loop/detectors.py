@@ -143,7 +143,7 @@ def _not_failed(how: ConstrainedAllocation, left: Any, t: Number) -> Any:
 
 
 @choice
-def rotors_at_limit(rotors: Any, commands: Any, usable: Any) -> Number:
+def rotors_at_limit(rotors: Any, commands: Any, usable: Any) -> Any:
     """How many rotors that can be used are commanded to a limit or beyond."""
 
 
@@ -164,7 +164,7 @@ def _with_limits(rotors: Rotors, commands: Any, usable: Any) -> Number:
 
 
 @choice(absent=0.0)
-def thrust_needed(reach: Any, mass: Any, a: Vec3) -> Number:
+def thrust_needed(reach: Any, mass: Any, a: Vec3) -> Any:
     """The square of the thrust [N²] that an acceleration of the reference [m/s²] needs."""
 
 
@@ -175,7 +175,7 @@ def _needed(reach: Excess, mass: Any, a: Vec3) -> Number:
 
 
 @choice(absent="gated")
-def push_to_answer(threshold: Any, least: Any, gated: Vec3, true: Vec3) -> Vec3:
+def push_to_answer(threshold: Any, least: Any, gated: Vec3, true: Vec3) -> Any:
     """The push that should move the vehicle [N]: that after the gate, else a true one that should have been heard."""
 
 

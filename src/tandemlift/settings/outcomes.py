@@ -6,7 +6,7 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import Field
 
-from tandemlift.common.findings import FINDING_NAMES, KIND_OF, FindingName
+from tandemlift.common.findings import FindingName
 from tandemlift.settings.key_description import key
 from tandemlift.settings.value_types import NonNegative, Positive, Table
 
@@ -35,7 +35,7 @@ class PromiseTable(Table):
         "m",
         "root mean square of the distance from the reference",
         rule="not above the largest distance",
-        unset="0.15 m by the clock, 0.05 m guided by hand",
+        unset="0.15 m by the clock, 0.05 m guided by hand; not above the largest distance",
         source="chosen: above every built-in mission (0.10 m and 0.01 m)",
         example=0.15,
     )
@@ -60,7 +60,10 @@ class PromiseTable(Table):
 
 
 class Promise(NamedTuple):
-    """What a mission promises, with a value for every key: distances [m], angles [rad], and from when on [s]."""
+    """What a mission promises, with a value for every key: distances [m], angles [rad], and from when on [s].
+
+    `rms_distance` is None where it is left out; see `rms_promised`.
+    """
 
     distance: Any
     rms_distance: Any
@@ -68,15 +71,19 @@ class Promise(NamedTuple):
     tilt: Any
     settling_time: Any
 
+    def rms_promised(self, guidance: str) -> float:
+        """The RMS distance that a mission with this guidance promises [m]: by default, not above the distance."""
+        return min(RMS[guidance], self.distance) if self.rms_distance is None else self.rms_distance
 
-BY_GUIDANCE = {"clock": (0.5, 0.15, 10.0), "hand": (0.25, 0.05, 0.0)}  # m, m, s, where the mission leaves them out
+
+DISTANCE, RMS, SETTLED = {"clock": 0.5, "hand": 0.25}, {"clock": 0.15, "hand": 0.05}, {"clock": 10.0, "hand": 0.0}
 
 
 def promise_of(p: PromiseTable, guidance: str) -> Promise:
     """What a mission with this guidance promises."""
-    given = (p.distance, p.rms_distance, p.settling_time)
-    distance, rms, settled = (y if x is None else x for x, y in zip(given, BY_GUIDANCE[guidance], strict=True))
-    return Promise(distance, rms, p.heading, p.tilt, settled)
+    distance = DISTANCE[guidance] if p.distance is None else p.distance
+    settled = SETTLED[guidance] if p.settling_time is None else p.settling_time
+    return Promise(distance, p.rms_distance, p.heading, p.tilt, settled)
 
 
 class FindingsTable(Table):
@@ -86,10 +93,12 @@ class FindingsTable(Table):
         (),
         None,
         "kinds of findings that are not reported",
-        choices={name: KIND_OF[name].meaning for name in FINDING_NAMES},
     )
     oscillation_rate: Positive = key(
-        0.3, "rad/s", "smallest amplitude of an oscillation of a body rate", source="chosen: twice what a person excites"
+        0.3,
+        "rad/s",
+        "smallest amplitude of an oscillation of a body rate",
+        source="chosen: twice what a person excites",
     )
     oscillation_speed: Positive = key(
         0.15,
@@ -98,13 +107,17 @@ class FindingsTable(Table):
         source="chosen: twice what a landing excites",
     )
     slowest_oscillation: Frequency = key(
-        0.3, "Hz", "lowest frequency of an oscillation", source="chosen: slower motion is a person's"
+        0.3,
+        "Hz",
+        "lowest frequency of an oscillation",
+        rule="below a quarter of the steps a second",
+        source="chosen: slower motion is a person's",
     )
     fastest_oscillation: Frequency = key(
         25.0,
         "Hz",
         "highest frequency of an oscillation",
-        rule="above slowest_oscillation, at most a quarter of 1/`mission.step`",
+        rule="above slowest_oscillation",
         source="chosen: beyond it is noise",
     )
     oscillation_periods: Periods = key(

@@ -25,6 +25,7 @@ from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.loop.step import FAR, SIN_ROLL_LIMIT, FlightModel, FlightState
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
+from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.plan import FlightPlan
 
 
@@ -97,6 +98,7 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed["command_at_start"] = [first.thrust, *first.moment]
     formed |= _detection_metrics(p, flown)
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
+    formed["findings"] = [[f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state)]
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
@@ -169,4 +171,5 @@ def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flig
         results=metrics_of(p, flown),
         divergence=divergence_of(p, flown),
         version={**versions(engine), "engine": engine},
+        findings=findings_of(p, flown.flight_state),
     )
