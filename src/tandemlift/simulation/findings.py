@@ -18,6 +18,8 @@ from tandemlift.settings import Mission
 from tandemlift.settings.outcomes import Promise, promise_of
 from tandemlift.simulation.plan import FlightPlan
 
+STEEPEST = 1.875  # slope of the smooth step that a landing follows
+MARGIN = 1.0  # s, in which a landing should touch down after its reference
 SIGNALS = {  # of `loop.oscillation.Swings`: name, unit
     "roll": ("roll rate", "rad/s"),
     "pitch": ("pitch rate", "rad/s"),
@@ -26,13 +28,13 @@ SIGNALS = {  # of `loop.oscillation.Swings`: name, unit
 }
 
 
-def findings_of(p: FlightPlan, flight_state: FlightState, landed: bool | None = None) -> tuple[Finding, ...]:
+def findings_of(p: FlightPlan, flight_state: FlightState, outcome: str) -> tuple[Finding, ...]:
     """The findings of a flight, in the order of time, without the kinds that its mission ignores.
 
     Args:
         p: the plan of the flight.
         flight_state: the last state.
-        landed: whether the vehicle is on the ground at the end; None if the flight has not reached its end.
+        outcome: of the flight.
     """
     mission, d = p.mission, flight_state.detectors
     promise = promise_of(mission.promise, mission.pilot.guidance)
@@ -44,6 +46,7 @@ def findings_of(p: FlightPlan, flight_state: FlightState, landed: bool | None = 
         *_unanswered(d.push.unanswered, p.dt),
         *_by_events(flight_state, mission),
         *_by_lost_rotor(p, flight_state),
+        *_not_landed(p, flight_state, outcome),
     ]
     return tuple(sorted((f for f in found if f.kind not in mission.findings.ignore), key=lambda f: f.time))
 
@@ -239,3 +242,33 @@ def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding
     yield finding(
         "landed-by-fault", text, time=verdict.since + p.mission.detection.retest_time, quantity="rotor failed"
     )
+
+
+def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str) -> Iterator[Finding]:
+    """A landing that the mission asks for by its clock, that should be over, and is not."""
+    mission, position = p.mission, flight_state.state.position
+    height = position.z - p.model.flight_state.state.position.z
+    asked = [r.time for r in mission.requests if r.action == "land"]
+    land_start = mission.phases.land_start
+    first = min([*asked, *([] if land_start is None else [land_start])], default=math.inf)
+    over = first + _landing_time(mission, height)
+    if outcome == "flying" and over <= mission.mission.duration:
+        text = f"{height:.3g} m above its start at the end, with a landing asked for at {first:g} s"
+        yield finding(
+            "not-landed",
+            text,
+            time=mission.mission.duration,
+            place=position,
+            quantity="height above the start",
+            value=height,
+            unit="m",
+            limit=mission.outcome.landed_height,
+        )
+
+
+def _landing_time(mission: Mission, height: float) -> float:
+    """The longest time that a landing from a height [m] takes [s]."""
+    if mission.pilot.guidance == "clock":
+        return mission.phases.land_duration
+    slowest = STEEPEST * (height + mission.compliance.touchdown_depth) / mission.compliance.max_descent_speed
+    return max(mission.phases.land_duration, slowest) + MARGIN

@@ -196,13 +196,13 @@ def _finite(value: Any) -> Any:
 
 
 def run_of(flight: Flight) -> dict[str, Any]:
-    """Scores of a whole flight: rotor saturation, number of findings, time per step, and divergence."""
+    """Scores of a whole flight: rotor saturation, number of findings, time per step, and why it failed."""
     metrics = flight.metrics()
     return {
         "rotor_saturated_share": metrics["rotor_saturated_share"],
         "findings": len(flight.findings),
         "step_ns": metrics["wall_s"] / metrics["steps"] * 1e9 if metrics["steps"] else None,
-        "diverged": str(flight.divergence) if flight.divergence else None,
+        "failure": flight.failure or None,
     }
 
 
