@@ -153,3 +153,7 @@ def finding_kinds_markdown() -> str:
     lines = ["| kind | what it means | what to do | keys |", "|---|---|---|---|"]
     lines += [f"| {k.name} | {k.meaning} | {k.remedy} | {', '.join(f'`{key}`' for key in k.keys)} |" for k in KINDS]
     return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(finding_kinds_markdown())
