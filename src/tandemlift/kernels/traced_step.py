@@ -1,7 +1,8 @@
 """A traced step of a flight: each number that the step computes, as a symbol of the step's inputs.
 
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
-`solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step.
+`solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step, and
+`outside`, the push that it was given outside of the loop.
 Inputs of values computed before the step: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
 """
 
@@ -142,6 +143,7 @@ class TracedStep:
             self.input_of("noise", templates.given.noise),
             self.model.flight_state.person,
             self.input_of("external", templates.given.external),
+            self.input_of("outside", templates.given.outside),
         )
         self.given = self.trace(with_person)(self.model, outer, self.t, self.dt)
         self.asked: Symbols = []

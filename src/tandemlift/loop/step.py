@@ -78,7 +78,8 @@ class StepNoise(NamedTuple):
 class StepInputs(NamedTuple):
     """The inputs of a step: the push, gusts [m/s], standard normals, and the person's memory once they have pushed.
 
-    `external` is what a caller adds who steps the flight, else `Nothing`.
+    `external` is what a caller adds who steps the flight, else `Nothing`. `outside` is the push that the body's own
+    simulator applied; it is known once the body has moved, and is `Nothing` where there is no such push.
     """
 
     hand: PushSamples
@@ -86,6 +87,7 @@ class StepInputs(NamedTuple):
     noise: Any
     person: Any
     external: Any = Nothing()
+    outside: Any = Nothing()
 
 
 class PilotOutput(NamedTuple):
@@ -173,7 +175,7 @@ def finish_sample(
     """The end of a step once the body has moved: (`FlightState` after it, `Sample` at its start)."""
     before, noise = model.flight_state, inputs.noise.sensors
     readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
-    sample = log_sample(model, output, acting, moved, inputs.hand)
+    sample = log_sample(model, output, acting, moved, inputs)
     after = FlightState(
         state=moved.state,
         memory=output.memory,
@@ -185,7 +187,7 @@ def finish_sample(
         rotors=acting.rotors,
         readings=readings,
         person=inputs.person,
-        metrics=count(before.metrics, errors_of(model, output, sample)),
+        metrics=count(before.metrics, errors_of(model, output, sample, inputs.outside)),
         diverged=maximum(before.diverged, has_diverged(moved.state)),
     )
     return after, sample

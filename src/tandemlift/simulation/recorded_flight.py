@@ -29,7 +29,7 @@ from tandemlift.settings import Mission
 from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
-from tandemlift.simulation.stepping import Stepper, body_in
+from tandemlift.simulation.stepping import Stepper, body_of
 
 MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, "flight.npz"
 EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
@@ -106,8 +106,8 @@ def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
-    plan = FlightPlan(mission)
-    return FlightSetup(plan, body_in(engine, plan))
+    plan = FlightPlan(mission, engine)
+    return FlightSetup(plan, body_of(plan))
 
 
 class RecordedFlight:
