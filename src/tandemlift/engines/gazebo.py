@@ -79,8 +79,8 @@ class GazeboBody:
         connect: finds or starts a server, and connects to its plugin.
 
     Attributes:
-        pushed: (6,) force [N, world axes] and moment about the centre of mass [N·m, body axes] of pushes by Gazebo's
-            topic over the last step.
+        pushed: (6,) as `registry.PushedBody.pushed`: of pushes by topic and of Gazebo's own wrench tools. The moment of
+            the latter is not known: it is nan.
         server: the server that was started; None if one was joined.
 
     Raises:

@@ -7,13 +7,16 @@ step; it is part of the flight's record and of what the person has done. A body 
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
-from tandemlift.algebra.ops import maximum, where
+from tandemlift.algebra.ops import where
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Vec3, dot
 
 
 class OutsidePush(NamedTuple):
-    """The mean over a step: force [N, world axes] and moment about the centre of mass [N·m, body axes]."""
+    """The mean over a step: force [N, world axes] and moment about the centre of mass [N·m, body axes].
+
+    What its simulator does not know of it is nan. Then every metric that is formed from it is None.
+    """
 
     force: Vec3
     moment: Vec3
@@ -47,4 +50,5 @@ def held_by_anyone(outside: Any, held: Number) -> Any:
 @held_by_anyone.register(OutsidePush)
 def _held(outside: OutsidePush, held: Number) -> Number:
     F, M = outside.force, outside.moment
-    return maximum(held, where(dot(F, F) + dot(M, M) > 0.0, 1.0, 0.0))
+    turned = where(dot(M, M) > 0.0, 1.0, held)
+    return where(dot(F, F) > 0.0, 1.0, turned)
