@@ -22,7 +22,7 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import clip, greatest, maximum, minimum, sqrt, where
 from tandemlift.algebra.types import Number, PerQuadrotor, number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
-from tandemlift.laws.mechanics.contact import (
+from tandemlift.laws.mechanics.collision.springs import (
     friction_factor,
     mobility,
     softened_for_step,
