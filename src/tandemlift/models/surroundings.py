@@ -7,6 +7,7 @@ from typing import Any
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Nothing
 from tandemlift.laws.mechanics.collision.hull import Hull, hull
+from tandemlift.laws.mechanics.collision.spheres import rotor_spheres
 from tandemlift.laws.mechanics.contact import Floor, floor, sole_positions, standing_height
 from tandemlift.laws.mechanics.walls import Walls, walls
 from tandemlift.settings import Mission
@@ -35,7 +36,7 @@ def hull_from(mission: Mission, vehicle: Vehicle) -> Hull:
     fleet = vehicle.quadrotors
     return hull(
         vehicle.lever_arms,
-        [[(*place, q.rotor_height) for place in q.rotors] for q in fleet],
+        rotor_hubs_of(vehicle),
         [q.rotor_radius for q in fleet],
         [q.guard_radius for q in fleet],
         vehicle.mass * mission.plant.mass_scale,
@@ -44,6 +45,11 @@ def hull_from(mission: Mission, vehicle: Vehicle) -> Hull:
         beam=beam_of(vehicle),
         payload=-vehicle.center_of_mass,
     )
+
+
+def rotor_hubs_of(vehicle: Vehicle) -> list[list[tuple[float, float, float]]]:
+    """The hubs of every quadrotor's rotors from its centre of mass [m, body axes]."""
+    return [[(x, y, q.rotor_height) for x, y in q.rotors] for q in vehicle.quadrotors]
 
 
 def beam_of(vehicle: Vehicle) -> tuple[float, float] | None:
@@ -59,13 +65,16 @@ def walls_from(mission: Mission, vehicle: Vehicle) -> Any:
 
 def wall_contact_from(mission: Mission, vehicle: Vehicle) -> Walls:
     """The contact shapes and parameters for walls, even if the mission has none."""
+    fleet, hubs = vehicle.quadrotors, rotor_hubs_of(vehicle)
+    guards = [q.guard_radius for q in fleet]
     return walls(
         vehicle.lever_arms,
-        [q.guard_radius for q in vehicle.quadrotors],
+        guards,
         vehicle.mass * mission.plant.mass_scale,
         vehicle.inertia,
         mission.mission.step,
         friction=mission.ground.friction,
+        rotors=rotor_spheres(vehicle.lever_arms, hubs, [q.rotor_radius for q in fleet], guards),
         beam=beam_of(vehicle),
         payload=-vehicle.center_of_mass,
     )
