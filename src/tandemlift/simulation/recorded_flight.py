@@ -17,6 +17,7 @@ import numpy as np
 from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.files import atomic_write
+from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array
 from tandemlift.engines.registry import EngineBody
 from tandemlift.flight.record import Flight
@@ -170,6 +171,11 @@ class RecordedFlight:
     def number(self, *path: str) -> float:
         """A number of the flight's memory, by its path from `FlightState`."""
         return float(self._stepper.a[leaf_offset(self._stepper.p.model, "flight_state", *path).at])
+
+    @property
+    def refusals(self) -> Refusals:
+        """What the pilot would refuse right now, and why."""
+        return self._stepper.refusals(self.step * self.dt)
 
     @property
     def hand(self) -> VirtualHandInput:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import operator
 import time
 from collections.abc import Iterator
 from typing import Any
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.common.errors import InputError, suggestion
+from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Divergence, Flight
@@ -21,6 +21,7 @@ from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions.recording import engine_of
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
+from tandemlift.simulation.caller_values import numbers, with_seed
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, channels_of, divergence_of, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
@@ -30,7 +31,6 @@ FORCE, POINT, THRUSTS = (
     slice(3, 6),
     slice(6, -1),
 )  # of the numbers of a `laws.person.caller_inputs.CallerInput`
-MOST_SEED = 10**18  # as `mission.seed`
 REPORT_EVERY = 1000  # steps between reports of computing time, which decides when optimised code is made
 
 
@@ -186,6 +186,11 @@ class Simulation:
         """Why the flight has diverged: quantity, time, value and limit; None if it has not."""
         return divergence_of(self._p, self._result(np.empty((0, 0)), np.empty(0)))
 
+    @property
+    def refusals(self) -> Refusals:
+        """What the pilot would refuse right now: to lift, to land, to follow a push; and why, and what to do."""
+        return self._stepper.refusals(self.time)
+
     def _why_over(self) -> str:
         return str(self.divergence or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s")
 
@@ -265,34 +270,3 @@ class Simulation:
             self._end = stepper.row.copy()
             stepper.row[:] = row
         return self._end
-
-
-def numbers(name: str, value: Any, count: int, what: str) -> Array:
-    """An array of `count` finite numbers.
-
-    Raises:
-        InputError: the value is something else.
-    """
-    try:
-        found = np.asarray(value)
-    except ValueError:  # rows of different lengths
-        found = np.empty(0, dtype=object)
-    if found.shape != (count,) or found.dtype.kind not in "fiu" or not all(map(math.isfinite, found.tolist())):
-        given = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
-        raise InputError(f"{name} = {shown(given)}: must be {count} finite numbers ({what})")
-    return found
-
-
-def with_seed(mission: Mission, seed: Any) -> Mission:
-    """A mission with another seed.
-
-    Raises:
-        InputError: the seed is not allowed.
-    """
-    try:
-        number = operator.index(seed)
-    except TypeError:
-        number = -1
-    if not 0 <= number <= MOST_SEED:
-        raise InputError(f"seed = {shown(seed)}: must be a whole number from 0 to {MOST_SEED:g}")
-    return mission.model_copy(update={"mission": mission.mission.model_copy(update={"seed": number})})

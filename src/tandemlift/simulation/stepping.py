@@ -8,17 +8,20 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.algebra.vector import layout
+from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array, Progress
 from tandemlift.controllers import control
 from tandemlift.engines.registry import EngineBody, PushedBody, WaitingBody, engine_named
 from tandemlift.kernels import GIVEN, FlightMemory, leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.machine_code.compile_events import Stopped, always
+from tandemlift.pilot.refusals import refusals_of
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, take_metrics
@@ -27,6 +30,7 @@ from tandemlift.vehicle import Vehicle
 PROGRESS_EVERY = 1000  # steps
 STATE = 13  # numbers of a state
 NEVER = -1  # the number of no step
+GUIDANCE_MEMORY = ("flight_state", "memory", "guidance")
 
 
 def body_of(p: FlightPlan) -> EngineBody | None:
@@ -169,6 +173,17 @@ class Stepper:
         """Keep a waiting flight alive; call it at least ten times a second while no step is taken."""
         if isinstance(self.body, WaitingBody):
             self.body.rest()
+
+    def refusals(self, t: float) -> Refusals:
+        """What the pilot would refuse at time t [s], after the last step, and why."""
+        model = self.p.model
+        guidance = self._part(model.pilot.guidance, "pilot", "guidance")
+        return refusals_of(guidance, self._part(model.flight_state.memory.guidance, *GUIDANCE_MEMORY), t)
+
+    def _part(self, like: Any, *path: str) -> Any:
+        """A part of the flight as it is now, by its path from `FlightModel`."""
+        at, size = leaf_offset(self.p.model, *path)
+        return unflat(self.a[at : at + size], like)
 
     @property
     def lost(self) -> bool:
