@@ -152,7 +152,7 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
 
 
 @choice(absent=PartLoad(ZERO, ZERO))
-def beam_load(contact: BeamContact | Nothing, R: Mat3) -> PartLoad:
+def beam_load(contact: BeamContact | Nothing, R: Mat3) -> Any:
     """Load of the near walls on the payload."""
 
 

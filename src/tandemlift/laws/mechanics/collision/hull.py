@@ -135,7 +135,7 @@ def summed_load(contact: FloorContact, center: Vec3) -> PartLoad:
 
 
 @choice(absent=PartLoad(ZERO, ZERO))
-def beam_end_load(contact: FloorContact | Nothing, center: Vec3) -> PartLoad:
+def beam_end_load(contact: FloorContact | Nothing, center: Vec3) -> Any:
     """Load of the floor on the beam, world axes."""
 
 
