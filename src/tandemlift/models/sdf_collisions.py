@@ -116,7 +116,7 @@ def _rotor_balls(walls: Walls, four: slice, origin: Array) -> Iterator[VisualSha
     """The spheres of rotors that stand out of their guard, with the numbers of the rotors."""
     if isinstance(walls.rotors, Nothing):
         return
-    rows = list(zip(*walls.rotors.center, walls.rotors.radius, strict=True))[four]
+    rows = list(zip(*walls.rotors.hub, walls.rotors.radius, strict=True))[four]
     for j, (x, y, z, radius) in enumerate(rows, 1):
         if radius > 0.0:
             yield VisualShape(f"rotor_{j}_sphere", "sphere", (radius,), np.array([x, y, z]) - origin)
