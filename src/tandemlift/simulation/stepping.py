@@ -17,7 +17,7 @@ from tandemlift.algebra.vector import layout
 from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array, Progress
 from tandemlift.controllers import control
-from tandemlift.engines.registry import EngineBody, PushedBody, WaitingBody, engine_named
+from tandemlift.engines.registry import EngineBody, PushedBody, TouchingBody, WaitingBody, engine_named
 from tandemlift.kernels import GIVEN, FlightMemory, leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.machine_code.compile_events import Stopped, always
@@ -29,6 +29,7 @@ from tandemlift.vehicle import Vehicle
 
 PROGRESS_EVERY = 1000  # steps
 STATE = 13  # numbers of a state
+NO_TOUCHES: Array = np.zeros(0)
 NEVER = -1  # the number of no step
 GUIDANCE_MEMORY = ("flight_state", "memory", "guidance")
 
@@ -87,7 +88,9 @@ class Stepper:
         self.x, self.y, self.v, self.push = view["asked"], view["answer"], view["moved"], view["push"]
         self.external, self.outside = view["external"], view["outside"]
         if self.body is not None:
-            self.v[:] = flat(self.p.kernels.templates.moved)
+            moved = self.p.kernels.templates.moved
+            self.touches = self.body.touches if isinstance(self.body, TouchingBody) else NO_TOUCHES
+            self.v[:] = flat(moved._replace(touches=self.p.model.flight_state.touches))
         self.thrusts = view["acting"][thrusts.at : thrusts.at + thrusts.size]
         self.loads = view["acting"][air.at : air.at + air.size]
 
@@ -166,6 +169,8 @@ class Stepper:
         body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
         self.v[:STATE] = body.state
         self.v[STATE : STATE + body.readings.size] = body.readings
+        if self.touches.size:
+            self.v[self.v.size - self.touches.size :] = self.touches
         if self._pushed is not None:
             self.outside[:] = self._pushed
 
