@@ -271,4 +271,5 @@ def errors_of(model: Any, output: Any, x: Sample, outside: Any) -> StepErrors:
         clearance=clearance(model.plant.walls, model.flight_state.near, model.plant.frame, model.flight_state.state),
         effort=effort(model.flight_state.person, x, outside),
         push_active=push_active(decision.guidance.channels),
+        height=x.position.z,
     )
