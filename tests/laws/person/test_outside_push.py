@@ -1,10 +1,13 @@
 """A push that the body's own simulator applies, beside the loop: it is in the record, and in what the person did."""
 
+import re
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
+from tandemlift.cli.run import print_summary
 from tandemlift.engines.mujoco import MuJoCoBody
 from tandemlift.engines.registry import ENGINES, Engine
 from tandemlift.live.session.interactive_mission import interactive_mission
@@ -59,6 +62,22 @@ def test_whoever_pushes_so_holds_the_vehicle_for_as_long(engine):
     assert metrics["human_time_s"] == pytest.approx((LAST - FIRST) * DT, rel=1e-12)
     assert metrics["human_force_mean_n"] == pytest.approx(2.0, rel=1e-12)
     assert metrics["human_work_per_path_j_m"] == pytest.approx(metrics["human_work_j"] / metrics["human_path_m"])
+
+
+def test_a_moment_that_is_not_known_makes_the_work_unknown_and_never_zero(monkeypatch, capsys):
+    class Unknown(PushedMuJoCo):
+        def advance(self, *given):
+            super().advance(*given)
+            self.pushed[3:] = np.nan if self.pushed.any() else 0.0
+
+    monkeypatch.setitem(ENGINES, "pushed", Engine("pushed", "for this test", lambda: Unknown, pushable=True))
+    flight = tl.fly(tl.load_mission("iris", {"mission.duration": 16.0, "pushes": []}), "pushed")
+    metrics = flight.metrics()
+    assert metrics["human_work_j"] is None
+    assert metrics["human_impulse_n_s"] == pytest.approx([4.0, 0.0, 0.0], rel=1e-12)
+    assert metrics["final_position_m"] is not None
+    print_summary(flight)
+    assert re.search(r"human work +not known\n", capsys.readouterr().out)
 
 
 def test_a_body_that_nobody_can_push_has_no_such_numbers(monkeypatch):
