@@ -71,6 +71,13 @@ def test_a_flight_by_hand_yields_to_the_topic_and_is_kept(tmp_path):
     assert np.abs(flight["push_estimate"][:, 0]).max() == pytest.approx(2.0, abs=0.3)  # N
     assert 0.5 < flight["position"][-1, 0] < 6.0  # m
     assert abs(flight["position"][-1, 1]) < 0.1
+    metrics, along = flight.metrics(), flight["push_force"][:, 0]
+    work = (along * flight["velocity"][:, 0]).sum() * flight.mission["mission"]["log_interval"]
+    np.testing.assert_allclose(metrics["human_impulse_n_s"], [4.0, 0.0, 0.0], atol=1e-9)  # N s, what was pushed
+    assert metrics["human_work_j"] == pytest.approx(work, rel=0.05)
+    assert metrics["human_work_j"] > 1.0  # J
+    assert metrics["human_time_s"] == pytest.approx(2.0)
+    assert metrics["human_force_mean_n"] == pytest.approx(2.0)
 
 
 def test_the_window_opens_and_closes_with_the_flight(tmp_path, program):

@@ -65,6 +65,7 @@ class LoopWriter(StepWriter):
             "gust": lambda i: Place("%work", self.gust + i),
             "answer": lambda i: Place("%work", self.answer + i),
             "external": lambda i: Place("%work", self.external + i),
+            "outside": lambda i: Place("%work", self.outside + i),
             "moved": lambda i: Place("%work", self.moved + i),
             "solved": lambda i: Place("%work", self.solved + i),
         }

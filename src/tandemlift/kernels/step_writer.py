@@ -56,6 +56,7 @@ class StepWriter:
         self.asked, self.answer = take("asked", len(self.traced.asked)), take("answer", 4 + 3)
         self.acting = take("acting", len(self.traced.body.acting))
         self.external = take("external", leaves(x.given.external))
+        self.outside = take("outside", leaves(x.given.outside))
         self.push, self.moved = take("push", 6), take("moved", leaves(x.moved))
         needs = self.traced.limits
         self.solving = take("solving", len(needs.problem) + len(needs.search) if needs else 0)

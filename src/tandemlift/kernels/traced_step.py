@@ -1,7 +1,8 @@
 """A traced step of a flight: each number that the step computes, as a symbol of the step's inputs.
 
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
-`solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step.
+`solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step, and
+`outside`, the push that it was given outside of the loop.
 Inputs of values computed before the step: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
 """
 
@@ -142,6 +143,7 @@ class TracedStep:
             self.input_of("noise", templates.given.noise),
             self.model.flight_state.person,
             self.input_of("external", templates.given.external),
+            self.input_of("outside", templates.given.outside),
         )
         self.given = self.trace(with_person)(self.model, outer, self.t, self.dt)
         self.asked: Symbols = []
@@ -193,7 +195,7 @@ class TracedStep:
         return output._replace(decision=decision, memory=memory)
 
     def _stepped_body(self, plant: Any, acting: Any) -> Any:
-        return self.trace(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.dt)
+        return self.trace(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.t, self.dt)
 
     def _may_touch_walls(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""

@@ -17,6 +17,7 @@ import numpy as np
 from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.files import atomic_write
+from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array
 from tandemlift.engines.registry import EngineBody
 from tandemlift.flight.record import Flight
@@ -29,7 +30,7 @@ from tandemlift.settings import Mission
 from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
-from tandemlift.simulation.stepping import Stepper, body_in
+from tandemlift.simulation.stepping import Stepper, body_of
 
 MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, "flight.npz"
 EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
@@ -106,8 +107,8 @@ def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
-    plan = FlightPlan(mission)
-    return FlightSetup(plan, body_in(engine, plan))
+    plan = FlightPlan(mission, engine)
+    return FlightSetup(plan, body_of(plan))
 
 
 class RecordedFlight:
@@ -170,6 +171,11 @@ class RecordedFlight:
     def number(self, *path: str) -> float:
         """A number of the flight's memory, by its path from `FlightState`."""
         return float(self._stepper.a[leaf_offset(self._stepper.p.model, "flight_state", *path).at])
+
+    @property
+    def refusals(self) -> Refusals:
+        """What the pilot would refuse right now, and why."""
+        return self._stepper.refusals(self.step * self.dt)
 
     @property
     def hand(self) -> VirtualHandInput:

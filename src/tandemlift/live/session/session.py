@@ -17,6 +17,7 @@ from tandemlift.algebra.vector import Quat
 from tandemlift.common.errors import InputError
 from tandemlift.common.faults import ALARM_TEXTS
 from tandemlift.common.phases import PHASE_NAMES
+from tandemlift.common.refusals import Refusals, refusals_for
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.live.session.checks import check_may_tare, check_takes_requests, failed_rotors
 from tandemlift.live.session.frame_builder import FrameBuilder
@@ -167,6 +168,14 @@ class Session:
                 recorded_s=round(flight.step * flight.dt, 3),
                 failed_rotors=failed_rotors(flight),
             )
+
+    @property
+    def refusals(self) -> Refusals:
+        """What would be refused right now: to lift, to land, to follow a push; and why, and what to do."""
+        with self._lock:
+            if self._failed or self._flight.over:
+                return refusals_for("error" if self._failed else "over")
+            return self._flight.refusals
 
     def _values(self) -> dict[str, Any]:
         return self._frames.values(*self._flight.moment)
