@@ -48,6 +48,7 @@ CONFIRMED = 0.5  # least share of a force on a guard that the momentum residual 
 SEEN = 0.005  # least share of its square that the joints carry: 0.02 where all guards touch alike
 SHARP, STEEP = 60.0, 300.0  # N/s: least rise of a force on the beam at a known wall, and anywhere
 RELEASE = 0.5  # of the threshold: below, there is no contact
+STEADY_RATE = 0.5  # 1/s, of the steady mean of what acts on the quadrotors: bias, drift and wind
 DECISION_TIME = 0.015  # s of evidence, after which the part is told
 QUIET_TIME = 0.1  # s without force, after which a contact is over
 AWAY = 0.04  # m by which a part has moved away from a wall when the contact is over
@@ -101,7 +102,7 @@ NO_CONTACT = ContactEstimate(0.0, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0)
 
 
 class ContactState(NamedTuple):
-    """Memory: the bands of c, f, T and q; the contact; times [s]; the steepest push.
+    """Memory: the bands of c, f, T and q, and the steady mean of c; the contact; times [s]; the steepest push.
 
     `seen_time`: for how long there is evidence of a contact that begins. `steepest`: square of the greatest slope of a
     push [N²/s²] since it exceeds the threshold. `quiet_time`: for how long a contact is without force; `over_time`:
@@ -112,6 +113,7 @@ class ContactState(NamedTuple):
     joints: ForceBand
     momentum: ForceBand
     push: ForceBand
+    steady: SideForces
     contact: ContactEstimate
     seen_time: Any
     steepest: Any
@@ -120,9 +122,10 @@ class ContactState(NamedTuple):
 
 
 class Deviations(NamedTuple):
-    """The deviations from the slow means [N, body axes]: d, j (of sets), T and p."""
+    """The deviations from the slow means [N, body axes]: d, j (of sets), T and p; `lasting`: d from the steady mean."""
 
     outside: SideForces
+    lasting: SideForces
     joints: SideForces
     momentum: SideForces
     push: SideForces
@@ -163,6 +166,15 @@ def deviation(m: ForceBand) -> SideForces:
 
 
 @law
+def deviations(m: ContactState) -> Deviations:
+    """All deviations in a memory."""
+    lasting = SideForces(m.outside.x.value - m.steady.x, m.outside.y.value - m.steady.y)
+    return Deviations(
+        deviation(m.outside), lasting, deviation(m.joints), deviation(m.momentum), deviation(m.push)
+    )
+
+
+@law
 def restarted(m: ForceBand, restart: Any) -> ForceBand:
     """A memory whose slow means are the present force if it is to `restart` (1)."""
     return m._replace(
@@ -171,18 +183,28 @@ def restarted(m: ForceBand, restart: Any) -> ForceBand:
 
 
 @elementwise
-def guard_touched(square: Number, shown: Number, matched: Number, least: Number, seen: Number) -> Number:
+def guard_touched(square: Number, shown: Number, least: Number, seen: Number) -> Number:
     """The square of the force on a guard [N²] if it is that of a contact, else 0.
 
     Args:
         square: of its deviation [N²].
         shown: the product of it with the momentum residual [N²].
-        matched: 1 if a known wall explains it, else 0.
         least: square of the threshold, or of the force on the payload if that is larger [N²].
         seen: 1 if the joints have seen it, else 0.
     """
-    confirmed = where(shown > CONFIRMED * square, 1.0, matched)
-    return where(square > least, square * confirmed * seen, 0.0)
+    return where(square > least, where(shown > CONFIRMED * square, square * seen, 0.0), 0.0)
+
+
+@elementwise
+def on_map(square: Number, matched: Number, least: Number) -> Number:
+    """The square of the lasting force on a guard [N²] if a known wall explains it (1), else 0."""
+    return where(square > least, square * matched, 0.0)
+
+
+@law
+def square_of(f: SideForces) -> Any:
+    """The square of a horizontal force [N²]."""
+    return f.x * f.x + f.y * f.y
 
 
 @elementwise
@@ -200,7 +222,7 @@ def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch) -> A
     carried = total(joints.x * joints.x) + total(joints.y * joints.y)
     seen = where(carried > SEEN * total(square), 1.0, 0.0)
     least = maximum(k.threshold * k.threshold, p.x * p.x + p.y * p.y)
-    strength = guard_touched(square, shown, map_match.matched, least, seen)
+    strength = guard_touched(square, shown, least, seen) + on_map(square_of(d.lasting), map_match.matched, least)
     return greatest(number_of(strength, greatest(strength), k.numbers))
 
 
@@ -254,7 +276,7 @@ def begun(
     """The contact of a part that begins now; `y`: where on the beam the push seems to act [m]."""
     g, number = k.geometry, k.numbers
     on_beam = where(part < 0.0, 1.0, 0.0)
-    of_guard = SideForces(picked(number, part, d.outside.x), picked(number, part, d.outside.y))
+    of_guard = SideForces(picked(number, part, d.lasting.x), picked(number, part, d.lasting.y))
     rates = m.outside._replace(
         x=LowPassState(0.0, picked(number, part, m.outside.x.rate)), y=LowPassState(0.0, picked(number, part, m.outside.y.rate))
     )
@@ -273,8 +295,8 @@ def begun(
 @law
 def force_on(k: ContactDetector, d: Deviations, part: Any, s: State) -> Vec3:
     """The force on a part [N, world axes]."""
-    x = where(part < 0.0, d.push.x, picked(k.numbers, part, d.outside.x))
-    y = where(part < 0.0, d.push.y, picked(k.numbers, part, d.outside.y))
+    x = where(part < 0.0, d.push.x, picked(k.numbers, part, d.lasting.x))
+    y = where(part < 0.0, d.push.y, picked(k.numbers, part, d.lasting.y))
     return apply(rotation_from_quaternion(s.attitude), Vec3(x, y, 0.0))
 
 
@@ -301,8 +323,12 @@ def signals(k: ContactDetector, m: ContactState, e: PushEstimator, x: PushReadin
     """The memory with the forces of a reading."""
     a, f, hold = x.imu.specific_force, x.imu.joint_force, where(m.contact.part == 0.0, 0.0, 1.0)
     c = external_forces(e, x.imu, x.angular)
+    rate, outside = STEADY_RATE * dt * (1.0 - hold), banded(k, m.outside, c.x, c.y, hold, dt)
     return m._replace(
-        outside=banded(k, m.outside, c.x, c.y, hold, dt),
+        outside=outside,
+        steady=SideForces(
+            m.steady.x + (outside.x.value - m.steady.x) * rate, m.steady.y + (outside.y.value - m.steady.y) * rate
+        ),
         joints=banded(k, m.joints, f.x, f.y, hold, dt),
         momentum=banded(k, m.momentum, a.x * k.mass, a.y * k.mass, hold, dt),
         push=banded(k, m.push, a.x * e.mass - total(f.x), a.y * e.mass - total(f.y), hold, dt),
@@ -329,8 +355,8 @@ def _detected(
     k: ContactDetector, m: ContactState, e: PushEstimator, x: PushReading, s: State, around: Around, dt: Any
 ) -> Any:
     heard, before = signals(k, m, e, x, dt), m.contact
-    d = Deviations(*map(deviation, (heard.outside, heard.joints, heard.momentum, heard.push)))
-    guards = guards_matched(around.walls, k.geometry, s, world_forces(s, d.outside))
+    d = deviations(heard)
+    guards = guards_matched(around.walls, k.geometry, s, world_forces(s, d.lasting))
     beam = beam_of(around.walls, k.geometry, s, apply(rotation_from_quaternion(s.attitude), Vec3(d.push.x, d.push.y, 0.0)))
     free = where(before.part == 0.0, around.aloft * x.push.armed, 0.0)
     steepest = steepest_push(k, heard, d.push)
@@ -350,6 +376,7 @@ def _detected(
         joints=restarted(heard.joints, restart),
         momentum=restarted(heard.momentum, restart),
         push=restarted(heard.push, restart),
+        steady=heard.steady,
         contact=after,
         seen_time=seen_time * (1.0 - touches),
         steepest=steepest,
@@ -375,4 +402,4 @@ def start_contact(k: ContactDetector) -> ContactState:
     none, nil = k.numbers * 0.0, LowPassState(0.0, 0.0)
     still = LowPassState(none, none)
     of_sets, of_numbers = ForceBand(still, still, none, none), ForceBand(nil, nil, 0.0, 0.0)
-    return ContactState(of_sets, of_sets, of_numbers, of_numbers, NO_CONTACT, 0.0, 0.0, 0.0, 1.0 + EXPLAINED_TIME)
+    return ContactState(of_sets, of_sets, of_numbers, of_numbers, SideForces(none, none), NO_CONTACT, 0.0, 0.0, 0.0, 1.0 + EXPLAINED_TIME)

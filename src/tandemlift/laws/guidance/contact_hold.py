@@ -11,7 +11,7 @@ The time in contact, which time without one takes back, leads to a landing.
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import Nothing, choice, law
-from tandemlift.algebra.ops import maximum, minimum, where
+from tandemlift.algebra.ops import maximum, minimum, sqrt, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Vec3, dot
 from tandemlift.laws.estimation.contact_detection import NO_CONTACT, ContactEstimate
@@ -20,10 +20,12 @@ from tandemlift.laws.guidance.phases import PhaseBounds
 from tandemlift.laws.mechanics.rigid_body import State
 
 LEAVING_SPEED = 0.1  # m/s, of the reference towards the gap
+LEAD = 0.25  # m, by which the reference may be ahead of the vehicle along a wall, whose friction holds it back
 SAME_WALL = 0.7  # least cosine between the ways out of two touches of one wall
 BEAM = 65.0  # number of the beam in the code of a contact: after that of the last possible quadrotor
 DIAGONAL = 0.38268  # sin 22.5°: from there on, a direction has a component along an axis
 DIRECTIONS, PLACES = 9.0, 8192.0  # in the code of a contact
+TINY = 1e-12  # m²
 ROUND = 6755399441055744.0  # 1.5 · 2^52: added and taken off, it leaves a whole number
 
 
@@ -36,14 +38,16 @@ class ContactReaction(NamedTuple):
 
 
 class ContactReactionState(NamedTuple):
-    """Memory: 1 while the boundary holds; its normal, and its place along that [m]; times [s]; the contact's code.
+    """Memory: 1 while the boundary holds; its normal, its place along that [m], and its lever; part; times; code.
 
-    `free_time`: since the last touch. `held_time`: in contact, less the time without.
+    `lever` [m]: by how much the part that touched leaves the wall per yaw angle. `free_time` [s]: since the last touch. `held_time` [s]: in contact, less the time without.
     """
 
     holding: Any
     normal: Vec3
     level: Any
+    lever: Any
+    part: Any
     free_time: Any
     held_time: Any
     code: Any
@@ -52,14 +56,16 @@ class ContactReactionState(NamedTuple):
 class Boundary(NamedTuple):
     """What a contact asks of the guidance.
 
-    `on`: 1 while the boundary holds; its `normal`, its place along that and the least one of the reference [m]; 1 while
-    a part touches; 1 to land; the code of the contact, for events; 1 while the beam touches.
+    `on`: 1 while the boundary holds; its `normal`, its place along that and the least one of the reference [m]; its
+    `lever` (see `ContactReactionState`); the vehicle's position [m]; 1 while a part touches; 1 to land; the code of the contact, for events; 1 while the beam touches.
     """
 
     on: Any
     normal: Vec3
     level: Any
     least: Any
+    lever: Any
+    position: Vec3
     touching: Any
     land: Any
     code: Any
@@ -107,11 +113,15 @@ def _held(k: ContactReaction, m: ContactReactionState, sensed: Any, state: State
     free_time = (m.free_time + dt) * (1.0 - touching)
     holding = maximum(touching, where(free_time < k.recovery_time, m.holding, 0.0)) * aloft
     held_time = where(holding > 0.0, m.held_time + dt, maximum(m.held_time - dt, 0.0))
-    code = where(begins > 0.0, code_of(c), m.code) * holding
+    other = begins * where(c.part == m.part, 1.0 - m.holding, 1.0)
+    code = where(other > 0.0, code_of(c), m.code) * holding
+    arm = c.point - state.position
+    lever = where(begins > 0.0, c.normal.y * arm.x - c.normal.x * arm.y, m.lever)
+    part = where(touching > 0.0, c.part, m.part)
     land = where(held_time > k.hold_timeout, 1.0, 0.0)
     on_beam = where(c.part < 0.0, touching, 0.0)
-    boundary = Boundary(holding, normal, level, level + k.gap, touching, land, code, on_beam)
-    return boundary, ContactReactionState(holding, normal, level, free_time, held_time, code)
+    boundary = Boundary(holding, normal, level, level + k.gap, lever, state.position, touching, land, code, on_beam)
+    return boundary, ContactReactionState(holding, normal, level, lever, part, free_time, held_time, code)
 
 
 @law
@@ -135,11 +145,25 @@ def _kept_out(b: Boundary, m: ComplianceState, dt: Any) -> ComplianceState:
     place = dot(b.normal, m.position)
     least = minimum(b.least, maximum(place, b.level) + LEAVING_SPEED * dt)
     inside = maximum(least - place, 0.0) * b.on
+    ahead = m.position - b.position
+    along = Vec3(ahead.x, ahead.y, 0.0) - b.normal * dot(b.normal, ahead)
+    size = sqrt(maximum(dot(along, along), TINY))
+    excess = maximum(size - LEAD, 0.0) * b.on / size
     return m._replace(
-        position=m.position + b.normal * inside,
+        position=m.position + b.normal * inside - along * excess,
         velocity=outward(b, m.velocity),
         acceleration=outward(b, m.acceleration),
     )
+
+
+@choice(absent="moment")
+def turning_out(b: Any, moment: Any) -> Any:
+    """The moment about the vertical that may turn the vehicle [N·m]: none that turns the part into the wall."""
+
+
+@turning_out.register(Boundary)
+def _turning_out(b: Boundary, moment: Any) -> Any:
+    return where(b.on * b.lever * moment < 0.0, 0.0, moment)
 
 
 @choice(absent="push")
@@ -184,4 +208,4 @@ def _code(b: Boundary) -> Any:
 
 def start_reaction() -> ContactReactionState:
     """The memory before the first step."""
-    return ContactReactionState(0.0, ZERO, 0.0, 0.0, 0.0, 0.0)
+    return ContactReactionState(0.0, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

@@ -15,6 +15,7 @@ from tandemlift.laws.guidance.contact_hold import (
     kept_out,
     learnable,
     react_to_contact,
+    turning_out,
     without_wall,
 )
 from tandemlift.laws.guidance.energy_tank import passivity_damping
@@ -193,7 +194,7 @@ def _by_hand(
     compliance = fenced(g.supervision, g.compliance, before, g.phasing.height * allowed.lift.value)
     horizontal = available_acceleration(g, disturbance)
     after = compliance_step(compliance, before, push, allowed.responding, damping, horizontal, boundary, dt)
-    about_vertical = apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z
+    about_vertical = turning_out(boundary, apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z)
     yaw = euler_from_quaternion(state.attitude).angles.z
     heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)
     moment = low_pass_step(g.moment, m.moment, pilot_input.moment)
