@@ -48,7 +48,7 @@ CONFIRMED = 0.5  # least share of a force on a guard that the momentum residual 
 SEEN = 0.005  # least share of its square that the joints carry: 0.02 where all guards touch alike
 SHARP, STEEP = 60.0, 300.0  # N/s: least rise of a force on the beam at a known wall, and anywhere
 RELEASE = 0.5  # of the threshold: below, there is no contact
-STEADY_RATE = 0.5  # 1/s, of the steady mean of what acts on the quadrotors: bias, drift and wind
+STEADY_RATE = 0.05  # 1/s, of the steady mean of what acts on the quadrotors, once tared: drift and wind
 DECISION_TIME = 0.015  # s of evidence, after which the part is told
 QUIET_TIME = 0.1  # s without force, after which a contact is over
 AWAY = 0.04  # m by which a part has moved away from a wall when the contact is over
@@ -323,7 +323,8 @@ def signals(k: ContactDetector, m: ContactState, e: PushEstimator, x: PushReadin
     """The memory with the forces of a reading."""
     a, f, hold = x.imu.specific_force, x.imu.joint_force, where(m.contact.part == 0.0, 0.0, 1.0)
     c = external_forces(e, x.imu, x.angular)
-    rate, outside = STEADY_RATE * dt * (1.0 - hold), banded(k, m.outside, c.x, c.y, hold, dt)
+    outside = banded(k, m.outside, c.x, c.y, hold, dt)
+    rate = where(x.push.armed > 0.0, STEADY_RATE, k.slow_rate) * dt * (1.0 - hold)
     return m._replace(
         outside=outside,
         steady=SideForces(

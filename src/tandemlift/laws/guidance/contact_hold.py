@@ -15,7 +15,8 @@ from tandemlift.algebra.ops import maximum, minimum, sqrt, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Vec3, dot
 from tandemlift.laws.estimation.contact_detection import NO_CONTACT, ContactEstimate
-from tandemlift.laws.guidance.compliance import ComplianceState, within
+from tandemlift.laws.guidance.compliance import ComplianceState, moved_towards, within
+from tandemlift.laws.guidance.guidance import PilotInput
 from tandemlift.laws.guidance.phases import PhaseBounds
 from tandemlift.laws.mechanics.rigid_body import State
 
@@ -25,6 +26,7 @@ SAME_WALL = 0.7  # least cosine between the ways out of two touches of one wall
 BEAM = 65.0  # number of the beam in the code of a contact: after that of the last possible quadrotor
 DIAGONAL = 0.38268  # sin 22.5°: from there on, a direction has a component along an axis
 DIRECTIONS, PLACES = 9.0, 8192.0  # in the code of a contact
+HAND_RATE = 40.0  # N/s and N m/s: the fastest change of a push while a contact is near
 TINY = 1e-12  # m²
 ROUND = 6755399441055744.0  # 1.5 · 2^52: added and taken off, it leaves a whole number
 
@@ -37,8 +39,16 @@ class ContactReaction(NamedTuple):
     hold_timeout: Any
 
 
+class HandWrench(NamedTuple):
+    """A push: force [N, world axes] and moment about the system's centre of mass [N·m, body axes]."""
+
+    force: Vec3
+    moment: Vec3
+
+
 class ContactReactionState(NamedTuple):
-    """Memory: 1 while the boundary holds; its normal, its place along that [m], and its lever; part; times; code.
+    """Memory: 1 while the boundary holds; its normal, its place along that [m], and its lever; part; times; code;
+    the push as used at the last sample.
 
     `lever` [m]: by how much the part that touched leaves the wall per yaw angle. `free_time` [s]: since the last touch. `held_time` [s]: in contact, less the time without.
     """
@@ -51,15 +61,17 @@ class ContactReactionState(NamedTuple):
     free_time: Any
     held_time: Any
     code: Any
+    push: HandWrench
 
 
 class Boundary(NamedTuple):
     """What a contact asks of the guidance.
 
-    `on`: 1 while the boundary holds; its `normal`, its place along that and the least one of the reference [m]; its
+    `push`: the person's, as far as it is no wall's; `on`: 1 while the boundary holds; its `normal`, its place along that and the least one of the reference [m]; its
     `lever` (see `ContactReactionState`); the vehicle's position [m]; 1 while a part touches; 1 to land; the code of the contact, for events; 1 while the beam touches.
     """
 
+    push: HandWrench
     on: Any
     normal: Vec3
     level: Any
@@ -98,13 +110,13 @@ def code_of(c: ContactEstimate) -> Any:
 
 
 @choice(absent=("k", "m"))
-def react_to_contact(k: Any, m: Any, sensed: Any, state: State, aloft: Any, dt: Any) -> Any:
+def react_to_contact(k: Any, m: Any, pilot_input: PilotInput, aloft: Any, dt: Any) -> Any:
     """(`Boundary`, the new memory) at a sample; `aloft` is 1 in flight, except in lift and landing."""
 
 
 @react_to_contact.register(ContactReaction)
-def _held(k: ContactReaction, m: ContactReactionState, sensed: Any, state: State, aloft: Any, dt: Any) -> Any:
-    c = contact_of(sensed)
+def _held(k: ContactReaction, m: ContactReactionState, pilot_input: PilotInput, aloft: Any, dt: Any) -> Any:
+    c, state = contact_of(pilot_input.sensed), pilot_input.state
     touching = where(c.part == 0.0, 0.0, aloft)
     begins = touching * where(dot(c.normal, m.normal) * m.holding > SAME_WALL, 0.0, 1.0)
     normal = chosen(begins, c.normal, m.normal)
@@ -119,9 +131,10 @@ def _held(k: ContactReaction, m: ContactReactionState, sensed: Any, state: State
     lever = where(begins > 0.0, c.normal.y * arm.x - c.normal.x * arm.y, m.lever)
     part = where(touching > 0.0, c.part, m.part)
     land = where(held_time > k.hold_timeout, 1.0, 0.0)
+    push = slower(m.push, HandWrench(pilot_input.push, pilot_input.moment), holding, dt)
     on_beam = where(c.part < 0.0, touching, 0.0)
-    boundary = Boundary(holding, normal, level, level + k.gap, lever, state.position, touching, land, code, on_beam)
-    return boundary, ContactReactionState(holding, normal, level, lever, part, free_time, held_time, code)
+    boundary = Boundary(push, holding, normal, level, level + k.gap, lever, state.position, touching, land, code, on_beam)
+    return boundary, ContactReactionState(holding, normal, level, lever, part, free_time, held_time, code, push)
 
 
 @law
@@ -166,14 +179,23 @@ def _turning_out(b: Boundary, moment: Any) -> Any:
     return where(b.on * b.lever * moment < 0.0, 0.0, moment)
 
 
-@choice(absent="push")
-def without_wall(b: Any, push: Vec3) -> Any:
-    """A push without what the wall gives of it while the beam touches: the part out of the wall [N, world axes]."""
+@law
+def slower(m: HandWrench, push: HandWrench, holding: Any, dt: Any) -> HandWrench:
+    """A push that changes no faster than a hand's while a contact is near (`holding` 1): a wall's blows are no push."""
+    force, moment = moved_towards(m.force, push.force, HAND_RATE * dt), moved_towards(m.moment, push.moment, HAND_RATE * dt)
+    return HandWrench(chosen(holding, force, push.force), chosen(holding, moment, push.moment))
+
+
+@choice(absent="pilot_input")
+def without_wall(b: Any, pilot_input: PilotInput) -> Any:
+    """The pilot's input without what a wall gives of the push; of a beam that touches, what points out of the wall."""
 
 
 @without_wall.register(Boundary)
-def _less_wall(b: Boundary, push: Vec3) -> Vec3:
-    return push - b.normal * (maximum(dot(b.normal, push), 0.0) * b.on_beam)
+def _less_wall(b: Boundary, pilot_input: PilotInput) -> PilotInput:
+    force, moment = b.push
+    force = force - b.normal * (maximum(dot(b.normal, force), 0.0) * b.on_beam)
+    return pilot_input._replace(push=force, moment=moment)
 
 
 @choice(absent="bounds")
@@ -208,4 +230,4 @@ def _code(b: Boundary) -> Any:
 
 def start_reaction() -> ContactReactionState:
     """The memory before the first step."""
-    return ContactReactionState(0.0, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return ContactReactionState(0.0, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, HandWrench(ZERO, ZERO))

@@ -184,8 +184,8 @@ def _by_hand(
     dt: Any,
 ) -> Any:
     state = pilot_input.state
-    boundary, contact = react_to_contact(g.contact, m.contact, pilot_input.sensed, state, in_the_air(m.phase), dt)
-    push = without_wall(boundary, pilot_input.push)
+    boundary, contact = react_to_contact(g.contact, m.contact, pilot_input, in_the_air(m.phase), dt)
+    pilot_input = without_wall(boundary, pilot_input)
     phase, supervised, memory = supervised_phase(g, m, pilot_input, boundary, rotor_failed, t, dt)
     allowed = phase_output(g.phasing, phase, t)
     before = kept_out(boundary, grounded_at(allowed, m.compliance, state), dt)
@@ -193,7 +193,7 @@ def _by_hand(
     damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
     compliance = fenced(g.supervision, g.compliance, before, g.phasing.height * allowed.lift.value)
     horizontal = available_acceleration(g, disturbance)
-    after = compliance_step(compliance, before, push, allowed.responding, damping, horizontal, boundary, dt)
+    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, boundary, dt)
     about_vertical = turning_out(boundary, apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z)
     yaw = euler_from_quaternion(state.attitude).angles.z
     heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)
