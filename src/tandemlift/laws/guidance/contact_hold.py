@@ -131,7 +131,7 @@ def _held(k: ContactReaction, m: ContactReactionState, pilot_input: PilotInput, 
     lever = where(begins > 0.0, c.normal.y * arm.x - c.normal.x * arm.y, m.lever)
     part = where(touching > 0.0, c.part, m.part)
     land = where(held_time > k.hold_timeout, 1.0, 0.0)
-    push = slower(m.push, HandWrench(pilot_input.push, pilot_input.moment), holding, dt)
+    push = slower(m.push, pilot_input.push, pilot_input.moment, dt)
     on_beam = where(c.part < 0.0, touching, 0.0)
     boundary = Boundary(push, holding, normal, level, level + k.gap, lever, state.position, touching, land, code, on_beam)
     return boundary, ContactReactionState(holding, normal, level, lever, part, free_time, held_time, code, push)
@@ -180,10 +180,10 @@ def _turning_out(b: Boundary, moment: Any) -> Any:
 
 
 @law
-def slower(m: HandWrench, push: HandWrench, holding: Any, dt: Any) -> HandWrench:
-    """A push that changes no faster than a hand's while a contact is near (`holding` 1): a wall's blows are no push."""
-    force, moment = moved_towards(m.force, push.force, HAND_RATE * dt), moved_towards(m.moment, push.moment, HAND_RATE * dt)
-    return HandWrench(chosen(holding, force, push.force), chosen(holding, moment, push.moment))
+def slower(m: HandWrench, force: Vec3, moment: Vec3, dt: Any) -> HandWrench:
+    """A push that follows the measured one no faster than a hand changes it: a wall's blows are no push."""
+    step = HAND_RATE * dt
+    return HandWrench(moved_towards(m.force, force, step), moved_towards(m.moment, moment, step))
 
 
 @choice(absent="pilot_input")
@@ -193,9 +193,10 @@ def without_wall(b: Any, pilot_input: PilotInput) -> Any:
 
 @without_wall.register(Boundary)
 def _less_wall(b: Boundary, pilot_input: PilotInput) -> PilotInput:
-    force, moment = b.push
-    force = force - b.normal * (maximum(dot(b.normal, force), 0.0) * b.on_beam)
-    return pilot_input._replace(push=force, moment=moment)
+    force = b.push.force - b.normal * (maximum(dot(b.normal, b.push.force), 0.0) * b.on_beam)
+    return pilot_input._replace(
+        push=chosen(b.on, force, pilot_input.push), moment=chosen(b.on, b.push.moment, pilot_input.moment)
+    )
 
 
 @choice(absent="bounds")
