@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, apply_transposed, cross
+from tandemlift.common.phases import LAND
 from tandemlift.laws.estimation.contact_detection import (
     Around,
     ContactDetector,
@@ -16,11 +17,14 @@ from tandemlift.laws.estimation.contact_detection import (
 from tandemlift.laws.estimation.navigation import Navigator, navigate
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
 from tandemlift.laws.guidance.contact_hold import contact_of
-from tandemlift.laws.guidance.phases import in_the_air
+from tandemlift.laws.guidance.phases import in_the_air, is_in
 from tandemlift.laws.mechanics.push import push_moment
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import Readings, Sensors, sense
+
+
+NOTHING_AROUND = Around(Nothing(), 0.0, 0.0, 0.0)
 
 
 class TruthSource(NamedTuple):
@@ -158,7 +162,7 @@ def _estimated(estimators: Estimators, memory: Any, readings: Any, around: Aroun
     return estimates, EstimatorState(push_memory, state_memory, contact_memory)
 
 
-@choice(absent=Around(Nothing(), 0.0))
+@choice(absent=NOTHING_AROUND)
 def surroundings_of(estimators: Any, sources: PilotSources, near: Any, guidance: Any) -> Any:
     """What the estimators know of obstacles; `near`: the walls near the vehicle, `guidance`: its memory."""
 
@@ -173,14 +177,15 @@ def _known(known: KnownWalls, near: Any) -> Any:
     return near
 
 
-@choice(absent=Around(Nothing(), 0.0))
+@choice(absent=NOTHING_AROUND)
 def known_around(contact: Any, sources: PilotSources, near: Any, guidance: Any) -> Any:
     """The same, for the detector of contacts that the estimators have."""
 
 
 @known_around.register(ContactDetector)
 def _around(contact: ContactDetector, sources: PilotSources, near: Any, guidance: Any) -> Around:
-    return Around(walls_known(sources.map, near), in_the_air(guidance.phase))
+    m = guidance.phase
+    return Around(walls_known(sources.map, near), in_the_air(m), is_in(m, LAND), m.ground)
 
 
 @surroundings_of.register(Estimators)

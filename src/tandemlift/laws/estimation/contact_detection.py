@@ -51,6 +51,7 @@ RELEASE = 0.5  # of the threshold: below, there is no contact
 STEADY_RATE = 0.05  # 1/s, of the steady mean of what acts on the quadrotors, once tared: drift and wind
 DECISION_TIME = 0.015  # s of evidence, after which the part is told
 QUIET_TIME = 0.1  # s without force, after which a contact is over
+HIGH = 0.2  # m above the ground: feet do not touch it in a landing
 AWAY = 0.04  # m by which a part has moved away from a wall when the contact is over
 EXPLAINED_TIME = 0.5  # s after a contact, in which joints that disagree are explained by it
 BEAM = -1.0  # number of the beam in place of that of a guard
@@ -140,10 +141,16 @@ class PushReading(NamedTuple):
 
 
 class Around(NamedTuple):
-    """What the pilot knows of its surroundings: the known walls near it, or `Nothing`; 1 if it flies freely, else 0."""
+    """What the pilot knows of its surroundings.
+
+    `walls`: the known ones near it, or `Nothing`; 1 in flight, except in lift and landing; 1 in a landing; the height
+    of the `ground` [m].
+    """
 
     walls: Any
     aloft: Any
+    landing: Any
+    ground: Any
 
 
 @law
@@ -359,7 +366,9 @@ def _detected(
     d = deviations(heard)
     guards = guards_matched(around.walls, k.geometry, s, world_forces(s, d.lasting))
     beam = beam_of(around.walls, k.geometry, s, apply(rotation_from_quaternion(s.attitude), Vec3(d.push.x, d.push.y, 0.0)))
-    free = where(before.part == 0.0, around.aloft * x.push.armed, 0.0)
+    high = where(s.position.z > around.ground + HIGH, around.landing, 0.0)
+    aloft = maximum(around.aloft, high)
+    free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
     steepest = steepest_push(k, heard, d.push)
     part = touching_part(k, steepest, d, guards, beam) * free
     seen_time = (m.seen_time + dt) * where(part == 0.0, 0.0, 1.0)
@@ -368,7 +377,7 @@ def _detected(
     now = now._replace(force=force_on(k, d, now.part, s))
     quiet_time = (m.quiet_time + dt) * where(dot(now.force, now.force) < (RELEASE * k.threshold) * (RELEASE * k.threshold), 1.0, 0.0)
     moved = dot(now.normal, axis_of(k, now.part, now.along, s) - now.point) - radius_of(k, now.part)
-    over = maximum(where(quiet_time > QUIET_TIME, 1.0, 0.0), maximum(where(moved > AWAY, 1.0, 0.0), 1.0 - around.aloft))
+    over = maximum(where(quiet_time > QUIET_TIME, 1.0, 0.0), maximum(where(moved > AWAY, 1.0, 0.0), 1.0 - aloft))
     touches = where(now.part == 0.0, 0.0, 1.0) * (1.0 - over)
     after = chosen(touches, now, NO_CONTACT)
     restart = where(before.part == 0.0, 0.0, 1.0 - touches)

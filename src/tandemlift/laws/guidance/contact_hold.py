@@ -13,12 +13,13 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import Nothing, choice, law
 from tandemlift.algebra.ops import maximum, minimum, sqrt, where
 from tandemlift.algebra.selection import chosen
-from tandemlift.algebra.vector import ZERO, Vec3, dot
+from tandemlift.algebra.vector import ZERO, Vec3, apply_transposed, cross, dot
 from tandemlift.laws.estimation.contact_detection import NO_CONTACT, ContactEstimate
 from tandemlift.laws.guidance.compliance import ComplianceState, moved_towards, within
-from tandemlift.laws.guidance.guidance import PilotInput
+from tandemlift.laws.guidance.guidance import LoadOfWall, PilotInput
 from tandemlift.laws.guidance.phases import PhaseBounds
 from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 LEAVING_SPEED = 0.1  # m/s, of the reference towards the gap
 LEAD = 0.25  # m, by which the reference may be ahead of the vehicle along a wall, whose friction holds it back
@@ -68,7 +69,7 @@ class Boundary(NamedTuple):
     """What a contact asks of the guidance.
 
     `push`: the person's, as far as it is no wall's; `on`: 1 while the boundary holds; its `normal`, its place along that and the least one of the reference [m]; its
-    `lever` (see `ContactReactionState`); the vehicle's position [m]; 1 while a part touches; 1 to land; the code of the contact, for events; 1 while the beam touches.
+    `lever` (see `ContactReactionState`); the vehicle's position [m]; the load of the `wall`; 1 to land; the code of the contact, for events; 1 while the beam touches.
     """
 
     push: HandWrench
@@ -78,7 +79,7 @@ class Boundary(NamedTuple):
     least: Any
     lever: Any
     position: Vec3
-    touching: Any
+    wall: LoadOfWall
     land: Any
     code: Any
     on_beam: Any
@@ -133,7 +134,7 @@ def _held(k: ContactReaction, m: ContactReactionState, pilot_input: PilotInput, 
     land = where(held_time > k.hold_timeout, 1.0, 0.0)
     push = slower(m.push, pilot_input.push, pilot_input.moment, dt)
     on_beam = where(c.part < 0.0, touching, 0.0)
-    boundary = Boundary(push, holding, normal, level, level + k.gap, lever, state.position, touching, land, code, on_beam)
+    boundary = Boundary(push, holding, normal, level, level + k.gap, lever, state.position, load_at(c, state), land, code, on_beam)
     return boundary, ContactReactionState(holding, normal, level, lever, part, free_time, held_time, code, push)
 
 
@@ -209,14 +210,22 @@ def _bounded(b: Boundary, bounds: PhaseBounds) -> PhaseBounds:
     return bounds._replace(land=maximum(bounds.land, b.land), contact=b.on)
 
 
-@choice(absent=1.0)
-def learnable(b: Any) -> Any:
-    """1 while observers may learn, 0 while a wall acts."""
+@choice(absent=Nothing())
+def load_of_wall(b: Any) -> Any:
+    """The load of the wall on a guard that touches; that on the beam is a part of the measured push already."""
 
 
-@learnable.register(Boundary)
-def _learnable(b: Boundary) -> Any:
-    return 1.0 - b.touching
+@load_of_wall.register(Boundary)
+def _load_of_wall(b: Boundary) -> LoadOfWall:
+    return b.wall
+
+
+@law
+def load_at(c: ContactEstimate, state: State) -> LoadOfWall:
+    """The load of the wall as estimated."""
+    force = c.force * where(c.part > 0.0, 1.0, 0.0)
+    moment = apply_transposed(rotation_from_quaternion(state.attitude), cross(c.point - state.position, force))
+    return LoadOfWall(force, moment, where(c.part == 0.0, 0.0, 1.0))
 
 
 @choice(absent=0.0)

@@ -13,7 +13,7 @@ from tandemlift.laws.guidance.contact_hold import (
     bounded_by,
     contact_code,
     kept_out,
-    learnable,
+    load_of_wall,
     react_to_contact,
     turning_out,
     without_wall,
@@ -211,7 +211,8 @@ def _by_hand(
         moment=(moment.value + moment.rate * g.moment_lead) * allowed.compensating,
         running=ThrustFraction(allowed.running),
         flying=allowed.flying * (1.0 - blind),
-        learning=(1.0 - presses_on_ground(phase, target.position.z)) * learnable(boundary),
+        learning=1.0 - presses_on_ground(phase, target.position.z),
         channels=channels_from(allowed, after, damping, heading, shown),
+        wall=load_of_wall(boundary),
     )
     return guidance, HandGuidanceState(phase, after, tank, turned, moment, memory, contact)
