@@ -50,6 +50,7 @@ SHARP, STEEP = 60.0, 300.0  # N/s: least rise of a force on the beam at a known 
 RELEASE = 0.5  # of the threshold: below, there is no contact
 STEADY_RATE = 0.05  # 1/s, of the steady mean of what acts on the quadrotors, once tared: drift and wind
 DECISION_TIME = 0.015  # s of evidence, after which the part is told
+LEAST_DOUBT, DOUBT_TIME = 0.008, 0.5  # s of an unconfirmed force that exclude a contact, and for how long at most
 QUIET_TIME = 0.1  # s without force, after which a contact is over
 HIGH = 0.2  # m above the ground: feet do not touch it in a landing
 AWAY = 0.04  # m by which a part has moved away from a wall when the contact is over
@@ -106,7 +107,7 @@ class ContactState(NamedTuple):
     """Memory: the bands of c, f, T and q, and the steady mean of c; the contact; times [s]; the steepest push.
 
     `seen_time`: for how long there is evidence of a contact that begins. `steepest`: square of the greatest slope of a
-    push [N²/s²] since it exceeds the threshold. `quiet_time`: for how long a contact is without force; `over_time`:
+    push [N²/s²] since it exceeds the threshold. `doubt`: for how long a force has lately not been confirmed. `quiet_time`: for how long a contact is without force; `over_time`:
     since the last one.
     """
 
@@ -118,6 +119,7 @@ class ContactState(NamedTuple):
     contact: ContactEstimate
     seen_time: Any
     steepest: Any
+    doubt: Any
     quiet_time: Any
     over_time: Any
 
@@ -220,14 +222,32 @@ def number_of(strength: Number, strongest: Number, number: Number) -> Number:
     return where(strength > 0.0, where(strength == strongest, number, 0.0), 0.0)
 
 
+@elementwise
+def confirms(square: Number, strongest: Number, shown: Number) -> Number:
+    """1 if this is the strongest force and the momentum residual confirms it, else 0."""
+    return where(square == strongest, where(shown > CONFIRMED * square, 1.0, 0.0), 0.0)
+
+
 @law
-def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch) -> Any:
-    """The number of the quadrotor whose guard touches now, or 0."""
+def doubt_after(k: ContactDetector, doubt: Any, d: Deviations, dt: Any) -> Any:
+    """For how long the strongest force has lately not been confirmed by the motion [s], at most `DOUBT_TIME`."""
+    c, p, T = d.outside, d.push, d.momentum
+    on_guards, on_payload = square_of(c), square_of(p)
+    strongest = maximum(greatest(on_guards), on_payload)
+    by_guards = greatest(confirms(on_guards, strongest, c.x * T.x + c.y * T.y))
+    confirmed = maximum(by_guards, confirms(on_payload, strongest, p.x * T.x + p.y * T.y))
+    doubtful = where(strongest > k.threshold * k.threshold, 1.0 - confirmed, 0.0)
+    return where(doubtful > 0.0, minimum(doubt + dt, DOUBT_TIME), maximum(doubt - dt, 0.0))
+
+
+@law
+def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch, sure: Any) -> Any:
+    """The number of the quadrotor whose guard touches now, or 0; `sure` is 1 if the motion confirms forces, else 0."""
     outside, joints, T, p = d.outside, d.joints, d.momentum, d.push
     square = outside.x * outside.x + outside.y * outside.y
     shown = outside.x * T.x + outside.y * T.y
     carried = total(joints.x * joints.x) + total(joints.y * joints.y)
-    seen = where(carried > SEEN * total(square), 1.0, 0.0)
+    seen = where(carried > SEEN * total(square), sure, 0.0)
     least = maximum(k.threshold * k.threshold, p.x * p.x + p.y * p.y)
     strength = guard_touched(square, shown, least, seen) + on_map(square_of(d.lasting), map_match.matched, least)
     return greatest(number_of(strength, greatest(strength), k.numbers))
@@ -270,10 +290,13 @@ def horizontal(f: Vec3) -> Vec3:
 
 
 @law
-def touching_part(k: ContactDetector, steepest: Any, d: Deviations, guards: GuardMatch, beam: BeamMatch) -> Any:
+def touching_part(
+    k: ContactDetector, m: ContactState, d: Deviations, guards: GuardMatch, beam: BeamMatch
+) -> Any:
     """The part that touches now, as in `ContactEstimate`, or 0."""
-    guard = touched_guard(k, d, guards)
-    return where(guard > 0.0, guard, BEAM * beam_touched(k, steepest, d, beam.matched))
+    sure = where(m.doubt < LEAST_DOUBT, 1.0, 0.0)
+    guard = touched_guard(k, d, guards, sure)
+    return where(guard > 0.0, guard, BEAM * sure * beam_touched(k, m.steepest, d, beam.matched))
 
 
 @law
@@ -369,8 +392,8 @@ def _detected(
     high = where(s.position.z > around.ground + HIGH, around.landing, 0.0)
     aloft = maximum(around.aloft, high)
     free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
-    steepest = steepest_push(k, heard, d.push)
-    part = touching_part(k, steepest, d, guards, beam) * free
+    heard = heard._replace(steepest=steepest_push(k, heard, d.push), doubt=doubt_after(k, m.doubt, d, dt))
+    part = touching_part(k, heard, d, guards, beam) * free
     seen_time = (m.seen_time + dt) * where(part == 0.0, 0.0, 1.0)
     begins = where(seen_time > DECISION_TIME, 1.0, 0.0)
     now = chosen(begins, begun(k, heard, d, part, guards, beam, s, x.push.point), before)
@@ -389,7 +412,8 @@ def _detected(
         steady=heard.steady,
         contact=after,
         seen_time=seen_time * (1.0 - touches),
-        steepest=steepest,
+        steepest=heard.steepest,
+        doubt=heard.doubt,
         quiet_time=quiet_time * touches,
         over_time=where(touches > 0.0, 0.0, m.over_time + dt),
     )
@@ -412,4 +436,4 @@ def start_contact(k: ContactDetector) -> ContactState:
     none, nil = k.numbers * 0.0, LowPassState(0.0, 0.0)
     still = LowPassState(none, none)
     of_sets, of_numbers = ForceBand(still, still, none, none), ForceBand(nil, nil, 0.0, 0.0)
-    return ContactState(of_sets, of_sets, of_numbers, of_numbers, SideForces(none, none), NO_CONTACT, 0.0, 0.0, 0.0, 1.0 + EXPLAINED_TIME)
+    return ContactState(of_sets, of_sets, of_numbers, of_numbers, SideForces(none, none), NO_CONTACT, 0.0, 0.0, 0.0, 0.0, 1.0 + EXPLAINED_TIME)
