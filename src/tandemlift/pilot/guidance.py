@@ -10,6 +10,7 @@ from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.common.phases import IDLE
 from tandemlift.laws.guidance.admittance import Admittance
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
+from tandemlift.laws.guidance.contact_hold import ContactReaction, start_reaction
 from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState
 from tandemlift.laws.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.laws.guidance.phases import SETTLING_TIME, PhaseSettings, PhaseState
@@ -80,6 +81,13 @@ def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     return turning, YawState(NO_MOMENT, quiet, NO_MOMENT, start, 0.0, 0.0)
 
 
+def _contact(mission: Mission) -> tuple[Any, Any]:
+    c = mission.contact
+    if c.model == "none":
+        return Nothing(), Nothing()
+    return ContactReaction(c.gap, c.recovery_time, c.hold_timeout), start_reaction()
+
+
 def start_hand_guidance(
     mission: Mission, vehicle: Vehicle, admittance: Admittance, known: Any
 ) -> tuple[HandGuidance, HandGuidanceState]:
@@ -88,6 +96,7 @@ def start_hand_guidance(
     supervision, supervising = start_supervision(mission, vehicle, known)
     tank, filled = _tank(c)
     heading, turned = _heading(mission, vehicle)
+    reaction, reacting = _contact(mission)
     guided = HandGuidance(
         phasing=_phasing(mission),
         compliance=_compliance(mission, admittance),
@@ -99,6 +108,7 @@ def start_hand_guidance(
         max_thrust=vehicle.max_thrust * c.thrust_fraction,
         tangent=tan(c.max_tilt),
         supervision=supervision,
+        contact=reaction,
     )
     quiet = DeadBandState(active=ZERO, above_time=ZERO, inactive_time=ZERO, mean=ZERO, bias=ZERO)
     at = ZERO if mission.phases.rotors == "always" else Vec3(*mission.initial.position)
@@ -123,4 +133,4 @@ def start_hand_guidance(
         handled_lands=0.0,
         hover_time=-SETTLING_TIME,
     )
-    return guided, HandGuidanceState(phase, compliance, filled, turned, NO_PUSH, supervising)
+    return guided, HandGuidanceState(phase, compliance, filled, turned, NO_PUSH, supervising, reacting)

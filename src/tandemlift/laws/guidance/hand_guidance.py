@@ -9,6 +9,15 @@ from tandemlift.algebra.vector import Vec3, apply, dot
 from tandemlift.common.phases import LAND
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
+from tandemlift.laws.guidance.contact_hold import (
+    bounded_by,
+    contact_code,
+    kept_out,
+    load_of_wall,
+    react_to_contact,
+    turning_out,
+    without_wall,
+)
 from tandemlift.laws.guidance.energy_tank import passivity_damping
 from tandemlift.laws.guidance.guidance import (
     Guidance,
@@ -22,6 +31,7 @@ from tandemlift.laws.guidance.phases import (
     PhaseSettings,
     PhaseState,
     exceeds,
+    in_the_air,
     is_in,
     lift_request,
     phase_output,
@@ -57,6 +67,7 @@ class HandGuidance(NamedTuple):
     max_thrust: Any
     tangent: Any
     supervision: Any
+    contact: Any
 
 
 class HandGuidanceState(NamedTuple):
@@ -68,6 +79,7 @@ class HandGuidanceState(NamedTuple):
     heading: Any
     moment: LowPassState
     supervision: Any
+    contact: Any
 
 
 class HandGuidanceChannels(NamedTuple):
@@ -147,7 +159,7 @@ def channels_from(
 
 @law
 def supervised_phase(
-    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, rotor_failed: Any, t: Any, dt: Any
+    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, boundary: Any, rotor_failed: Any, t: Any, dt: Any
 ) -> Any:
     """(the phase, `SupervisionOutput`, the memory of supervision) at time t [s]."""
     k, operator = g.phasing, pilot_input.operator
@@ -157,7 +169,7 @@ def supervised_phase(
     land = maximum(maximum(pilot_input.land, rotor_failed), exceeds(requests.lands, m.phase.handled_lands))
     lift = lift_request(k, m.phase, requests, operator.lift, land)
     output, memory = supervise(g.supervision, m.supervision, pilot_input, m.phase, lift, t, dt)
-    phase = update_phase(k, m.phase, pilot_input.state, requests, (lift, land), output.bounds, t, dt)
+    phase = update_phase(k, m.phase, pilot_input.state, requests, (lift, land), bounded_by(boundary, output.bounds), t, dt)
     return phase, output, memory
 
 
@@ -172,22 +184,24 @@ def _by_hand(
     dt: Any,
 ) -> Any:
     state = pilot_input.state
-    phase, supervised, memory = supervised_phase(g, m, pilot_input, rotor_failed, t, dt)
+    boundary, contact = react_to_contact(g.contact, m.contact, pilot_input, in_the_air(m.phase), dt)
+    pilot_input = without_wall(boundary, pilot_input)
+    phase, supervised, memory = supervised_phase(g, m, pilot_input, boundary, rotor_failed, t, dt)
     allowed = phase_output(g.phasing, phase, t)
-    before = grounded_at(allowed, m.compliance, state)
+    before = kept_out(boundary, grounded_at(allowed, m.compliance, state), dt)
     dissipated = dot(before.velocity * g.compliance.admittance.damping, before.velocity)
     damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
     compliance = fenced(g.supervision, g.compliance, before, g.phasing.height * allowed.lift.value)
     horizontal = available_acceleration(g, disturbance)
-    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, dt)
-    about_vertical = apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z
+    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, boundary, dt)
+    about_vertical = turning_out(boundary, apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z)
     yaw = euler_from_quaternion(state.attitude).angles.z
     heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)
     moment = low_pass_step(g.moment, m.moment, pilot_input.moment)
     motion = Trajectory(before.position, before.velocity, after.acceleration)
     target, blind = with_lift_and_landing(g, motion, allowed), supervised.motion_unknown
     target = with_blind_descent(g.supervision, target, state, blind, is_in(phase, LAND), allowed.land.value)
-    shown, memory = finish_supervision(g.supervision, memory, phase, target.position, t)
+    shown, memory = finish_supervision(g.supervision, memory, phase, target.position, contact_code(boundary), t)
     lead = after.jerk * g.compliance.reference_lead
     guidance = Guidance(
         force=after.output.value,
@@ -199,5 +213,6 @@ def _by_hand(
         flying=allowed.flying * (1.0 - blind),
         learning=1.0 - presses_on_ground(phase, target.position.z),
         channels=channels_from(allowed, after, damping, heading, shown),
+        wall=load_of_wall(boundary),
     )
-    return guidance, HandGuidanceState(phase, after, tank, turned, moment, memory)
+    return guidance, HandGuidanceState(phase, after, tank, turned, moment, memory, contact)
