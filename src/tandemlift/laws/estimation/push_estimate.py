@@ -6,7 +6,8 @@ a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_
 Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
 
 In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
-identified (`laws.estimation.tare`); where an excess of mass sits, hover does not tell (`inertial_force`). The wind on the payload may be subtracted (`laws.mechanics.air_drag`).
+identified (`laws.estimation.tare`); where an excess of mass sits, hover does not tell (`inertial_force`). The wind on
+the payload may be subtracted (`laws.mechanics.air_drag`).
 
 The external force on quadrotor i is f_i + m_i s_i, with s_i its specific force. Thrust is only in z, so x and y are
 wind or sensor error; where they differ between quadrotors, the push is not trusted. Errors in z, of torques, and errors
@@ -41,11 +42,11 @@ class PushEstimator(NamedTuple):
     """The nominal vehicle and the numbers of the estimator; body axes.
 
     Payload: `mass` [kg] and `inertia` [kg·m²]. From its centre of mass [m]: the `system`'s centre of mass, `joints`,
-    and the `quadrotors`' centres of mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length. `per_interval`: samples of the IMU
-    per second. `least`: square of the least force [N²] that has a point of application. Tare from `tare_start` [s]
-    until before `tare_end`; `identify` is 1 to identify the payload's mass, else 0. `limit`: disagreement [N] from
-    which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N = 1. `windage`: how wind is
-    taken off, or `Nothing`.
+    and the `quadrotors`' centres of mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length.
+    `per_interval`: samples of the IMU per second. `least`: square of the least force [N²] that has a point of
+    application. Tare from `tare_start` [s] until before `tare_end`; `identify` is 1 to identify the payload's mass,
+    else 0. `limit`: disagreement [N] from which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N =
+    1. `windage`: how wind is taken off, or `Nothing`.
     """
 
     mass: Any
