@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, apply, dot
-from tandemlift.common.phases import LAND, LIFT
+from tandemlift.common.phases import IDLE, LAND, LIFT
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
 from tandemlift.laws.guidance.energy_tank import passivity_damping
@@ -139,8 +139,11 @@ def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) ->
 
 @law
 def presses_on_ground(m: PhaseState, height: Any) -> Any:
-    """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0."""
-    return is_in(m, LAND) * where(height < m.ground, 1.0, 0.0)
+    """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0.
+
+    Also after the landing, with rotors that keep running: what the ground gives is no disturbance.
+    """
+    return (is_in(m, LAND) + is_in(m, IDLE)) * where(height < m.ground, 1.0, 0.0)
 
 
 @law
