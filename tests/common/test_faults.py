@@ -73,7 +73,7 @@ def test_the_first_check_that_fails_is_reported():
 
 
 def test_the_channel_knows_every_phase():
-    assert CHANNELS["phase"].meaning == "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped, 6 limited"
+    assert CHANNELS["phase"].meaning == "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped, 6 contact, 7 limited"
 
 
 RECIPE = """

@@ -31,7 +31,7 @@ from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.sensors.readings import by_name, readings_of, start_sensing
 from tandemlift.laws.signals.random_numbers import key_from_seed
 from tandemlift.loop.delays import Delayed, DelayLines
-from tandemlift.loop.perception import READS, PilotSources
+from tandemlift.loop.perception import MAPS, READS, PilotSources
 from tandemlift.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
 from tandemlift.loop.step import FlightModel, FlightState, StepInputs, StepNoise
 from tandemlift.pilot.assemble import start_pilot
@@ -126,7 +126,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         metrics=start_metrics(clearance(walls, near, plant.frame, state), memory_of_person),
         diverged=0.0,
     )
-    sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
+    sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map])
     late = delay_lines_from(mission, delays)
     model = FlightModel(flight_state, pilot, plant, rotors, wind, devices, estimators, sources, person, late)
     given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), sensor_noise, tremor_noise), memory_of_person)

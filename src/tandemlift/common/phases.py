@@ -26,10 +26,11 @@ PHASES = (
     Phase("land", "on", "compensated", "descends, at most at `compliance.max_descent_speed`"),
     Phase("hold", "on", "compensated", "brakes and stays in place"),
     Phase("stopped", "off", "ignored", "stays at the vehicle"),
+    Phase("contact", "on", "followed along and away from the wall, and compensated", "stays out of the wall"),
     Phase("limited", "on", "compensated", "brakes and stays in place, as the vehicle cannot follow"),
 )
 PHASE_NAMES = tuple(phase.name for phase in PHASES)
-IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED, LIMITED = map(float, range(len(PHASES)))
+IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED, CONTACT, LIMITED = map(float, range(len(PHASES)))
 PHASE_NUMBERS = ", ".join(f"{number} {name}" for number, name in enumerate(PHASE_NAMES))
 """The numbers with their names, as the meaning of the channel `phase`."""
 

@@ -130,6 +130,20 @@ GROUPS: tuple[ChannelGroup, ...] = (
         "from such values.",
     ),
     ChannelGroup(
+        'With detection of contacts (`contact.model = "watch"`)',
+        {
+            "contact_part": Channel(
+                "1", "", "part that touches: number of the quadrotor of a guard, −1 for the beam, 0 for none", 1
+            ),
+            "contact_force_estimate": Channel("N", "world", "estimated horizontal force of the wall on that part"),
+            "contact_point_estimate": Channel("m", "world", "where it began to act; zero for none"),
+            "contact_along_beam": Channel("m", "body y", "that point along the beam, from the payload's centre", 1),
+            "contact_normal": Channel("1", "world", "unit vector out of the wall, towards the vehicle; zero for none"),
+            "contact_rise_time": Channel("s", "", "time in which the force rose, when the contact was found", 1),
+            "contact_on_map": Channel("1", "", "1 if the pilot knows a wall there (`pilot.map`), else 0", 1),
+        },
+    ),
+    ChannelGroup(
         "With a disturbance observer (`observer.model`)",
         {
             "disturbance_force": Channel("N", "world", "estimated force besides rotors, weight and person"),

@@ -23,7 +23,16 @@ from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_
 from tandemlift.laws.person.person import landing_request, person_step
 from tandemlift.laws.rotors.rotors import rotors_step
 from tandemlift.loop.log_sample import errors_of, log_sample
-from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
+from tandemlift.loop.perception import (
+    all_sensed,
+    estimate_all,
+    measure,
+    read_push,
+    read_state,
+    surroundings_of,
+    tare_time,
+    usable,
+)
 from tandemlift.loop.running_metrics import RunningMetrics, count
 from tandemlift.loop.wind_loads import WindOutput, wind_loads
 from tandemlift.pilot.pilot import Decision, PilotInput, PilotMemory, PilotParameters, decide, with_thrusts
@@ -119,7 +128,8 @@ def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
     """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
     before, sources = model.flight_state, model.sources
     since = tare_time(model.estimator, before.memory.guidance, t)
-    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, since, dt)
+    around = surroundings_of(model.estimator, sources, before.near, before.memory.guidance)
+    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, around, since, dt)
     readings = usable(estimates, before.readings)
     state = read_state(sources.state, before.state, readings, estimates)
     wrench = read_push(sources.push, push, state, estimates)

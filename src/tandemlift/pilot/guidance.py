@@ -10,7 +10,8 @@ from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.common.phases import IDLE
 from tandemlift.laws.guidance.admittance import Admittance
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
-from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState
+from tandemlift.laws.guidance.contact_hold import ContactReaction, start_reaction
+from tandemlift.laws.guidance.limits.energy_tank import EnergyTank, EnergyTankState
 from tandemlift.laws.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.laws.guidance.limits.above_ground import GroundClearance
 from tandemlift.laws.guidance.limits.available import AvailableForce
@@ -108,6 +109,13 @@ def _following(mission: Mission, vehicle: Vehicle) -> FollowingLimits:
     )
 
 
+def _contact(mission: Mission) -> tuple[Any, Any]:
+    c = mission.contact
+    if c.model == "none":
+        return Nothing(), Nothing()
+    return ContactReaction(c.gap, c.recovery_time, c.hold_timeout), start_reaction()
+
+
 def start_hand_guidance(
     mission: Mission, vehicle: Vehicle, admittance: Admittance, known: Any
 ) -> tuple[HandGuidance, HandGuidanceState]:
@@ -116,6 +124,7 @@ def start_hand_guidance(
     supervision, supervising = start_supervision(mission, vehicle, known)
     tank, filled = _tank(c)
     heading, turned = _heading(mission, vehicle)
+    reaction, reacting = _contact(mission)
     guided = HandGuidance(
         phasing=_phasing(mission),
         compliance=_compliance(mission, admittance),
@@ -127,6 +136,7 @@ def start_hand_guidance(
         clearance=GroundClearance(c.min_height) if mission.ground.model == "floor" else Nothing(),
         following=_following(mission, vehicle),
         supervision=supervision,
+        contact=reaction,
     )
     quiet = DeadBandState(active=ZERO, above_time=ZERO, inactive_time=ZERO, mean=ZERO, bias=ZERO)
     at = ZERO if mission.phases.rotors == "always" else Vec3(*mission.initial.position)
@@ -151,4 +161,5 @@ def start_hand_guidance(
         handled_lands=0.0,
         hover_time=-SETTLING_TIME,
     )
-    return guided, HandGuidanceState(phase, compliance, filled, turned, NO_PUSH, AT_REST, supervising)
+    memory = HandGuidanceState(phase, compliance, filled, turned, NO_PUSH, AT_REST, supervising, reacting)
+    return guided, memory

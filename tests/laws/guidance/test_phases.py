@@ -3,7 +3,7 @@
 import pytest
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
-from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, PHASE_NAMES, STOPPED
+from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, PHASE_NAMES, STOPPED
 from tandemlift.laws.guidance.phases import (
     SETTLING_TIME,
     PhaseBounds,
@@ -158,7 +158,7 @@ def test_hovering_counts_from_steady_flight():
 
 def test_nobody_asks_for_nothing():
     assert requests_until(Nothing(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
-    assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED, LIMITED} == set(map(float, range(len(PHASE_NAMES))))
+    assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED, CONTACT, LIMITED} == set(map(float, range(len(PHASE_NAMES))))
 
 
 def test_a_vehicle_that_cannot_follow_is_limited_until_it_can():

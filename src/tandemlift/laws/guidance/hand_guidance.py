@@ -5,10 +5,19 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, apply, dot
-from tandemlift.common.phases import IDLE, LAND, LIFT
+from tandemlift.common.phases import CONTACT, IDLE, LAND, LIFT
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
-from tandemlift.laws.guidance.energy_tank import passivity_damping
+from tandemlift.laws.guidance.contact_hold import (
+    bounded_by,
+    contact_code,
+    kept_out,
+    load_of_wall,
+    react_to_contact,
+    turning_out,
+    without_wall,
+)
+from tandemlift.laws.guidance.limits.energy_tank import passivity_damping
 from tandemlift.laws.guidance.guidance import (
     Guidance,
     PilotInput,
@@ -35,7 +44,7 @@ from tandemlift.laws.guidance.phases import (
     PhaseSettings,
     PhaseState,
     exceeds,
-    is_hovering,
+    in_the_air,
     is_in,
     lift_request,
     phase_output,
@@ -72,6 +81,7 @@ class HandGuidance(NamedTuple):
     clearance: Any
     following: FollowingLimits
     supervision: Any
+    contact: Any
 
 
 class HandGuidanceState(NamedTuple):
@@ -84,6 +94,7 @@ class HandGuidanceState(NamedTuple):
     moment: LowPassState
     following: FollowingState
     supervision: Any
+    contact: Any
 
 
 class HandGuidanceChannels(NamedTuple):
@@ -159,7 +170,7 @@ def channels_from(
 def following_step(
     g: HandGuidance, m: FollowingState, phase: PhaseState, state: State, load: Vec3, reference: Reference, time: tuple
 ) -> FollowingState:
-    """The memory of what limits the vehicle; nothing does while it is on the ground or lands.
+    """The memory of what limits the vehicle; nothing does on the ground, in a landing or in contact.
 
     Args:
         g: the guidance.
@@ -177,14 +188,14 @@ def following_step(
         max_thrust=usable_thrust(g.available, t),
         error=reference.trajectory.position - state.position,
         heading_error=wrap_angle(reference.yaw - yaw),
-        active=is_in(phase, LIFT) + is_hovering(phase),
+        active=is_in(phase, LIFT) + in_the_air(phase) - is_in(phase, CONTACT),
     )
     return update_following(g.following, m, now, dt)
 
 
 @law
 def supervised_phase(
-    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, rotor_failed: Any, t: Any, dt: Any
+    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, boundary: Any, rotor_failed: Any, t: Any, dt: Any
 ) -> Any:
     """(the phase, `SupervisionOutput`, the memory of supervision) at time t [s]."""
     k, operator = g.phasing, pilot_input.operator
@@ -195,7 +206,7 @@ def supervised_phase(
     land = maximum(maximum(pilot_input.land, unable), exceeds(requests.lands, m.phase.handled_lands))
     lift = lift_request(k, m.phase, requests, operator.lift, land)
     output, memory = supervise(g.supervision, m.supervision, pilot_input, m.phase, lift, t, dt)
-    bounds = output.bounds._replace(limited=pilot_input.status.limited)
+    bounds = bounded_by(boundary, output.bounds._replace(limited=pilot_input.status.limited))
     phase = update_phase(k, m.phase, pilot_input.state, requests, (lift, land), bounds, t, dt)
     return phase, output, memory
 
@@ -211,24 +222,26 @@ def _by_hand(
     dt: Any,
 ) -> Any:
     state = pilot_input.state
-    phase, supervised, memory = supervised_phase(g, m, pilot_input, rotor_failed, t, dt)
+    boundary, contact = react_to_contact(g.contact, m.contact, pilot_input, in_the_air(m.phase), dt)
+    pilot_input = without_wall(boundary, pilot_input)
+    phase, supervised, memory = supervised_phase(g, m, pilot_input, boundary, rotor_failed, t, dt)
     allowed = phase_output(g.phasing, phase, t)
-    before = grounded_at(allowed, m.compliance, state)
+    before = kept_out(boundary, grounded_at(allowed, m.compliance, state), dt)
     dissipated = dot(before.velocity * g.compliance.admittance.damping, before.velocity)
     damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
     lifted = g.phasing.height * allowed.lift.value
     compliance = above_ground(g.clearance, g.compliance, before, before.position.z + lifted - phase.ground)
     compliance = fenced(g.supervision, compliance, before, lifted)
     horizontal = available_acceleration(g.available, disturbance.force, usable_thrust(g.available, t))
-    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, dt)
-    about_vertical = apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z
+    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, boundary, dt)
+    about_vertical = turning_out(boundary, apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z)
     yaw = euler_from_quaternion(state.attitude).angles.z
     heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)
     moment = low_pass_step(g.moment, m.moment, pilot_input.moment)
     motion = Trajectory(before.position, before.velocity, after.acceleration)
     target, blind = with_lift_and_landing(g, motion, allowed), supervised.motion_unknown
     target = with_blind_descent(g.supervision, target, state, blind, is_in(phase, LAND), allowed.land.value)
-    shown, memory = finish_supervision(g.supervision, memory, phase, target.position, t)
+    shown, memory = finish_supervision(g.supervision, memory, phase, target.position, contact_code(boundary), t)
     lead = after.jerk * g.compliance.reference_lead
     reference = Reference(target, heading.angle, heading.rate, heading.acceleration, lead)
     load = disturbance.force + after.filtered.value * allowed.compensating
@@ -243,5 +256,6 @@ def _by_hand(
         flying=allowed.flying * (1.0 - blind),
         learning=1.0 - presses_on_ground(phase, target.position.z),
         channels=channels_from(allowed, after, damping, heading, following.reason, shown),
+        wall=load_of_wall(boundary),
     )
-    return guidance, HandGuidanceState(phase, after, tank, turned, moment, following, memory)
+    return guidance, HandGuidanceState(phase, after, tank, turned, moment, following, memory, contact)

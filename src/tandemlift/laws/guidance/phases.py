@@ -1,6 +1,6 @@
 """The phases of a flight with a person, as a state machine.
 
-idle on the ground → lift → hold ⇄ guided ⇄ limited → land → idle; from each of them → stopped, which is final.
+idle on the ground → lift → hold ⇄ guided ⇄ contact, limited → land → idle; from each of them → stopped, which is final.
 `next_phase` has the transitions, `PhaseOutput` what a phase allows. The laws have no branches: every condition is a
 number, 1 or 0. The diagram is in docs/safety.md; `common.phases` has names and numbers.
 """
@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import absolute, maximum, minimum, where
 from tandemlift.algebra.vector import dot
-from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
+from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
 from tandemlift.laws.guidance.requests import RequestCounts
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.signals.trajectories import SmoothStep, smoothstep
@@ -63,7 +63,8 @@ class PhaseBounds(NamedTuple):
     """Bounds, 1 or 0: whether supervision allows a lift and guidance; whether it demands to hold, land, stop.
 
     `touched_down`: whether a landing has ended early on something. `extra_depth` [m]: how much farther down a landing
-    that begins now ends. `limited`: above 0 while the vehicle cannot follow its reference.
+    that begins now ends. `contact`: whether the reference is kept out of a wall. `limited`: above 0 while the vehicle
+    cannot follow its reference.
     """
 
     lift_allowed: Any
@@ -73,6 +74,7 @@ class PhaseBounds(NamedTuple):
     stop: Any
     touched_down: Any
     extra_depth: Any
+    contact: Any = 0.0
     limited: Any = 0.0
 
 
@@ -101,9 +103,9 @@ def is_in(m: PhaseState, phase: Any) -> Any:
 
 
 @law
-def is_hovering(m: PhaseState) -> Any:
-    """1 in the phases of a vehicle that is in the air and neither lifts nor lands, else 0."""
-    return is_in(m, GUIDED) + is_in(m, HOLD) + is_in(m, LIMITED)
+def in_the_air(m: PhaseState) -> Any:
+    """1 in flight, except in lift and landing, where feet may touch the ground; else 0."""
+    return is_in(m, GUIDED) + is_in(m, HOLD) + is_in(m, CONTACT) + is_in(m, LIMITED)
 
 
 @law
@@ -130,14 +132,15 @@ def next_phase(
     k: PhaseSettings, m: PhaseState, requests: RequestCounts, bounds: PhaseBounds, lifts: Any, land: Any, t: Any
 ) -> Any:
     """The phase after this sample; `lifts` is 1 if a lift begins, `land` 1 if a landing is requested."""
-    lift, hovering = is_in(m, LIFT), is_hovering(m)
-    up = lift * where((t - m.since - k.spin_up_time) * k.lift_rate >= 1.0, 1.0, 0.0) + hovering
+    lift, aloft = is_in(m, LIFT), in_the_air(m)
+    up = lift * where((t - m.since - k.spin_up_time) * k.lift_rate >= 1.0, 1.0, 0.0) + aloft
     guided = requests.enabled * bounds.guidance_allowed * (1.0 - bounds.hold)
     demanded = maximum(maximum(land, bounds.land), lift * bounds.hold)
-    lands = (lift + hovering) * demanded
+    lands = (lift + aloft) * demanded
+    followed = where(bounds.contact > 0.0, CONTACT, GUIDED)
     landed = is_in(m, LAND) * maximum(where((t - m.since) * m.land_rate >= 1.0, 1.0, 0.0), bounds.touched_down)
+    able = where(guided > 0.0, followed, HOLD)
     phase = where(lifts > 0.0, LIFT, m.phase)
-    able = where(guided > 0.0, GUIDED, HOLD)
     phase = where(up > 0.0, where(bounds.limited > 0.0, LIMITED, able), phase)
     phase = where(lands > 0.0, LAND, where(landed > 0.0, IDLE, phase))
     return where(maximum(requests.stop, bounds.stop) > 0.0, STOPPED, phase)
@@ -162,7 +165,8 @@ def landing_rate(k: PhaseSettings, height: Any) -> Any:
 @law
 def hover_time(m: PhaseState, phase: Any, state: State, dt: Any) -> Any:
     """For how long it has hovered steadily, less `SETTLING_TIME` [s]; above zero it only needs to be in the air."""
-    up = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, where(phase == LIMITED, 1.0, 0.0)))
+    flies = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, where(phase == CONTACT, 1.0, 0.0)))
+    up = where(phase == LIMITED, 1.0, flies)
     moving = maximum(dot(state.velocity, state.velocity), dot(state.rates, state.rates))
     steady = where(moving < STEADY_SPEED * STEADY_SPEED, up, where(m.hover_time >= 0.0, up, 0.0))
     return where(steady > 0.0, m.hover_time + dt, where(m.hover_time >= 0.0, m.hover_time, -SETTLING_TIME))
@@ -227,7 +231,7 @@ def phase_output(k: PhaseSettings, m: PhaseState, t: Any) -> PhaseOutput:
     return PhaseOutput(
         phase=m.phase,
         grounded=parked + stopped,
-        responding=is_in(m, GUIDED),
+        responding=is_in(m, GUIDED) + is_in(m, CONTACT),
         running=(1.0 - parked) * (1.0 - stopped),
         flying=(1.0 - parked) * (1.0 - stopped) * (1.0 - lift * (1.0 - begun) * (1.0 - k.always_running)),
         lift=SmoothStep(where(lift > 0.0, up.value, lift_fraction), lift * up.rate, lift * up.curvature),
