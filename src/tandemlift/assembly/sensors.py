@@ -117,6 +117,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         identify_mass=e.identify_mass,
         disagreement_limit=e.disagreement_limit,
         windage=Nothing() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, step),
+        system=vehicle.center_of_mass,
     )
     observer = navigator(
         vehicle.center_of_mass,

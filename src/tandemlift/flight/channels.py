@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.common.phases import PHASE_NUMBERS
+from tandemlift.common.phases import PHASE_NUMBERS, REASON_NUMBERS
 from tandemlift.common.sensors import ADDITIONAL
 
 
@@ -164,6 +164,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
             "push_active": Channel("1", "world", "1 while the pilot follows the push along an axis, else 0"),
             "added_damping": Channel("N s/m", "", "damping that is added to keep the compliance passive", 1),
             "reference_yaw_rate": Channel("rad/s", "world", "derivative of the yaw reference", 1),
+            "limited_reason": Channel("1", "", f"why it cannot follow: 0 it can, {REASON_NUMBERS}", 1),
         },
     ),
     ChannelGroup(

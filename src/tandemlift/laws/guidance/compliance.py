@@ -7,7 +7,7 @@ so the rate of the acceleration is known too, and the reference can lead by the 
 acceleration and jerk are bounded, also by the thrust that is left; every start and stop is smooth. While nobody pushes,
 a slow mean of the measured push becomes its bias.
 
-Passivity: `laws.guidance.energy_tank`. Yaw: `laws.guidance.yaw_compliance`.
+Passivity: `laws.guidance.limits.energy_tank`. Yaw: `laws.guidance.yaw_compliance`.
 """
 
 from typing import Any, NamedTuple
