@@ -109,6 +109,11 @@ def refusals_for(key: str) -> Refusals:
     return Refusals(*[refusal_of(request, NUMBER_OF[key], 0.0, 0.0) for request in REQUESTS])
 
 
+def sentences_for(request: Request) -> list[str]:
+    """What is said of a refused request for each reason, by its number; places of numbers are left in braces."""
+    return ["", *[str(_refusal(request, reason)) for reason in REASONS]]
+
+
 def refusal_of(request: Request, number: float, value: float, limit: float) -> PilotRefusal | None:
     """The refusal for the number of a reason and the numbers in its text; None for 0, no reason.
 
@@ -120,7 +125,11 @@ def refusal_of(request: Request, number: float, value: float, limit: float) -> P
     """
     if not number:
         return None
-    reason = REASONS[int(number) - 1]
-    alarm = ALARM_TEXTS[int(value)] if "{alarm}" in reason.text else ""
-    why = reason.text.format(value=f"{value:g}", limit=f"{limit:g}", alarm=alarm)
-    return PilotRefusal(request, f"{OPENINGS[request]}: {why}.", reason.advice)
+    refusal = _refusal(request, REASONS[int(number) - 1])
+    alarm = ALARM_TEXTS[int(value)] if "{alarm}" in refusal.why else ""
+    return refusal._replace(why=refusal.why.format(value=f"{value:g}", limit=f"{limit:g}", alarm=alarm))
+
+
+def _refusal(request: Request, reason: Reason) -> PilotRefusal:
+    """The refusal of a request for a reason, with the places of its numbers in braces."""
+    return PilotRefusal(request, f"{OPENINGS[request]}: {reason.text}.", reason.advice)
