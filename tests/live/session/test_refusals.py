@@ -1,7 +1,6 @@
 """A session says why a lift, a landing or a push has no effect, to who asked and in its status."""
 
-import pytest
-from sessions import fly, say, seen, up
+from sessions import fly, say, up
 
 import tandemlift as tl
 from tandemlift.live.session.session import Session
