@@ -67,7 +67,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "released": flat(HAND_RELEASED),
         "engine": ENGINE,
         "plant": leaf_offset(plan.model, "plant"),
-        "lost": leaf_offset(plan.model, "flight_state", "diverged").at,
+        "lost": leaf_offset(plan.model, "flight_state", "ended").at,
         "hover_time": leaf_offset(plan.model, "flight_state", *checks.HOVER_TIME).at if rule.tare_duration else -1,
         "guidance": [leaf_offset(plan.model, *path) for path in (("pilot", "guidance"), GUIDANCE_MEMORY)],
         "frame": frame_fields(plan),
