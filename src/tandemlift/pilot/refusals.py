@@ -83,7 +83,7 @@ def _by_hand(g: HandGuidance, m: HandGuidanceState, t: Any) -> RefusalNumbers:
     landing, stopped = reason("landing"), reason("stopped")
     return RefusalNumbers(
         lift=by_value(phase, {IDLE: grounded, LAND: landing, STOPPED: stopped}, reason("in_air")),
-        land=by_value(phase, {IDLE: reason("landed"), STOPPED: stopped, LAND: landing}, NONE),
+        land=by_value(phase, {IDLE: reason("landed"), STOPPED: stopped}, NONE),
         push=by_value(
             phase,
             {

@@ -1,6 +1,6 @@
 // What a page is given of a mission: its module, and the manifest that Python wrote with it (`live.offline`).
 
-import type { FlightScene, SceneParameter } from "../wire/messages.generated.ts";
+import type { FlightScene, SceneParameter, StatusRefusals } from "../wire/messages.generated.ts";
 import { sha256 } from "./sha256.ts";
 import type { Tables } from "./toml.ts";
 
@@ -73,6 +73,8 @@ export interface PageTexts {
   failed_already: string;
   no_requests: string; // empty if the pilot takes requests
   touch: Record<string, string>; // by the number that the module gives
+  refusals: Record<keyof StatusRefusals, string[]>; // likewise
+  refused_at_end: Record<"over" | "error", StatusRefusals>;
   empty: string;
   name: string;
   only_server: string;
@@ -103,6 +105,7 @@ export interface PageManifest {
   plant: Span;
   lost: number; // index of the number that is 0 until the flight diverges
   hover_time: number; // index, or −1 if no tare needs it
+  guidance: Span[]; // the pilot's guidance and its memory, of which `refusals` is a function
   frame: [field: string, count: number][]; // what `frame` returns
   phase_times: number[]; // s
   touch_rule: number[];

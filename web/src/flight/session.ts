@@ -1,6 +1,13 @@
 // A flight in real time, pushed by the page. As `live.session.session` does it.
 
-import type { FlightScene, PageMessage, Phase, ServerMessage, StatusMessage } from "../wire/messages.generated.ts";
+import type {
+  FlightScene,
+  PageMessage,
+  Phase,
+  ServerMessage,
+  StatusMessage,
+  StatusRefusals,
+} from "../wire/messages.generated.ts";
 import { Layout } from "../wire/frames.ts";
 import { Flight } from "./flight.ts";
 import { HandControl } from "./hand_control.ts";
@@ -12,6 +19,7 @@ import { Pacer } from "./pacer.ts";
 import { ParameterControl } from "./parameter_control.ts";
 import { recordedFlight } from "./recording.ts";
 import { Refusal } from "./refusal.ts";
+import { refusalsNow } from "./refusals.ts";
 import type { Tables } from "./toml.ts";
 
 export type Answer = Exclude<ServerMessage, { type: "status" | "pong" | "done" }> | SavedFile;
@@ -103,6 +111,7 @@ export class Session {
       behind_ms: Number((1e3 * behind).toFixed(2)),
       recorded_s: Number(flight.time.toFixed(3)),
       failed_rotors: this.parameters.failed(flight.time),
+      refusals: this.refusals(),
       viewers: 1,
       holder: this.held ? "you" : "none",
     };
@@ -191,12 +200,23 @@ export class Session {
     return [];
   }
 
-  private request(message: RequestMessage): [] {
+  private request(message: RequestMessage): Answer[] {
     const { no_requests: none } = this.manifest.page.texts;
     if (none) throw new Refusal(none, { what: message.type === "ask" ? message.what : "enable" });
-    if (message.type === "ask") this.hand.ask(message);
-    else this.hand.enable(message.on);
-    return [];
+    if (message.type === "enable") {
+      this.hand.enable(message.on);
+      return [];
+    }
+    this.hand.ask(message);
+    const reason = message.what === "stop" ? "" : this.refusals()[message.what];
+    return reason ? [{ type: "refused", what: message.type, reason }] : [];
+  }
+
+  private refusals(): StatusRefusals {
+    const { module, manifest, flight } = this;
+    const { refused_at_end: ended } = manifest.page.texts;
+    if (this.failed) return ended.error;
+    return flight.over ? ended.over : refusalsNow(module, manifest.page, flight);
   }
 
   private begin(start: MissionNumbers): void {

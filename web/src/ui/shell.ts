@@ -128,6 +128,10 @@ export class Shell {
 
   refused(what: string, reason: string): void {
     if (what === "save" && this.saving.refused(reason)) return;
+    if (what === "ask" && this.dock) {
+      this.dock.refused(reason);
+      return;
+    }
     const shown = this.panel.refused(what, reason);
     if (!shown || byId("panel").hidden) this.notices.show(`${what}: ${reason}`, "refused");
   }
@@ -209,7 +213,7 @@ export class Shell {
   };
 
   private keys(): Map<string, () => void> {
-    const { page, timeline } = this;
+    const { timeline } = this;
     const views = [...byId("views").querySelectorAll<HTMLElement>("button, input")];
     const names = ["Digit1", "Digit2", "Digit3", "KeyF"];
     const keys = new Map(names.map((name, i) => [name, () => views[i].click()]));
@@ -219,17 +223,17 @@ export class Shell {
       keys.set("ArrowRight", () => timeline.step(1));
     } else {
       keys.set("KeyP", () => this.dock?.togglePause());
-      keys.set("KeyL", () => page.send({ type: "ask", what: "lift" }));
-      keys.set("KeyK", () => page.send({ type: "ask", what: "land" }));
+      keys.set("KeyL", () => this.dock?.ask("lift"));
+      keys.set("KeyK", () => this.dock?.ask("land"));
     }
     return keys;
   }
 }
 
-function hintOf({ phase, preparing }: StatusMessage, pulled: boolean): string {
+function hintOf({ phase, preparing, refusals }: StatusMessage, pulled: boolean): string {
   if (preparing?.failure) return `The flight cannot be flown: ${preparing.failure}`;
   if (preparing) return `Preparing the flight: ${preparing.step} \u2026`;
-  if (phase === "idle") return "Press Lift to take off.";
+  if (phase === "idle") return refusals.lift ? "" : "Press Lift to take off.";
   return phase === "guided" && !pulled ? "Drag the beam to pull it." : "";
 }
 

@@ -22,6 +22,14 @@ export type Overlays = Record<Overlay, boolean>;
 export type HandView =
   { kind: "none" } | { kind: "offer"; point: Vector } | { kind: "pull"; point: Vector; target: Vector };
 
+export type Labels = Record<"push" | "wind" | "refusal", Label>;
+
+/** A sentence at a point of the body: why what a person does there has no effect. */
+export interface Remark {
+  text: string;
+  point: Vector;
+}
+
 export class Picture {
   readonly vehicle: Vehicle;
   readonly center = new Vector3();
@@ -42,7 +50,7 @@ export class Picture {
   constructor(
     readonly scene: FlightScene,
     private readonly stage: Stage,
-    private readonly labels: { push: Label; wind: Label },
+    private readonly labels: Labels,
   ) {
     this.vehicle = new Vehicle(scene, stage.graphics);
     this.world = new World(scene, stage.graphics);
@@ -67,11 +75,10 @@ export class Picture {
       drawn.geometry.dispose();
       for (const paint of [drawn.material].flat()) paint.dispose();
     });
-    this.labels.push.hide();
-    this.labels.wind.hide();
+    for (const label of Object.values(this.labels)) label.hide();
   }
 
-  update(frame: Frame, hand: HandView, shown: Overlays): void {
+  update(frame: Frame, hand: HandView, shown: Overlays, remark: Remark | null): void {
     const time = frame.scalar("time");
     const passed = Math.min(Math.max(time - this.time, 0), 0.1) || 0;
     if (time < this.time - 0.001 || time > this.time + 1) this.trail.clear();
@@ -88,6 +95,8 @@ export class Picture {
     this.showReference(frame, position, shown.ghost);
     this.showForces(frame, shown);
     this.showHand(frame, hand, shown.zone);
+    if (remark) this.labels.refusal.show(remark.text, this.inWorld(remark.point), this.stage.camera);
+    else this.labels.refusal.hide();
     this.time = time;
   }
 

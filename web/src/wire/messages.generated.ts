@@ -152,6 +152,13 @@ export interface FlightScene {
   replay?: SceneReplay; // span of a saved flight
 }
 
+/** Why a request would be refused right now, and what to do; each a sentence or two, empty if it would not. */
+export interface StatusRefusals {
+  lift: string;
+  land: string;
+  push: string; // why a push is not followed
+}
+
 /** The preparation of a flight. */
 export interface PreparationStatus {
   step: string; // what is being done
@@ -170,6 +177,7 @@ export interface FlightStatus {
   behind_ms: number; // how late the flight was at most since the last status, ms
   recorded_s: number; // length of the recording, s
   failed_rotors: readonly number[]; // rotors that have stopped for good, counted over the whole vehicle from 0
+  refusals: StatusRefusals; // why a request would be refused right now, and what to do
   preparing?: PreparationStatus; // before the first step
 }
 

@@ -10,6 +10,7 @@ const NOT_LIVE = {
   behind_ms: 0,
   recorded_s: 0,
   failed_rotors: [],
+  refusals: { lift: "", land: "", push: "" },
   viewers: 1,
   holder: "none",
 } as const;

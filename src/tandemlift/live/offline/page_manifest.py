@@ -10,6 +10,7 @@ from typing import Any
 
 from tandemlift.algebra.layout import flat
 from tandemlift.common.errors import InputError
+from tandemlift.common.refusals import REQUESTS, refusals_for, sentences_for
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.live.offline.message_rules import message_rules, name_rule
@@ -21,6 +22,7 @@ from tandemlift.live.session.hand_control import REQUEST_TIME
 from tandemlift.live.session.interactive_mission import NEVER
 from tandemlift.live.session.parameter_control import RAMP
 from tandemlift.live.session.scene_builder import scene_of
+from tandemlift.live.session.status import in_sentences
 from tandemlift.live.session.tunable_parameters import (
     BY_KEY,
     CHOICES,
@@ -35,6 +37,7 @@ from tandemlift.missions import Mission, changed, tables_of
 from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
+from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 
 ENGINE = "compiled"
 ONLY_SERVER = "{what}: only a flight of `tandemlift live` has it"
@@ -66,6 +69,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "plant": leaf_offset(plan.model, "plant"),
         "lost": leaf_offset(plan.model, "flight_state", "ended").at,
         "hover_time": leaf_offset(plan.model, "flight_state", *checks.HOVER_TIME).at if rule.tare_duration else -1,
+        "guidance": [leaf_offset(plan.model, *path) for path in (("pilot", "guidance"), GUIDANCE_MEMORY)],
         "frame": frame_fields(plan),
         "phase_times": list(phase_times(tables["phases"])),
         "touch_rule": list(rule),
@@ -148,6 +152,8 @@ def _texts(mission: Mission, rule: checks.TouchRule) -> dict[str, Any]:
         "failed_already": texts.FAILED_ALREADY.replace("{time:g}", "{time}"),
         "no_requests": texts.NO_REQUESTS.format(what="{what}", mission=mission.mission.name) if by_clock else "",
         "touch": {str(int(number)): text for number, text in checks.touch_texts(rule).items()},
+        "refusals": {request: sentences_for(request) for request in REQUESTS},
+        "refused_at_end": {key: in_sentences(refusals_for(key)) for key in ("over", "error")},
         "empty": EMPTY_FLIGHT,
         "name": name_rule()[1],
         "only_server": ONLY_SERVER,

@@ -19,6 +19,14 @@ class PreparationStatus(TypedDict):
     failure: Annotated[str, "why the mission cannot be flown; empty unless that is so"]
 
 
+class StatusRefusals(TypedDict):
+    """Why a request would be refused right now, and what to do; each a sentence or two, empty if it would not."""
+
+    lift: str
+    land: str
+    push: Annotated[str, "why a push is not followed"]
+
+
 class FlightStatus(TypedDict):
     """The state of a flight in words, and how it keeps up with the clock."""
 
@@ -31,6 +39,7 @@ class FlightStatus(TypedDict):
     behind_ms: Annotated[float, "how late the flight was at most since the last status, ms"]
     recorded_s: Annotated[float, "length of the recording, s"]
     failed_rotors: Annotated[list[int], "rotors that have stopped for good, counted over the whole vehicle from 0"]
+    refusals: Annotated[StatusRefusals, "why a request would be refused right now, and what to do"]
     preparing: NotRequired[Annotated[PreparationStatus, "before the first step"]]
 
 

@@ -1,0 +1,52 @@
+"""The status of a flight in progress: its state in words, how it keeps up, and what would be refused now."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from tandemlift.common.faults import ALARM_TEXTS
+from tandemlift.common.phases import PHASE_NAMES
+from tandemlift.common.refusals import Refusals, refusals_for
+from tandemlift.live.session.checks import failed_rotors
+from tandemlift.live.session.pacing import Pacer
+from tandemlift.live.wire.server_messages import FlightStatus, StatusRefusals
+from tandemlift.simulation.recorded_flight import RecordedFlight
+
+NO_REFUSALS = StatusRefusals(lift="", land="", push="")
+
+
+def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:
+    """The phase of a flight by its number, or how it ended; `failed`: by an error."""
+    ends = {"failed": failed, "lost": flight.lost, "over": flight.over}
+    return next((name for name, true in ends.items() if true), PHASE_NAMES[number])
+
+
+def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
+    """What would be refused right now, and why; `failed`: whether the flight has ended by an error."""
+    if failed or flight.over:
+        return refusals_for("error" if failed else "over")
+    return flight.refusals
+
+
+def in_sentences(refusals: Refusals) -> StatusRefusals:
+    """Refusals as a page is told of them."""
+    lift, land, push = (str(refusal or "") for refusal in refusals)
+    return StatusRefusals(lift=lift, land=land, push=push)
+
+
+def status_of(flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], failed: bool) -> FlightStatus:
+    """The status of a flight; `values`: of the fields of its latest frame."""
+    most, pacer.most_behind = pacer.most_behind, 0.0
+    return FlightStatus(
+        phase=phase_of(flight, int(values["phase"][0]), failed),
+        alarm=ALARM_TEXTS[int(values["alarm"][0])] if "alarm" in values else "",
+        enabled=bool(flight.hand.enabled),
+        paused=pacer.paused,
+        speed=pacer.speed,
+        factor=round(pacer.factor, 3),
+        behind_ms=round(1e3 * most, 2),
+        recorded_s=round(flight.step * flight.dt, 3),
+        failed_rotors=failed_rotors(flight),
+        refusals=in_sentences(refusals_now(flight, failed)),
+    )
