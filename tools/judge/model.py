@@ -111,14 +111,18 @@ def model_of(mission: dict[str, Any]) -> Model:
     floor = floor_height(mission, body)
     text = _text(mission, body, step / substeps, floor)
     model = mujoco.MjModel.from_xml_string(text)
+    moments, axes = np.linalg.eigh(body.inertia)
+    axes[:, 2] *= np.linalg.det(axes)
+    model.body_mass[1], model.body_inertia[1] = body.mass, moments  # which MuJoCo's compiler may refuse: A + B < C
+    mujoco.mju_mat2Quat(model.body_iquat[1], axes.ravel())
+    mujoco.mj_setConst(model, mujoco.MjData(model))
     drag = mission["vehicle"]["drag"]
     model.dof_damping[:] = [*drag["force"], *drag["moment"]]
     return Model(model, body, substeps, floor)
 
 
 def _text(mission: dict[str, Any], body: Body, step: float, floor: float | None) -> str:
-    J, walls = body.inertia, [*mission.get("walls", []), *corridor_walls(mission.get("corridor", {}))]
-    full = numbers(J[0, 0], J[1, 1], J[2, 2], J[0, 1], J[0, 2], J[1, 2])
+    walls = [*mission.get("walls", []), *corridor_walls(mission.get("corridor", {}))]
     shapes, rotors, actuators = [], [], []
     for i, (q, place) in enumerate(zip(mission["vehicle"]["quadrotors"], body.quadrotors, strict=True)):
         for j, ((x, y), spin) in enumerate(zip(rotors_of(q), q["spins"], strict=True)):
@@ -137,8 +141,8 @@ def _text(mission: dict[str, Any], body: Body, step: float, floor: float | None)
     <flag autoreset="disable"/>
   </option>
   <worldbody>{"".join(world)}
-    <body name="vehicle"><freejoint align="false"/>
-      <inertial pos="0 0 0" mass="{body.mass!r}" fullinertia="{full}"/>{"".join(rotors)}{"".join(shapes)}
+    <body name="vehicle" simple="false"><freejoint align="false"/>
+      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>{"".join(rotors)}{"".join(shapes)}
     </body>
   </worldbody>
   <actuator>{"".join(actuators)}</actuator>

@@ -14,7 +14,7 @@ import numpy as np
 from judge.model import GRAVITY, Model, model_of
 
 EVERY = 10  # steps between comparisons of the replay with the record
-APART = (0.01, 0.1, 0.01, 0.2)  # m, m/s, rad, rad/s: distance between replay and record at which it starts again
+APART = (0.005, 0.02, 0.005, 0.1)  # m, m/s, rad, rad/s: distance between replay and record at which it starts again
 
 
 class Replay(NamedTuple):
