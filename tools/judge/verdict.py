@@ -16,6 +16,7 @@ from judge.replay import Replay, drag_of, replay, rotation
 GRAVITY, FAR = 9.81, 1000.0
 FADING = 0.1  # s, in which an impulse of contact fades
 BEARS, LATELY = 0.5, 0.05  # of the weight, by the floor; s, over which what it bears is averaged
+TOUCHING = 0.01  # of the weight: contact forces below this are rounding
 
 BANDS = {  # width of the band on either side of each threshold, within which a disagreement does not count
     "height": 0.006,  # m
@@ -52,14 +53,16 @@ class Verdict(NamedTuple):
 
 
 class Ground(NamedTuple):
-    """What contact did over every step: force [N, world axes] (T, 3), its fading impulse [N s] (T), energy [J] (T).
+    """What contact did over every step: force [N, world axes] (T, 3), its fading impulse [N s] (T).
 
-    `work` [J]: what all else did, either way.
+    `touching` (T - 1): whether there was any; `gained` [J]: the most that it added to the vehicle's energy from one
+    moment without contact to a later one; `work` [J]: what all else did, either way.
     """
 
     force: np.ndarray
     impulse: np.ndarray
-    energy: np.ndarray
+    touching: np.ndarray
+    gained: float
     work: float
 
 
@@ -82,9 +85,14 @@ def judge(mission: dict[str, Any], time: np.ndarray, channels: dict[str, np.ndar
     else:
         (outcome, more), kind, at = _end(mission, flown, ground), "", math.inf
         found |= more
-    gained = float(np.max(ground.energy - np.minimum.accumulate(ground.energy))) if len(time) > 1 else 0.0
-    free = [t for t, _, touched in flown.restarts if not touched]
-    return Verdict(outcome, kind, at, found, flown, gained, ground.work, free)
+    starts = [0.0, *(t for t, _, _ in flown.restarts)]
+    touching = time[:-1][ground.touching]
+    free = [
+        t
+        for (t, _, touched), since in zip(flown.restarts, starts, strict=False)
+        if not touched and not np.any((touching >= since - LATELY) & (touching <= t))
+    ]
+    return Verdict(outcome, kind, at, found, flown, ground.gained, ground.work, free)
 
 
 def _limits(mission: dict[str, Any], flown: Replay, ground: Ground) -> dict[str, tuple[float, float]]:
@@ -165,12 +173,17 @@ def contact_of(mission: dict[str, Any], channels: dict[str, np.ndarray], flown: 
     power = ((up * thrust[:, None] + outer) * middle_v).sum(axis=1) + (torque * middle_w).sum(axis=1)
     height = channels["position"][:, 2]
     kinetic = 0.5 * body.mass * (v**2).sum(axis=1) + 0.5 * np.einsum("ti,ij,tj->t", w, body.inertia, w)
-    energy = np.cumsum(np.diff(kinetic + body.mass * GRAVITY * height) - power * step)
+    touching = np.linalg.norm(contact, axis=1) > TOUCHING * body.mass * GRAVITY
+    near = touching | np.append(touching[1:], False) | np.append(False, touching[:-1])
+    energy = np.cumsum(np.where(near, np.diff(kinetic + body.mass * GRAVITY * height) - power * step, 0.0))
+    between = energy[~near]
+    gained = float(np.max(between - np.minimum.accumulate(between))) if len(between) else 0.0
+    work = float(np.abs(power).sum() * step)
     if "contact_force" in channels:  # over the last step, after which there is no sample
         contact = np.vstack([contact, channels["contact_force"][-1:]])
     beyond = contact - np.array([0.0, 0.0, body.mass * GRAVITY])
     beyond[:, 2] = np.maximum(beyond[:, 2], 0.0)
-    return Ground(contact, _fading(np.linalg.norm(beyond, axis=1), step), energy, float(np.abs(power).sum() * step))
+    return Ground(contact, _fading(np.linalg.norm(beyond, axis=1), step), touching, gained, work)
 
 
 def _fading(force: np.ndarray, step: float) -> np.ndarray:

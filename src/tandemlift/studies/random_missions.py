@@ -27,9 +27,9 @@ TRIES = 40  # of keys for one mission; many changes do not load
 SHORTEST, LONGEST = 8.0, 20.0  # s
 FIXED = ("mission.name", "mission.fused", "mission.log_interval", "person.recording", "changes", "admittance.feel")
 STEPS = (0.0005, 0.001, 0.002, 0.004, 0.005, 0.01)  # s
-STRENGTHS = (0.1, 0.4, 1.0)  # standard deviation of the logarithm of a factor
+STRENGTHS = (0.1, 0.5, 1.2)  # standard deviation of the logarithm of a factor
 SIZES = {  # of a change of a number that is 0 or of either sign, by unit
-    **{"N": 1.0, "N m": 0.2, "m": 0.3, "m/s": 0.5, "rad": 0.2, "rad/s": 0.3, "s": 0.5, "kg": 0.2, "1": 0.3},
+    **{"N": 3.0, "N m": 0.5, "m": 0.3, "m/s": 2.0, "rad": 0.3, "rad/s": 0.5, "s": 0.5, "kg": 0.2, "1": 0.3},
     **{"m²": 0.02, "N s/m": 0.5, "N m s": 0.2, "N/m": 1.0},
 }
 SMALL_SIZES = {  # the same, of what is small where it is good: noise, biases, delays
@@ -76,7 +76,7 @@ LIST_NEEDS: Mapping[str, Changes] = {
 }
 EAGER = ("actuators", "admittance", "controller", "disturbance", "faults", "ground", "initial", "mission", "phases")
 EAGER += ("plant", "pushes", "vehicle", "wind")  # tables whose keys are drawn more often, by this factor
-EAGERNESS = 4.0
+EAGERNESS = 6.0
 IN_FLIGHT = ("admittance.damping", "admittance.threshold", "wind.velocity", "compliance.max_speed")
 
 
@@ -126,7 +126,7 @@ def shortened(base: str, duration: float = 14.0) -> Changes:
         "mission.duration": duration,
         "phases.lift_start": 0.5,
         "phases.lift_duration": min(p.lift_duration, 2.5),
-        "phases.land_start": duration - 5.0 if lands else 1e6,
+        "phases.land_start": duration - 6.5 if lands else 1e6,
         "phases.land_duration": min(p.land_duration, 3.5),
         "person.start_time": min(mission.person.start_time, 4.4),
     }
