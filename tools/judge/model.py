@@ -32,12 +32,16 @@ class Body(NamedTuple):
 
 
 class Model(NamedTuple):
-    """The compiled model, the real vehicle, how many of its steps make one of the mission's, and the floor's z [m]."""
+    """The compiled model, the real vehicle, how many of its steps make one of the mission's, and the floor's z [m].
+
+    `arms` (N + 1, 3): centres of payload and quadrotors from the centre of mass [m].
+    """
 
     mujoco: Any
     body: Body
     substeps: int
     floor: float | None
+    arms: np.ndarray
 
 
 def body_of(mission: dict[str, Any]) -> Body:
@@ -118,7 +122,7 @@ def model_of(mission: dict[str, Any]) -> Model:
     mujoco.mj_setConst(model, mujoco.MjData(model))
     drag = mission["vehicle"]["drag"]
     model.dof_damping[:] = [*drag["force"], *drag["moment"]]
-    return Model(model, body, substeps, floor)
+    return Model(model, body, substeps, floor, np.vstack([body.payload, body.quadrotors]))
 
 
 def _text(mission: dict[str, Any], body: Body, step: float, floor: float | None) -> str:

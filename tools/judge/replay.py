@@ -83,9 +83,8 @@ def _loads(mission: dict[str, Any], model: Model, time: np.ndarray, channels: An
     """The mission's pushes are computed anew; what the record has beyond them is a person's, and held over a step."""
     step = mission["mission"]["step"]
     pushes = pushes_of(mission, time, step)
-    force, moment = channels["push_force"] - pushes.force[0], channels["push_moment"].copy()
-    for k in np.flatnonzero(pushes.each[0].any(axis=(1, 2))):
-        moment[k] -= pushes.moment(0, k, rotation(states[k, 3:7]))
+    force = channels["push_force"] - pushes.force
+    moment = channels["push_moment"] - moments(rotations(states[:, 3:7]), pushes.levers)
     if mission["person"]["model"] not in ("none", "grab"):
         moment += _turned(mission, model, force, states, 0.5 * step)
     force = force + pushes.mean + np.array(mission["disturbance"]["force"])
@@ -98,17 +97,15 @@ def _turned(mission: dict[str, Any], model: Model, force: np.ndarray, states: np
     """What the moment of a person's force [N m, body axes] changes within a time [s], as the body turns under it."""
     person = mission["person"]
     grip = model.body.payload + [0.0, 0.0 if person["model"] == "two-hands" else person["grip"], 0.0]
-    change = np.zeros_like(force)
-    for k in np.flatnonzero(force.any(axis=1)):
-        change[k] = -time * np.cross(grip, np.cross(states[k, 10:], force[k] @ rotation(states[k, 3:7])))
-    return change
+    felt = np.einsum("tij,ti->tj", rotations(states[:, 3:7]), force)
+    return -time * np.cross(grip, np.cross(states[:, 10:], felt))
 
 
 def _fly(mission: dict[str, Any], model: Model, data: Any, loads: Loads, states: np.ndarray) -> Any:
     """The states (T + 1, 13) with the normal force (T + 1, 14), and the restarts."""
     count, step, compiled = len(states), mission["mission"]["step"], model.mujoco
     out, restarts, touched = np.zeros((count + 1, 14)), list[tuple[int, str, bool]](), False
-    state, applied, pushed = out[:, :13], data.qfrc_applied, loads.pushes.means.any(axis=(1, 2))
+    state, applied, pushed = out[:, :13], data.qfrc_applied, loads.pushes.mean_levers.any(axis=(1, 2))
     _start(data, states[0])
     for k in range(count):
         if k and k % EVERY == 0:
@@ -123,7 +120,7 @@ def _fly(mission: dict[str, Any], model: Model, data: Any, loads: Loads, states:
         data.ctrl[:] = loads.thrusts[k]
         applied[:3], applied[3:] = loads.force[k], loads.moment[k]
         if pushed[k]:
-            applied[3:] += _push_moment(data, loads.pushes, k, step)
+            applied[3:] += _push_moment(data, loads.pushes.mean_levers[k], step)
         if loads.air is not None:
             _blow(model, data, loads.drag, loads.air[k])
         for _ in range(model.substeps):
@@ -133,20 +130,15 @@ def _fly(mission: dict[str, Any], model: Model, data: Any, loads: Loads, states:
 
 
 class Pushes(NamedTuple):
-    """The mission's pushes: force [N] of each at start, middle and end of each step (3, T, P, 3), and their points [m].
+    """The mission's pushes: force [N] at the start of each step and its mean over it by Simpson's rule, each (T, 3).
 
-    `force` (3, T, 3) is the sum over the pushes, `mean` (T, 3) its mean over each step by Simpson's rule.
+    `levers` and `mean_levers` (T, 3, 3): the sum of force times point of application, from which follow moments.
     """
 
-    each: np.ndarray
-    points: np.ndarray
     force: np.ndarray
     mean: np.ndarray
-    means: np.ndarray
-
-    def moment(self, place: int, k: int, R: np.ndarray) -> np.ndarray:
-        """Moment [N m, body axes] about the centre of mass."""
-        return np.cross(self.points, self.each[place, k] @ R).sum(axis=0)
+    levers: np.ndarray
+    mean_levers: np.ndarray
 
 
 def pushes_of(mission: dict[str, Any], time: np.ndarray, step: float) -> Pushes:
@@ -157,9 +149,29 @@ def pushes_of(mission: dict[str, Any], time: np.ndarray, step: float) -> Pushes:
         for place in range(3):
             since = (time + 0.5 * place * step - push["time"]) / push["sigma"]
             each[place, :, i] = np.exp(-0.5 * np.square(np.clip(since, -30.0, 30.0)))[:, None] * push["force"]
+    each[np.abs(each) < 1e-15] = 0.0
     means = (each[0] + 4.0 * each[1] + each[2]) / 6.0
     points = np.array([push["point"] for push in given]).reshape(-1, 3)
-    return Pushes(each, points, each.sum(axis=2), means.sum(axis=1), means)
+    levers, mean_levers = (np.einsum("tpi,pj->tij", forces, points) for forces in (each[0], means))
+    return Pushes(each[0].sum(axis=1), means.sum(axis=1), levers, mean_levers)
+
+
+def moments(R: np.ndarray, levers: np.ndarray) -> np.ndarray:
+    """Moment [N m, body axes] of forces at points: the sum of r x R^T F, of which `levers` is the sum of F r^T."""
+    G = np.swapaxes(R, -1, -2) @ levers
+    parts = G[..., 2, 1] - G[..., 1, 2], G[..., 0, 2] - G[..., 2, 0], G[..., 1, 0] - G[..., 0, 1]
+    return np.stack(parts, axis=-1)
+
+
+def rotations(q: np.ndarray) -> np.ndarray:
+    """From body to world axes, of quaternions w, x, y, z (T, 4): (T, 3, 3)."""
+    w, x, y, z = q.T
+    rows = [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+        [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+    ]
+    return np.array(rows).transpose(2, 0, 1)
 
 
 def rotation(quaternion: np.ndarray) -> np.ndarray:
@@ -169,13 +181,11 @@ def rotation(quaternion: np.ndarray) -> np.ndarray:
     return R.reshape(3, 3)
 
 
-def _push_moment(data: Any, pushes: Pushes, k: int, step: float) -> np.ndarray:
+def _push_moment(data: Any, levers: np.ndarray, step: float) -> np.ndarray:
     """Mean moment [N m, body axes] of the mission's pushes over a step, at the attitude in the middle of it."""
-    if not pushes.means[k].any():
-        return np.zeros(3)
     middle = data.qpos[3:7].copy()
     mujoco.mju_quatIntegrate(middle, data.qvel[3:], 0.5 * step)
-    return np.cross(pushes.points, pushes.means[k] @ rotation(middle)).sum(axis=0)
+    return moments(rotation(middle), levers)
 
 
 def _start(data: Any, state: np.ndarray) -> None:
@@ -213,9 +223,9 @@ def drag_of(mission: dict[str, Any]) -> np.ndarray:
 
 def _blow(model: Model, data: Any, drag: np.ndarray, air: np.ndarray) -> None:
     """Add the drag of every part in moving air, each at its centre: −½ rho c A |v| v by component, in body axes."""
-    R = rotation(data.qpos[3:7])
-    arms = np.vstack([model.body.payload, model.body.quadrotors])
-    through = R.T @ (data.qvel[:3] - air) + np.cross(data.qvel[3:], arms)
-    force = -drag * through * np.linalg.norm(through, axis=1)[:, None]
+    R, arms, (p, q, r) = rotation(data.qpos[3:7]), model.arms, data.qvel[3:]
+    through = (data.qvel[:3] - air) @ R + arms @ np.array([[0.0, r, -q], [-r, 0.0, p], [q, -p, 0.0]])
+    force = -drag * through * np.sqrt((through * through).sum(axis=1))[:, None]
+    lever = arms.T @ force
     data.qfrc_applied[:3] += R @ force.sum(axis=0)
-    data.qfrc_applied[3:] += np.cross(arms, force).sum(axis=0)
+    data.qfrc_applied[3:] += lever[1, 2] - lever[2, 1], lever[2, 0] - lever[0, 2], lever[0, 1] - lever[1, 0]

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from judge.replay import Replay, drag_of, replay, rotation
+from judge.replay import Replay, drag_of, replay, rotations
 
 GRAVITY, FAR = 9.81, 1000.0
 FADING = 0.1  # s, in which an impulse of contact fades
@@ -154,7 +154,7 @@ def contact_of(mission: dict[str, Any], channels: dict[str, np.ndarray], flown: 
     """What floor and walls did: what is left of the change of momentum and of energy once all else is taken off."""
     body, step, drag = flown.model.body, mission["mission"]["step"], mission["vehicle"]["drag"]
     v, w = channels["velocity"], channels["rates"]
-    R = np.array([rotation(q) for q in channels["attitude"]])
+    R = rotations(channels["attitude"])
     z = R[:, :, 2]
     up = 0.5 * (z[:-1] + z[1:])
     middle_v, middle_w = 0.5 * (v[:-1] + v[1:]), 0.5 * (w[:-1] + w[1:])
@@ -203,7 +203,7 @@ def _arms(flown: Replay) -> np.ndarray:
 
 def _air(mission: Any, channels: Any, flown: Replay, R: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Force [N, world axes] and moment [N m, body axes] of moving air."""
-    arms = np.vstack([flown.model.body.payload, flown.model.body.quadrotors])
+    arms = flown.model.arms
     through = np.einsum("tij,ti->tj", R, channels["velocity"] - channels["wind_velocity"])[:, None]
     through = through + np.cross(channels["rates"][:, None], arms)
     force = -drag_of(mission) * through * np.linalg.norm(through, axis=2)[:, :, None]

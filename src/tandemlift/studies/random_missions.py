@@ -29,7 +29,7 @@ FIXED = ("mission.name", "mission.fused", "mission.log_interval", "person.record
 STEPS = (0.0005, 0.001, 0.002, 0.004, 0.005, 0.01)  # s
 STRENGTHS = (0.1, 0.5, 1.2)  # standard deviation of the logarithm of a factor
 SIZES = {  # of a change of a number that is 0 or of either sign, by unit
-    **{"N": 3.0, "N m": 0.5, "m": 0.3, "m/s": 2.0, "rad": 0.3, "rad/s": 0.5, "s": 0.5, "kg": 0.2, "1": 0.3},
+    **{"N": 3.0, "N m": 0.5, "m": 0.3, "m/s": 2.0, "rad": 0.6, "rad/s": 1.0, "s": 0.5, "kg": 0.2, "1": 0.3},
     **{"m²": 0.02, "N s/m": 0.5, "N m s": 0.2, "N/m": 1.0},
 }
 SMALL_SIZES = {  # the same, of what is small where it is good: noise, biases, delays
@@ -74,9 +74,11 @@ LIST_NEEDS: Mapping[str, Changes] = {
     "sensors.additional": {"sensors.model": "simulated"},
     "wind.gusts": {"wind.model": "air"},
 }
-EAGER = ("actuators", "admittance", "controller", "disturbance", "faults", "ground", "initial", "mission", "phases")
-EAGER += ("plant", "pushes", "vehicle", "wind")  # tables whose keys are drawn more often, by this factor
-EAGERNESS = 6.0
+WEIGHTS = {  # of keys by their first words; a key that none fits has the weight 1
+    **dict.fromkeys(("admittance", "controller", "faults", "ground", "mission", "phases", "vehicle", "wind"), 5.0),
+    **dict.fromkeys(("actuators.delay", "actuators.model", "plant.mass_scale", "wind.velocity", "mission.step"), 60.0),
+    **dict.fromkeys(("controller.gains", "disturbance", "initial", "phases.height", "pushes"), 25.0),
+}
 IN_FLIGHT = ("admittance.damping", "admittance.threshold", "wind.velocity", "compliance.max_speed")
 
 
@@ -168,7 +170,7 @@ def _changed(base: str, before: Changes, count: int, rng: np.random.Generator, *
 
 
 def _drawn_place(names: list[str], rng: np.random.Generator) -> int:
-    weights = np.array([EAGERNESS if name.partition(".")[0] in EAGER else 1.0 for name in names])
+    weights = np.array([max((w for start, w in WEIGHTS.items() if name.startswith(start)), default=1.0) for name in names])
     return int(rng.choice(len(names), p=weights / weights.sum()))
 
 
