@@ -7,11 +7,13 @@ comes to rest differs, as bounces do.
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tandemlift.algebra.vector import Nothing
+from tandemlift.common.errors import FlightWarning
 from tandemlift.laws.mechanics.collision.touches import TouchRecord
 from tandemlift.missions import load_mission
 from tandemlift.simulation.outcome import ending_of
@@ -61,11 +63,10 @@ CRASHES: dict[str, tuple[str, Changes]] = {  # name: mission, settings
 
 
 class FirstTouch(NamedTuple):
-    """The first touch: kind of part and surface, number of the part from 1, time [s], place (3) [m, world axes]."""
+    """The first touch: part such as "rotor 1 of quadrotor 2", surface, time [s], place (3) [m, world axes]."""
 
     part: str
     surface: str
-    number: int
     time: float
     place: tuple[float, ...]
 
@@ -90,8 +91,10 @@ class Crash(NamedTuple):
 
 def crash_in(name: str, engine: str) -> Crash:
     """One of the `CRASHES` in an engine."""
-    mission, changes = CRASHES[name]
-    p = FlightPlan(load_mission(mission, changes), engine)
+    with warnings.catch_warnings():  # they are meant to end badly
+        warnings.simplefilter("ignore", FlightWarning)
+        mission, changes = CRASHES[name]
+        p = FlightPlan(load_mission(mission, changes), engine)
     flown = fly_stepwise(p, 1, p.steps + 1, body=body_of(p))
     state, ending = flown.flight_state, ending_of(p, flown.flight_state, flown.step)
     rest = tuple(float(v) for v in state.state.position)
@@ -107,8 +110,16 @@ def first_touch(touches: Any) -> FirstTouch | None:
             record = getattr(records, kind)
             if isinstance(record, TouchRecord) and record.part > 0.5:
                 place = tuple(float(v) for v in record.place)
-                found.append(FirstTouch(kind, surface, int(record.part), float(record.time), place))
+                part = _part(kind, int(record.part))
+                found.append(FirstTouch(part, surface.removesuffix("s"), float(record.time), place))
     return min(found, key=lambda touch: touch.time, default=None)
+
+
+def _part(kind: str, number: int) -> str:
+    """A part in words."""
+    if kind == "rotors":
+        return f"rotor {(number - 1) % 4 + 1} of quadrotor {(number - 1) // 4 + 1}"
+    return "beam" if kind == "beam" else f"guard of quadrotor {number}"
 
 
 def apart(a: FirstTouch, b: FirstTouch) -> tuple[float, float]:
