@@ -90,6 +90,6 @@ def templates_from(model: FlightModel, given: StepInputs) -> Templates:
     output = run_pilot(model, given.hand.start, 0.0, 0.001)
     acting = actuate(model, output.decision.thrusts, given, 0.0)
     moved = step_body(model.plant, before, acting, given.hand, 0.0, 0.001)
-    _, sample = finish_sample(model, output, acting, moved, given)
+    _, sample = finish_sample(model, output, acting, moved, given, 0.0, 0.0)
     layouts = [zeroed(x) for x in (model, outer, output, acting, moved, sample)]
     return Templates._make([*layouts, before.near])
