@@ -43,8 +43,19 @@ def _write_samples_of_lanes(step: StepWriter, f: Function, row: str, logged: str
 
 
 def write_next_state(step: StepWriter, f: Function, k: str) -> None:
-    """Write the state of the flight after step k, and exchange delayed values with the delay lines."""
-    f.put("%flight", 0, step.traced.next_state, "fly")
+    """Write the state of the flight after step k, and exchange delayed values with the delay lines.
+
+    The record of touches is written in steps near floor or walls only; in others it stays.
+    """
+    after = list(step.traced.next_state)
+    if step.keeps_touches:
+        at, size = step.touches
+        touches, after[at : at + size] = after[at : at + size], step.traced.touches_before
+    f.put("%flight", 0, after, "fly")
+    if step.keeps_touches:
+        near = f.load("%work", step.near * step.lanes, "double")
+        with f.when(f.op(f"fcmp one double {near}, 0.0")):
+            f.put("%flight", at, touches)
     if step.templates.has_delays:
         _write_delays(step, f, k)
 
