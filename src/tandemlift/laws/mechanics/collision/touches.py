@@ -159,6 +159,12 @@ def touches_after(touches: Touches, floor: Any, walls: Any, t: Number, dt: Numbe
     )
 
 
+@elementwise
+def thrust_if_turning(thrust: Number, turning: Number) -> Number:
+    """The thrust of a rotor [N], 0 if it no longer turns."""
+    return where(turning > 0.5, thrust, 0.0)
+
+
 @choice(absent="thrusts")
 def of_turning_rotors(touches: Touches | Nothing, thrusts: PerRotor) -> Any:
     """The thrust of each rotor [N], 0 of one that has touched anything."""
@@ -166,7 +172,7 @@ def of_turning_rotors(touches: Touches | Nothing, thrusts: PerRotor) -> Any:
 
 @of_turning_rotors.register(Touches)
 def _turning(touches: Touches, thrusts: PerRotor) -> PerRotor:
-    return thrusts * touches.turning
+    return thrust_if_turning(thrusts, touches.turning)
 
 
 @choice(absent="contact")
