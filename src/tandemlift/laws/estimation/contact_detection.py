@@ -176,9 +176,7 @@ def deviation(m: ForceBand) -> SideForces:
 def deviations(m: ContactState) -> Deviations:
     """All deviations in a memory."""
     lasting = SideForces(m.outside.x.value - m.steady.x, m.outside.y.value - m.steady.y)
-    return Deviations(
-        deviation(m.outside), lasting, deviation(m.joints), deviation(m.momentum), deviation(m.push)
-    )
+    return Deviations(deviation(m.outside), lasting, deviation(m.joints), deviation(m.momentum), deviation(m.push))
 
 
 @law
@@ -285,7 +283,8 @@ def begun(
     on_beam = where(part < 0.0, 1.0, 0.0)
     of_guard = SideForces(picked(number, part, d.lasting.x), picked(number, part, d.lasting.y))
     rates = m.outside._replace(
-        x=LowPassState(0.0, picked(number, part, m.outside.x.rate)), y=LowPassState(0.0, picked(number, part, m.outside.y.rate))
+        x=LowPassState(0.0, picked(number, part, m.outside.x.rate)),
+        y=LowPassState(0.0, picked(number, part, m.outside.y.rate)),
     )
     mapped = where(part < 0.0, beam.matched, picked(number, part, guards.matched))
     out = Vec3(picked(number, part, guards.normal.x), picked(number, part, guards.normal.y), 0.0)
@@ -312,7 +311,9 @@ def axis_of(k: ContactDetector, part: Any, along: Any, s: State) -> Vec3:
     """The centre of a guard, or the point `along` the beam's axis [m], in world axes [m]."""
     g = k.geometry
     guard = Vec3(
-        picked(k.numbers, part, g.quadrotors.x), picked(k.numbers, part, g.quadrotors.y), picked(k.numbers, part, g.quadrotors.z)
+        picked(k.numbers, part, g.quadrotors.x),
+        picked(k.numbers, part, g.quadrotors.y),
+        picked(k.numbers, part, g.quadrotors.z),
     )
     beam = where(part < 0.0, 1.0, 0.0)
     center = chosen(beam, g.payload + Vec3(0.0, along, 0.0), guard)
@@ -365,7 +366,9 @@ def _detected(
     heard, before = signals(k, m, e, x, dt), m.contact
     d = deviations(heard)
     guards = guards_matched(around.walls, k.geometry, s, world_forces(s, d.lasting))
-    beam = beam_of(around.walls, k.geometry, s, apply(rotation_from_quaternion(s.attitude), Vec3(d.push.x, d.push.y, 0.0)))
+    beam = beam_of(
+        around.walls, k.geometry, s, apply(rotation_from_quaternion(s.attitude), Vec3(d.push.x, d.push.y, 0.0))
+    )
     high = where(s.position.z > around.ground + HIGH, around.landing, 0.0)
     aloft = maximum(around.aloft, high)
     free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
@@ -375,7 +378,9 @@ def _detected(
     begins = where(seen_time > DECISION_TIME, 1.0, 0.0)
     now = chosen(begins, begun(k, heard, d, part, guards, beam, s, x.push.point), before)
     now = now._replace(force=force_on(k, d, now.part, s))
-    quiet_time = (m.quiet_time + dt) * where(dot(now.force, now.force) < (RELEASE * k.threshold) * (RELEASE * k.threshold), 1.0, 0.0)
+    quiet_time = (m.quiet_time + dt) * where(
+        dot(now.force, now.force) < (RELEASE * k.threshold) * (RELEASE * k.threshold), 1.0, 0.0
+    )
     moved = dot(now.normal, axis_of(k, now.part, now.along, s) - now.point) - radius_of(k, now.part)
     over = maximum(where(quiet_time > QUIET_TIME, 1.0, 0.0), maximum(where(moved > AWAY, 1.0, 0.0), 1.0 - aloft))
     touches = where(now.part == 0.0, 0.0, 1.0) * (1.0 - over)
@@ -412,4 +417,15 @@ def start_contact(k: ContactDetector) -> ContactState:
     none, nil = k.numbers * 0.0, LowPassState(0.0, 0.0)
     still = LowPassState(none, none)
     of_sets, of_numbers = ForceBand(still, still, none, none), ForceBand(nil, nil, 0.0, 0.0)
-    return ContactState(of_sets, of_sets, of_numbers, of_numbers, SideForces(none, none), NO_CONTACT, 0.0, 0.0, 0.0, 1.0 + EXPLAINED_TIME)
+    return ContactState(
+        of_sets,
+        of_sets,
+        of_numbers,
+        of_numbers,
+        SideForces(none, none),
+        NO_CONTACT,
+        0.0,
+        0.0,
+        0.0,
+        1.0 + EXPLAINED_TIME,
+    )

@@ -134,7 +134,9 @@ def _held(k: ContactReaction, m: ContactReactionState, pilot_input: PilotInput, 
     land = where(held_time > k.hold_timeout, 1.0, 0.0)
     push = slower(m.push, pilot_input.push, pilot_input.moment, dt)
     on_beam = where(c.part < 0.0, touching, 0.0)
-    boundary = Boundary(push, holding, normal, level, level + k.gap, lever, state.position, load_at(c, state), land, code, on_beam)
+    boundary = Boundary(
+        push, holding, normal, level, level + k.gap, lever, state.position, load_at(c, state), land, code, on_beam
+    )
     return boundary, ContactReactionState(holding, normal, level, lever, part, free_time, held_time, code, push)
 
 
