@@ -159,6 +159,29 @@ def hands(minutes: float) -> list[Mission]:
     return [*led, *map(jerky, range(max(1, round(half / HAND))))]
 
 
+def broken(number: int) -> Mission:
+    """A flight in the open, with pushes, in which the sensor of a joint gets a horizontal bias of 3 N to 20 N."""
+    rng = np.random.default_rng([number, len(KINDS) + 1])
+    angle, size = rng.uniform(0.0, 2.0 * np.pi), rng.uniform(3.0, 20.0)
+    bias = [float(size * np.cos(angle)), float(size * np.sin(angle)), 0.0]
+    fault = {"sensor": "joints", "kind": "bias", "quadrotor": 1 + number % 2, "time": START + 4.0, "size": bias}
+    changes: Changes = {
+        **WATCHED,
+        "mission.seed": number,
+        "mission.duration": START + 12.0,
+        "corridor.centreline": [],
+        "person.model": "none",
+        "pushes": jerky_pushes(rng, START + 12.0),
+        "sensor_faults": [fault],
+    }
+    return load_mission("zigzag", changes)
+
+
+def is_blamed(metrics: dict[str, Any]) -> bool:
+    """Whether the events of a flight say that joints disagree."""
+    return any(text.startswith("joints disagree") for _, text in metrics["events"])
+
+
 def contacts_named(metrics: dict[str, Any]) -> int:
     """How many contacts the events of a flight name."""
     return sum(text.startswith("contact:") for _, text in metrics["events"])
@@ -185,6 +208,11 @@ def contacts(bench: Bench) -> Iterator[Row]:
     """Rows about touches, and about hands."""
     touched = [touch_of(flight) for flight in bench.fly(touches(bench.draws))]
     yield from touch_rows([touch for touch in touched if touch])
+    faulty = bench.metrics(map(broken, range(bench.draws)))
+    found, false = sum(map(is_blamed, faulty)), sum(map(contacts_named, faulty))
+    what = f"{bench.draws} joint sensors that get a bias of 3 N to 20 N under a hand: found"
+    yield Row(what, f"{bench.draws} of {bench.draws}", f"{found} of {bench.draws}", found == bench.draws)
+    yield Row("the same: contacts named", "0", str(false), false == 0)
     minutes = MINUTES * bench.draws
     flown = list(zip(missions := hands(minutes), bench.metrics(missions), strict=True))
     free = [m for _, m in flown if not m.get("wall_contact")]

@@ -44,7 +44,7 @@ from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import ImuReading
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
-CONFIRMED = 0.5  # least share of a force on a guard that the momentum residual shows
+CONFIRMED = 0.7  # least share of a force on a guard that the momentum residual shows
 SEEN = 0.005  # least share of its square that the joints carry: 0.02 where all guards touch alike
 SHARP, STEEP = 60.0, 300.0  # N/s: least rise of a force on the beam at a known wall, and anywhere
 RELEASE = 0.5  # of the threshold: below, there is no contact
@@ -291,10 +291,14 @@ def horizontal(f: Vec3) -> Vec3:
 
 @law
 def touching_part(
-    k: ContactDetector, m: ContactState, d: Deviations, guards: GuardMatch, beam: BeamMatch
+    k: ContactDetector, m: ContactState, d: Deviations, guards: GuardMatch, beam: BeamMatch, trusted: Any
 ) -> Any:
-    """The part that touches now, as in `ContactEstimate`, or 0."""
-    sure = where(m.doubt < LEAST_DOUBT, 1.0, 0.0)
+    """The part that touches now, as in `ContactEstimate`, or 0; `trusted` is 1 while the joints agree, else 0.
+
+    Where they disagree already, and no contact explains it, only a known wall makes another one.
+    """
+    known = maximum(trusted, where(m.seen_time > 0.0, 1.0, where(m.over_time < EXPLAINED_TIME, 1.0, 0.0)))
+    sure = where(m.doubt < LEAST_DOUBT, known, 0.0)
     guard = touched_guard(k, d, guards, sure)
     return where(guard > 0.0, guard, BEAM * sure * beam_touched(k, m.steepest, d, beam.matched))
 
@@ -393,7 +397,7 @@ def _detected(
     aloft = maximum(around.aloft, high)
     free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
     heard = heard._replace(steepest=steepest_push(k, heard, d.push), doubt=doubt_after(k, m.doubt, d, dt))
-    part = touching_part(k, heard, d, guards, beam) * free
+    part = touching_part(k, heard, d, guards, beam, x.push.trusted) * free
     seen_time = (m.seen_time + dt) * where(part == 0.0, 0.0, 1.0)
     begins = where(seen_time > DECISION_TIME, 1.0, 0.0)
     now = chosen(begins, begun(k, heard, d, part, guards, beam, s, x.push.point), before)
