@@ -11,6 +11,7 @@ export type Phase =
   | "land"
   | "hold"
   | "stopped"
+  | "contact"
   | "preparing"
   | "failed"
   | "lost"

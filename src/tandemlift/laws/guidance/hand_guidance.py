@@ -169,7 +169,9 @@ def supervised_phase(
     land = maximum(maximum(pilot_input.land, rotor_failed), exceeds(requests.lands, m.phase.handled_lands))
     lift = lift_request(k, m.phase, requests, operator.lift, land)
     output, memory = supervise(g.supervision, m.supervision, pilot_input, m.phase, lift, t, dt)
-    phase = update_phase(k, m.phase, pilot_input.state, requests, (lift, land), bounded_by(boundary, output.bounds), t, dt)
+    phase = update_phase(
+        k, m.phase, pilot_input.state, requests, (lift, land), bounded_by(boundary, output.bounds), t, dt
+    )
     return phase, output, memory
 
 

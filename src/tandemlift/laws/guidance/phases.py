@@ -1,8 +1,8 @@
 """The phases of a flight with a person, as a state machine.
 
-idle on the ground → lift → hold ⇄ guided ⇄ contact → land → idle; from each of them → stopped, which is final. `next_phase` has
-the transitions, `PhaseOutput` what a phase allows. The laws have no branches: every condition is a number, 1 or 0. The
-diagram is in docs/safety.md; `common.phases` has names and numbers.
+idle on the ground → lift → hold ⇄ guided ⇄ contact → land → idle; from each of them → stopped, which is final.
+`next_phase` has the transitions, `PhaseOutput` what a phase allows. The laws have no branches: every condition is a
+number, 1 or 0. The diagram is in docs/safety.md; `common.phases` has names and numbers.
 """
 
 from typing import Any, NamedTuple
