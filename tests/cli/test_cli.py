@@ -34,6 +34,7 @@ METRICS = [
     "steps",
     "wall_s",
     "events",
+    "outcome",
 ]
 OURS = {"mission.toml", "flight.npz", "metrics.json", "figures", "report.html"}
 ALWAYS = ("reference", "path", "tracking", "inputs", "interaction", "joints")
@@ -77,7 +78,14 @@ def test_the_help_of_every_verb_says_what_it_does(run):
 
 def test_the_help_of_run_names_what_is_written_and_the_exit_codes(run):
     _, out, _ = run("run", "-h")
-    for word in (*OURS, "Exit code", "2   bad input", "3   diverged", "--set mission.duration=30", "out/NAME"):
+    for word in (
+        *OURS,
+        "Exit code",
+        "2   bad input",
+        "3   crashed, diverged or not lifted",
+        "--set mission.duration=30",
+        "out/NAME",
+    ):
         assert word in out
 
 
@@ -152,7 +160,7 @@ def test_a_run_writes_its_results_to_out_name(run, tmp_path):
     assert {path.name for path in folder.iterdir()} == OURS
     assert {path.name for path in (folder / "figures").iterdir()} == DRAWN
     assert {f"{name}.{kind}" for name in figures() for kind in ("png", "pdf")} >= DRAWN
-    assert "mine: 1000 steps" in out
+    assert "mine: flying; 1000 steps" in out
     assert str(Path("out") / "mine" / "report.html") in out
     assert "http-equiv" not in (folder / "report.html").read_text("utf-8")
 
@@ -254,9 +262,31 @@ def test_a_flight_that_diverges_writes_everything_until_then_and_ends_with_3(run
     assert sorted(metrics) == sorted(METRICS)
     assert metrics["final_reference_m"] is None
     flight = tl.Flight.load(folder / "flight.npz")
-    assert flight.divergence
-    assert metrics["steps"] == round(flight.divergence.time / 0.001)
-    assert f"paper: {metrics['steps']} steps" in out
+    assert flight.ending
+    assert metrics["steps"] == round(flight.ending.time / 0.001)
+    assert f"paper: diverged; {metrics['steps']} steps" in out
+
+
+def test_a_flight_that_crashes_ends_there_and_after_it_on_request(run):
+    upset = ("--set", "disturbance.moment=[0,9,0]", "--set", "mission.duration=12", "--no-figures")
+    code, out, err = run("run", "iris", *upset)
+    at = float(re.search(r"iris: crashed at (\S+) s: tilt \[deg\] = [\d.]+, must stay within 89 degrees", err)[1])
+    assert code == 3
+    assert f"iris: crashed; {round(at * 1000)} steps" in out
+    code, out, err = run("run", "iris", *upset, "--after-crash", "1.5")
+    assert code == 3
+    assert f"iris: crashed at {at:g} s" in err
+    steps = int(re.search(r"iris: crashed; (\d+) steps", out)[1])
+    assert round(at * 1000) + 500 < steps <= round((at + 1.5) * 1000) + 1
+
+
+def test_a_lift_that_never_happens_is_a_failure(run):
+    code, out, err = run(
+        "run", "iris", "--set", "disturbance.force=[0,0,-30]", "--set", "mission.duration=8", "--no-figures"
+    )
+    assert code == 3
+    assert "iris: not-lifted" in out
+    assert "iris: not-lifted: the mission asks for a lift" in err
 
 
 def test_a_flight_that_is_lost_in_its_first_step_is_written_too(run, tmp_path):

@@ -166,7 +166,7 @@ def test_it_holds_its_place_against_1_n_but_for_the_offset_of_the_closed_form(na
     changes = {"mission.duration": 60.0, "disturbance.force": [1.0, 0.0, 0.0]}
     mission = tl.load_mission("hover", changes, controller=name)
     flight = tl.fly(mission)
-    assert flight.divergence is None
+    assert flight.ending is None
     found = flight["position_error"][-1]
     assert found[0] == pytest.approx(-offset_of(name, mission.controller), rel=0.02, abs=1e-4)
     assert found[1:] == pytest.approx(np.zeros(2), abs=1e-3)

@@ -232,7 +232,7 @@ def test_files_of_the_same_name_in_two_folders_fly_side_by_side(own):
     first = load_controller(own(PLAIN))
     second = load_controller(own(edited(PLAIN, ('"my-pd-plain"', '"my-other-pd"')), "other/my_pd.py"))
     for chosen in (first, second):
-        assert tl.fly(tl.load_mission("hover", {"mission.duration": 0.01}, controller=chosen)).divergence is None
+        assert tl.fly(tl.load_mission("hover", {"mission.duration": 0.01}, controller=chosen)).ending is None
 
 
 def test_the_same_file_elsewhere_is_the_same_module_and_needs_no_compiler_again(own):

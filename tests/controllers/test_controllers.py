@@ -39,7 +39,7 @@ def plain(folder):
 @pytest.mark.parametrize("mission", ["hover", "one-push"])  # the baselines are tuned for ideal rotors and sensors
 def test_a_registered_controller_flies_and_ends_where_the_reference_does(name, mission):
     flight = tl.fly(tl.load_mission(mission, controller=name))
-    assert flight.divergence is None
+    assert flight.ending is None
     metrics = flight.metrics()
     np.testing.assert_allclose(metrics["final_position_m"], metrics["final_reference_m"], atol=0.05)
 
@@ -68,7 +68,7 @@ def test_both_controllers_of_the_guide_reach_the_height_and_agree(law, plain):
     changes = {"mission.duration": 8.0}
     compiled, interpreted = (tl.fly(tl.load_mission("hover", changes, controller=c)) for c in (law, plain))
     for flight in (compiled, interpreted):
-        assert flight.divergence is None
+        assert flight.ending is None
         assert np.abs(flight["position"][-1] - [0.0, 0.0, 1.0]).max() < 1e-3  # m; the integral still settles
     for name in ("position", "euler", "moment", "thrust"):
         np.testing.assert_allclose(compiled[name], interpreted[name], rtol=1e-9, atol=1e-12, err_msg=name)
@@ -86,7 +86,7 @@ def test_the_controllers_of_the_guide_agree_when_pushed_off_the_centre_and_tilte
 def test_the_law_of_the_guide_hovers_for_20_s_and_survives_a_push(law):
     hover, pushed = (tl.fly(tl.load_mission(name, controller=law)) for name in ("hover", "one-push"))
     assert abs(hover["position"][-1, 2] - 1.0) < 1e-4
-    assert pushed.divergence is None
+    assert pushed.ending is None
     assert np.abs(pushed["position_error"][-1]).max() < 0.03  # m; what the integral took up in the push still unwinds
 
 

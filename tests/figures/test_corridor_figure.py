@@ -9,7 +9,7 @@ import tandemlift as tl
 from tandemlift.figures.corridor import NEWTON, arrows, instants
 from tandemlift.figures.drawing.clearances import clearances, grips
 from tandemlift.figures.registry import figures, figures_for
-from tandemlift.flight.record import Divergence
+from tandemlift.flight.record import Ending
 from tandemlift.missions import tables_of
 from tandemlift.settings import wall_tables
 
@@ -83,6 +83,6 @@ def test_it_draws_a_flight_of_few_samples_or_one_that_diverged(count):
     figures()["corridor"].draw(flight)
     if count > 1:
         flight["position"][-1] = np.nan
-        lost = dataclasses.replace(flight, divergence=Divergence("position", 0.1, np.nan, "must be finite"))
+        lost = dataclasses.replace(flight, ending=Ending("position", 0.1, np.nan, "must be finite"))
         figure = figures()["corridor"].draw(lost)
         assert "diverged" in figure.get_supxlabel()

@@ -20,7 +20,7 @@ from tandemlift.figures.drawing.series import decimate, intervals, normalised
 from tandemlift.figures.drawing.skeleton import skeleton
 from tandemlift.figures.drawing.vehicle import true_weight
 from tandemlift.figures.registry import VIEWS, captions, figures, figures_for, save_figures
-from tandemlift.flight.record import Divergence
+from tandemlift.flight.record import Ending
 from tandemlift.vehicle import Vehicle
 
 RUNAWAY = {
@@ -51,7 +51,7 @@ def flights(paper):
     quiet = {"pushes": [], "initial.position": 0.0, "initial.euler": 0.0, "mission.duration": 12.0}
     quadrotor = paper.mission["vehicle"]["quadrotors"][0] | {"position": [0.0, 0.0, 0.075]}
     compact = {"mass": 0.5, "inertia": [0.01, 0.01, 0.01]}
-    huge = cut(paper, 50, divergence=Divergence("velocity", 0.49, float("inf"), "must be finite"))
+    huge = cut(paper, 50, ending=Ending("velocity", 0.49, float("inf"), "must be finite"))
     huge.channels.update({name: values.copy() for name, values in huge.channels.items()})
     for values in huge.channels.values():
         values[-1], values[-2], values[-3], values[-4] = np.nan, np.inf, -np.inf, 1e300
@@ -64,7 +64,7 @@ def flights(paper):
         "four quadrotors": with_vehicle(paper, **tl.load_mission("four").model_dump(mode="json")["vehicle"]),
         "half a second": cut(paper, 50),
         "one sample": cut(paper, 1),
-        "no sample": cut(paper, 0, divergence=Divergence("position", 0.0, float("nan"), "must be finite")),
+        "no sample": cut(paper, 0, ending=Ending("position", 0.0, float("nan"), "must be finite")),
     }
 
 
@@ -262,7 +262,7 @@ def test_every_figure_of_every_flight_is_drawn_whole_without_a_warning(flights, 
         width, height = figure.get_size_inches()
         assert 3.5 <= round(width, 3) <= 7.16
         notes = [text.get_text() for text in figure.texts]
-        assert any(note.startswith("diverged at ") for note in notes) == bool(flights[name].divergence)
+        assert any(note.startswith("diverged at ") for note in notes) == bool(flights[name].ending)
         if not len(flights[name].time):
             continue  # lines without a point have no extent to check
         cut_off = figure.get_tightbbox().extents * [-1.0, -1.0, 1.0, 1.0] > [0.01, 0.01, width + 0.01, height + 0.01]

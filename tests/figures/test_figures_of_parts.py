@@ -14,7 +14,7 @@ from tandemlift.figures.drawing.scene import NEAR, on_paper
 from tandemlift.figures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
 from tandemlift.figures.drawing.vehicle import true_payload_mass
 from tandemlift.figures.registry import figures, figures_for, save_figures
-from tandemlift.flight.record import Divergence
+from tandemlift.flight.record import Ending
 from tandemlift.models.surroundings import floor_from
 from tandemlift.vehicle import Vehicle
 
@@ -126,7 +126,7 @@ def test_figures_of_fleets_of_any_size_are_drawn_whole(windy, count):
 
 @pytest.mark.parametrize("name", ["one sample", "no sample", "diverged to infinity"])
 def test_every_figure_of_flights_that_end_early_is_drawn_whole_without_a_warning(windy, name):
-    huge = cut(windy, 50, divergence=Divergence("velocity", 0.49, float("inf"), "must be finite"))
+    huge = cut(windy, 50, ending=Ending("velocity", 0.49, float("inf"), "must be finite"))
     huge.channels.update({name: values.copy() for name, values in huge.channels.items()})
     for values in huge.channels.values():
         values[-1], values[-2], values[-3], values[-4] = np.nan, np.inf, -np.inf, 1e300

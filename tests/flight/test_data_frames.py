@@ -67,7 +67,7 @@ def test_the_columns_of_a_data_frame_are_named_by_component_and_have_units(fligh
     assert units.keys() == {"time", *table.columns}
     assert table.attrs["metrics"] == flight.metrics()
     assert table.attrs["name"] == flight.name
-    assert table.attrs["divergence"] is None
+    assert table.attrs["ending"] is None
 
 
 def test_a_data_set_has_every_channel_with_its_unit_frame_and_meaning(flight):
@@ -122,9 +122,9 @@ def test_what_is_changed_in_a_table_leaves_the_flight_as_it_is():
 
 
 def test_a_flight_that_diverged_says_so(lost):
-    assert lost.to_pandas().attrs["divergence"] == str(lost.divergence)
+    assert lost.to_pandas().attrs["ending"] == str(lost.ending)
     data = lost.to_xarray()
-    assert data.attrs["divergence"] == str(lost.divergence)
+    assert data.attrs["ending"] == str(lost.ending)
     assert json.loads(data.attrs["metrics"]) == lost.metrics()
 
 

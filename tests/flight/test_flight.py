@@ -144,7 +144,7 @@ def recomputed(flight):
             "moment_max_abs_after_10s_n_m": peak(every["moment"][late]),
             "push_triggers_after_10s": 0,  # by the clock nobody is heard
         }
-    if flight.divergence is None:
+    if flight.ending is None:
         formed |= {"final_position_m": flight["position"][-1], "final_reference_m": flight["reference_position"][-1]}
     return formed
 
@@ -166,7 +166,8 @@ def test_the_metrics_are_those_of_every_step(which, request, flown):
 
 def test_the_metrics_have_the_design_s_names_and_no_other(pushed):
     metrics = pushed.metrics()
-    assert set(metrics) == {name for name, _ in NAMES} | {"events"}
+    assert set(metrics) == {name for name, _ in NAMES} | {"events", "outcome"}
+    assert metrics["outcome"] == "flying"
     assert metrics["events"] == []  # nobody supervises
     for name, count in NAMES:
         value = metrics[name]
@@ -201,11 +202,12 @@ def test_a_step_that_does_not_divide_10_s_starts_its_count_after_them(flown):
 
 
 def test_a_flight_that_diverges_keeps_what_was_flown_and_says_why(lost):
-    quantity, at, value, limit = lost.divergence
+    quantity, at, value, limit, outcome = lost.ending
     assert (quantity, limit) == ("distance from the origin [m]", "must stay below 1000 m")
+    assert outcome == lost.outcome == "diverged"
     assert 1000.0 <= value < 1000.2
     assert lost.metrics()["steps"] == len(lost.time) == round(at / 0.001)
-    assert str(lost.divergence).startswith(f"diverged at {at:.6g} s: distance from the origin [m] = 1000")
+    assert str(lost.ending).startswith(f"diverged at {at:.6g} s: distance from the origin [m] = 1000")
     assert all(np.isfinite(array).all() for array in lost.values())
     assert lost.metrics()["final_position_m"] is not None
     assert lost.metrics()["final_reference_m"] is None

@@ -12,7 +12,7 @@ from patience import completed
 
 import tandemlift as tl
 from tandemlift.flight.channels import CHANNELS
-from tandemlift.flight.record import FORMAT, Divergence, Flight
+from tandemlift.flight.record import FORMAT, Ending, Flight
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,7 @@ def lost():
 
 
 def test_a_saved_flight_loads_to_the_last_bit(short, lost, tmp_path):
-    assert lost.divergence
+    assert lost.ending
     for flight in (short, lost):
         loaded = Flight.load(flight.save(tmp_path / "deep" / "flight.npz"))
         assert loaded == flight
@@ -36,7 +36,7 @@ def test_a_saved_flight_loads_to_the_last_bit(short, lost, tmp_path):
             assert loaded[name].tobytes() == flight[name].tobytes()
         assert loaded.mission == flight.mission
         assert loaded.metrics() == flight.metrics()
-        assert loaded.divergence == flight.divergence
+        assert loaded.ending == flight.ending
         assert set(loaded.version) >= {"tandemlift", "llvmlite", "numpy"}
         assert loaded.version == flight.version
     assert list((tmp_path / "deep").iterdir()) == [tmp_path / "deep" / "flight.npz"]
@@ -45,13 +45,13 @@ def test_a_saved_flight_loads_to_the_last_bit(short, lost, tmp_path):
 def test_odd_bits_and_odd_divergences_survive(short, tmp_path):
     odd = np.array([0.0, -0.0, math.nan, -math.inf, 5e-324, 1 / 3])
     for value in (math.nan, -math.inf, 1e308, 0.1):
-        divergence = Divergence("position", 1 / 3, value, "must be finite")
-        flight = Flight(odd, {"thrust": odd[::-1].copy()}, short.mission, {"steps": 6}, divergence, {})
+        ending = Ending("position", 1 / 3, value, "must be finite")
+        flight = Flight(odd, {"thrust": odd[::-1].copy()}, short.mission, {"steps": 6}, ending, {})
         assert Flight.load(flight.save(tmp_path / "odd.npz")) == flight
 
 
 def test_flights_that_differ_in_one_bit_or_in_their_record_are_not_equal(short):
-    other = Flight(short.time, dict(short.channels), short.mission, short.results, short.divergence, short.version)
+    other = Flight(short.time, dict(short.channels), short.mission, short.results, short.ending, short.version)
     assert other == short
     other.channels["thrust"] = np.nextafter(short["thrust"], 0.0)
     assert other != short
@@ -122,7 +122,7 @@ def rewritten(path: Path, **changes):
         ({"position": np.zeros((101, 3), dtype=np.float32)}, "channel position is float32"),
         ({"thrust": np.zeros((101, 1, 1))}, "channel thrust"),
         ({"mission": 5}, "damaged or no flight"),
-        ({"divergence": [1]}, "damaged or no flight"),
+        ({"ending": [1]}, "damaged or no flight"),
         ({"channels": {"absent": {}}}, "damaged or no flight"),
     ],
     ids=lambda value: (

@@ -35,8 +35,8 @@ def apart(a, b, name, part=slice(None)):
 )
 def test_half_a_minute_without_contact_is_the_same_in_both(name, changes):
     a, b = both(name, changes)
-    assert a.divergence is None
-    assert b.divergence is None
+    assert a.ending is None
+    assert b.ending is None
     settled = a.time > 0.1
     assert apart(a, b, "position") < 1e-5  # m
     assert apart(a, b, "attitude") < 1e-4
@@ -59,8 +59,8 @@ def test_a_vehicle_stands_takes_off_and_flies_on_its_sensors_as_in_the_compiled_
 
 def test_a_landing_ends_at_the_same_height():
     a, b = both("iris", {"mission.duration": 90.0, "mission.log_interval": 0.01})
-    assert a.divergence is None
-    assert b.divergence is None
+    assert a.ending is None
+    assert b.ending is None
     assert abs(a["contact_force"][-1, 2] - b["contact_force"][-1, 2]) < 0.5  # N
     assert np.abs(a["position"][-1] - b["position"][-1]).max() < 0.01  # m
 
@@ -79,8 +79,8 @@ def test_a_flight_that_is_lost_is_told_of_as_in_the_compiled_engine():
     }
     mission = tl.load_mission("paper", weak)
     a, b = tl.fly(mission), tl.fly(mission, engine="gazebo")
-    assert b.divergence.quantity == a.divergence.quantity
-    assert b.divergence.time == pytest.approx(a.divergence.time, abs=0.02)
+    assert b.ending.quantity == a.ending.quantity
+    assert b.ending.time == pytest.approx(a.ending.time, abs=0.02)
 
 
 def test_a_flight_that_is_killed_takes_its_server_with_it():

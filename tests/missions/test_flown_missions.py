@@ -36,7 +36,7 @@ def error_of_push(flight):
 def test_it_ends_standing_on_the_floor_with_its_rotors_stopped(name, flown):
     flight = flown(name)
     weight = 9.81 * 3.5 * flight.mission["plant"]["mass_scale"]
-    assert flight.divergence is None
+    assert flight.ending is None
     assert np.degrees(np.abs(flight["euler"][-1, :2])).max() < 1.0
     landing = flight.time > flight.mission["phases"]["land_start"]
     assert np.degrees(np.ptp(np.unwrap(flight["euler"][landing, 2]))) < 3.0  # where the hand has turned it to

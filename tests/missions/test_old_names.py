@@ -175,7 +175,7 @@ def test_the_command_line_says_what_was_renamed_in_one_line(tmp_path):
 def test_a_flight_of_before_the_renames_is_read_by_the_new_names(tmp_path):
     flight = tl.fly(load_mission("one-push", {"mission.duration": 0.1}))
     old = tl.Flight(
-        flight.time, flight.channels, by_old_names(flight.mission), flight.results, flight.divergence, flight.version
+        flight.time, flight.channels, by_old_names(flight.mission), flight.results, flight.ending, flight.version
     )
     file = old.save(tmp_path / "flight.npz")
     with pytest.warns(tl.FlightWarning, match=r"was renamed to .* others were renamed"):

@@ -96,7 +96,7 @@ def test_a_large_picture_is_the_same_in_strips(monkeypatch):
 
 
 def volume(mesh):
-    """By the divergence theorem."""
+    """By the ending theorem."""
     a, b, c = np.moveaxis(mesh.corners, 1, 0)
     return abs((a * np.cross(b, c)).sum() / 6.0)
 

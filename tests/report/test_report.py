@@ -14,7 +14,7 @@ from patience import completed
 
 import tandemlift as tl
 from tandemlift.figures.registry import captions, figures_for, save_figures
-from tandemlift.flight.record import Divergence, Flight
+from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.report.flight_files import write_flight_files
 from tandemlift.report.flight_report import number, split_unit, write_report
@@ -154,7 +154,8 @@ def test_a_run_removes_the_figures_that_its_flight_does_not_have(paper, tmp_path
 def test_every_metric_is_in_the_table_with_its_value_and_unit(page, paper):
     rows = {row[0].split("\n")[1]: row for row in page.rows if len(row) > 2 and "\n" in row[0]}
     metrics = paper.metrics()
-    assert metrics.pop("events") == []  # told in a list of their own
+    assert metrics.pop("events") == []  # in a list of their own
+    assert metrics.pop("outcome") == "landed"  # the verdict
     assert list(rows) == list(metrics)
     for name, value in metrics.items():
         if name == "command_at_start":
@@ -186,7 +187,7 @@ def test_the_command_at_the_start_is_named_input_by_input(page, paper):
 
 
 def test_an_arrival_is_given_against_its_reference(page, paper, write):
-    assert re.search(r"<strong>Arrived</strong> at \(10\.9\d\d, −0\.0\d\d, 0\.000\) m, less than a micromet", page.text)
+    assert re.search(r"<strong>Landed</strong> at \(10\.9\d\d, −0\.0\d\d, 0\.000\) m, less than a micromet", page.text)
     ends = {"final_position_m": [1.0, 2.0, 2.0], "final_reference_m": [1.003, 2.004, 2.0]}
     moved = write(dataclasses.replace(paper, results=paper.results | ends))
     assert "at (1.000, 2.000, 2.000) m, 5.000 mm from its reference (1.003, 2.004, 2.000) m" in moved.text
@@ -195,14 +196,13 @@ def test_an_arrival_is_given_against_its_reference(page, paper, write):
 def test_a_flight_that_ends_far_from_its_reference_has_not_arrived(paper, write):
     ends = {"final_position_m": [0.0, -16.0, 1.0], "final_reference_m": [0.0, 0.0, 1.0]}
     text = write(dataclasses.replace(paper, results=paper.results | ends)).text
-    assert "Arrived" not in text
-    assert "<strong>Ended</strong> at (0.000, −16.000, 1.000) m, 16.00 m from its reference" in text
+    assert "<strong>Landed</strong> at (0.000, −16.000, 1.000) m, 16.00 m from its reference" in text
 
 
 def test_a_divergence_names_quantity_time_and_limit_and_missing_metrics_are_dashes(paper, write):
-    divergence = Divergence("distance from the origin [m]", 31.231, 1000.02, "must stay below 1000 m")
+    ending = Ending("distance from the origin [m]", 31.231, 1000.02, "must stay below 1000 m")
     results = paper.results | {"final_reference_m": None, "position_rmse_after_10s_m": None}
-    page = write(dataclasses.replace(paper, divergence=divergence, results=results))
+    page = write(dataclasses.replace(paper, ending=ending, results=results))
     assert "<strong>Diverged at 31.231 s</strong>: distance from the origin [m] = 1000.02, must stay below" in page.text
     assert [row[1] for row in page.rows if "final_reference_m" in row[0]] == ["–"]
     assert [row[1] for row in page.rows if "position_rmse_after_10s_m" in row[0]] == ["–"]
@@ -234,7 +234,7 @@ def test_text_from_outside_is_only_text(paper, write):
             mission=mission,
             results=paper.results | {HOSTILE: HOSTILE, f"{HOSTILE}_m": [HOSTILE, None, float("nan")]},
             version={HOSTILE: HOSTILE},
-            divergence=Divergence(HOSTILE, 1.0, 2.0, HOSTILE),
+            ending=Ending(HOSTILE, 1.0, 2.0, HOSTILE),
         )
     )
     assert page.all("script") == page.all("img") == []

@@ -32,8 +32,8 @@ def anything(seed):
 def test_no_nan_leaves_the_loop_and_what_cannot_be_flown_says_so(seed):
     flight = tl.fly(tl.load_mission("rotor-loss", anything(seed)))
     assert all(np.isfinite(flight[name]).all() for name in flight)
-    if flight.divergence is None:
+    if flight.ending is None:
         assert flight.time[-1] == pytest.approx(10.0)
     else:
-        assert flight.divergence.quantity
-        assert flight.time[-1] <= flight.divergence.time <= 10.0
+        assert flight.ending.quantity
+        assert flight.time[-1] <= flight.ending.time <= 10.0

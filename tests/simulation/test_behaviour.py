@@ -1,4 +1,4 @@
-"""What is known of the paper's loop: gates, boundary layers, feedforward, divergence."""
+"""What is known of the paper's loop: gates, boundary layers, feedforward, ending."""
 
 import contextlib
 import math
@@ -89,10 +89,10 @@ def test_a_diverging_flight_stops_at_once_and_says_which_quantity_when():
     weak = {"controller.gains.lambda_1": 0.0, "controller.gains.lambda_2": 0.0}
     flight = tl.fly(tl.load_mission("paper", {**weak, "controller.gains.xi": [4, 2, 11, 0.1, 0.1, 0.1]}))
     metrics = flight.metrics()
-    assert flight.divergence.quantity.startswith("distance")
-    assert metrics["steps"] == round(flight.divergence.time / 0.001)
-    assert flight.time[-1] == pytest.approx(math.floor(flight.divergence.time * 100.0) / 100.0, abs=0.011)
-    assert math.hypot(*metrics["final_position_m"]) == pytest.approx(flight.divergence.value)
+    assert flight.ending.quantity.startswith("distance")
+    assert metrics["steps"] == round(flight.ending.time / 0.001)
+    assert flight.time[-1] == pytest.approx(math.floor(flight.ending.time * 100.0) / 100.0, abs=0.011)
+    assert math.hypot(*metrics["final_position_m"]) == pytest.approx(flight.ending.value)
     assert np.linalg.norm(flight["position"], axis=1).max() < 1000.0
     assert metrics["final_reference_m"] is None
 
@@ -101,14 +101,14 @@ def test_a_vehicle_that_rolls_over_stops_at_89_degrees():
     changes = {"initial.rates": [20.0, 0.0, 0.0], "controller.gains.xi": 0.1, "controller.gains.lambda_1": 0.0}
     changes |= {"controller.gains.lambda_2": 0.0, "pushes": []}
     flight = tl.fly(tl.load_mission("paper", changes))
-    assert flight.divergence.quantity == "roll [deg]"
-    assert 89.0 <= abs(flight.divergence.value) <= 90.0
+    assert flight.ending.quantity == "roll [deg]"
+    assert 89.0 <= abs(flight.ending.value) <= 90.0
     assert np.degrees(np.abs(flight["euler"][:, 0])).max() < 89.0
 
 
 def test_a_command_that_is_not_finite_stops_the_flight():
     changes = {"controller.gains.lambda_1": 1e308, "controller.gains.xi": 1e200}
     flight = tl.fly(tl.load_mission("paper", changes))
-    assert flight.divergence.limit == "must be finite"
+    assert flight.ending.limit == "must be finite"
     assert flight.metrics()["steps"] <= 2
     assert flight.metrics()["final_position_m"] is None

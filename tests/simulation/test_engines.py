@@ -65,8 +65,8 @@ def test_a_vehicle_rests_at_the_same_height_and_takes_off_at_the_same_time(iris)
 
 def test_a_flight_on_sensors_and_real_rotors_is_the_same_in_both(iris):
     a, b = iris
-    assert a.divergence is None
-    assert b.divergence is None
+    assert a.ending is None
+    assert b.ending is None
     assert apart(a, b, "position") < 1e-3  # m: the push is felt half a step apart
     assert apart(a, b, "attitude") < 2e-4
     flying = a.time > take_off(a) + 0.5
@@ -89,8 +89,8 @@ def test_a_flight_has_the_same_channels_in_both_and_says_which_engine_it_flew_in
 def test_a_controller_in_plain_python_flies_in_mujoco_too(by_hand):
     pytest.importorskip("mujoco")
     a, b = tl.fly(storm(FAR)), tl.fly(storm(FAR | by_hand), engine="mujoco")
-    assert a.divergence is None
-    assert b.divergence is None
+    assert a.ending is None
+    assert b.ending is None
     assert apart(a, b, "position", a.time < 4.5) < 1e-3  # m, through wind, a fault and a push
     assert apart(a, b, "position") < 0.02  # m, at the end of a landing with a skid
     assert abs(take_off(a) - take_off(b)) <= 0.01 + 1e-9  # s, the interval of the log
@@ -110,9 +110,9 @@ def test_a_vehicle_pressed_against_a_wall_by_the_wind_is_so_in_both(by_hand):
 
 def test_a_flight_that_is_lost_is_lost_in_both_at_the_same_time():
     a, b = both(tl.load_mission("paper", WEAK))
-    assert b.divergence.quantity == a.divergence.quantity
-    assert b.divergence.time == pytest.approx(a.divergence.time, abs=0.02)
-    assert b.metrics()["steps"] == round(b.divergence.time / DT)
+    assert b.ending.quantity == a.ending.quantity
+    assert b.ending.time == pytest.approx(a.ending.time, abs=0.02)
+    assert b.metrics()["steps"] == round(b.ending.time / DT)
     assert all(np.isfinite(b[name]).all() for name in b)
 
 

@@ -88,7 +88,7 @@ def test_perfect_sensors_measure_the_push_as_soon_as_their_delay_allows():
     """Standing, lifting off, flying and landing: the floor acts on the quadrotors and is no push."""
     flight = tl.fly(calm(CALM))
     measured, true = measured_and_true(flight)
-    assert flight.divergence is None
+    assert flight.ending is None
     assert np.sum(flight["contact_force"][:, 2] > 1.0) > 300
     assert np.abs(true).max() > 1.5
     assert np.abs(measured - true).max() < 1e-9  # N
@@ -116,7 +116,7 @@ def test_real_sensors_find_where_the_hand_is_to_two_centimetres_while_it_presses
     times = {"mission.duration": 9.0, "phases.land_start": 20.0, "estimator.tare_duration": 1.0}
     flight = tl.fly(calm(EVERY | times | sensors | {"pushes": [hand]}))
     pressing = np.linalg.norm(flight["push_force"], axis=1) >= 3.0
-    assert flight.divergence is None
+    assert flight.ending is None
     assert pressing.sum() > 1000
     assert np.abs(flight["push_point_estimate"][pressing] - place).max() < 0.02  # m
     np.testing.assert_allclose(flight["push_estimate"][pressing], flight["push_force"][pressing], atol=0.5)

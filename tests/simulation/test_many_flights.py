@@ -43,7 +43,7 @@ def same(a, b):
     metrics = [{k: v for k, v in f.metrics().items() if k != "wall_s"} for f in (a, b)]
     return (
         metrics[0] == metrics[1]
-        and a.divergence == b.divergence
+        and a.ending == b.ending
         and np.array_equal(a.time, b.time)
         and all(np.array_equal(a[name], b[name]) for name in a)
     )
@@ -108,7 +108,7 @@ def test_a_lane_that_diverges_stops_where_it_does_alone_and_leaves_the_others_be
     missions = spread("paper", 8, **{"mission.duration": 40.0})
     missions[3] = tl.load_mission("paper", {**weak, "controller.gains.xi": [4, 2, 11, 0.1, 0.1, 0.1]})
     together = tl.fly_many(missions)
-    assert [f.divergence is not None for f in together] == [i == 3 for i in range(8)]
+    assert [f.ending is not None for f in together] == [i == 3 for i in range(8)]
     for i in (2, 3, 4):
         assert same(together[i], tl.fly(missions[i]))
 

@@ -72,7 +72,7 @@ def test_another_controller_takes_over_in_flight():
     from_the_start = tl.fly(load(**{"controller.name": "pid"}))
     before = plain.time < 5.0
     np.testing.assert_array_equal(other["position"][before], plain["position"][before])
-    assert other.divergence is None
+    assert other.ending is None
     assert np.abs(other["position"] - other["reference_position"])[-1].max() < 0.05
     late = plain.time > 11.0
     assert np.abs(other["thrust"] - from_the_start["thrust"])[late].max() < 0.05

@@ -62,7 +62,7 @@ def test_every_built_in_mission_with_a_person_is_flown():
 def test_a_person_brings_the_vehicle_through_without_touching_and_it_lands(flown, name):
     flight, mission = flown[name], tl.load_mission(name)
     metrics = flight.metrics()
-    assert flight.divergence is None
+    assert flight.ending is None
     assert metrics["clearance_min_m"] > LEAST[name]
     assert_through_and_landed(metrics, mission)
     assert flight["phase"].ravel()[-1] == 0.0  # idle again, rotors off

@@ -37,7 +37,7 @@ def test_the_storm_has_everything_in_it(alone):
     """So that what is proven with it is proven for all parts."""
     flight = tl.fly(storm())
     t, limits = flight.time, flight["rotor_commands"]
-    assert flight.divergence is None
+    assert flight.ending is None
     assert flight["contact_force"][0, 2] > 30.0  # N: the floor
     assert flight["contact_force"][(t > 1.0) & (t < 3.5), 0].min() < -1.0  # a wall
     assert flight["contact_force"][-10:, 2].max() > 30.0  # landed
@@ -45,7 +45,7 @@ def test_the_storm_has_everything_in_it(alone):
     assert np.any((limits[t > 0.31] <= 0.0) | (limits[t > 0.31] >= 7.06))  # at a limit in flight
     assert np.abs(flight["wind_force"]).max() > 1.0
     assert np.abs(flight["push_estimate"]).max() > 1.0
-    assert sum(f.divergence is None for f in alone) == 8
+    assert sum(f.ending is None for f in alone) == 8
 
 
 def test_eight_flights_in_a_block_are_the_flights_alone_to_the_last_bit(alone):

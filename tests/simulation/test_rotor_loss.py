@@ -38,7 +38,7 @@ def test_no_thrust_is_asked_of_it_once_it_was_tried_again(flown):
 
 def test_seven_rotors_carry_it_to_the_floor_where_it_was_and_softly(flown):
     _, flight = flown
-    assert flight.divergence is None
+    assert flight.ending is None
     before = np.searchsorted(flight.time, TIME)
     touch = before + np.flatnonzero(np.abs(flight["contact_force"][before:, 2]) > 0.0)[0]
     way = slice(before, touch)

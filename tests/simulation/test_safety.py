@@ -69,7 +69,7 @@ def test_every_fault_has_the_reaction_of_the_table_and_ends_safely(row, fly):
     entered = {"hold": "hold", "land": "land", "stop": "stopped"}[reaction]
     assert f"{fault} -> {entered}" in events, events
     assert {int(a) // 10 for a in flight["alarm"]} - {0} == {int(number)}
-    assert flight.divergence is None
+    assert flight.ending is None
     assert PHASE_NAMES[int(flight["phase"][-1])] == ("stopped" if reaction == "stop" else "idle"), events
     assert flight["rotor_thrusts"][-1].max() < 1e-6
     assert flight["position"][-1, 2] == pytest.approx(STANDS, abs=0.02)

@@ -37,10 +37,10 @@ def check_same_bits(missions):
 @pytest.mark.parametrize("name", built_in())
 def test_a_built_in_mission_flies_alone_in_a_block_and_step_by_step_with_the_same_bits(name):
     flights = check_same_bits(lanes(name))
-    ends = {str(flights[i].divergence) for i in LOST}
+    ends = {str(flights[i].ending) for i in LOST}
     assert len(ends) == 2
-    assert any(flights[i].divergence for i in LOST)
-    assert flights[1].divergence is None
+    assert any(flights[i].ending for i in LOST)
+    assert flights[1].ending is None
 
 
 @pytest.mark.parametrize("count", [1, 3, 5])

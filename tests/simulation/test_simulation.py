@@ -285,22 +285,22 @@ def test_a_flight_that_turns_over_is_over_and_its_record_says_why():
     while not sim.over:
         sim.step(thrusts=[3.0] * 4 + [8.0] * 4)
     assert sim.lost
-    assert sim.divergence is not None
-    assert sim.divergence.quantity == "roll [deg]"
+    assert sim.ending is not None
+    assert sim.ending.quantity == "roll [deg]"
     flight = sim.flight()
-    assert flight.divergence == sim.divergence
+    assert flight.ending == sim.ending
     assert flight.metrics()["steps"] == sim.k
     with pytest.raises(tl.InputError, match=r"diverged at .* s: roll .*; reset\(\) begins anew"):
         sim.step()
     sim.reset()
     assert not sim.lost
-    assert sim.divergence is None
+    assert sim.ending is None
     sim.step()
 
 
 def test_past_the_end_of_its_mission_it_takes_no_step():
     sim = stepped(tl.Simulation(load("hover", **{"mission.duration": 0.01})))
-    assert (sim.k, sim.lost, sim.divergence) == (10, False, None)
+    assert (sim.k, sim.lost, sim.ending) == (10, False, None)
     with pytest.raises(tl.InputError, match=r"mission.duration = 0.01 s; reset\(\) begins anew"):
         sim.step()
 

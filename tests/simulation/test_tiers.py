@@ -55,7 +55,7 @@ def test_code_is_exchanged_in_the_middle_of_a_flight(empty):
     check_optimised(mission, 1)
     assert memory.fly(p.steps + 1) == p.steps
     assert np.array_equal(memory.log[0][:, 1:], log_of(p))
-    assert whole.divergence is None
+    assert whole.ending is None
 
 
 def log_of(p):

@@ -84,8 +84,8 @@ def test_a_controller_that_diverges_is_a_row_that_says_when_and_why(run, tmp_pat
     assert page.row("nftsmc")[-1].startswith("diverged at ")
     assert page.row("pid")[-1] == "flown to the end"
     found = json.loads((tmp_path / "out" / "paper" / "compare.json").read_text("utf-8"))
-    assert found["controllers"][0]["diverged"].startswith("diverged at ")
-    assert found["controllers"][1]["diverged"] is None
+    assert found["controllers"][0]["failure"].startswith("diverged at ")
+    assert found["controllers"][1]["failure"] is None
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from messages_as_numbers import flat
 
 import tandemlift as tl
 from tandemlift.flight.channels import CHANNELS
-from tandemlift.flight.record import Divergence, Flight
+from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 
 SAMPLES = 40
@@ -36,7 +36,7 @@ def flight_of(mission, **changes):
 def eventful():
     """A flight of two quadrotors with events, a failing sensor, and an early end."""
     events = [[0.0, "idle"], [0.05, "no lift: not level"], [0.1, "lift"], [0.123456, "rotor failed -> land"]]
-    made = flight_of("iris", results={"events": events}, divergence=Divergence("roll [deg]", 0.48, 91.0, "must be"))
+    made = flight_of("iris", results={"events": events}, ending=Ending("roll [deg]", 0.48, 91.0, "must be"))
     made.channels["measured_velocity"][3] = np.nan
     made.channels["measured_attitude"][5] = np.nan
     made.channels["measured_attitude"][6] *= 1.02  # a reading need not be of unit norm

@@ -36,8 +36,4 @@ def different(a, b):
     metrics = [{k: v for k, v in f.metrics().items() if k != "wall_s"} for f in (a, b)]
     found = [key for key in metrics[0].keys() | metrics[1].keys() if metrics[0].get(key) != metrics[1].get(key)]
     found += [n for n in sorted({*a, *b}) if n not in a or n not in b or a[n].tobytes() != b[n].tobytes()]
-    return (
-        found
-        + ["divergence"] * (str(a.divergence) != str(b.divergence))
-        + ["time"] * (not np.array_equal(a.time, b.time))
-    )
+    return found + ["ending"] * (str(a.ending) != str(b.ending)) + ["time"] * (not np.array_equal(a.time, b.time))

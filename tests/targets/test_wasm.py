@@ -51,7 +51,7 @@ def check_draws(name: str, folder: Path, *, duration: float, count: int, fly: Fl
         for channel in manifest["channels"]:
             values = np.reshape(here[channel["name"]], (len(here.time), -1))
             assert np.array_equal(there.log[: len(values), channel["columns"]], values, equal_nan=True), (channel, draw)
-        lost += here.divergence is not None
+        lost += here.ending is not None
     return lost
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from tandemlift.algebra.vector import ZERO, Nothing
 from tandemlift.assembly.actuators import start_rotors
+from tandemlift.assembly.crash_limits import crash_limits_from, start_crash
 from tandemlift.assembly.disturbances import (
     input_tables_from,
     near_walls_from,
@@ -23,6 +24,7 @@ from tandemlift.assembly.disturbances import (
 from tandemlift.assembly.persons import path_legs_from, start_person
 from tandemlift.assembly.sensors import sensors_from, start_estimators
 from tandemlift.assembly.watchdogs import with_faults, with_watchdogs
+from tandemlift.common.outcomes import FLIES
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.mechanics.clearance import clearance
@@ -112,6 +114,7 @@ def assemble(mission: Mission) -> AssembledFlight:
     estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
     person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
+    limits = crash_limits_from(mission, vehicle)
     flight_state = FlightState(
         state=state,
         memory=memory,
@@ -124,11 +127,13 @@ def assemble(mission: Mission) -> AssembledFlight:
         readings=readings,
         person=memory_of_person,
         metrics=start_metrics(clearance(walls, near, plant.frame, state), memory_of_person),
-        diverged=0.0,
+        impulse=Nothing() if isinstance(limits.strike, Nothing) else 0.0,
+        crash=start_crash(limits, state),
+        ended=FLIES,
     )
     sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map])
     late = delay_lines_from(mission, delays)
-    model = FlightModel(flight_state, pilot, plant, rotors, wind, devices, estimators, sources, person, late)
+    model = FlightModel(flight_state, pilot, plant, rotors, wind, devices, estimators, sources, person, late, limits)
     given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), sensor_noise, tremor_noise), memory_of_person)
     return AssembledFlight(
         model,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.run import DIVERGED, chosen_controller, engine_option, load, parse_setting, set_option
+from tandemlift.cli.run import FAILED, chosen_controller, engine_option, load, parse_setting, set_option
 from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
 from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import InputError
@@ -63,7 +63,7 @@ def compare(
     Exit code:
       0   all flights were flown
       2   bad input: one message, nothing is written
-      3   a flight diverged: its row says when and why; everything is written
+      3   a flight crashed, diverged or did not lift: its row says why; everything is written
     """
     if engines is not None:
         if controllers is not None:
@@ -82,11 +82,11 @@ def compare(
         _print_tables(name, entries)
         _write(entries, folder, name, engine)
         echo(f"  page: {folder / 'compare.html'}")
-    lost = {e.name: e.flight.divergence for e in entries if e.flight and e.flight.divergence}
-    for controller, divergence in lost.items():
-        click.echo(f"{controller}: {divergence}", err=True)
-    if lost:
-        sys.exit(DIVERGED)
+    failed = {e.name: e.flight.failure for e in entries if e.flight and e.flight.failure}
+    for controller, failure in failed.items():
+        click.echo(f"{controller}: {failure}", err=True)
+    if failed:
+        sys.exit(FAILED)
 
 
 def _chosen(given: str | None) -> list[Controller] | None:
@@ -166,7 +166,7 @@ def _print_tables(name: str, entries: Sequence[Entry]) -> None:
     for entry in entries:
         if entry.flight:
             cells = [*_scores(entry.flight, counts), *_run(entry.flight)]
-            rows.append((entry.name, cells, str(entry.flight.divergence or "")))
+            rows.append((entry.name, cells, entry.flight.failure))
         else:
             rows.append((entry.name, [], f"not flown: {entry.refusal}"))
     echo(f"{name}: position errors {counts.words}")
@@ -206,11 +206,11 @@ def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], 
         _print_differences(loaded.mission.name, found)
         _write_json({"mission": loaded.mission.name, "engines": found}, folder / "engines.json")
         echo(f"  page: {write_engines(flights, folder / 'engines.html')}")
-    lost = [row for row in found if row["diverged"]]
-    for row in lost:
-        click.echo(f"{row['engine']}: {row['diverged']}", err=True)
-    if lost:
-        sys.exit(DIVERGED)
+    failed = [row for row in found if row["failure"]]
+    for row in failed:
+        click.echo(f"{row['engine']}: {row['failure']}", err=True)
+    if failed:
+        sys.exit(FAILED)
 
 
 def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:

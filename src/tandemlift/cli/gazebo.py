@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import DEFAULT
-from tandemlift.cli.run import DIVERGED, load, print_report_path, print_summary, set_option
+from tandemlift.cli.run import FAILED, load, print_report_path, print_summary, set_option
 from tandemlift.cli.terminal.console import echo, progress_bar
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
@@ -64,7 +64,7 @@ def gazebo(
     Exit code:
       0   the flight was flown
       2   bad input: one message, nothing is written
-      3   diverged: what was flown until then is written
+      3   crashed, diverged or not lifted: what was flown is written
     """
     if by_hand and (fast or pictures):
         raise InputError(
@@ -85,9 +85,9 @@ def gazebo(
             copy_recording(loaded, folder)
         write_flight(flight, folder, figures=not no_figures, photographs=photographs)
         print_report_path(folder, time.perf_counter() - began)
-    if flight.divergence:
-        click.echo(f"{flight.name}: {flight.divergence}", err=True)
-        sys.exit(DIVERGED)
+    if flight.failure:
+        click.echo(f"{flight.name}: {flight.failure}", err=True)
+        sys.exit(FAILED)
 
 
 def _has_display() -> bool:

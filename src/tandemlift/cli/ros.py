@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import DEFAULT, session_of
-from tandemlift.cli.run import DIVERGED, engine_option, load, set_option
+from tandemlift.cli.run import FAILED, engine_option, load, set_option
 from tandemlift.cli.terminal.console import echo
 from tandemlift.common.errors import InputError
 from tandemlift.ros.sample_queue import steps_between_samples
@@ -89,7 +89,7 @@ def ros(
     _save(session, save)
     if end in BAD_ENDS:
         click.echo(f"{mission}: {end}", err=True)
-        sys.exit(DIVERGED)
+        sys.exit(FAILED)
 
 
 def _split_arguments(words: tuple[str, ...]) -> tuple[str, list[str]]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
 
-DIVERGED = 3
+FAILED = 3
 WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
 
 
@@ -52,6 +52,12 @@ set_option = click.option(
     metavar="NAME|FILE",
     help="Controller to fly: a registered one, or your own .py file.",
 )
+@click.option(
+    "--after-crash",
+    type=click.FloatRange(min=0.0),
+    metavar="SECONDS",
+    help="Fly on after a crash, rotors stopped, at most until the vehicle lies still: the key crash.fly_on.",
+)
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
 def run(
     mission: str,
@@ -59,6 +65,7 @@ def run(
     out: str | None,
     settings: tuple[str, ...],
     controller: str | None,
+    after_crash: float | None,
     no_figures: bool,
 ) -> None:
     """Fly MISSION, print a summary and write the results.
@@ -86,7 +93,7 @@ def run(
     Exit code:
       0   the flight was flown
       2   bad input: one message, nothing is written
-      3   diverged: what was flown until then is written
+      3   crashed, diverged or not lifted: what was flown is written
     """
     from tandemlift.engines.registry import engine_named
 
@@ -94,6 +101,8 @@ def run(
     if engine is not None:
         engine_named(engine)
     chosen = None if controller is None else chosen_controller(controller)
+    if after_crash is not None:
+        settings = (*settings, f"crash.fly_on={after_crash!r}")
     loaded = load(mission, settings, chosen)
     with results_folder(out, Path("out") / loaded.mission.name) as folder:
         flight = _fly(loaded, engine, chosen)
@@ -101,9 +110,9 @@ def run(
         copy_recording(loaded, folder)
         write_flight(flight, folder, figures=not no_figures)
         print_report_path(folder, time.perf_counter() - began)
-    if flight.divergence:
-        click.echo(f"{flight.name}: {flight.divergence}", err=True)
-        sys.exit(DIVERGED)
+    if flight.failure:
+        click.echo(f"{flight.name}: {flight.failure}", err=True)
+        sys.exit(FAILED)
 
 
 def chosen_controller(given: str) -> Controller:
@@ -185,7 +194,7 @@ def print_summary(flight: Flight) -> None:
         ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (min, max)"),
         ("human work", _list([m["human_work_j"]], 2), "J"),
     ]
-    echo(f"{flight.name}: {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms")
+    echo(f"{flight.name}: {flight.outcome}; {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms")
     for label, value, unit in rows:
         if value:
             echo(f"  {label:36}{value} {unit}")

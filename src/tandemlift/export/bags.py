@@ -83,8 +83,8 @@ def events_from(flight: Flight) -> list[tuple[float, str]]:
         phase = flight["phase"].astype(int)
         entered = [0, *(1 + np.flatnonzero(np.diff(phase))).tolist()]
         events = [(float(flight.time[k]), PHASE_NAMES[phase[k]]) for k in entered]
-    if flight.divergence:
-        events.append((flight.divergence.time, str(flight.divergence)))
+    if flight.ending:
+        events.append((flight.ending.time, str(flight.ending)))
     return sorted(events)
 
 

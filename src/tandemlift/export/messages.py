@@ -184,7 +184,7 @@ def event_maker(types: MessageTypes) -> Callable[[int, str], Any]:
     header = types.headers("")
 
     def make(stamp: int, what: str) -> Any:
-        level = ERROR if " -> " in what or what.startswith("diverged") else WARN if ": " in what else OK
+        level = ERROR if " -> " in what or what.startswith(("crashed", "diverged")) else WARN if ": " in what else OK
         return Many(header(stamp), [Status(level, "tandemlift: pilot", what, "", [])])
 
     return make

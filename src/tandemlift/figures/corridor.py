@@ -153,7 +153,7 @@ def draw(flight: Flight) -> Figure:
     """Draw the path from above [m] with the pushes [N], and the clearance [m] over the distance flown."""
     keep = np.isfinite(drawable(np.column_stack([flight["position"], flight["attitude"]]))).all(axis=1)
     flight = Flight(
-        flight.time[keep], {n: v[keep] for n, v in flight.channels.items()}, flight.mission, {}, flight.divergence
+        flight.time[keep], {n: v[keep] for n, v in flight.channels.items()}, flight.mission, {}, flight.ending
     )
     shown = instants(flight)
     found, (low, high) = arrows(flight, shown), _bounds(flight, shown)

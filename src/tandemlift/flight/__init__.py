@@ -1,6 +1,6 @@
 """The record of a flight: its channels, its file, the record as a table, and the old names of renamed things."""
 
 from tandemlift.flight.channels import CHANNELS, DERIVED, Channel
-from tandemlift.flight.record import Divergence, Flight
+from tandemlift.flight.record import Ending, Flight
 
-__all__ = ["CHANNELS", "DERIVED", "Channel", "Divergence", "Flight"]
+__all__ = ["CHANNELS", "DERIVED", "Channel", "Ending", "Flight"]

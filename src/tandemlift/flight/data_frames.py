@@ -38,7 +38,7 @@ class LoggedFlight(Protocol):
         """The tables of the resolved mission."""
 
     @property
-    def divergence(self) -> Any:
+    def ending(self) -> Any:
         """Why the flight ended early, or None."""
 
     @property
@@ -121,7 +121,7 @@ def to_pandas(flight: LoggedFlight) -> Any:
         "name": flight.name,
         "units": {"time": flight.info("time").unit} | {name: info.unit for name, info, _ in found},
         "metrics": flight.metrics(),
-        "divergence": None if flight.divergence is None else str(flight.divergence),
+        "ending": None if flight.ending is None else str(flight.ending),
     }
     return frame
 
@@ -150,7 +150,7 @@ def _record(flight: LoggedFlight) -> dict[str, str]:
     """What a flight holds besides channels, as texts: mission, metrics and versions in JSON."""
     tables = {"mission": flight.mission, "metrics": flight.metrics(), "version": flight.version}
     texts = {name: json.dumps(table, allow_nan=False) for name, table in tables.items()}
-    return {"name": flight.name, **texts} | ({"divergence": str(flight.divergence)} if flight.divergence else {})
+    return {"name": flight.name, **texts} | ({"ending": str(flight.ending)} if flight.ending else {})
 
 
 def _package(name: str, method: str) -> Any:

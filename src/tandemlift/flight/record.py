@@ -14,6 +14,7 @@ import numpy as np
 
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.files import atomic_write
+from tandemlift.common.outcomes import FAILURES
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
@@ -28,16 +29,17 @@ LATE = 10.0
 """Time [s] from which metrics with `after_10s` in their names are formed: the disturbed start is left out."""
 
 
-class Divergence(NamedTuple):
-    """Why a flight was stopped: which quantity, at what time [s], its value, and the limit it broke."""
+class Ending(NamedTuple):
+    """Why a flight was stopped: which quantity, at what time [s], its value, the limit it broke, and the outcome."""
 
     quantity: str
     time: float
     value: float
     limit: str
+    outcome: str = "diverged"
 
     def __str__(self) -> str:
-        return f"diverged at {self.time:.6g} s: {self.quantity} = {self.value:.6g}, {self.limit}"
+        return f"{self.outcome} at {self.time:.6g} s: {self.quantity} = {self.value:.6g}, {self.limit}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +51,7 @@ class Flight(Mapping[str, Array]):
         channels: the recorded arrays by name; `flight[name]` also gives the differences in `DERIVED`.
         mission: the resolved mission as nested tables.
         results: the metrics, formed from every step and not from the log.
-        divergence: why the flight was stopped before its end, or None.
+        ending: why the flight was stopped before its end as crashed or diverged, or None.
         version: of tandemlift and of what it flew with.
     """
 
@@ -57,13 +59,23 @@ class Flight(Mapping[str, Array]):
     channels: dict[str, Array]
     mission: dict[str, Any]
     results: dict[str, Any]
-    divergence: Divergence | None = None
+    ending: Ending | None = None
     version: dict[str, str] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
         """The mission's name."""
         return self.mission["mission"]["name"]
+
+    @property
+    def outcome(self) -> str:
+        """How it ended, one of `common.outcomes.OUTCOMES`; "unknown" for a flight of an older version."""
+        return self.results.get("outcome", "unknown")
+
+    @property
+    def failure(self) -> str:
+        """Why the flight failed (crashed, diverged, not lifted) in one sentence; "" if it did not."""
+        return str(self.ending or FAILURES.get(self.outcome, ""))
 
     def __getitem__(self, name: str) -> Array:
         if name in self.channels:
@@ -95,7 +107,7 @@ class Flight(Mapping[str, Array]):
 
     def _parts(self) -> tuple[Any, ...]:
         arrays = {name: (a.shape, a.tobytes()) for name, a in {"time": self.time, **self.channels}.items()}
-        return arrays, self.mission, self.results, str(self.divergence), self.version
+        return arrays, self.mission, self.results, str(self.ending), self.version
 
     def info(self, name: str) -> Channel:
         """Unit, frame and meaning of a channel."""
@@ -111,7 +123,7 @@ class Flight(Mapping[str, Array]):
 
         Columns are called `position_x`, `attitude_w`, `euler_roll`, `rotor_thrusts_rotor_1`,
         `joint_force_quadrotor_1_x`, and `thrust` where there is one component. `attrs` holds `name`, `units` by column,
-        `metrics`, and `divergence` as text or None.
+        `metrics`, and `ending` as text or None.
 
         Raises:
             InputError: pandas is not installed (extra: pandas).
@@ -122,7 +134,7 @@ class Flight(Mapping[str, Array]):
         """The channels as variables over `time` [s] and `axis`, `angle`, `quaternion`, `rotor` or `quadrotor`.
 
         Each has `units`, `frame` and `long_name` in its `attrs`, where they say something. Those of the dataset are
-        texts: `name`; `mission`, `metrics` and `version` in JSON; `divergence`, if the flight has one.
+        texts: `name`; `mission`, `metrics` and `version` in JSON; `ending`, if the flight has one.
 
         Raises:
             InputError: xarray is not installed (extra: xarray).
@@ -136,7 +148,7 @@ class Flight(Mapping[str, Array]):
             "format": FORMAT,
             "mission": self.mission,
             "metrics": self.results,
-            "divergence": _written(self.divergence),
+            "ending": _written(self.ending),
             "version": self.version,
             "channels": {name: _described(self.info(name)) for name in self.channels},
         }
@@ -171,9 +183,9 @@ def _described(channel: Channel) -> dict[str, str]:
     return {"unit": channel.unit, "frame": channel.frame, "meaning": channel.meaning}
 
 
-def _written(divergence: Divergence | None) -> list[Any] | None:
-    """A divergence for a strict JSON text: its value, which may be nan, as text."""
-    return divergence and [divergence.quantity, divergence.time, repr(divergence.value), divergence.limit]
+def _written(ending: Ending | None) -> list[Any] | None:
+    """An ending for a strict JSON text: its value, which may be nan, as text."""
+    return ending and [ending.quantity, ending.time, repr(ending.value), ending.limit, ending.outcome]
 
 
 def _read(file: BinaryIO) -> tuple[dict[str, Any], dict[str, Array]]:
@@ -208,9 +220,9 @@ def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
     for name, array in {"time": time, **arrays}.items():
         if array.dtype != np.float64 or array.ndim not in (1, 2) or len(array) != len(time):
             raise InputError(f"damaged: channel {name} is {array.dtype} {array.shape}, beside {len(time)} times")
-    divergence = header["divergence"]
-    if divergence is not None:
-        quantity, at, value, limit = divergence
-        divergence = Divergence(quantity, at, float(value), limit)
+    ending = header["ending"] if "ending" in header else header["divergence"]
+    if ending is not None:
+        quantity, at, value, *rest = ending
+        ending = Ending(quantity, at, float(value), *rest)
     mission, metrics, version = (dict(header[key]) for key in ("mission", "metrics", "version"))
-    return Flight(time, arrays, mission, metrics, divergence, version)
+    return Flight(time, arrays, mission, metrics, ending, version)

@@ -110,7 +110,7 @@ class LoopWriter(StepWriter):
             write_solver(self.module, self.traced.limits.solver, self.lanes)
 
     def write_loop(self) -> str:
-        """`fly`: steps k to stop − 1, fewer if a flight alone diverges; it returns the step reached."""
+        """`fly`: steps k to stop − 1, fewer if a flight alone ends before; it returns the step reached."""
         self.write_outside()
         f = self.function("fly_", result="i64")
         begin, stop, steps = self.context_word(f, "k"), self.context_word(f, "stop"), self.context_word(f, "steps")
@@ -123,7 +123,7 @@ class LoopWriter(StepWriter):
         f.do(f"br i1 {f.op(f'icmp slt i64 %k, {stop}')}, label %sound, label %over")
         f.lines.append("sound:")
         if self.lanes == 1:
-            lost = f.load("%flight", leaf_offset(self.templates.model, "flight_state", "diverged").at)
+            lost = f.load("%flight", leaf_offset(self.templates.model, "flight_state", "ended").at)
             f.do(f"br i1 {f.op(f'fcmp oeq double {lost}, 0.0')}, label %step, label %over")
             f.lines.append("step:")
         self.begin_step(f, "%k")

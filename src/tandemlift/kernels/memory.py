@@ -84,7 +84,7 @@ class FlightMemory:
         self._context[AT[word]] = value
 
     def fly(self, stop: int) -> int:
-        """Fly on to step `stop`; a flight alone stops where it diverges. The step reached."""
+        """Fly on to step `stop`; a flight alone stops where it crashes or diverges. The step reached."""
         self.put("k", self.k)
         self.put("stop", stop)
         self.k = self.code.free["fly"](self.address)

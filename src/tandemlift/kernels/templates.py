@@ -91,6 +91,6 @@ def templates_from(model: FlightModel, given: StepInputs) -> Templates:
     acting = actuate(model, output.decision.thrusts, given, 0.0)
     air = acting.wind.loads
     moved = advance(model.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
-    _, sample = finish_sample(model, output, acting, moved, given)
+    _, sample = finish_sample(model, output, acting, moved, given, 0.0, 0.0)
     layouts = [zeroed(x) for x in (model, outer, output, acting, moved, sample)]
     return Templates._make([*layouts, before.near])

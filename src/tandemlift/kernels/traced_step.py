@@ -164,7 +164,7 @@ class TracedStep:
             self.body_in_free_air = self.numbers(self._stepped_body(without_contact(self.model.plant), acting))
         self.may_touch_walls = [self._may_touch_walls(acting)] if templates.has_walls else []
         moved = self.input_of("moved", templates.moved)
-        after, sample = self.trace(finish_sample)(self.model, output, acting, moved, self.given)
+        after, sample = self.trace(finish_sample)(self.model, output, acting, moved, self.given, self.t, self.dt)
         check_layout(self.model.pilot.controller, templates.model.flight_state, written_out(after))
         self.next_state, self.sample = self.numbers(after), self.numbers(sample)
 

@@ -269,4 +269,5 @@ def errors_of(model: Any, output: Any, x: Sample) -> StepErrors:
         clearance=clearance(model.plant.walls, model.flight_state.near, model.plant.frame, model.flight_state.state),
         effort=effort(model.flight_state.person, x),
         push_active=push_active(decision.guidance.channels),
+        height=x.position.z,
     )

@@ -26,6 +26,7 @@ class StepErrors(NamedTuple):
     clearance: Any
     effort: Any
     push_active: Any
+    height: Any
 
 
 class PersonEffort(NamedTuple):
@@ -37,7 +38,10 @@ class PersonEffort(NamedTuple):
 
 
 class RunningMetrics(NamedTuple):
-    """Sums and extremes over steps; `triggers`: how many pushes became active; `push_active`: 1 while one is."""
+    """Sums and extremes over steps; `triggers`: how many pushes became active; `push_active`: 1 while one is.
+
+    `highest`: the greatest z [m].
+    """
 
     steps: Any
     position_squares: Vec3
@@ -55,6 +59,7 @@ class RunningMetrics(NamedTuple):
     effort: Any
     triggers: Any
     push_active: Any
+    highest: Any
 
 
 EMPTY = RunningMetrics(
@@ -74,6 +79,7 @@ EMPTY = RunningMetrics(
     effort=Nothing(),
     triggers=0.0,
     push_active=0.0,
+    highest=-math.inf,
 )
 NO_EFFORT = PersonEffort(0.0, 0.0, 0.0)
 
@@ -115,6 +121,7 @@ def count(c: RunningMetrics, x: StepErrors) -> RunningMetrics:
         effort=added(c.effort, x.effort),
         triggers=c.triggers + x.push_active * (1.0 - c.push_active),
         push_active=x.push_active,
+        highest=maximum(c.highest, x.height),
     )
 
 

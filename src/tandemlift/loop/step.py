@@ -11,17 +11,17 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import law
-from tandemlift.algebra.ops import absolute, maximum, where
-from tandemlift.algebra.vector import Nothing, Quat, dot
+from tandemlift.algebra.ops import where
+from tandemlift.algebra.vector import Nothing, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
 from tandemlift.laws.person.person import landing_request, person_step
 from tandemlift.laws.rotors.rotors import rotors_step
+from tandemlift.loop.ending import ending_number, impulse_after, unless_crashed, until_crash, with_aftermath
 from tandemlift.loop.log_sample import errors_of, log_sample
 from tandemlift.loop.perception import (
     all_sensed,
@@ -37,12 +37,9 @@ from tandemlift.loop.running_metrics import RunningMetrics, count
 from tandemlift.loop.wind_loads import WindOutput, wind_loads
 from tandemlift.pilot.pilot import Decision, PilotInput, PilotMemory, PilotParameters, decide, with_thrusts
 
-SIN_ROLL_LIMIT = 0.9998476951563913  # sin 89°
-FAR = 1000.0  # m
-
 
 class FlightState(NamedTuple):
-    """The state of a flight; `diverged` becomes 1 once the body state is not finite or beyond all bounds."""
+    """The state of a flight; `ended`: 0 while it goes on, else the number of its ending (`common.outcomes`)."""
 
     state: State
     memory: PilotMemory
@@ -55,13 +52,15 @@ class FlightState(NamedTuple):
     readings: Any
     person: Any
     metrics: RunningMetrics
-    diverged: Any
+    impulse: Any
+    crash: Any
+    ended: Any
 
 
 class FlightModel(NamedTuple):
     """One flight: its state, and the parameters that stay. Its type is the variant of the compiled loop.
 
-    `sources`: where the pilot's state and push come from. `delays`: a `DelayLines`.
+    `sources`: where the pilot's state and push come from. `delays`: a `DelayLines`. `limits`: a `CrashLimits`.
     """
 
     flight_state: FlightState
@@ -74,6 +73,7 @@ class FlightModel(NamedTuple):
     sources: Any
     person: Any
     delays: Any
+    limits: Any
 
 
 class StepNoise(NamedTuple):
@@ -164,26 +164,23 @@ def with_caller_thrusts(output: PilotOutput, external: Any) -> PilotOutput:
 def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Actuation:
     """The response of the rotors to commanded thrusts [N] over the step from time t [s], and the wind over it."""
     before = model.flight_state
-    driven, rotors = rotors_step(model.rotors, before.rotors, thrusts, before.state, t)
+    commanded = unless_crashed(before.crash, thrusts)
+    driven, rotors = rotors_step(model.rotors, before.rotors, commanded, before.state, t)
     wind = wind_loads(model.wind, before.wind, model.plant.frame, before.state, inputs.gust, inputs.noise.wind)
     return Actuation(driven, rotors, wind)
 
 
 @law
-def has_diverged(state: State) -> Any:
-    """0 while the state is finite, within 89° of roll and 1 km of the origin, else 1."""
-    far = where(dot(state.position, state.position) < FAR * FAR, 0.0, 1.0)
-    return where(absolute(sine_of_roll(state.attitude)) < SIN_ROLL_LIMIT, far, 1.0)
-
-
-@law
 def finish_sample(
-    model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs
+    model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs, t: Any, dt: Any
 ) -> Any:
-    """The end of a step once the body has moved: (`FlightState` after it, `Sample` at its start)."""
+    """The end of a step from time t [s] once the body has moved: (`FlightState` after it, `Sample` at its start)."""
     before, noise = model.flight_state, inputs.noise.sensors
     readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
     sample = log_sample(model, output, acting, moved, inputs.hand)
+    impulse = impulse_after(model.limits.strike, before.impulse, moved.readings.contact_force, dt)
+    number = ending_number(model.limits, moved.state, impulse)
+    crash, ended = with_aftermath(model.limits.aftermath, before.crash, number, moved.state, impulse, t, dt)
     after = FlightState(
         state=moved.state,
         memory=output.memory,
@@ -195,8 +192,10 @@ def finish_sample(
         rotors=acting.rotors,
         readings=readings,
         person=inputs.person,
-        metrics=count(before.metrics, errors_of(model, output, sample)),
-        diverged=maximum(before.diverged, has_diverged(moved.state)),
+        metrics=until_crash(before.crash, before.metrics, count(before.metrics, errors_of(model, output, sample))),
+        impulse=impulse,
+        crash=crash,
+        ended=where(before.ended > 0.0, before.ended, ended),
     )
     return after, sample
 
@@ -214,7 +213,7 @@ def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: 
     output = with_caller_thrusts(output, inputs.external)
     acting = actuate(model, output.decision.thrusts, inputs, t)
     moved = step_body(model.plant, model.flight_state, acting, inputs.hand, dt)
-    return finish_sample(model, output, acting, moved, inputs)
+    return finish_sample(model, output, acting, moved, inputs, t, dt)
 
 
 @law

@@ -58,11 +58,23 @@ def _check_limits(m: Mission) -> None:
     if s.checks.min_payload_ratio >= s.checks.max_payload_ratio:
         most = f"supervision.checks.max_payload_ratio = {s.checks.max_payload_ratio}"
         raise InputError(f"supervision.checks.min_payload_ratio = {s.checks.min_payload_ratio}: must be below {most}")
+    _check_crash(m)
     for name in ("stale_time", "invalid_time"):
         for key, interval in (("interval", m.sensors.interval), ("motion.interval", m.sensors.motion.interval)):
             if getattr(s.watchdog, name) <= max(interval, m.mission.step):
                 given = f"supervision.watchdog.{name} = {getattr(s.watchdog, name)}"
                 raise InputError(f"{given}: must be longer than sensors.{key} = {interval}, and than mission.step")
+
+
+def _check_crash(m: Mission) -> None:
+    """Refuse a crash that would come before the supervision may react."""
+    c, s = m.crash, m.supervision
+    if c.tilt <= s.limits.tilt:
+        raise InputError(f"crash.tilt = {c.tilt}: must be above supervision.limits.tilt = {s.limits.tilt}")
+    if c.fence_margin < s.fence.margin:
+        raise InputError(
+            f"crash.fence_margin = {c.fence_margin}: must be at least supervision.fence.margin = {s.fence.margin}"
+        )
 
 
 def _check_sensor_faults(m: Mission) -> None:

@@ -80,7 +80,7 @@ STILL = "<p>{when} every position error is below 1 µm.</p>"
 def _cells(column: TableColumn, found: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
     """A column's cells by controller; the best of those that did not diverge are bold."""
     values = {name: column.value(of) for name, of in found.items()}
-    fair = [None if found[name]["diverged"] else value for name, value in values.items()]
+    fair = [None if found[name]["failure"] else value for name, value in values.items()]
     best = best_of(fair, LEAST.get(column.name, math.inf))
     texts = zip(values.items(), best, strict=True)
     return {n: f"<td><b>{column.shown(v)}</b></td>" if won else f"<td>{column.shown(v)}</td>" for (n, v), won in texts}
@@ -93,7 +93,7 @@ def _of_flights(entries: Sequence[Entry], part: ScoredPart) -> str:
     for name, flight, refusal in entries:
         filled, outcome = f'<td class="one" colspan="{len(COLUMNS)}">{DASH}</td>', refusal
         if flight:
-            filled, outcome = "".join(of[name] for of in cells), found[name]["diverged"] or "flown to the end"
+            filled, outcome = "".join(of[name] for of in cells), found[name]["failure"] or "flown to the end"
         rows.append(f'<tr><th scope="row">{escape(name)}</th>{filled}<td>{escape(outcome)}</td></tr>')
     head = f'<tr><th scope="col">Controller</th>{_heads(COLUMNS)}<th scope="col">Outcome</th></tr>'
     return html_table(head, rows, "compared")

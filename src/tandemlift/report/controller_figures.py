@@ -53,7 +53,7 @@ def _look(place: int) -> dict[str, Any]:
 
 def _settled(flights: Mapping[str, Flight]) -> Sequence[Flight]:
     """The flights that did not diverge, all if none."""
-    return [f for f in flights.values() if not f.divergence] or list(flights.values())
+    return [f for f in flights.values() if not f.ending] or list(flights.values())
 
 
 def _errors(flight: Flight, part: ScoredPart) -> Array:
@@ -84,7 +84,7 @@ def _still(ax: Any, what: str) -> None:
 
 def _names(figure: Figure, flights: Mapping[str, Flight]) -> None:
     handles = [Line2D([], [], lw=1.1, **_look(place)) for place in range(len(flights))]
-    names = [f"{name} (diverged)" if f.divergence else name for name, f in flights.items()]
+    names = [f"{name} ({f.ending.outcome})" if f.ending else name for name, f in flights.items()]
     figure.legend(handles, names, loc="outside upper left", ncols=min(len(names), 6), columnspacing=1.2)
 
 
@@ -145,7 +145,7 @@ def _beyond_the_start(flight: Flight) -> Array:
 def _range(flight: Flight) -> str:
     """What a panel spans in words, as each has a scale of its own."""
     low, high = (f"{value:.3g}".replace("-", "−") for value in extent(_beyond_the_start(flight)))
-    return f"{low} to {high} N" + (", diverged" if flight.divergence else "")
+    return f"{low} to {high} N" + (f", {flight.ending.outcome}" if flight.ending else "")
 
 
 @styled
@@ -162,7 +162,7 @@ def draw_thrusts(flights: Mapping[str, Flight]) -> Figure:
     for place, (ax, (name, flight)) in enumerate(zip(axes.flat, flights.items(), strict=False)):
         if len(flight.time):
             _rotors(ax, flight)
-        settled = _settled(flights) if flight.divergence else [flight]
+        settled = _settled(flights) if flight.ending else [flight]
         fit(ax, *[_beyond_the_start(f) for f in settled], least=LEAST_THRUST)
         ax.set_title(f"{name}: {_range(flight)}", fontsize=8.5, pad=2)
         time_axis(ax, longest, label=place >= len(flights) - 2)

@@ -24,7 +24,7 @@ def _row(name: str, flight: Flight, first: Flight) -> str:
     cells = "".join(f"<td>{number(found[q]) if q in found else DASH}</td>" for q in QUANTITIES)
     end = flight.metrics().get("final_position_m") or ()
     place = ", ".join(f"{v + 0.0:.3f}".replace("-", "−") for v in end) or DASH
-    ended = escape(str(flight.divergence)) if flight.divergence else place
+    ended = escape(flight.failure) or place
     return f'<tr><th scope="row">{escape(name)}</th>{cells}<td>{ended}</td><td>{number(round(speed(flight)))}</td></tr>'
 
 

@@ -92,7 +92,7 @@ def _metrics(metrics: Mapping[str, Any]) -> str:
     """The metrics as a table, a row each."""
     rows = []
     for name, value in metrics.items():
-        if name == "events":
+        if name in ("outcome", "events"):
             continue
         words, unit = split_unit(name)
         head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'
@@ -115,19 +115,20 @@ def _events(events: Iterable[tuple[float, str]]) -> str:
 
 def _verdict(flight: Flight) -> str:
     """Where the flight ended against where it should have, or why it was stopped."""
-    if flight.divergence:
-        what, _, why = str(flight.divergence).partition(": ")
-        return f'<p class="verdict diverged"><strong>{escape(what).capitalize()}</strong>: {escape(why)}.</p>'
+    if flight.failure:
+        what, _, why = flight.failure.partition(": ")
+        return f'<p class="verdict failed"><strong>{escape(what).capitalize()}</strong>: {escape(why)}.</p>'
+    how = "Ended" if flight.outcome == "unknown" else flight.outcome.capitalize()
     metrics = flight.metrics()
     end, reference = metrics.get("final_position_m"), metrics.get("final_reference_m")
     if end is None or reference is None:
-        return '<p class="verdict"><strong>Flown to the end</strong>.</p>'
+        return f'<p class="verdict"><strong>{how}</strong>.</p>'
     away = math.dist(end, reference)
     distance = "less than a micrometre" if away < 1e-6 else _length(away)
     text = f"at {_place(end)}, {distance} from its reference {_place(reference)}"
     if away > ARRIVED:
-        return f'<p class="verdict missed"><strong>Ended</strong> {text}.</p>'
-    return f'<p class="verdict"><strong>Arrived</strong> {text}.</p>'
+        return f'<p class="verdict missed"><strong>{how}</strong> {text}.</p>'
+    return f'<p class="verdict"><strong>{how}</strong> {text}.</p>'
 
 
 def _length(metres: float) -> str:

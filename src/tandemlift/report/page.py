@@ -15,9 +15,9 @@ h2 { margin: 2.5rem 0 1rem; font-size: 1.3rem; }
 .kind, .soft, figcaption { color: var(--soft); }
 .kind { margin: 0; }
 .verdict { margin: 1rem 0 .5rem; padding: .6rem .9rem; border-left: .3rem solid var(--good); background: var(--card); }
-.verdict.diverged, .verdict.missed { border-color: var(--bad); }
+.verdict.failed, .verdict.missed { border-color: var(--bad); }
 .verdict strong { color: var(--good); }
-.verdict.diverged strong, .verdict.missed strong { color: var(--bad); }
+.verdict.failed strong, .verdict.missed strong { color: var(--bad); }
 figure { margin: 0 0 2rem; }
 figcaption { max-width: 44rem; margin-top: .5rem; font-size: .9rem; }
 figcaption b { color: var(--ink); }

@@ -114,7 +114,7 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
         progress: called from time to time with (steps flown, steps in all).
 
     Returns:
-        The flight. If it diverged, it holds the samples until then, and `divergence` says why.
+        The flight. If it diverged, it holds the samples until then, and `ending` says why.
 
     Raises:
         InputError: the engine is unknown, or the mission cannot be built.

@@ -12,21 +12,20 @@ from typing import Any
 import numpy as np
 
 from tandemlift.algebra.layout import flat, leaves, unflat
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
+from tandemlift.algebra.vector import Nothing, Vec3, dot
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
 from tandemlift.common.phases import CONTACT as PHASE_CONTACT
 from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
-from tandemlift.flight.record import Divergence, Flight
+from tandemlift.flight.record import Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
-from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.rotation import sine_of_roll
 from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
-from tandemlift.loop.step import FAR, SIN_ROLL_LIMIT, FlightModel, FlightState
+from tandemlift.loop.step import FlightModel, FlightState
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
 from tandemlift.simulation.contact_texts import describe_contact
+from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
 
 
@@ -52,8 +51,8 @@ class RawResult:
 
     @property
     def lost(self) -> bool:
-        """Whether the flight diverged."""
-        return self.flight_state.diverged != 0.0
+        """Whether the flight was stopped before its end."""
+        return self.flight_state.ended != 0.0
 
 
 def take_metrics(numbers: Array, like: FlightModel, lanes: int) -> list[RunningMetrics]:
@@ -64,22 +63,6 @@ def take_metrics(numbers: Array, like: FlightModel, lanes: int) -> list[RunningM
     tallies = [unflat(rows[:, lane], empty) for lane in range(lanes)]
     rows[:] = np.array(flat(empty))[:, None]
     return tallies
-
-
-def divergence_of(p: FlightPlan, flown: RawResult) -> Divergence | None:
-    """Why a flight was stopped, or None."""
-    if not flown.lost:
-        return None
-    at, state = flown.step * p.dt, flown.flight_state.state
-    for quantity, values in zip(State._fields, state, strict=True):
-        bad = [v for v in values if not math.isfinite(v)]
-        if bad:
-            return Divergence(quantity, at, bad[0], "must be finite")
-    roll = sine_of_roll(state.attitude)
-    if not abs(roll) < SIN_ROLL_LIMIT:
-        angle = math.degrees(math.asin(max(-1.0, min(1.0, roll))))
-        return Divergence("roll [deg]", at, angle, "must stay within 89 degrees")
-    return Divergence("distance from the origin [m]", at, math.dist(state.position, ZERO), f"must stay below {FAR:g} m")
 
 
 def _finite_or_none(value: Any) -> Any:
@@ -99,6 +82,8 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed["command_at_start"] = [first.thrust, *first.moment]
     formed |= _detection_metrics(p, flown)
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
+    highest = max(early.highest, late.highest)
+    formed["outcome"] = outcome_of(p, flown.flight_state, last, highest)
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
@@ -175,6 +160,6 @@ def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flig
         channels=channels,
         mission=portable(tables_of(p.mission)),
         results=metrics_of(p, flown),
-        divergence=divergence_of(p, flown),
+        ending=ending_of(p, flown.flight_state, flown.step),
         version={**versions(engine), "engine": engine},
     )

@@ -15,14 +15,15 @@ from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
-from tandemlift.flight.record import Divergence, Flight
+from tandemlift.flight.record import Ending, Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions.recording import engine_of
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
+from tandemlift.simulation.outcome import ending_of
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.results import RawResult, channels_of, divergence_of, flight_of, take_metrics
+from tandemlift.simulation.results import RawResult, channels_of, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_in
 
 FORCE, POINT, THRUSTS = (
@@ -182,12 +183,12 @@ class Simulation:
         return self.k >= self._p.steps or self._stepper.lost
 
     @property
-    def divergence(self) -> Divergence | None:
+    def ending(self) -> Ending | None:
         """Why the flight has diverged: quantity, time, value and limit; None if it has not."""
-        return divergence_of(self._p, self._result(np.empty((0, 0)), np.empty(0)))
+        return ending_of(self._p, self._result(np.empty((0, 0)), np.empty(0)).flight_state, self.k)
 
     def _why_over(self) -> str:
-        return str(self.divergence or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s")
+        return str(self.ending or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s")
 
     def __getitem__(self, name: str) -> Any:
         """A channel of the last sample: an array (n,), or a number where the channel has one column.

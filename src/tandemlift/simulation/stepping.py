@@ -68,7 +68,7 @@ class Stepper:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
         self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
-        self.at_lost, self.hand = leaf_offset(p.model, "flight_state", "diverged").at, hand_place(p)
+        self.at_lost, self.hand = leaf_offset(p.model, "flight_state", "ended").at, hand_place(p)
         self._bind_views()
 
     def _bind_views(self) -> None:
@@ -169,7 +169,7 @@ class Stepper:
 
     @property
     def lost(self) -> bool:
-        """Whether the flight has diverged."""
+        """Whether the flight has crashed or diverged."""
         return bool(self.a[self.at_lost] != 0.0)
 
 

@@ -119,7 +119,7 @@ def touch_of(flight: Flight) -> Touch | None:
         right=bool(len(after))
         and float(force[first : first + BLOW].sum(axis=0) @ flight["contact_normal"][after[0]]) > 0.0,
         sensor_fault=bool(blamed) and any(text.startswith(tuple(SENSOR_FAULTS)) for text in blamed),
-        crashed=flight.divergence is not None,
+        crashed=flight.ending is not None,
         landed=any(text.endswith("land") for text in events),
     )
 

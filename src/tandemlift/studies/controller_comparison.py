@@ -196,12 +196,12 @@ def _finite(value: Any) -> Any:
 
 
 def run_of(flight: Flight) -> dict[str, Any]:
-    """Scores of a whole flight: rotor saturation, time per step, and divergence."""
+    """Scores of a whole flight: rotor saturation, time per step, and ending."""
     metrics = flight.metrics()
     return {
         "rotor_saturated_share": metrics["rotor_saturated_share"],
         "step_ns": metrics["wall_s"] / metrics["steps"] * 1e9 if metrics["steps"] else None,
-        "diverged": str(flight.divergence) if flight.divergence else None,
+        "failure": flight.failure or None,
     }
 
 

@@ -94,7 +94,7 @@ def summary_of(flights: Mapping[str, Flight]) -> list[dict[str, Any]]:
             "difference": largest_differences(flight, first),
             "final_position_m": flight.metrics()["final_position_m"],
             "steps_per_s": speed(flight),
-            "diverged": str(flight.divergence) if flight.divergence else None,
+            "failure": flight.failure or None,
             "version": flight.version,
         }
         for name, flight in flights.items()

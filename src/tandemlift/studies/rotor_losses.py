@@ -67,7 +67,7 @@ def outcome_of(flight: Flight, rotor: int, time: float) -> dict[str, Any]:
     found = flight["failed_rotor"][-1] == rotor + 1
     row = {
         "found": m["rotor_loss_found_after_s"] if found else None,
-        "landed": bool(flight.divergence is None and len(touched) and flight["phase"][-1] == 0.0),
+        "landed": bool(flight.ending is None and len(touched) and flight["phase"][-1] == 0.0),
     }
     if not row["landed"]:
         return row

@@ -90,8 +90,8 @@ def draws(bench: Bench) -> Iterator[Row]:
     """Rows about random missions with all deviations together."""
     rng = np.random.default_rng(4)
     flights = bench.fly([drawn(rng, number) for number in range(bench.draws)])
-    failed = sum(flight.divergence is not None for flight in flights)
-    values = np.array([rms(errors(flight)) for flight in flights if flight.divergence is None])
+    failed = sum(flight.ending is not None for flight in flights)
+    values = np.array([rms(errors(flight)) for flight in flights if flight.ending is None])
     what = f"{bench.draws} random draws of all deviations together: failures"
     yield Row(what, "0", str(failed), failed == 0)
     yield below("the same: worst RMSE x / y / z", values.max(axis=0), (25.0, 25.0, 3.0), "mm")

@@ -141,8 +141,8 @@ def test_a_flight_that_diverged_is_saved_and_diverges_again_at_the_same_step(tmp
     flight.close()
     mission = tl.load_mission(tmp_path / "recorded.toml")
     again = tl.fly(mission)
-    assert again.divergence is not None
-    assert again.divergence.time == pytest.approx(mission.mission.duration, abs=2e-3)
+    assert again.ending is not None
+    assert again.ending.time == pytest.approx(mission.mission.duration, abs=2e-3)
 
 
 # the page's files

@@ -118,7 +118,7 @@ def test_a_flight_that_is_lost_is_saved_as_far_as_it_came(tmp_path):
     assert flight.lost
     flight.snapshot().save(tmp_path)
     again = assert_flies_again(tmp_path)
-    assert again.divergence is not None
+    assert again.ending is not None
 
 
 def test_nothing_flown_is_nothing_to_save():

@@ -152,7 +152,7 @@ bool mission_flight_step(mission_Flight *flight, mission_Sample *sample)
     const int64_t k = flight->k, in_span = k % MISSION_SPAN;
     const bool last = k == MISSION_FLIGHT_STEPS;
     Sample sampled;
-    if (flight->over || flight->model.flight_state.diverged != 0) {
+    if (flight->over || flight->model.flight_state.ended != 0) {
         flight->over = true;
         return false;
     }

@@ -68,7 +68,7 @@ void mission_flight_mission(mission_FlightModel *model, mission_Inputs *inputs);
 void mission_flight_start_from(mission_Flight *flight, const mission_FlightModel *model, const mission_Inputs *inputs);
 
 /* One step: the sample at its start is written to `sample`, unless it is a null pointer. False, and nothing done, once
- * the flight is over: after MISSION_FLIGHT_STEPS steps and one more sample, or where it diverges. */
+ * the flight is over: after MISSION_FLIGHT_STEPS steps and one more sample, or where it crashes or diverges. */
 bool mission_flight_step(mission_Flight *flight, mission_Sample *sample);
 
 #ifdef __cplusplus

@@ -95,8 +95,8 @@ def journal(draw: Callable[[Flight], Figure]) -> Callable[[Flight], Figure]:
     @wraps(draw)
     def noted(flight: Flight) -> Figure:
         figure = draw(flight)
-        if flight.divergence:
-            note = f"diverged at {flight.divergence.time:.5g} s"
+        if flight.ending:
+            note = f"{flight.ending.outcome} at {flight.ending.time:.5g} s"
             figure.supxlabel(note, x=0.01, ha="left", fontsize=8, color=VERMILLION)
         return figure
 

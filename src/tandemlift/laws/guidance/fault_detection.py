@@ -74,12 +74,18 @@ def expired(timer: Any, limit: Any) -> Any:
 
 
 @law
+def distance_outside(low: Vec3, high: Vec3, p: Vec3) -> Any:
+    """How far a position is outside a box [m], along the axis where it is farthest; negative inside."""
+    x = maximum(low.x - p.x, p.x - high.x)
+    y = maximum(low.y - p.y, p.y - high.y)
+    z = maximum(low.z - p.z, p.z - high.z)
+    return maximum(x, maximum(y, z))
+
+
+@law
 def outside(f: Fence, p: Vec3) -> Any:
     """1 if a position is outside the fence by more than the margin, else 0."""
-    x = maximum(f.low.x - p.x, p.x - f.high.x)
-    y = maximum(f.low.y - p.y, p.y - f.high.y)
-    z = maximum(f.low.z - p.z, p.z - f.high.z)
-    return where(maximum(x, maximum(y, z)) > f.margin, 1.0, 0.0)
+    return where(distance_outside(f.low, f.high, p) > f.margin, 1.0, 0.0)
 
 
 @law

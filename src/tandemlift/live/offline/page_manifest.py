@@ -64,7 +64,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "released": flat(HAND_RELEASED),
         "engine": ENGINE,
         "plant": leaf_offset(plan.model, "plant"),
-        "lost": leaf_offset(plan.model, "flight_state", "diverged").at,
+        "lost": leaf_offset(plan.model, "flight_state", "ended").at,
         "hover_time": leaf_offset(plan.model, "flight_state", *checks.HOVER_TIME).at if rule.tare_duration else -1,
         "frame": frame_fields(plan),
         "phase_times": list(phase_times(tables["phases"])),
