@@ -11,7 +11,7 @@ from tandemlift.cli.run import engine_option
 from tandemlift.cli.terminal.console import compile_notices, echo
 
 MISSED = 1
-NAMES = "tracking, observers, draws, losses, triggers, persons or yaw"
+NAMES = "tracking, observers, draws, losses, triggers, persons, yaw or contacts"
 
 
 @click.command()
