@@ -190,7 +190,7 @@ def following_step(
         heading_error=wrap_angle(reference.yaw - yaw),
         active=is_in(phase, LIFT) + in_the_air(phase) - is_in(phase, CONTACT),
     )
-    return update_following(g.following, m, now, dt)
+    return update_following(g.following, m, now, t, dt)
 
 
 @law

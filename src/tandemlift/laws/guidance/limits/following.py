@@ -10,7 +10,7 @@ changes to one of higher priority. A vehicle that has lost its heading turns fas
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import law
-from tandemlift.algebra.ops import absolute, where
+from tandemlift.algebra.ops import absolute, maximum, minimum, where
 from tandemlift.algebra.vector import Vec3, dot
 from tandemlift.common.phases import REASONS
 
@@ -45,7 +45,11 @@ class Following(NamedTuple):
 
 
 class FollowingState(NamedTuple):
-    """Memory: for how long each limit has been exceeded, and none of them [s]; the number of the reason, or 0."""
+    """Memory: for how long each limit has been exceeded, and none of them [s]; the number of the reason, or 0.
+
+    For findings: the time `first` of a reason [s]; for how long there was one in all [s], `lasted`; the most urgent one;
+    and for how long the heading was lost at a stretch [s].
+    """
 
     thrust: Any
     tilt: Any
@@ -53,9 +57,13 @@ class FollowingState(NamedTuple):
     position: Any
     clear_time: Any
     reason: Any
+    first: Any
+    lasted: Any
+    most_urgent: Any
+    longest_lost: Any
 
 
-AT_REST = FollowingState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+AT_REST = FollowingState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @law
@@ -74,21 +82,32 @@ def first_reason(k: FollowingLimits, m: FollowingState) -> Any:
 
 
 @law
-def update_following(k: FollowingLimits, m: FollowingState, f: Following, dt: Any) -> FollowingState:
-    """The memory after a sample that is held for dt [s]."""
+def more_urgent(reason: Any, other: Any) -> Any:
+    """The first of two reasons, of which any may be 0 for none."""
+    return where(reason > 0.0, where(other > 0.0, minimum(reason, other), reason), other)
+
+
+@law
+def update_following(k: FollowingLimits, m: FollowingState, f: Following, t: Any, dt: Any) -> FollowingState:
+    """The memory after a sample at time t [s] that is held for dt [s]."""
     n = f.needed
-    after = FollowingState(
+    after = m._replace(
         thrust=exceeded_for(m.thrust, dot(n, n), f.max_thrust * f.max_thrust, f.active, dt),
         tilt=exceeded_for(m.tilt, n.x * n.x + n.y * n.y, k.side_force * k.side_force, f.active, dt),
         heading=exceeded_for(m.heading, absolute(f.heading_error), k.heading_error, f.active, dt),
         position=exceeded_for(m.position, dot(f.error, f.error), k.position_error * k.position_error, f.active, dt),
-        clear_time=m.clear_time,
-        reason=m.reason,
     )
     clear = where(after.thrust + after.tilt + after.heading + after.position > 0.0, 0.0, m.clear_time + dt)
-    now, kept = first_reason(k, after), where(clear > k.recovery_time, 0.0, m.reason)
-    more_urgent = where(kept > 0.0, where(now < kept, now, 0.0), now)
-    return after._replace(clear_time=clear, reason=where(more_urgent > 0.0, more_urgent, kept) * f.active)
+    kept = where(clear > k.recovery_time, 0.0, m.reason)
+    reason = more_urgent(first_reason(k, after), kept) * f.active
+    return after._replace(
+        clear_time=clear,
+        reason=reason,
+        first=where(m.lasted + reason > 0.0, where(m.lasted > 0.0, m.first, t), 0.0),
+        lasted=m.lasted + where(reason > 0.0, dt, 0.0),
+        most_urgent=more_urgent(m.most_urgent, reason),
+        longest_lost=maximum(m.longest_lost, after.heading),
+    )
 
 
 @law
