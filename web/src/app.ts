@@ -23,6 +23,7 @@ import {
   type FlightScene,
   type PageMessage,
   type ParameterValue,
+  type StatusEnding,
   type StatusMessage,
   STIFFNESS,
   THRESHOLD,
@@ -49,7 +50,7 @@ export class App implements FlightListener, ShellPage {
   private readonly force: ForceInput;
   private readonly shell: Shell;
   private readonly remarks = new Remarks();
-  private readonly labels: Labels = { push: label("push"), wind: label("wind"), refusal: label("refusal") };
+  private readonly labels: Labels = { push: label("push"), wind: label("wind"), refusal: label("refusal"), ending: label("ending") };
   private picture: Picture | null = null;
   private choice: GraphicsChoice = "auto";
   private last = 0;
@@ -57,6 +58,7 @@ export class App implements FlightListener, ShellPage {
   private drawnAt = 0;
   private readonly eye = new Matrix4();
   private unheld = 0;
+  private ending: StatusEnding | null = null;
 
   constructor(
     private readonly source: FlightSource,
@@ -155,6 +157,7 @@ export class App implements FlightListener, ShellPage {
     this.unheld = this.grab.pulling && status.holder !== "you" ? this.unheld + 1 : 0;
     if (this.unheld > LET_GO_AFTER) this.grab.cancel(); // the server has let go
     this.remarks.status(status);
+    this.ending = status.ending;
     this.shell.status(status);
   }
 
@@ -199,6 +202,7 @@ export class App implements FlightListener, ShellPage {
 
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
     picture.update(frame, this.grab.hand, this.overlays, this.remarks.now(frame));
+    picture.showEnding(endingLabel(this.ending), this.ending?.place ?? null);
     this.camera.update(picture.center, this.grab.pulling, passed);
     this.grab.flush();
     this.force.flush(this.grab.pulling);
@@ -241,6 +245,10 @@ export class App implements FlightListener, ShellPage {
     Object.assign(this.picture, { threshold, stiffness });
     this.drawn = null;
   }
+}
+
+function endingLabel(ending: StatusEnding | null): string {
+  return ending ? `the end, ${ending.time.toFixed(2)} s` : "";
 }
 
 function label(kind: string): Label {

@@ -92,6 +92,7 @@ OTHER_REASONS = (
     RefusalReason("fault", "the pilot reacts to a fault: {alarm}", "Let go, and wait until the fault is over."),
     RefusalReason("disabled", "the pilot is told not to follow pushes", "Enable it."),
     RefusalReason("over", "the flight is over", AGAIN),
+    RefusalReason("stopped_early", "the flight has crashed or diverged", AGAIN),
     RefusalReason("error", "the flight has ended by an error in the software", AGAIN),
     RefusalReason("weak", "it is below the threshold ({value} N, limit {limit} N)", "Push harder."),
 )

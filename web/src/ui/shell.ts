@@ -20,6 +20,7 @@ import { Dock } from "./dock.ts";
 import { byId, choice, toggle } from "./dom.ts";
 import { timedName } from "./file_names.ts";
 import { helpDialog } from "./help.ts";
+import { EndedCard } from "./ended_card.ts";
 import { SPAN } from "./history.ts";
 import { Notices } from "./notices.ts";
 import { Panel } from "./panel.ts";
@@ -62,6 +63,7 @@ export class Shell {
   private readonly panel: Panel;
   private readonly help: HTMLDialogElement;
   private readonly saving: SaveDialog;
+  private readonly ended: EndedCard;
   private readonly video = new VideoRecorder();
   private plots: Plots | null = null;
   private dock: Dock | null = null;
@@ -88,6 +90,9 @@ export class Shell {
     foldable("show-plots", "plots", window.innerHeight >= LOW);
     this.makeViews();
     if (!page.replay) this.makeDock();
+    this.ended = new EndedCard(() => {
+      page.send({ type: "reset" });
+    });
     window.addEventListener("keydown", this.key);
   }
 
@@ -117,6 +122,7 @@ export class Shell {
   status(status: StatusMessage): void {
     this.bar.status(status);
     this.dock?.status(status);
+    if (!this.page.replay) this.ended.status(status);
     this.panel.markFailed(status.failed_rotors);
     this.hint(status);
   }

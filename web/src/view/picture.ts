@@ -8,6 +8,7 @@ import type { FlightScene, Vector } from "../wire/messages.generated.ts";
 import { Arrow } from "./arrow.ts";
 import { HandMarker } from "./hand.ts";
 import { Label } from "./labels.ts";
+import { Mark } from "./mark.ts";
 import { palette } from "./palette.ts";
 import { FlatShadow } from "./shadow.ts";
 import type { Stage } from "./stage.ts";
@@ -22,7 +23,7 @@ export type Overlays = Record<Overlay, boolean>;
 export type HandView =
   { kind: "none" } | { kind: "offer"; point: Vector } | { kind: "pull"; point: Vector; target: Vector };
 
-export type Labels = Record<"push" | "wind" | "refusal", Label>;
+export type Labels = Record<"push" | "wind" | "refusal" | "ending", Label>;
 
 /** A sentence at a point of the body: why what a person does there has no effect. */
 export interface Remark {
@@ -43,6 +44,7 @@ export class Picture {
   private readonly push = new Arrow(palette.push, 0.02, 0.22, 0.05);
   private readonly wind = new Arrow(palette.wind, 0.014, 0.14, 0.1);
   private readonly hold = new HandMarker();
+  private readonly end = new Mark(palette.push);
   private readonly trail = new Trail();
   private readonly plumb: Plumb;
   private time = NaN;
@@ -61,7 +63,7 @@ export class Picture {
     this.stiffness = scene.spring.stiffness;
     this.reach = reachOf(scene);
     this.shadow.mesh.visible = scene.ground && stage.graphics === "light";
-    const arrows = [this.push.group, this.wind.group, this.hold.group];
+    const arrows = [this.push.group, this.wind.group, this.hold.group, this.end.group];
     const lines = [this.trail.line, this.plumb.line];
     this.root.add(this.world.group, this.shadow.mesh, this.vehicle.group, this.ghost.group, ...arrows, ...lines);
     stage.scene.add(this.root);
@@ -103,6 +105,17 @@ export class Picture {
   draw(): void {
     this.world.update(this.center, this.stage.camera.position);
     this.stage.draw(this.center, this.reach);
+  }
+
+  /** Where the flight ended, and what is said there. */
+  showEnding(text: string, place: Vector | null): void {
+    if (place) {
+      this.end.show(new Vector3(...place));
+      this.labels.ending.show(text, this.end.group.position, this.stage.camera);
+    } else {
+      this.end.hide();
+      this.labels.ending.hide();
+    }
   }
 
   /** A point of the body where it is in the world. */

@@ -13,7 +13,8 @@ export type Phase =
   | "stopped"
   | "preparing"
   | "failed"
-  | "lost"
+  | "diverged"
+  | "crashed"
   | "over";
 
 export type FrameFieldName =
@@ -157,6 +158,13 @@ export interface StatusRefusals {
   push: string; // why a push is not followed
 }
 
+/** Why a flight was stopped before its end. */
+export interface StatusEnding {
+  text: string; // names outcome, time, quantity, value and limit
+  time: number; // s
+  place: Vector | null; // of the vehicle; null if that is not known
+}
+
 /** The preparation of a flight. */
 export interface PreparationStatus {
   step: string; // what is being done
@@ -166,7 +174,7 @@ export interface PreparationStatus {
 
 /** The state of a flight in words, and how it keeps up with the clock. */
 export interface FlightStatus {
-  phase: Phase; // of the flight; before it `preparing`, at its end `over`, `lost` or `failed`
+  phase: Phase; // of the flight; before it `preparing`; at its end `over`, `crashed`, `diverged`, `failed`
   alarm: string; // what has failed; empty if nothing has
   enabled: boolean; // whether the pilot follows pushes
   paused: boolean; // whether time stands still
@@ -176,6 +184,7 @@ export interface FlightStatus {
   recorded_s: number; // length of the recording, s
   failed_rotors: readonly number[]; // rotors that have stopped for good, counted over the whole vehicle from 0
   refusals: StatusRefusals; // why a request would be refused right now, and what to do
+  ending: StatusEnding | null; // why the flight was stopped before its end; null unless it was
   preparing?: PreparationStatus; // before the first step
 }
 

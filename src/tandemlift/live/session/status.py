@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,7 +11,7 @@ from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.common.refusals import Refusals, refusals_for
 from tandemlift.live.session.checks import failed_rotors
 from tandemlift.live.session.pacing import Pacer
-from tandemlift.live.wire.server_messages import FlightStatus, StatusRefusals
+from tandemlift.live.wire.server_messages import FlightStatus, StatusEnding, StatusRefusals
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 NO_REFUSALS = StatusRefusals(lift="", land="", push="")
@@ -18,15 +19,27 @@ NO_REFUSALS = StatusRefusals(lift="", land="", push="")
 
 def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:
     """The phase of a flight by its number, or how it ended; `failed`: by an error."""
-    ends = {"failed": failed, "lost": flight.lost, "over": flight.over}
-    return next((name for name, true in ends.items() if true), PHASE_NAMES[number])
+    if failed:
+        return "failed"
+    if flight.ending:
+        return flight.ending.outcome
+    return "over" if flight.over else PHASE_NAMES[number]
 
 
 def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
     """What would be refused right now, and why; `failed`: whether the flight has ended by an error."""
     if failed or flight.over:
-        return refusals_for("error" if failed else "over")
+        return refusals_for("error" if failed else "stopped_early" if flight.lost else "over")
     return flight.refusals
+
+
+def _ending_of(flight: RecordedFlight) -> StatusEnding | None:
+    """Why and where a flight was stopped before its end."""
+    ending = flight.ending
+    if ending is None:
+        return None
+    place = [float(x) for x in flight.ending_place]
+    return StatusEnding(text=str(ending), time=ending.time, place=place if all(map(math.isfinite, place)) else None)
 
 
 def in_sentences(refusals: Refusals) -> StatusRefusals:
@@ -49,4 +62,5 @@ def status_of(flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], f
         recorded_s=round(flight.step * flight.dt, 3),
         failed_rotors=failed_rotors(flight),
         refusals=in_sentences(refusals_now(flight, failed)),
+        ending=_ending_of(flight),
     )
