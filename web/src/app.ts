@@ -23,6 +23,7 @@ import {
   type FlightScene,
   type PageMessage,
   type ParameterValue,
+  type Phase,
   type StatusEnding,
   type StatusMessage,
   STIFFNESS,
@@ -58,7 +59,7 @@ export class App implements FlightListener, ShellPage {
   private drawnAt = 0;
   private readonly eye = new Matrix4();
   private unheld = 0;
-  private ending: StatusEnding | null = null;
+  private end: (StatusEnding & { outcome: Phase }) | null = null;
 
   constructor(
     private readonly source: FlightSource,
@@ -157,7 +158,7 @@ export class App implements FlightListener, ShellPage {
     this.unheld = this.grab.pulling && status.holder !== "you" ? this.unheld + 1 : 0;
     if (this.unheld > LET_GO_AFTER) this.grab.cancel(); // the server has let go
     this.remarks.status(status);
-    this.ending = status.ending;
+    this.end = status.ending && { ...status.ending, outcome: status.phase };
     this.shell.status(status);
   }
 
@@ -202,7 +203,7 @@ export class App implements FlightListener, ShellPage {
 
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
     picture.update(frame, this.grab.hand, this.overlays, this.remarks.now(frame));
-    picture.showEnding(endingLabel(this.ending), this.ending?.place ?? null);
+    picture.showEnding(this.end ? `${this.end.outcome} here, ${this.end.time.toFixed(2)} s` : "", this.end?.place ?? null);
     this.camera.update(picture.center, this.grab.pulling, passed);
     this.grab.flush();
     this.force.flush(this.grab.pulling);
@@ -245,10 +246,6 @@ export class App implements FlightListener, ShellPage {
     Object.assign(this.picture, { threshold, stiffness });
     this.drawn = null;
   }
-}
-
-function endingLabel(ending: StatusEnding | null): string {
-  return ending ? `the end, ${ending.time.toFixed(2)} s` : "";
 }
 
 function label(kind: string): Label {
