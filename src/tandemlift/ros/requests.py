@@ -14,7 +14,7 @@ from tandemlift.live.wire.page_messages import AskMessage, TareMessage
 from tandemlift.ros.middleware import Answer
 
 COMES_TO = {"lift": "lift", "land": "land", "stop": "stopped"}  # the phase that a request leads to
-POSSIBLE = {"lift": ("idle",), "land": ("lift", "guided", "hold"), "stop": PHASE_NAMES}  # from which
+POSSIBLE = {"lift": ("idle",), "land": ("lift", "guided", "hold", "limited"), "stop": PHASE_NAMES}  # from which
 REQUESTS = (*COMES_TO, "tare")
 PATIENCE, NAP = 1.0, 0.02  # s, for the pilot to do it, and between looks
 

@@ -19,6 +19,7 @@ const LOOKS: Record<Phase, PhaseLook> = {
   diverged: { text: "out of control", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
   over: { text: "over: press Reset", kind: "off", tint: "rgba(93, 104, 117, 0.10)" },
   failed: { text: "failed: press Reset", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
+  limited: { text: "cannot follow", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
   stopped: { text: "stopped", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
 };
 

@@ -11,6 +11,8 @@ export type Phase =
   | "land"
   | "hold"
   | "stopped"
+  | "contact"
+  | "limited"
   | "preparing"
   | "failed"
   | "diverged"
