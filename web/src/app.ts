@@ -51,7 +51,7 @@ export class App implements FlightListener, ShellPage {
   private readonly force: ForceInput;
   private readonly shell: Shell;
   private readonly remarks = new Remarks();
-  private readonly labels: Labels = { push: label("push"), wind: label("wind"), refusal: label("refusal"), ending: label("ending") };
+  private readonly labels: Labels = { push: label("push"), wind: label("wind"), refusal: label("refusal"), ending: label("ending"), contact: label("contact") };
   private picture: Picture | null = null;
   private choice: GraphicsChoice = "auto";
   private last = 0;

@@ -33,6 +33,9 @@ export type FrameFieldName =
   | "wind"
   | "phase"
   | "alarm"
+  | "contact_part"
+  | "contact_point"
+  | "contact_normal"
   | "held"
   | "hand_point"
   | "hand_target"
@@ -40,7 +43,7 @@ export type FrameFieldName =
   | "thrusts";
 
 /** Fields of which a value between two frames means nothing. */
-export const JUMPING_FIELDS: readonly FrameFieldName[] = ["phase", "alarm", "held", "seq"];
+export const JUMPING_FIELDS: readonly FrameFieldName[] = ["phase", "alarm", "contact_part", "contact_point", "contact_normal", "held", "seq"];
 
 /** Parameters that the picture and the plots show. */
 export const THRESHOLD = "admittance.threshold";
@@ -167,6 +170,13 @@ export interface StatusEnding {
   place: Vector | null; // of the vehicle; null if that is not known
 }
 
+/** Something that went badly in the flight so far. */
+export interface StatusFinding {
+  kind: string; // as in docs/outcomes.md
+  time: number; // when it began; s
+  text: string;
+}
+
 /** The preparation of a flight. */
 export interface PreparationStatus {
   step: string; // what is being done
@@ -187,6 +197,7 @@ export interface FlightStatus {
   failed_rotors: readonly number[]; // rotors that have stopped for good, counted over the whole vehicle from 0
   refusals: StatusRefusals; // why a request would be refused right now, and what to do
   ending: StatusEnding | null; // why the flight was stopped before its end; null unless it was
+  findings?: StatusFinding[]; // what went badly so far; a server forms it once a second
   preparing?: PreparationStatus; // before the first step
 }
 

@@ -9,12 +9,37 @@ from typing import Any
 from tandemlift.common.faults import ALARM_TEXTS
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.common.refusals import Refusals, refusals_for
+from tandemlift.common.types import Array
 from tandemlift.live.session.checks import failed_rotors
 from tandemlift.live.session.pacing import Pacer
-from tandemlift.live.wire.server_messages import FlightStatus, StatusEnding, StatusRefusals
+from tandemlift.live.wire.server_messages import FlightStatus, StatusEnding, StatusFinding, StatusRefusals
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
+FINDINGS_EVERY = 1.0  # s
 NO_REFUSALS = StatusRefusals(lift="", land="", push="")
+
+
+class FlightFindings:
+    """The findings of a flight so far, formed anew once a second: that takes some milliseconds."""
+
+    def __init__(self) -> None:
+        self._of: RecordedFlight | None = None
+        self._numbers: Array | None = None
+        self._due, self._found = 0, list[StatusFinding]()
+
+    def look(self, flight: RecordedFlight) -> None:
+        """Take the numbers of a flight if they are due; while it stands still."""
+        if flight is not self._of or flight.step >= self._due:
+            self._of, self._due = flight, flight.step + round(FINDINGS_EVERY / flight.dt)
+            self._numbers = flight.numbers()
+
+    def formed(self) -> list[StatusFinding]:
+        """The findings as of the last look; the flight may go on meanwhile."""
+        flight, numbers = self._of, self._numbers
+        if flight and numbers is not None:
+            self._numbers = None
+            self._found = [StatusFinding(kind=f.kind, time=f.time, text=f.text) for f in flight.findings(numbers)]
+        return self._found
 
 
 def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:
@@ -49,7 +74,7 @@ def in_sentences(refusals: Refusals) -> StatusRefusals:
 
 
 def status_of(flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], failed: bool) -> FlightStatus:
-    """The status of a flight; `values`: of the fields of its latest frame."""
+    """The status of a flight, without its findings; `values`: of the fields of its latest frame."""
     most, pacer.most_behind = pacer.most_behind, 0.0
     return FlightStatus(
         phase=phase_of(flight, int(values["phase"][0]), failed),

@@ -35,6 +35,14 @@ class StatusEnding(TypedDict):
     place: Annotated[WorldPosition | None, "of the vehicle; null if that is not known"]
 
 
+class StatusFinding(TypedDict):
+    """Something that went badly in the flight so far."""
+
+    kind: Annotated[str, "as in docs/outcomes.md"]
+    time: Annotated[Seconds, "when it began"]
+    text: str
+
+
 class FlightStatus(TypedDict):
     """The state of a flight in words, and how it keeps up with the clock."""
 
@@ -49,6 +57,7 @@ class FlightStatus(TypedDict):
     failed_rotors: Annotated[list[int], "rotors that have stopped for good, counted over the whole vehicle from 0"]
     refusals: Annotated[StatusRefusals, "why a request would be refused right now, and what to do"]
     ending: Annotated[StatusEnding | None, "why the flight was stopped before its end; null unless it was"]
+    findings: NotRequired[Annotated[list[StatusFinding], "what went badly so far; a server forms it once a second"]]
     preparing: NotRequired[Annotated[PreparationStatus, "before the first step"]]
 
 
