@@ -23,6 +23,8 @@ import {
   type FlightScene,
   type PageMessage,
   type ParameterValue,
+  type Phase,
+  type StatusEnding,
   type StatusMessage,
   STIFFNESS,
   THRESHOLD,
@@ -49,7 +51,7 @@ export class App implements FlightListener, ShellPage {
   private readonly force: ForceInput;
   private readonly shell: Shell;
   private readonly remarks = new Remarks();
-  private readonly labels: Labels = { push: label("push"), wind: label("wind"), refusal: label("refusal") };
+  private readonly labels: Labels = { push: label("push"), wind: label("wind"), refusal: label("refusal"), ending: label("ending"), contact: label("contact") };
   private picture: Picture | null = null;
   private choice: GraphicsChoice = "auto";
   private last = 0;
@@ -57,6 +59,7 @@ export class App implements FlightListener, ShellPage {
   private drawnAt = 0;
   private readonly eye = new Matrix4();
   private unheld = 0;
+  private end: (StatusEnding & { outcome: Phase }) | null = null;
 
   constructor(
     private readonly source: FlightSource,
@@ -155,6 +158,7 @@ export class App implements FlightListener, ShellPage {
     this.unheld = this.grab.pulling && status.holder !== "you" ? this.unheld + 1 : 0;
     if (this.unheld > LET_GO_AFTER) this.grab.cancel(); // the server has let go
     this.remarks.status(status);
+    this.end = status.ending && { ...status.ending, outcome: status.phase };
     this.shell.status(status);
   }
 
@@ -199,6 +203,7 @@ export class App implements FlightListener, ShellPage {
 
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
     picture.update(frame, this.grab.hand, this.overlays, this.remarks.now(frame));
+    picture.showEnding(this.end ? `${this.end.outcome} here, ${this.end.time.toFixed(2)} s` : "", this.end?.place ?? null);
     this.camera.update(picture.center, this.grab.pulling, passed);
     this.grab.flush();
     this.force.flush(this.grab.pulling);

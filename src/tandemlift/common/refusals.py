@@ -20,6 +20,7 @@ OPENINGS: dict[Request, str] = {
 AGAIN = "Begin the flight again."
 REPAIR = "Repair it; in simulation, begin the flight again."
 CONNECT = "See that the sensor is switched on and connected."
+LEAVE_WALL = "Pull it away from the wall; along the wall it follows."
 WAIT_FOR_GROUND = "Wait until it stands on the ground, then lift it off again."
 
 
@@ -90,8 +91,12 @@ OTHER_REASONS = (
     RefusalReason("unknown_sensor", "a sensor has failed", REPAIR),
     RefusalReason("recovering", "the last fault is over for {value} s only, of {limit} s", "Ask again a moment later."),
     RefusalReason("fault", "the pilot reacts to a fault: {alarm}", "Let go, and wait until the fault is over."),
+    RefusalReason("limited", "the vehicle {alarm}", "Push less, and wait until it can follow again."),
+    RefusalReason("beam_touches", "the beam touches a wall", LEAVE_WALL),
+    RefusalReason("guard_touches", "the guard of quadrotor {value} touches a wall", LEAVE_WALL),
     RefusalReason("disabled", "the pilot is told not to follow pushes", "Enable it."),
     RefusalReason("over", "the flight is over", AGAIN),
+    RefusalReason("stopped_early", "the flight has crashed or diverged", AGAIN),
     RefusalReason("error", "the flight has ended by an error in the software", AGAIN),
     RefusalReason("weak", "it is below the threshold ({value} N, limit {limit} N)", "Push harder."),
 )

@@ -98,7 +98,7 @@ def frames_flown(session, seconds):
     return frames, statuses
 
 
-CLOCKED = {"factor", "behind_ms", "viewers", "holder", "type"}  # of a status: what the clock and the viewers make of it
+CLOCKED = {"findings", "factor", "behind_ms", "viewers", "holder", "type"}  # of a status: what the clock and the viewers make of it
 
 
 def untimed(status):
@@ -171,6 +171,25 @@ def test_requests_are_refused_for_the_same_reasons_from_the_ground_to_the_air_an
     told = " ".join(seen)
     for part in ("on the ground already", "in the air already", "below the threshold (0.", "Enable it.", "final"):
         assert part in told, part
+
+
+def test_a_crash_ends_both_with_the_same_words_at_the_same_place_until_both_begin_again(by_hand):
+    session, flight = by_hand
+    check_same(session, flight, {"type": "ask", "what": "lift"}, 5.5)
+    hard = {"type": "force", "force": [4.0, 0.0, 0.0], "point": [0.0, 0.0, 0.0]}
+    check_same(session, flight, hard, 1.5)
+    status = flight.status()
+    assert status["phase"] == "crashed"
+    assert "tilt [deg] = 6.8" in status["ending"]["text"]
+    assert status["ending"]["place"] == session.status()["ending"]["place"]
+    check_same(session, flight, {"type": "ask", "what": "lift"}, 0.3)
+    assert "crashed" in flight.status()["refusals"]["push"]
+    for one in (session.status(), flight.status()):
+        assert one["refusals"]["lift"].endswith("Begin the flight again.")
+    flight.say("reset")
+    flight.fly(0.5)
+    assert flight.status()["ending"] is None
+    assert flight.status()["phase"] == "idle"
 
 
 def test_what_only_a_server_has_is_refused_with_a_reason(flight):

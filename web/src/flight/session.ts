@@ -9,6 +9,7 @@ import type {
   StatusRefusals,
 } from "../wire/messages.generated.ts";
 import { Layout } from "../wire/frames.ts";
+import { endingOf, type KnownEnding } from "./endings.ts";
 import { Flight } from "./flight.ts";
 import { HandControl } from "./hand_control.ts";
 import type { FlightManifest } from "./manifest.ts";
@@ -98,11 +99,12 @@ export class Session {
 
   status(): StatusMessage {
     const { flight, pacer, hand } = this;
+    const ending = endingOf(this.module, this.manifest.page, flight);
     const behind = pacer.mostBehind;
     pacer.mostBehind = 0;
     return {
       type: "status",
-      phase: this.phase(),
+      phase: this.phase(ending),
       alarm: this.manifest.page.scene.alarms[this.value("alarm")[0] ?? 0],
       enabled: hand.part("enabled")[0] !== 0,
       paused: pacer.paused,
@@ -112,6 +114,7 @@ export class Session {
       recorded_s: Number(flight.time.toFixed(3)),
       failed_rotors: this.parameters.failed(flight.time),
       refusals: this.refusals(),
+      ending: ending && { text: ending.text, time: ending.time, place: ending.place },
       viewers: 1,
       holder: this.held ? "you" : "none",
     };
@@ -216,6 +219,7 @@ export class Session {
     const { module, manifest, flight } = this;
     const { refused_at_end: ended } = manifest.page.texts;
     if (this.failed) return ended.error;
+    if (flight.lost) return ended.stopped_early;
     return flight.over ? ended.over : refusalsNow(module, manifest.page, flight);
   }
 
@@ -234,9 +238,9 @@ export class Session {
     return { type: "saved", name: `${name}.zip`, bytes };
   }
 
-  private phase(): Phase {
+  private phase(ending: KnownEnding | null): Phase {
     if (this.failed) return "failed";
-    if (this.flight.lost) return "lost";
+    if (ending) return ending.outcome;
     return this.flight.over ? "over" : this.manifest.page.scene.phases[this.value("phase")[0]];
   }
 

@@ -25,6 +25,7 @@ const FAILED = {
   recorded_s: 0,
   failed_rotors: [],
   refusals: { lift: "", land: "", push: "" },
+  ending: null,
   viewers: 1,
   holder: "none",
 } as const;

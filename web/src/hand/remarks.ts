@@ -19,8 +19,8 @@ export class Remarks {
     this.refused = { text, point, until: performance.now() + SHOWN_FOR };
   }
 
-  status({ holder, refusals }: StatusMessage): void {
-    this.text = holder === "none" ? "" : refusals.push;
+  status({ holder, refusals, ending }: StatusMessage): void {
+    this.text = holder === "none" || ending ? "" : refusals.push;
     this.statuses = this.text ? this.statuses + 1 : 0;
   }
 

@@ -11,6 +11,7 @@ const NOT_LIVE = {
   recorded_s: 0,
   failed_rotors: [],
   refusals: { lift: "", land: "", push: "" },
+  ending: null,
   viewers: 1,
   holder: "none",
 } as const;

@@ -34,6 +34,7 @@ class Preparation:
             recorded_s=0.0,
             failed_rotors=[],
             refusals=NO_REFUSALS,
+            ending=None,
             preparing={"step": self.step, "seconds": seconds, "failure": self.failure},
         )
 

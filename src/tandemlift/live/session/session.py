@@ -25,7 +25,7 @@ from tandemlift.live.session.pacing import Pacer, RealTimeThread
 from tandemlift.live.session.parameter_control import ParameterControl
 from tandemlift.live.session.preparation import Preparation
 from tandemlift.live.session.saving import save_in_process
-from tandemlift.live.session.status import phase_of, refusals_now, status_of
+from tandemlift.live.session.status import FlightFindings, phase_of, refusals_now, status_of
 from tandemlift.live.session.tunable_parameters import CHOICES, parameters_of
 from tandemlift.live.wire import page_messages as page
 from tandemlift.live.wire.scene import FlightScene, SceneSpring
@@ -59,7 +59,7 @@ class Session:
         self._lock, self.pacer = threading.RLock(), Pacer(mission.mission.step)
         self._thread = RealTimeThread(self.pacer, self._lock, self._is_prepared, self._fly)
         self._parameters = ParameterControl(self._mission, self._lock)
-        self._failed = False
+        self._failed, self._findings = False, FlightFindings()
         self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
         self._flight: RecordedFlight
         self._hand: HandControl
@@ -154,7 +154,10 @@ class Session:
         if not self.is_ready:
             return self._preparation.status()
         with self._lock:
-            return status_of(self._flight, self.pacer, self._values(), self._failed)
+            status = status_of(self._flight, self.pacer, self._values(), self._failed)
+            self._findings.look(self._flight)
+        status["findings"] = self._findings.formed()
+        return status
 
     @property
     def refusals(self) -> Refusals:
