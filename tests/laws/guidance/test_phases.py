@@ -3,7 +3,7 @@
 import pytest
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
-from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, PHASE_NAMES, STOPPED
+from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, PHASE_NAMES, STOPPED
 from tandemlift.laws.guidance.phases import (
     SETTLING_TIME,
     PhaseBounds,
@@ -51,6 +51,17 @@ def flown(until, k=PHASING, bounds=lambda t: FREE, operator=lambda t: NO_REQUEST
 
 def names(story):
     return [name for _, name in story]
+
+
+def test_at_a_wall_it_listens_on_in_a_phase_of_its_own_until_it_may_land():
+    def touched(t):
+        return FREE._replace(contact=float(5.0 <= t < 7.0 or t >= 9.0), land=float(t >= 10.0))
+
+    story, _, _ = flown(9.5, bounds=touched)
+    assert story[2:] == [(5.0, "contact"), (7.0, "guided"), (9.0, "contact")]
+    assert flown(6.0, bounds=touched)[2].responding == 1.0
+    assert flown(6.0, bounds=lambda t: touched(t)._replace(hold=float(t > 5.5)))[0][-1] == (5.55, "hold")
+    assert names(flown(15.0, bounds=touched)[0])[-2:] == ["land", "idle"]
 
 
 def test_by_the_clock_it_lifts_listens_lands_and_stays_down():
@@ -158,4 +169,4 @@ def test_hovering_counts_from_steady_flight():
 
 def test_nobody_asks_for_nothing():
     assert requests_until(Nothing(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
-    assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED} == set(map(float, range(len(PHASE_NAMES))))
+    assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED, CONTACT} == set(map(float, range(len(PHASE_NAMES))))
