@@ -28,6 +28,7 @@ from tandemlift.common.outcomes import FLIES
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.mechanics.clearance import clearance
+from tandemlift.laws.mechanics.collision.touches import start_touches
 from tandemlift.laws.mechanics.contact import start_foot_grip
 from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.sensors.readings import by_name, readings_of, start_sensing
@@ -121,6 +122,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         wind=wind_state,
         grip=grip,
         near=near,
+        touches=start_touches(floor, walls, vehicle.rotor_count),
         sensing=sensing,
         estimator=known,
         rotors=spinning,

@@ -42,6 +42,17 @@ class EngineBody(Protocol):
 
 
 @runtime_checkable
+class TouchingBody(Protocol):
+    """A body that keeps the record of touches; without it nothing is ever touched, and no rotor stops.
+
+    Attributes:
+        touches: the numbers of a `laws.mechanics.collision.touches.Touches` after the last step (`contact_log`).
+    """
+
+    touches: Array
+
+
+@runtime_checkable
 class WaitingBody(Protocol):
     """A body in another process, which ends the session if it hears nothing for some time."""
 

@@ -193,7 +193,7 @@ class TracedStep:
         return output._replace(decision=decision, memory=memory)
 
     def _stepped_body(self, plant: Any, acting: Any) -> Any:
-        return self.trace(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.dt)
+        return self.trace(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.t, self.dt)
 
     def _may_touch_walls(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""

@@ -15,7 +15,9 @@ from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import Nothing, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
+from tandemlift.engines.compiled_touches import touches_in
 from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
+from tandemlift.laws.mechanics.collision.touches import of_turning_rotors
 from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
@@ -37,6 +39,7 @@ class FlightState(NamedTuple):
     wind: Any
     grip: Any
     near: Any
+    touches: Any
     sensing: Any
     estimator: Any
     rotors: Any
@@ -156,6 +159,7 @@ def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Act
     before = model.flight_state
     commanded = unless_crashed(before.crash, thrusts)
     driven, rotors = rotors_step(model.rotors, before.rotors, commanded, before.state, t)
+    driven = of_turning_rotors(before.touches, driven)
     wind = wind_loads(model.wind, before.wind, model.plant.frame, before.state, inputs.gust, inputs.noise.wind)
     return Actuation(driven, rotors, wind)
 
@@ -177,6 +181,7 @@ def finish_sample(
         wind=acting.wind.memory,
         grip=moved.grip,
         near=before.near,
+        touches=moved.touches,
         sensing=sensing,
         estimator=output.estimator,
         rotors=acting.rotors,
@@ -191,10 +196,13 @@ def finish_sample(
 
 
 @law
-def step_body(plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, dt: Any) -> BodyStep:
+def step_body(
+    plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, t: Any, dt: Any
+) -> BodyStep:
     """The body's part of a step."""
     loads = acting.wind.loads
-    return advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
+    moved = advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
+    return moved._replace(touches=touches_in(before.touches, plant, before.near, before.state, t, dt))
 
 
 @law
@@ -202,7 +210,7 @@ def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: 
     """The rest of a step once the pilot has decided: (`FlightState` after it, `Sample` at its start)."""
     output = with_caller_thrusts(output, inputs.external)
     acting = actuate(model, output.decision.thrusts, inputs, t)
-    moved = step_body(model.plant, model.flight_state, acting, inputs.hand, dt)
+    moved = step_body(model.plant, model.flight_state, acting, inputs.hand, t, dt)
     return finish_sample(model, output, acting, moved, inputs, t, dt)
 
 

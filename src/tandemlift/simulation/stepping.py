@@ -15,7 +15,7 @@ from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.algebra.vector import layout
 from tandemlift.common.types import Array, Progress
 from tandemlift.controllers import control
-from tandemlift.engines.registry import EngineBody, WaitingBody, engine_named
+from tandemlift.engines.registry import EngineBody, TouchingBody, WaitingBody, engine_named
 from tandemlift.kernels import GIVEN, FlightMemory, leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.machine_code.compile_events import Stopped, always
@@ -26,6 +26,7 @@ from tandemlift.vehicle import Vehicle
 
 PROGRESS_EVERY = 1000  # steps
 STATE = 13  # numbers of a state
+NO_TOUCHES: Array = np.zeros(0)
 NEVER = -1  # the number of no step
 
 
@@ -82,7 +83,9 @@ class Stepper:
         self.x, self.y, self.v, self.push = view["asked"], view["answer"], view["moved"], view["push"]
         self.external = view["external"]
         if self.body is not None:
-            self.v[:] = flat(self.p.kernels.templates.moved)
+            moved = self.p.kernels.templates.moved
+            self.touches = self.body.touches if isinstance(self.body, TouchingBody) else NO_TOUCHES
+            self.v[:] = flat(moved._replace(touches=self.p.model.flight_state.touches))
         self.thrusts = view["acting"][thrusts.at : thrusts.at + thrusts.size]
         self.loads = view["acting"][air.at : air.at + air.size]
 
@@ -161,6 +164,8 @@ class Stepper:
         body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
         self.v[:STATE] = body.state
         self.v[STATE : STATE + body.readings.size] = body.readings
+        if self.touches.size:
+            self.v[self.v.size - self.touches.size :] = self.touches
 
     def rest(self) -> None:
         """Keep a waiting flight alive; call it at least ten times a second while no step is taken."""
