@@ -21,6 +21,7 @@ from tandemlift.assembly.disturbances import (
     start_weather,
     wind_noise_from,
 )
+from tandemlift.assembly.findings import finding_limits_from, start_detectors
 from tandemlift.assembly.persons import path_legs_from, start_person
 from tandemlift.assembly.sensors import sensors_from, start_estimators
 from tandemlift.assembly.watchdogs import with_faults, with_watchdogs
@@ -132,10 +133,24 @@ def assemble(mission: Mission) -> AssembledFlight:
         impulse=Nothing() if isinstance(limits.strike, Nothing) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,
+        detectors=start_detectors(mission),
     )
     sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
     late = delay_lines_from(mission, delays)
-    model = FlightModel(flight_state, pilot, plant, rotors, wind, devices, estimators, sources, person, late, limits)
+    model = FlightModel(
+        flight_state=flight_state,
+        pilot=pilot,
+        plant=plant,
+        rotors=rotors,
+        wind=wind,
+        sensors=devices,
+        estimator=estimators,
+        sources=sources,
+        person=person,
+        delays=late,
+        limits=limits,
+        finding_limits=finding_limits_from(mission, vehicle),
+    )
     given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), sensor_noise, tremor_noise), memory_of_person)
     return AssembledFlight(
         model,

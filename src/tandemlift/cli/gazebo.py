@@ -15,6 +15,7 @@ import click
 from tandemlift.cli.live import DEFAULT
 from tandemlift.cli.run import FAILED, load, print_report_path, print_summary, set_option
 from tandemlift.cli.terminal.console import echo, progress_bar
+from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
@@ -37,6 +38,7 @@ Photographs = list[tuple[str, bytes]]
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/gazebo/NAME]")
 @set_option
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
+@strict_option
 def gazebo(
     mission: str,
     by_hand: bool,
@@ -46,6 +48,7 @@ def gazebo(
     out: str | None,
     settings: tuple[str, ...],
     no_figures: bool,
+    strict: bool,
 ) -> None:
     """Fly MISSION in Gazebo 11: start the server, the window, the world and the pilot.
 
@@ -62,9 +65,9 @@ def gazebo(
 
     \b
     Exit code:
-      0   the flight was flown
+      0   the flight was flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   crashed, diverged or not lifted: what was flown is written
+      3   crashed, diverged or not lifted: what was flown is written; with --strict, also findings
     """
     if by_hand and (fast or pictures):
         raise InputError(
@@ -85,9 +88,11 @@ def gazebo(
             copy_recording(loaded, folder)
         write_flight(flight, folder, figures=not no_figures, photographs=photographs)
         print_report_path(folder, time.perf_counter() - began)
+    count = print_findings([(flight.name, flight)])
     if flight.failure:
         click.echo(f"{flight.name}: {flight.failure}", err=True)
         sys.exit(FAILED)
+    exit_if_found(count, strict=strict)
 
 
 def _has_display() -> bool:

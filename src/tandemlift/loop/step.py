@@ -23,6 +23,7 @@ from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
 from tandemlift.laws.person.person import landing_request, person_step
 from tandemlift.laws.rotors.rotors import rotors_step
+from tandemlift.loop.detectors import Detectors, FindingLimits, detect
 from tandemlift.loop.ending import ending_number, impulse_after, unless_crashed, until_crash, with_aftermath
 from tandemlift.loop.log_sample import errors_of, log_sample
 from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
@@ -49,6 +50,7 @@ class FlightState(NamedTuple):
     impulse: Any
     crash: Any
     ended: Any
+    detectors: Detectors
 
 
 class FlightModel(NamedTuple):
@@ -68,6 +70,7 @@ class FlightModel(NamedTuple):
     person: Any
     delays: Any
     limits: Any
+    finding_limits: FindingLimits
 
 
 class StepNoise(NamedTuple):
@@ -168,7 +171,10 @@ def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Act
 def finish_sample(
     model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs, t: Any, dt: Any
 ) -> Any:
-    """The end of a step from time t [s] once the body has moved: (`FlightState` after it, `Sample` at its start)."""
+    """The end of a step from t [s] by dt [s], once the body has moved: (`FlightState` after it, `Sample` at its start).
+
+    The detectors come last in the state: compiled loops write them only where they changed.
+    """
     before, noise = model.flight_state, inputs.noise.sensors
     readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
     sample = log_sample(model, output, acting, moved, inputs.hand)
@@ -191,6 +197,7 @@ def finish_sample(
         impulse=impulse,
         crash=crash,
         ended=where(before.ended > 0.0, before.ended, ended),
+        detectors=until_crash(before.crash, before.detectors, detect(model, output, sample, t, dt)),
     )
     return after, sample
 

@@ -11,7 +11,7 @@ from tandemlift.settings.changes import ChangeTable
 from tandemlift.settings.corridor import CorridorTable, WallTable
 from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
 from tandemlift.settings.key_description import key
-from tandemlift.settings.outcomes import CrashTable, OutcomeTable
+from tandemlift.settings.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
 from tandemlift.settings.parts import VehicleTable
 from tandemlift.settings.person import PersonTable
 from tandemlift.settings.pilot import (
@@ -113,6 +113,8 @@ class Mission(Table):
     changes: tuple[ChangeTable, ...] = ()
     crash: CrashTable = CrashTable()
     outcome: OutcomeTable = OutcomeTable()
+    promise: PromiseTable = PromiseTable()
+    findings: FindingsTable = FindingsTable()
 
     @property
     def all_walls(self) -> tuple[WallTable, ...]:

@@ -23,6 +23,7 @@ from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.loop.step import FlightModel, FlightState
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
+from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
 
@@ -82,6 +83,9 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
     highest = max(early.highest, late.highest)
     formed["outcome"] = outcome_of(p, flown.flight_state, last, highest)
+    formed["findings"] = [
+        [f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, flown.step, formed["outcome"])
+    ]
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
@@ -146,12 +150,13 @@ def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
 def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flight:
     """The record of a flight in an engine."""
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
-    channels = dict(channels_of(p.sample, flown.log[:logged]))
+    channels, metrics = dict(channels_of(p.sample, flown.log[:logged])), metrics_of(p, flown)
     return Flight(
         time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
         channels=channels,
         mission=portable(tables_of(p.mission)),
-        results=metrics_of(p, flown),
+        results=metrics,
         ending=ending_of(p, flown.flight_state, flown.step),
         version={**versions(engine), "engine": engine},
+        findings=findings_of(p, flown.flight_state, flown.step, metrics["outcome"]),
     )
