@@ -1,6 +1,6 @@
-"""A thousand missions at random, and a judge of each outcome: prints the table of docs/validation.md, or writes it there.
+"""A thousand missions at random, and a judge of each outcome: prints the table of docs/validation.md, or writes it.
 
-    python tools/random_missions.py [--families 125] [--members 8] [--seed 16] [--processes 2] [--write]
+python tools/random_missions.py [--families 125] [--members 8] [--seed 16] [--processes 2] [--write]
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import datetime
 import json
+import os
 import re
 import sys
 import time
@@ -19,12 +20,14 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NamedTuple
 
+os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # many loops, each flown for seconds only
+
 import mujoco
-from judge.verdict import BANDS, judge
+from judge.verdict import judge
 
 import tandemlift as tl
 from tandemlift.flight.record import Flight
-from tandemlift.studies.random_missions import RandomMission, random_family
+from tandemlift.studies.random_missions import RandomMission, random_family, shortened
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "validation.md"
 MARK, END = "<!-- random missions -->", "<!-- end of random missions -->"
@@ -55,6 +58,11 @@ class Judged(NamedTuple):
     findings: list[str]
     restarts: int
     seconds: float
+
+    @property
+    def confirmed(self) -> bool:
+        """Whether the judge says the same, or would not decide."""
+        return self.verdict in ("agreed", "in a band")
 
     @property
     def silent(self) -> bool:
@@ -111,9 +119,8 @@ def _judged(flight: Flight) -> tuple[str, str, str, str, list[str], list[str], i
     if complaint in ("", "in a band") and verdict.gained > GAIN + GAIN_SHARE * verdict.work:
         complaint = f"contact added {verdict.gained:.3f} J"
     findings = sorted({finding.kind for finding in getattr(flight, "findings", ())})
-    close = [name for name in verdict.close if name != "finite"]
-    by_judge = verdict.outcome
-    return outcome, kind, by_judge, complaint or "agreed", close, findings, len(verdict.followed.restarts)
+    restarts = len(verdict.followed.restarts)
+    return outcome, kind, verdict.outcome, complaint or "agreed", verdict.close, findings, restarts
 
 
 def _complaint(outcome: str, kind: str, verdict: Any) -> str:
@@ -145,7 +152,9 @@ def judged_families(seed: int, families: Iterable[int], members: int, processes:
 def table(rows: list[Judged]) -> str:
     """The table of docs/validation.md."""
     counts = Counter((r.outcome, r.judged) for r in rows)
-    lines = ["| outcome | " + " | ".join(f"judged {o}" for o in OUTCOMES) + " | warned of before | with findings | silent |"]
+    lines = [
+        "| outcome | " + " | ".join(f"judged {o}" for o in OUTCOMES) + " | warned of before | with findings | silent |"
+    ]
     lines.append("|---" * (len(OUTCOMES) + 4) + "|")
     for outcome in OUTCOMES:
         mine = [r for r in rows if r.outcome == outcome]
@@ -158,7 +167,7 @@ def table(rows: list[Judged]) -> str:
 
 def summary(rows: list[Judged]) -> str:
     """What the table does not say, in sentences."""
-    wrong = [r for r in rows if r.verdict not in ("agreed", "in a band")]
+    wrong = [r for r in rows if not r.confirmed]
     bands = Counter(name for r in rows for name in r.close)
     whole, pieces = sum(r.restarts == 0 for r in rows), sum(0 < r.restarts <= 3 for r in rows)
     kinds = Counter(r.ending for r in rows if r.ending)
@@ -196,14 +205,15 @@ def main() -> int:
         for r in found:
             if file:
                 print(json.dumps(r._asdict()), file=file, flush=True)
-            if r.verdict not in ("agreed", "in a band") or r.silent:
-                print(f"\n{r.family}/{r.member} {r.base} {r.outcome}: {'silent; ' * r.silent}{r.verdict} {r.changes}")
+            if not r.confirmed or r.silent:
+                news = {key: value for key, value in r.changes.items() if shortened(r.base).get(key) != value}
+                print(f"\n{r.family}/{r.member} {r.base} {r.outcome}: {'silent; ' * r.silent}{r.verdict} {news}")
     text = report(rows, f"`make random-missions`, seed {a.seed}")
     print("\n" + text)
     if a.write:
         page = PAGE.read_text("utf-8")
         PAGE.write_text(re.sub(f"{MARK}.*{END}", lambda _: text, page, flags=re.DOTALL), "utf-8")
-    return int(any(r.verdict not in ("agreed", "in a band") for r in rows))
+    return int(any(not r.confirmed for r in rows))
 
 
 if __name__ == "__main__":

@@ -1,12 +1,13 @@
 """A mission's vehicle, floor and walls as MJCF text, from the numbers of the mission's tables alone.
 
-One free body has its frame at the centre of mass, axes parallel to the payload's. Masses and inertias are summed here by
-the parallel-axis theorem; forces of the rotors, of the air, of damping and of contact are MuJoCo's or this judge's own.
+One free body has its frame at the centre of mass, axes parallel to the payload's. Masses and inertias are summed here
+by the parallel-axis theorem; the motion, and the forces of rotors, of damping and of contact, are MuJoCo's.
 """
 
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import mujoco
@@ -130,7 +131,7 @@ def _text(mission: dict[str, Any], body: Body, step: float, floor: float | None)
     shapes, rotors, actuators = [], [], []
     for i, (q, place) in enumerate(zip(mission["vehicle"]["quadrotors"], body.quadrotors, strict=True)):
         for j, ((x, y), spin) in enumerate(zip(rotors_of(q), q["spins"], strict=True)):
-            rotors.append(f'<site name="r{i}.{j}" pos="{numbers(place + [x, y, 0.0])}"/>')
+            rotors.append(f'<site name="r{i}.{j}" pos="{numbers(np.add(place, [x, y, 0.0]))}"/>')
             gear = numbers([0.0, 0.0, 1.0, 0.0, 0.0, q["torque_per_thrust"] * spin])
             actuators.append(f'<general site="r{i}.{j}" gear="{gear}"/>')
     if floor is not None:
@@ -176,12 +177,11 @@ def _soft(stiffness: float, damping: float, mass: float, friction: float) -> str
 def _feet(mission: dict[str, Any], body: Body) -> list[str]:
     soles, ground = soles_of(mission, body), mission["ground"]
     sinkage, share = max(ground["sinkage"], LEAST_SINKAGE), body.mass / len(soles)
-    soft = _soft(
-        share * GRAVITY / sinkage, 2.0 * share * math.sqrt(GRAVITY / sinkage), body.mass, ground["friction"]
-    )
+    soft = _soft(share * GRAVITY / sinkage, 2.0 * share * math.sqrt(GRAVITY / sinkage), body.mass, ground["friction"])
+    centers = np.add(soles, [0.0, 0.0, PAD])
     return [
-        f'<geom name="foot{i}" type="sphere" size="{PAD}" pos="{numbers(sole + [0.0, 0.0, PAD])}" {FOOT} {soft}/>'
-        for i, sole in enumerate(soles)
+        f'<geom name="foot{i}" type="sphere" size="{PAD}" pos="{numbers(center)}" {FOOT} {soft}/>'
+        for i, center in enumerate(centers)
     ]
 
 
@@ -221,7 +221,7 @@ def corridor_walls(corridor: dict[str, Any]) -> list[dict[str, Any]]:
             offsets = np.full(len(normals), corridor["width"] / 2.0)  # n . (corner - point) on every leg beside it
             corners.append(point + np.linalg.lstsq(np.array(normals), offsets, rcond=None)[0])
         sides.append(corners)
-    pairs = [(a, b) for corners in sides for a, b in zip(corners, corners[1:], strict=False)]
+    pairs = [(a, b) for corners in sides for a, b in pairwise(corners)]
     if corridor["ends"] == "closed":
         pairs += [(sides[0][0], sides[1][0]), (sides[0][-1], sides[1][-1])]
     return [{"start": a.tolist(), "end": b.tolist(), "top": corridor["height"]} for a, b in pairs]

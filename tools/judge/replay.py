@@ -96,7 +96,7 @@ def _loads(mission: dict[str, Any], model: Model, time: np.ndarray, channels: An
 def _turned(mission: dict[str, Any], model: Model, force: np.ndarray, states: np.ndarray, time: float) -> np.ndarray:
     """What the moment of a person's force [N m, body axes] changes within a time [s], as the body turns under it."""
     person = mission["person"]
-    grip = model.body.payload + [0.0, 0.0 if person["model"] == "two-hands" else person["grip"], 0.0]
+    grip = np.add(model.body.payload, [0.0, 0.0 if person["model"] == "two-hands" else person["grip"], 0.0])
     felt = np.einsum("tij,ti->tj", rotations(states[:, 3:7]), force)
     return -time * np.cross(grip, np.cross(states[:, 10:], felt))
 
@@ -116,7 +116,7 @@ def _fly(mission: dict[str, Any], model: Model, data: Any, loads: Loads, states:
                 touched = False
         state[k, :7], state[k, 7:] = data.qpos, data.qvel
         if data.ncon:
-            touched, out[k, 13] = True, _normal_force(data)
+            out[k, 13] = _normal_force(data)
         data.ctrl[:] = loads.thrusts[k]
         applied[:3], applied[3:] = loads.force[k], loads.moment[k]
         if pushed[k]:
@@ -125,6 +125,7 @@ def _fly(mission: dict[str, Any], model: Model, data: Any, loads: Loads, states:
             _blow(model, data, loads.drag, loads.air[k])
         for _ in range(model.substeps):
             mujoco.mj_step(compiled, data)
+            touched = touched or bool(data.ncon)
     state[count, :7], state[count, 7:] = data.qpos, data.qvel
     return out, restarts
 
@@ -195,9 +196,10 @@ def _start(data: Any, state: np.ndarray) -> None:
 def _apart(data: Any, state: np.ndarray) -> str:
     """Which part of the state is farther than it may be from the record's; '' for none."""
     position, velocity = np.abs(data.qpos[:3] - state[:3]).max(), np.abs(data.qvel[:3] - state[7:10]).max()
-    turn, rates = 2.0 * np.sqrt(max(0.0, 1.0 - float(data.qpos[3:] @ state[3:7]) ** 2)), np.abs(
-        data.qvel[3:] - state[10:]
-    ).max()
+    turn, rates = (
+        2.0 * np.sqrt(max(0.0, 1.0 - float(data.qpos[3:] @ state[3:7]) ** 2)),
+        np.abs(data.qvel[3:] - state[10:]).max(),
+    )
     shares = np.array([position, velocity, turn, rates]) / APART
     worst = int(np.argmax(shares))
     return ("position", "velocity", "attitude", "rates")[worst] if not shares[worst] < 1.0 else ""

@@ -48,8 +48,8 @@ class Verdict(NamedTuple):
 
     @property
     def close(self) -> list[str]:
-        """The measures within their bands."""
-        return [name for name, margin in self.margins.items() if abs(margin) <= 1.0]
+        """The measures within their bands, without that which ended the flight."""
+        return [name for name, margin in self.margins.items() if abs(margin) <= 1.0 and name != self.kind]
 
 
 class Ground(NamedTuple):

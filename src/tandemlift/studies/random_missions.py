@@ -15,27 +15,17 @@ import numpy as np
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.controllers import CONTROLLERS
 from tandemlift.missions import load_mission, tables_of
-from tandemlift.missions.bounds import bounds, plain
+from tandemlift.missions.bounds import plain
 from tandemlift.missions.files import built_in
 from tandemlift.missions.key_reference.sections import Key, is_of_the_package, sections
 from tandemlift.settings import Mission
+from tandemlift.studies.random_values import varied
 
 Changes = dict[str, Any]
 
 MOST_KEYS, MOST_FLIPS = 12, 3
 TRIES = 40  # of keys for one mission; many changes do not load
-SHORTEST, LONGEST = 8.0, 20.0  # s
 FIXED = ("mission.name", "mission.fused", "mission.log_interval", "person.recording", "changes", "admittance.feel")
-STEPS = (0.0005, 0.001, 0.002, 0.004, 0.005, 0.01)  # s
-STRENGTHS = (0.1, 0.5, 1.2)  # standard deviation of the logarithm of a factor
-SIZES = {  # of a change of a number that is 0 or of either sign, by unit
-    **{"N": 3.0, "N m": 0.5, "m": 0.3, "m/s": 2.0, "rad": 0.6, "rad/s": 1.0, "s": 0.5, "kg": 0.2, "1": 0.3},
-    **{"m²": 0.02, "N s/m": 0.5, "N m s": 0.2, "N/m": 1.0},
-}
-SMALL_SIZES = {  # the same, of what is small where it is good: noise, biases, delays
-    **{"N": 0.1, "N m": 0.01, "m": 0.003, "m/s": 0.02, "rad": 0.005, "rad/s": 0.01, "m/s²": 0.05, "s": 0.02},
-    **{"N/√s": 0.01, "N m/√s": 0.001, "m/s²/√s": 0.002, "rad/s/√s": 0.0002},
-}
 NEEDS: Mapping[tuple[str, Any], Changes] = {  # what a choice needs, or excludes
     ("actuators.model", "ideal"): {"ground.effect": False, "faults": []},
     ("ground.model", "none"): {
@@ -76,10 +66,15 @@ LIST_NEEDS: Mapping[str, Changes] = {
 }
 WEIGHTS = {  # of keys by their first words; a key that none fits has the weight 1
     **dict.fromkeys(("admittance", "controller", "faults", "ground", "mission", "phases", "vehicle", "wind"), 5.0),
-    **dict.fromkeys(("actuators.delay", "actuators.model", "plant.mass_scale", "wind.velocity", "mission.step"), 60.0),
+    **dict.fromkeys(("actuators.delay", "plant.mass_scale", "wind.velocity", "mission.step"), 60.0),
     **dict.fromkeys(("controller.gains", "disturbance", "initial", "phases.height", "pushes"), 25.0),
 }
-IN_FLIGHT = ("admittance.damping", "admittance.threshold", "wind.velocity", "compliance.max_speed")
+TIMED = {**dict.fromkeys(("pushes", "faults", "requests", "sensor_faults", "changes"), "time"), "wind.gusts": "start"}
+SAFE: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # what entries of lists may be, where their example says little
+    "changes": {"key": ("admittance.damping", "admittance.threshold", "wind.velocity", "compliance.max_speed")},
+    "requests": {"action": ("disable", "enable", "land", "lift", "stop")},
+    "sensor_faults": {"kind": ("frozen", "nan", "bias")},
+}
 
 
 class RandomMission(NamedTuple):
@@ -151,26 +146,34 @@ def _loaded(base: str, changes: Changes) -> tuple[Mission, tuple[str, ...]]:
 
 def _changed(base: str, before: Changes, count: int, rng: np.random.Generator, *, flips: bool) -> Changes:
     """Changes of up to `count` keys, with what they need, that load on top of those before."""
-    made: Changes = {}
-    mission, keys = load_quietly(base, before), ()
+    made = Changes()
+    mission, keys = load_quietly(base, before), list[tuple[Key, Any]]()
     for _ in range(TRIES if count else 0):
-        keys = keys or tuple(_keys_of(mission, flips=flips))
+        keys = keys or list(_keys_of(mission, flips=flips))
         key, value = keys[_drawn_place([key.name for key, _ in keys], rng)]
-        new = _flipped(key, value, mission, rng) if flips else {key.name: _varied(key, value, rng)}
+        new = _flipped(key, value, mission, rng) if flips else {key.name: varied(key, value, rng)}
         if not new or new == {key.name: value}:
             continue
         try:
             mission = load_quietly(base, {**before, **made, **new})
         except InputError:
             continue
-        made, count, keys = {**made, **new}, count - 1, ()
+        made, count, keys = {**made, **new}, count - 1, []
         if not count:
             break
     return made
 
 
+def drawable_keys(base: str) -> set[str]:
+    """The dotted names of all keys of a built-in mission that may be drawn, numbers and choices."""
+    mission = load_quietly(base, {})
+    return {key.name for flips in (False, True) for key, _ in _keys_of(mission, flips=flips)}
+
+
 def _drawn_place(names: list[str], rng: np.random.Generator) -> int:
-    weights = np.array([max((w for start, w in WEIGHTS.items() if name.startswith(start)), default=1.0) for name in names])
+    weights = np.array(
+        [max((w for start, w in WEIGHTS.items() if name.startswith(start)), default=1.0) for name in names]
+    )
     return int(rng.choice(len(names), p=weights / weights.sum()))
 
 
@@ -227,72 +230,23 @@ def _flipped(key: Key, value: Any, mission: Mission, rng: np.random.Generator) -
     options = [True, False] if kind is bool else list(get_args(kind)) if get_origin(kind) is Literal else []
     others = [option for option in options if option != value]
     if not others:
-        return {}
+        return Changes()
     other = others[int(rng.integers(len(others)))]
     return {**NEEDS.get((key.name, other), {}), key.name: other}
 
 
 def _with_entry(name: str, mission: Mission, rng: np.random.Generator) -> Changes:
     """One more entry of a list, from the examples of its keys, at a time within the flight."""
-    tables: Any = tables_of(mission)
-    for part in name.split("."):
-        tables = tables.get(part, {} if part != name.rpartition(".")[2] else [])
-    section = next(s for s in sections() if s.name == name)
-    entry = {key.name.rpartition(".")[2]: key.example for key in section.keys if key.field.is_required()}
-    at = round(float(rng.uniform(1.0, mission.mission.duration)), 2)
+    *above, last = name.split(".")
+    at: Any = tables_of(mission)
+    for part in above:
+        at = at.get(part, {})
+    keys = {key.name.rpartition(".")[2]: key for section in sections() if section.name == name for key in section.keys}
+    entry = {inner: key.example for inner, key in keys.items() if key.field.is_required()}
+    entry |= {inner: str(rng.choice(list(choices))) for inner, choices in SAFE.get(name, {}).items()}
+    time = round(float(rng.uniform(1.0, mission.mission.duration)), 2)
     if name == "changes":
-        key = str(rng.choice(IN_FLIGHT))
-        entry = {"key": key, "value": round(float(rng.uniform(0.5, 4.0)), 2), "duration": 0.5}
-        at = max([at, *(c.time for c in mission.changes)])
-    if name == "sensor_faults":
-        entry["kind"] = str(rng.choice(["frozen", "nan", "bias"]))
-    if name == "requests":
-        entry["action"] = str(rng.choice(["disable", "enable", "land", "lift", "stop"]))
-    time = {key.name.rpartition(".")[2] for key in section.keys} & {"time", "start"} - ({"start"} & {*name.split("s")})
-    entry |= {t: at for t in time if name != "walls"}
-    return {**LIST_NEEDS.get(name, {}), name: [*tables, entry]}
-
-
-def _varied(key: Key, value: Any, rng: np.random.Generator) -> Any:
-    """Another value of a key of numbers, near the one that it has, or near its example."""
-    if key.name == "mission.duration":
-        return round(float(rng.uniform(SHORTEST, LONGEST)), 1)
-    if key.name == "mission.step":
-        return float(rng.choice(STEPS))
-    if value is None:
-        value = key.example
-    strength, together = float(rng.choice(STRENGTHS)), rng.random() < 0.5
-    spread = rng.normal(0.0, strength)
-
-    def another(x: Any) -> Any:
-        if isinstance(x, (list, tuple)):
-            return [another(y) for y in x]
-        if isinstance(x, bool) or not isinstance(x, (int, float)):
-            return x
-        return _another_number(key, x, spread if together else rng.normal(0.0, strength))
-
-    return another(value)
-
-
-def _another_number(key: Key, x: float, spread: float) -> float:
-    limits = bounds(_marks(key.field.annotation, key.field.metadata))
-    unit, signed = key.facts.unit or "1", limits.get("gt", limits.get("ge", -1.0)) < 0.0
-    small = key.name.startswith(("sensors", "actuators", "mission"))
-    size = (SMALL_SIZES if small else SIZES).get(unit, 0.3)
-    if isinstance(x, int):
-        least, most = int(limits.get("ge", 0)), int(limits.get("le", 1000))
-        return int(min(max(round(max(x, 1) * np.exp(spread * 2.0)), least), most))
-    new = x + spread * max(size, 0.5 * abs(x)) if signed else (x * np.exp(spread) if x else size * abs(spread))
-    least, most = limits.get("ge", limits.get("gt", -np.inf)), limits.get("le", limits.get("lt", np.inf))
-    return float(f"{min(max(new, least), most):.4g}")
-
-
-def _marks(annotation: Any, metadata: Any) -> list[Any]:
-    """The marks of the numbers inside an annotation."""
-    found = list(metadata)
-    if hasattr(annotation, "__metadata__"):
-        found += annotation.__metadata__
-    for part in get_args(annotation):
-        if part is not Ellipsis and not isinstance(part, (str, int, bool)):
-            found += _marks(part, [])
-    return found
+        entry["value"], time = round(float(rng.uniform(0.5, 4.0)), 2), max([time, *(c.time for c in mission.changes)])
+    if name in TIMED:
+        entry[TIMED[name]] = time
+    return {**LIST_NEEDS.get(name, {}), name: [*at.get(last, []), entry]}
