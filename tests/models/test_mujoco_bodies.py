@@ -294,6 +294,7 @@ def test_felt_has_the_layout_of_the_law():
 
 def test_without_mujoco_one_sentence_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    monkeypatch.delitem(sys.modules, "tandemlift.models.mujoco_bodies")
+    for name in ("bodies", "contact", "import"):
+        monkeypatch.delitem(sys.modules, f"tandemlift.models.mujoco_{name}")
     with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs the package mujoco: pip install 'tandemlift\["):
         importlib.import_module("tandemlift.models.mujoco_bodies")

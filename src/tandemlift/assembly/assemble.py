@@ -29,12 +29,13 @@ from tandemlift.common.outcomes import FLIES
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.mechanics.clearance import clearance
+from tandemlift.laws.mechanics.collision.touches import start_touches
 from tandemlift.laws.mechanics.contact import start_foot_grip
 from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.sensors.readings import by_name, readings_of, start_sensing
 from tandemlift.laws.signals.random_numbers import key_from_seed
 from tandemlift.loop.delays import Delayed, DelayLines
-from tandemlift.loop.perception import READS, PilotSources
+from tandemlift.loop.perception import MAPS, READS, PilotSources
 from tandemlift.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
 from tandemlift.loop.step import FlightModel, FlightState, StepInputs, StepNoise
 from tandemlift.pilot.assemble import start_pilot
@@ -122,6 +123,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         wind=wind_state,
         grip=grip,
         near=near,
+        touches=start_touches(floor, walls, vehicle.rotor_count),
         sensing=sensing,
         estimator=known,
         rotors=spinning,
@@ -133,7 +135,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         ended=FLIES,
         detectors=start_detectors(mission),
     )
-    sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push])
+    sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map])
     late = delay_lines_from(mission, delays)
     model = FlightModel(
         flight_state=flight_state,

@@ -12,7 +12,7 @@ from tandemlift.cli.terminal.console import compile_notices, echo
 from tandemlift.cli.terminal.findings import exit_if_found, strict_option
 
 MISSED = 1
-NAMES = "tracking, observers, draws, losses, triggers, persons or yaw"
+NAMES = "tracking, observers, draws, losses, triggers, persons, yaw or contacts"
 
 
 @click.command()

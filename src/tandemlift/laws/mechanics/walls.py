@@ -1,7 +1,8 @@
 """Contact of the quadrotors and of the beam with walls.
 
-A quadrotor's shape is a sphere about its centre of mass. The beam is a capsule: its ends touch as spheres, its length
-touches a wall's edges and its top. Each contact acts at the nearest point, with its penetration δ there:
+A quadrotor's shape is a sphere about its centre of mass, its guard, and one about each rotor that stands out of it
+(`collision.spheres`). The beam is a capsule: its ends touch as spheres, its length touches a wall's edges and its top.
+Each contact acts at the nearest point, with its penetration δ there:
 
     N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −c_t v, shortened to the length μ N if it is longer,
 
@@ -18,17 +19,28 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.algebra.arrays import array, lengths
-from tandemlift.algebra.law import choice, elementwise, law
-from tandemlift.algebra.ops import clip, greatest, maximum, minimum, sqrt, where
+from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.ops import greatest, minimum, sqrt
 from tandemlift.algebra.types import Number, PerQuadrotor, number
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, apply_transposed, cross, dot, each
-from tandemlift.laws.mechanics.contact import (
-    friction_factor,
-    mobility,
-    softened_for_step,
-    spring_damper,
-    surface_mobility,
+from tandemlift.algebra.vector import ZERO, Mat3, Nothing, Vec3, apply, apply_transposed, cross, dot, each
+from tandemlift.laws.mechanics.collision.beam_axis import (
+    BeamAxis,
+    beam_axis,
+    beam_point,
+    point_by_edge,
+    point_by_top,
 )
+from tandemlift.laws.mechanics.collision.spheres import (
+    ContactPair,
+    RotorSpheres,
+    WallContact,
+    nearest_to_rotors_with,
+    no_walls_near_rotors,
+    rotor_wall_contact,
+    sphere_contact,
+    with_rotor_loads,
+)
+from tandemlift.laws.mechanics.collision.springs import mobility, softened_for_step, surface_mobility
 from tandemlift.laws.mechanics.loads import (
     PartLoad,
     PartLoads,
@@ -50,8 +62,7 @@ from tandemlift.laws.mechanics.wall_geometry import (
     selected_wall,
 )
 
-SMALL = 1e-18  # m²: no direction is known at this distance
-PARALLEL = 1e-12  # sin² of the angle between lines that have no one nearest point
+IN_GUARDS = Nothing()
 
 
 class Beam(NamedTuple):
@@ -64,7 +75,8 @@ class Beam(NamedTuple):
 class Walls(NamedTuple):
     """Contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]; `guards`: radius of every quadrotor's sphere [m].
 
-    `beam`: a `Beam`, or `Nothing` if the payload has no shape; `reach` [m]: of all these from the centre of mass.
+    `rotors`: a `RotorSpheres`, or `Nothing` if all rotors are in their guard; `beam`: a `Beam`, or `Nothing` if the
+    payload has no shape; `reach` [m]: of all these from the centre of mass.
     """
 
     stiffness: Number
@@ -72,6 +84,7 @@ class Walls(NamedTuple):
     friction: Number
     tangential_damping: Number
     guards: PerQuadrotor
+    rotors: Any
     beam: Any
     reach: Number
 
@@ -86,123 +99,97 @@ class NearBeam(NamedTuple):
 
 
 class NearWalls(NamedTuple):
-    """The two walls nearest to every quadrotor (of sets), and a `NearBeam`, or `Nothing`."""
+    """The two walls nearest to every quadrotor (of sets); a `NearRotors` and a `NearBeam`, each or `Nothing`."""
 
     first: Wall
     second: Wall
+    rotors: Any
     beam: NearBeam | Nothing
 
 
-class BeamAxis(NamedTuple):
-    """The beam's axis, world axes: centre [m], its velocity [m/s], direction, turn rate [rad/s]."""
+class BeamContact(NamedTuple):
+    """Contact of the beam about its centre: of its ends (sets), with the two nearest edges, with a wall's top."""
 
-    center: Vec3
-    velocity: Vec3
-    direction: Vec3
-    spin: Vec3
-
-
-@elementwise
-def inverse_root(square: Number) -> Number:
-    """1/√square, bounded."""
-    return 1.0 / sqrt(maximum(square, SMALL))
+    ends: WallContact
+    edge: WallContact
+    other: WallContact
+    top: WallContact
 
 
-@elementwise
-def penetration(distance: Number, radius: Number) -> Number:
-    """Penetration [m] of a sphere whose centre is at a distance."""
-    return radius - distance
+class NearWallContact(NamedTuple):
+    """Contact of all parts with the walls near them: of guards (sets), rotors and beam, each or `Nothing`."""
+
+    guards: ContactPair
+    rotors: Any
+    beam: Any
 
 
 @law
-def sphere_load(w: Walls, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> PartLoad:
-    """Load of a wall on a sphere that moves at a velocity [m/s] and turns at `spin` [rad/s], all in world axes.
-
-    o is the offset of the sphere's centre from the wall [m]; the moment is about that centre [N·m].
-    """
-    square = dot(o, o)
-    inverse = inverse_root(square)
-    n = scaled(o, inverse)
-    rate = -dot(n, velocity)
-    normal = spring_damper(penetration(square * inverse, radius), rate, w.stiffness, w.damping)
-    sliding = scaled(velocity - cross(spin, o) + scaled(n, rate), w.tangential_damping)
-    factor = friction_factor(dot(sliding, sliding), normal * w.friction)
-    force = scaled(n, normal) - scaled(sliding, factor)
-    return PartLoad(force, cross(force, o))
-
-
-@law
-def point_by_edge(a: BeamAxis, half: Number, edge: Wall) -> Number:
-    """Where along the beam's axis, ±half, it is nearest to an edge [m]: level with it, or nearest to its upper end."""
-    x, y, b = edge.x - a.center.x, edge.y - a.center.y, a.direction
-    along = x * b.x + y * b.y
-    level = along / maximum(b.x * b.x + b.y * b.y, SMALL)
-    up = edge.top - a.center.z
-    return clip(where(level * b.z < up, level, along + up * b.z), -half, half)
-
-
-@law
-def point_by_top(a: BeamAxis, half: Number, wall: Wall) -> Number:
-    """Where along the beam's axis, ±half, it is nearest to a wall's top [m]."""
-    # Ericson, Real-Time Collision Detection, section 5.1.9
-    b, r = a.direction, a.center - Vec3(wall.x, wall.y, wall.top)
-    cosine, on_beam = b.x * wall.along_x + b.y * wall.along_y, dot(b, r)
-    on_wall = r.x * wall.along_x + r.y * wall.along_y
-    sine = maximum(1.0 - cosine * cosine * wall.per_square, PARALLEL)
-    crossing = clip((cosine * on_wall * wall.per_square - on_beam) / sine, -half, half)
-    share = clip((cosine * crossing + on_wall) * wall.per_square, 0.0, 1.0)
-    return clip(cosine * share - on_beam, -half, half)
-
-
-@law
-def beam_axis(center: Vec3, s: State) -> BeamAxis:
-    """The beam's axis in state `s`; its centre from the system's centre of mass [m, body axes]."""
-    R = rotation_from_quaternion(s.attitude)
-    spin, arm = apply(R, s.rates), apply(R, center)
-    return BeamAxis(s.position + arm, s.velocity + cross(spin, arm), Vec3(R.x.y, R.y.y, R.z.y), spin)
-
-
-@law
-def beam_point(a: BeamAxis, along: Number) -> Vec3:
-    """Points of the beam's axis [m, world axes]."""
-    return translated(a.center, scaled(a.direction, along))
-
-
-@law
-def load_at_beam_point(w: Walls, a: BeamAxis, along: Number, o: Vec3) -> PartLoad:
-    """Load of a wall on the beam at a point `along` its axis [m], at the offset o [m]: world axes, about its centre."""
+def contact_at_beam_point(w: Walls, a: BeamAxis, along: Number, o: Vec3) -> WallContact:
+    """Contact of the beam with a wall at a point `along` its axis [m], at the offset o [m]."""
     arm = scaled(a.direction, along)
-    load = sphere_load(w, o, w.beam.radius, translated(a.velocity, cross(a.spin, arm)), a.spin)
-    return PartLoad(load.force, load.moment + cross(arm, load.force))
+    velocity = translated(a.velocity, cross(a.spin, arm))
+    found = sphere_contact(w, translated(a.center, arm), o, w.beam.radius, velocity, a.spin)
+    return found._replace(load=PartLoad(found.load.force, found.load.moment + cross(arm, found.load.force)))
+
+
+@choice(absent="beam")
+def beam_contact(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
+    """Contact of the beam with the near walls."""
+
+
+@beam_contact.register(Beam)
+def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> BeamContact:
+    a, half = beam_axis(frame.payload, s), beam.ends[1]
+    i, j = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
+    k = point_by_top(a, half, near.topped)
+    return BeamContact(
+        contact_at_beam_point(w, a, beam.ends, offset(near.ends, beam_point(a, beam.ends))),
+        contact_at_beam_point(w, a, i, offset(near.edge, beam_point(a, i))),
+        contact_at_beam_point(w, a, j, offset(near.other_edge, beam_point(a, j))),
+        contact_at_beam_point(w, a, k, offset_from_top(near.topped, beam_point(a, k))),
+    )
 
 
 @choice(absent=PartLoad(ZERO, ZERO))
-def beam_load(beam: Beam | Nothing, w: Walls, near: NearBeam | Nothing, frame: PartsLayout, s: State) -> Any:
+def beam_load(contact: BeamContact | Nothing, R: Mat3) -> Any:
     """Load of the near walls on the payload."""
 
 
-@beam_load.register(Beam)
-def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> PartLoad:
-    a, half = beam_axis(frame.payload, s), beam.ends[1]
-    ends = load_at_beam_point(w, a, beam.ends, offset(near.ends, beam_point(a, beam.ends)))
-    i, j = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
-    k = point_by_top(a, half, near.topped)
-    edge = load_at_beam_point(w, a, i, offset(near.edge, beam_point(a, i)))
-    other = load_at_beam_point(w, a, j, offset(near.other_edge, beam_point(a, j)))
-    top = load_at_beam_point(w, a, k, offset_from_top(near.topped, beam_point(a, k)))
-    load = PartLoad(sum_over_set(ends.force), sum_over_set(ends.moment)) + edge + other + top
-    return PartLoad(load.force, apply_transposed(rotation_from_quaternion(s.attitude), load.moment))
+@beam_load.register(BeamContact)
+def _of_capsule(c: BeamContact, R: Mat3) -> PartLoad:
+    ends = PartLoad(sum_over_set(c.ends.load.force), sum_over_set(c.ends.load.moment))
+    load = ends + c.edge.load + c.other.load + c.top.load
+    return PartLoad(load.force, apply_transposed(R, load.moment))
+
+
+@law
+def near_wall_contact(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> NearWallContact:
+    """Contact of all parts with the near walls."""
+    R = rotation_from_quaternion(s.attitude)
+    spin, arm = apply(R, s.rates), apply(R, frame.quadrotors)
+    p, v = translated(s.position, arm), translated(s.velocity, cross(spin, arm))
+    guards = ContactPair(
+        sphere_contact(w, p, offset(near.first, p), w.guards, v, spin),
+        sphere_contact(w, p, offset(near.second, p), w.guards, v, spin),
+    )
+    return NearWallContact(
+        guards, rotor_wall_contact(w.rotors, w, near.rotors, s, R), beam_contact(w.beam, w, near.beam, frame, s)
+    )
+
+
+@law
+def loads_of_walls(w: Walls, contact: NearWallContact, frame: PartsLayout, R: Mat3) -> PartLoads:
+    """Loads of the near walls on all parts; R of the attitude."""
+    load = contact.guards.first.load + contact.guards.second.load
+    load = with_rotor_loads(contact.rotors, w.rotors, load, frame, R)
+    return PartLoads(beam_load(contact.beam, R), PartLoad(load.force, apply_transposed(R, load.moment)))
 
 
 @law
 def near_wall_loads(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> PartLoads:
     """Loads of the near walls on all parts."""
-    R = rotation_from_quaternion(s.attitude)
-    spin, arm = apply(R, s.rates), apply(R, frame.quadrotors)
-    p, v = translated(s.position, arm), translated(s.velocity, cross(spin, arm))
-    first, second = offset(near.first, p), offset(near.second, p)
-    load = sphere_load(w, first, w.guards, v, spin) + sphere_load(w, second, w.guards, v, spin)
-    return PartLoads(beam_load(w.beam, w, near.beam, frame, s), PartLoad(load.force, apply_transposed(R, load.moment)))
+    return loads_of_walls(w, near_wall_contact(w, near, frame, s), frame, rotation_from_quaternion(s.attitude))
 
 
 @choice(absent="near")
@@ -240,6 +227,7 @@ def nearest_with(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: S
     return NearWalls(
         nearer(wall, near.first, p, p),
         second_nearest(wall, near.first, near.second, p, p, p),
+        nearest_to_rotors_with(w.rotors, wall, near.rotors, s),
         nearest_to_beam_with(w.beam, wall, near.beam, frame, s),
     )
 
@@ -247,7 +235,8 @@ def nearest_with(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: S
 def no_walls_near(w: Walls) -> NearWalls:
     """No wall is near."""
     walls, ends = [Wall(*[each(n)(*[v] * n) for v in WALL]) for n in (len(w.guards), 2)]
-    return NearWalls(walls, walls, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Nothing())
+    rotors = no_walls_near_rotors(w.rotors)
+    return NearWalls(walls, walls, rotors, NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else Nothing())
 
 
 def walls(
@@ -258,6 +247,7 @@ def walls(
     step: float,
     *,
     friction: float,
+    rotors: Any = IN_GUARDS,
     beam: tuple[float, float] | None = None,
     payload: ArrayLike = (0.0, 0.0, 0.0),
     stiffness: float = 5000.0,
@@ -271,7 +261,8 @@ def walls(
         mass: of the vehicle [kg].
         inertia: 3 × 3 about its centre of mass [kg·m²].
         step: [s].
-        friction: μ of guards and beam on walls.
+        friction: μ of guards, rotors and beam on walls.
+        rotors: a `RotorSpheres`, or `Nothing` if all rotors are in their guard.
         beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
         payload: its centre of mass from the system's [m, body axes].
         stiffness: of a contact [N/m].
@@ -283,6 +274,8 @@ def walls(
     if beam:
         half = 0.5 * beam[0]
         spheres += [(np.add(payload, [0.0, end, 0.0]), beam[1]) for end in (-half, half)]
+    if isinstance(rotors, RotorSpheres):
+        spheres += [(array([x, y, z]), radius) for x, y, z, radius in zip(*rotors.hub, rotors.radius, strict=True)]
     centers = array([tuple(center) for center, _ in spheres])  # where N acts, were all in contact at once
     k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), mobility(centers, mass, J), step)
     tangential_mobility = sum(surface_mobility(center, radius, mass, J) for center, radius in spheres)
@@ -294,6 +287,7 @@ def walls(
         number(friction),
         minimum(c, 1.0 / (tangential_mobility * step)),
         each(len(radii))(*map(number, radii)),
+        rotors,
         shape,
         reach,
     )
