@@ -120,6 +120,9 @@ def _check_outcomes(m: Mission) -> None:
     if promise.rms_promised(m.pilot.guidance) > promise.distance:
         given = f"promise.rms_distance = {promise.rms_distance}"
         raise InputError(f"{given}: must not be above promise.distance = {promise.distance}, the largest distance")
+    if promise.tilt >= m.crash.tilt:
+        given = f"promise.tilt = {promise.tilt}"
+        raise InputError(f"{given}: must be below crash.tilt = {m.crash.tilt}, where the flight ends")
     if f.reach_distance <= promise.distance:
         given = f"findings.reach_distance = {f.reach_distance}"
         raise InputError(f"{given}: must be above promise.distance = {promise.distance}, which is no finding yet")

@@ -85,7 +85,9 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
     highest = max(early.highest, late.highest)
     formed["outcome"] = outcome_of(p, flown.flight_state, last, highest)
-    formed["findings"] = [[f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, formed["outcome"])]
+    formed["findings"] = [
+        [f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, flown.step, formed["outcome"])
+    ]
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
@@ -164,5 +166,5 @@ def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flig
         results=metrics,
         ending=ending_of(p, flown.flight_state, flown.step),
         version={**versions(engine), "engine": engine},
-        findings=findings_of(p, flown.flight_state, metrics["outcome"]),
+        findings=findings_of(p, flown.flight_state, flown.step, metrics["outcome"]),
     )
