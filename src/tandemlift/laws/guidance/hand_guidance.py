@@ -25,7 +25,7 @@ from tandemlift.laws.guidance.guidance import (
     checked_input,
     guide,
 )
-from tandemlift.laws.guidance.limits.above_ground import above_ground
+from tandemlift.laws.guidance.limits.above_ground import above_ground, has_floor
 from tandemlift.laws.guidance.limits.available import (
     AvailableForce,
     available_acceleration,
@@ -149,12 +149,12 @@ def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) ->
 
 
 @law
-def presses_on_ground(m: PhaseState, height: Any) -> Any:
+def presses_on_ground(m: PhaseState, height: Any, floor: Any) -> Any:
     """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0.
 
-    Also after the landing, with rotors that keep running: what the ground gives is no disturbance.
+    On a `floor` (1) also after the landing, with rotors that keep running: what the floor gives is no disturbance.
     """
-    return (is_in(m, LAND) + is_in(m, IDLE)) * where(height < m.ground, 1.0, 0.0)
+    return (is_in(m, LAND) + is_in(m, IDLE) * floor) * where(height < m.ground, 1.0, 0.0)
 
 
 @law
@@ -254,7 +254,7 @@ def _by_hand(
         moment=(moment.value + moment.rate * g.moment_lead) * allowed.compensating,
         running=ThrustFraction(allowed.running),
         flying=allowed.flying * (1.0 - blind),
-        learning=1.0 - presses_on_ground(phase, target.position.z),
+        learning=1.0 - presses_on_ground(phase, target.position.z, has_floor(g.clearance)),
         channels=channels_from(allowed, after, damping, heading, following.reason, shown),
         wall=load_of_wall(boundary),
     )
