@@ -6,8 +6,23 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, apply, dot
 from tandemlift.common.phases import CONTACT, IDLE, LAND, LIFT
+from tandemlift.laws.compliance.above_ground import above_ground, has_floor
+from tandemlift.laws.compliance.available import (
+    AvailableForce,
+    available_acceleration,
+    needed_force,
+    usable_thrust,
+)
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
+from tandemlift.laws.compliance.energy_tank import passivity_damping
+from tandemlift.laws.compliance.following import (
+    Following,
+    FollowingLimits,
+    FollowingState,
+    must_land,
+    update_following,
+)
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
 from tandemlift.laws.guidance.contact_hold import (
     bounded_by,
     contact_code,
@@ -17,27 +32,12 @@ from tandemlift.laws.guidance.contact_hold import (
     turning_out,
     without_wall,
 )
-from tandemlift.laws.guidance.limits.energy_tank import passivity_damping
 from tandemlift.laws.guidance.guidance import (
     Guidance,
     PilotInput,
     ThrustFraction,
     checked_input,
     guide,
-)
-from tandemlift.laws.guidance.limits.above_ground import above_ground, has_floor
-from tandemlift.laws.guidance.limits.available import (
-    AvailableForce,
-    available_acceleration,
-    needed_force,
-    usable_thrust,
-)
-from tandemlift.laws.guidance.limits.following import (
-    Following,
-    FollowingLimits,
-    FollowingState,
-    must_land,
-    update_following,
 )
 from tandemlift.laws.guidance.phases import (
     PhaseOutput,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.ops import clip, where
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, with_speed
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, with_speed
 
 APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left
 
