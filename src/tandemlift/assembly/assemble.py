@@ -130,13 +130,12 @@ def assemble(mission: Mission) -> AssembledFlight:
     chance = np.random.default_rng(mission.mission.seed)
     pilot, memory = start_pilot(mission, vehicle)
     state, plant = start_state(mission), plant_from(mission, vehicle)
-    floor, walls = plant.floor, plant.walls
-    grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
+    grip = Nothing() if isinstance(plant.floor, Nothing) else start_foot_grip(plant.floor, state)
     delays = delays_from(mission)
-    rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, delayed=bool(delays[2]))
+    rotors, spinning, thrusts = start_rotors(mission, vehicle, plant.floor, delayed=bool(delays[2]))
     wind, wind_state = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
-    near, hand = near_walls_from(walls), PushSamples(push, push, push)
+    near, hand = near_walls_from(plant.walls), PushSamples(push, push, push)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
     senses = start_perception(mission, vehicle, state, chance, at_rest)
     person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
@@ -147,13 +146,13 @@ def assemble(mission: Mission) -> AssembledFlight:
         wind=wind_state,
         grip=grip,
         near=near,
-        touches=start_touches(floor, walls, vehicle.rotor_count),
+        touches=start_touches(plant.floor, plant.walls, vehicle.rotor_count),
         sensing=senses.sensing,
         estimator=senses.known,
         rotors=spinning,
         readings=senses.readings,
         person=memory_of_person,
-        metrics=start_metrics(clearance(walls, near, plant.frame, state), memory_of_person),
+        metrics=start_metrics(clearance(plant.walls, near, plant.frame, state), memory_of_person),
         impulse=Nothing() if isinstance(limits.strike, Nothing) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,
