@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from tandemlift.interactive.simulation import Simulation
     from tandemlift.linearization.linear_model import LinearModel
     from tandemlift.linearization.linearize import linearize
+    from tandemlift.linearization.mission_check import check
     from tandemlift.missions import load_mission
     from tandemlift.settings import Mission
     from tandemlift.simulation.fly import fly, fly_many
@@ -36,6 +37,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Pilot": "simulation.pilot_api",
     "Simulation": "interactive.simulation",
     "Vehicle": "vehicle",
+    "check": "linearization.mission_check",
     "compile_mission": "targets.compiling",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
@@ -53,6 +55,7 @@ __all__ = [
     "Pilot",
     "Simulation",
     "Vehicle",
+    "check",
     "compile_mission",
     "fly",
     "fly_many",

@@ -55,7 +55,8 @@ def linearize(
         of: "loop" for pilot and body together; "body" for the body alone, whose inputs are the rotor thrusts.
         inputs: names of inputs: `push_force` [N, world axes, at the centre of mass], `push_moment` [N m, body axes],
             `disturbance_force` [N, world axes], `disturbance_moment` [N m, body axes], `wind_velocity` [m/s, world
-            axes] with wind, `rotor_thrusts` [N] of the body alone. By default all.
+            axes] with wind, `rotor_thrusts` [N] of the body alone. By default all. Only on request: `thrust_offsets`
+            [N] of the loop, what is added to the thrust of each rotor that is real.
         outputs: names of channels; by default those of the motion, the references, thrusts and joint loads.
         steps: steps of one period; by default the common period of all sensors, 1 without sensors.
         kink_tolerance: the largest distance of the point from a kink that is reported, in the unit of a state or input.
