@@ -9,7 +9,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.settings import Mission
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import flight_of
-from tandemlift.simulation.stepping import body_in, fly_stepwise
+from tandemlift.simulation.stepping import body_of, fly_stepwise
 from tandemlift.simulation.touches import TouchReport, touches_of
 
 HELD = {  # iris, held at the start in the air by a pilot who knows its state
@@ -73,7 +73,7 @@ def crash_mission(name: str) -> Mission:
 
 def crashed_in(engine: str, mission: Mission) -> Crashed:
     """A crash as an engine flies it."""
-    p = FlightPlan(mission)
-    raw = fly_stepwise(p, p.steps // p.every + 1, p.every, None, body_in(engine, p))
+    p = FlightPlan(mission, engine)
+    raw = fly_stepwise(p, p.steps // p.every + 1, p.every, None, body_of(p))
     x, y, z = map(float, raw.flight_state.state.position)
     return Crashed(flight_of(p, raw, engine), touches_of(raw.flight_state), (x, y, z))

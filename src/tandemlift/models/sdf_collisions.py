@@ -37,7 +37,7 @@ CREEP = 1e-7  # (m/s)/N, slip of friction: without it ODE's exact solver fails o
 FASTEST = 100.0  # m/s, limit of contact correction; Gazebo's default of 0.01 m/s would limit the springs
 
 
-class Surface(NamedTuple):
+class ContactSurface(NamedTuple):
     """Of a shape: the bit of what it touches, friction, stiffness [N/m], damping [N·s/m]."""
 
     bit: int
@@ -46,7 +46,7 @@ class Surface(NamedTuple):
     damping: float = 0.0
 
 
-def add_collision(link: Element, shape: VisualShape, surface: Surface, points: int | None = None) -> None:
+def add_collision(link: Element, shape: VisualShape, surface: ContactSurface, points: int | None = None) -> None:
     """Add a shape to a link; `points`: of contact with another shape at most."""
     collision = add(link, "collision", name=shape.name)
     pose(collision, shape.position, shape.axes)
@@ -56,7 +56,7 @@ def add_collision(link: Element, shape: VisualShape, surface: Surface, points: i
     add_surface(collision, surface)
 
 
-def add_surface(collision: Element, surface: Surface) -> None:
+def add_surface(collision: Element, surface: ContactSurface) -> None:
     """Add a surface to a shape."""
     spring = {"kp": surface.stiffness, "kd": surface.damping, "max_vel": FASTEST, "min_depth": 0.0}
     slip = {"mu": surface.friction, "mu2": surface.friction, "slip1": CREEP, "slip2": CREEP}
@@ -75,9 +75,9 @@ class VehicleCollisions:
     def __init__(self, mission: Mission, vehicle: Vehicle) -> None:
         self._floor, self._walls = feet_and_floor_from(mission, vehicle), wall_contact_from(mission, vehicle)
         floor, hull, walls = self._floor, self._floor.hull, self._walls
-        self._foot = Surface(FLOOR_BIT, floor.friction, floor.stiffness, floor.damping)
-        self._hull = Surface(FLOOR_BIT, floor.friction, hull.stiffness, hull.damping)
-        self._wall = Surface(WALL_BIT, walls.friction, walls.stiffness, walls.damping)
+        self._foot = ContactSurface(FLOOR_BIT, floor.friction, floor.stiffness, floor.damping)
+        self._hull = ContactSurface(FLOOR_BIT, floor.friction, hull.stiffness, hull.damping)
+        self._wall = ContactSurface(WALL_BIT, walls.friction, walls.stiffness, walls.damping)
 
     def add_to_payload(self, element: Element, link: Link) -> None:
         """Add the shapes of the beam; none without a beam."""
