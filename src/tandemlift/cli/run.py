@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.cli.terminal.console import echo, progress_bar
+from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
@@ -61,6 +62,7 @@ after_crash_option = click.option(
 )
 @after_crash_option
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
+@strict_option
 def run(
     mission: str,
     engine: str | None,
@@ -69,6 +71,7 @@ def run(
     controller: str | None,
     after_crash: float | None,
     no_figures: bool,
+    strict: bool,
 ) -> None:
     """Fly MISSION, print a summary and write the results.
 
@@ -87,15 +90,16 @@ def run(
       mission.toml   the mission with every key; `tandemlift run` flies it again
       flight.npz     all channels; read it with tl.Flight.load or NumPy
       metrics.json   the metrics in SI units, computed from every step
+      findings.json  what went badly, with time, place and number, and what to do
       figures/       reference, path, tracking, inputs, interaction, joints; and push, disturbance, rotors,
                      surroundings, corridor where the mission has such parts (PNG and PDF)
       report.html    all of it on one page that needs no network
 
     \b
     Exit code:
-      0   the flight was flown
+      0   the flight was flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   crashed, diverged or not lifted: what was flown is written
+      3   crashed, diverged or not lifted: what was flown is written; with --strict, also findings
     """
     from tandemlift.engines.registry import engine_named
 
@@ -110,9 +114,11 @@ def run(
         copy_recording(loaded, folder)
         write_flight(flight, folder, figures=not no_figures)
         print_report_path(folder, time.perf_counter() - began)
+    count = print_findings([(flight.name, flight)])
     if flight.failure:
         click.echo(f"{flight.name}: {flight.failure}", err=True)
         sys.exit(FAILED)
+    exit_if_found(count, strict=strict)
 
 
 def with_after_crash(settings: tuple[str, ...], seconds: float | None) -> tuple[str, ...]:

@@ -20,6 +20,7 @@ OPENINGS: dict[Request, str] = {
 AGAIN = "Begin the flight again."
 REPAIR = "Repair it; in simulation, begin the flight again."
 CONNECT = "See that the sensor is switched on and connected."
+LEAVE_WALL = "Pull it away from the wall; along the wall it follows."
 WAIT_FOR_GROUND = "Wait until it stands on the ground, then lift it off again."
 
 
@@ -34,7 +35,7 @@ class PilotRefusal(NamedTuple):
         return f"{self.why} {self.advice}".rstrip()
 
 
-class Reason(NamedTuple):
+class RefusalReason(NamedTuple):
     """A reason.
 
     Attributes:
@@ -54,42 +55,50 @@ class Reason(NamedTuple):
 
 
 CHECK_REASONS = (  # of checks, by the key of `common.faults.CHECKS`
-    Reason("imu", "no inertial measurement arrives", CONNECT),
-    Reason("motion", "no motion measurement arrives", CONNECT),
-    Reason("sensors", "a sensor has failed: {alarm}", REPAIR),
-    Reason("hover", "hover needs {value} % of the thrust, limit {limit} %", "Take load off, or take stronger rotors."),
-    Reason(
+    RefusalReason("imu", "no inertial measurement arrives", CONNECT),
+    RefusalReason("motion", "no motion measurement arrives", CONNECT),
+    RefusalReason("sensors", "a sensor has failed: {alarm}", REPAIR),
+    RefusalReason(
+        "hover", "hover needs {value} % of the thrust, limit {limit} %", "Take load off, or take stronger rotors."
+    ),
+    RefusalReason(
         "level",
         "the vehicle is not level ({value}°, limit {limit}°)",
         "Set it upright; in simulation, begin the flight again.",
     ),
-    Reason("rest", "the vehicle is not at rest ({value} m/s, limit {limit} m/s)", "Let go, and wait until it rests."),
-    Reason("rotors", "a rotor has failed", REPAIR),
-    Reason("tare", "the force sensors are not tared yet", "Keep your hands off until they are."),
-    Reason(
+    RefusalReason(
+        "rest", "the vehicle is not at rest ({value} m/s, limit {limit} m/s)", "Let go, and wait until it rests."
+    ),
+    RefusalReason("rotors", "a rotor has failed", REPAIR),
+    RefusalReason("tare", "the force sensors are not tared yet", "Keep your hands off until they are."),
+    RefusalReason(
         "payload",
         "the estimated mass of the payload, {value} kg, is not plausible",
         "Check the payload against `vehicle.payload.mass`, and tare in still air without touching it.",
     ),
-    Reason("joints", "the joints' force sensors disagree", "Let go, and wait until they agree again, or land."),
+    RefusalReason("joints", "the joints' force sensors disagree", "Let go, and wait until they agree again, or land."),
 )
 OTHER_REASONS = (
-    Reason("clock", "the pilot is guided by the clock", 'Fly a mission with `pilot.guidance = "hand"`.'),
-    Reason("in_air", "the vehicle is in the air already", "Push it to where it should go, or land it."),
-    Reason("on_ground", "the vehicle stands on the ground", "Lift it off first."),
-    Reason("landed", "the vehicle stands on the ground already", ""),
-    Reason("lifting", "the vehicle is still lifting off", "Wait until it is up."),
-    Reason("landing", "the vehicle is landing, which cannot be cancelled", WAIT_FOR_GROUND),
-    Reason("stopped", "the rotors were stopped, which is final", AGAIN),
-    Reason("once", "rotors that always run lift only once", AGAIN),
-    Reason("turning", "the vehicle is not at rest ({value} rad/s, limit {limit} rad/s)", "Wait until it rests."),
-    Reason("unknown_sensor", "a sensor has failed", REPAIR),
-    Reason("recovering", "the last fault is over for {value} s only, of {limit} s", "Ask again a moment later."),
-    Reason("fault", "the pilot reacts to a fault: {alarm}", "Let go, and wait until the fault is over."),
-    Reason("disabled", "the pilot is told not to follow pushes", "Enable it."),
-    Reason("over", "the flight is over", AGAIN),
-    Reason("error", "the flight has ended by an error in the software", AGAIN),
-    Reason("weak", "it is below the threshold ({value} N, limit {limit} N)", "Push harder."),
+    RefusalReason("clock", "the pilot is guided by the clock", 'Fly a mission with `pilot.guidance = "hand"`.'),
+    RefusalReason("in_air", "the vehicle is in the air already", "Push it to where it should go, or land it."),
+    RefusalReason("on_ground", "the vehicle stands on the ground", "Lift it off first."),
+    RefusalReason("landed", "the vehicle stands on the ground already", ""),
+    RefusalReason("lifting", "the vehicle is still lifting off", "Wait until it is up."),
+    RefusalReason("landing", "the vehicle is landing, which cannot be cancelled", WAIT_FOR_GROUND),
+    RefusalReason("stopped", "the rotors were stopped, which is final", AGAIN),
+    RefusalReason("once", "rotors that always run lift only once", AGAIN),
+    RefusalReason("turning", "the vehicle is not at rest ({value} rad/s, limit {limit} rad/s)", "Wait until it rests."),
+    RefusalReason("unknown_sensor", "a sensor has failed", REPAIR),
+    RefusalReason("recovering", "the last fault is over for {value} s only, of {limit} s", "Ask again a moment later."),
+    RefusalReason("fault", "the pilot reacts to a fault: {alarm}", "Let go, and wait until the fault is over."),
+    RefusalReason("limited", "the vehicle {alarm}", "Push less, and wait until it can follow again."),
+    RefusalReason("beam_touches", "the beam touches a wall", LEAVE_WALL),
+    RefusalReason("guard_touches", "the guard of quadrotor {value} touches a wall", LEAVE_WALL),
+    RefusalReason("disabled", "the pilot is told not to follow pushes", "Enable it."),
+    RefusalReason("over", "the flight is over", AGAIN),
+    RefusalReason("stopped_early", "the flight has crashed or diverged", AGAIN),
+    RefusalReason("error", "the flight has ended by an error in the software", AGAIN),
+    RefusalReason("weak", "it is below the threshold ({value} N, limit {limit} N)", "Push harder."),
 )
 REASONS = (*CHECK_REASONS, *OTHER_REASONS)
 NUMBER_OF = {reason.key: float(reason.number) for reason in REASONS}
@@ -109,6 +118,11 @@ def refusals_for(key: str) -> Refusals:
     return Refusals(*[refusal_of(request, NUMBER_OF[key], 0.0, 0.0) for request in REQUESTS])
 
 
+def sentences_for(request: Request) -> list[str]:
+    """What is said of a refused request for each reason, by its number; places of numbers are left in braces."""
+    return ["", *[str(_refusal(request, reason)) for reason in REASONS]]
+
+
 def refusal_of(request: Request, number: float, value: float, limit: float) -> PilotRefusal | None:
     """The refusal for the number of a reason and the numbers in its text; None for 0, no reason.
 
@@ -120,7 +134,11 @@ def refusal_of(request: Request, number: float, value: float, limit: float) -> P
     """
     if not number:
         return None
-    reason = REASONS[int(number) - 1]
-    alarm = ALARM_TEXTS[int(value)] if "{alarm}" in reason.text else ""
-    why = reason.text.format(value=f"{value:g}", limit=f"{limit:g}", alarm=alarm)
-    return PilotRefusal(request, f"{OPENINGS[request]}: {why}.", reason.advice)
+    refusal = _refusal(request, REASONS[int(number) - 1])
+    alarm = ALARM_TEXTS[int(value)] if "{alarm}" in refusal.why else ""
+    return refusal._replace(why=refusal.why.format(value=f"{value:g}", limit=f"{limit:g}", alarm=alarm))
+
+
+def _refusal(request: Request, reason: RefusalReason) -> PilotRefusal:
+    """The refusal of a request for a reason, with the places of its numbers in braces."""
+    return PilotRefusal(request, f"{OPENINGS[request]}: {reason.text}.", reason.advice)

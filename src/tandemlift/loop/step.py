@@ -16,16 +16,26 @@ from tandemlift.algebra.vector import Nothing, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.engines.compiled_touches import touches_in
+from tandemlift.laws.contact.touches import of_turning_rotors
 from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
-from tandemlift.laws.mechanics.collision.touches import of_turning_rotors
 from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
 from tandemlift.laws.person.person import landing_request, person_step
 from tandemlift.laws.rotors.rotors import rotors_step
+from tandemlift.loop.detectors import Detectors, FindingLimits, detect
 from tandemlift.loop.ending import ending_number, impulse_after, unless_crashed, until_crash, with_aftermath
 from tandemlift.loop.log_sample import errors_of, log_sample
-from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
+from tandemlift.loop.perception import (
+    all_sensed,
+    estimate_all,
+    measure,
+    read_push,
+    read_state,
+    surroundings_of,
+    tare_time,
+    usable,
+)
 from tandemlift.loop.running_metrics import RunningMetrics, count
 from tandemlift.loop.wind_loads import WindOutput, wind_loads
 from tandemlift.pilot.pilot import Decision, PilotInput, PilotMemory, PilotParameters, decide, with_thrusts
@@ -49,6 +59,7 @@ class FlightState(NamedTuple):
     impulse: Any
     crash: Any
     ended: Any
+    detectors: Detectors
 
 
 class FlightModel(NamedTuple):
@@ -68,6 +79,7 @@ class FlightModel(NamedTuple):
     person: Any
     delays: Any
     limits: Any
+    finding_limits: FindingLimits
 
 
 class StepNoise(NamedTuple):
@@ -124,7 +136,8 @@ def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
     """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
     before, sources = model.flight_state, model.sources
     since = tare_time(model.estimator, before.memory.guidance, t)
-    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, since, dt)
+    around = surroundings_of(model.estimator, sources, before.near, before.memory.guidance)
+    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, around, since, dt)
     readings = usable(estimates, before.readings)
     state = read_state(sources.state, before.state, readings, estimates)
     wrench = read_push(sources.push, push, state, estimates)
@@ -170,7 +183,10 @@ def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Act
 def finish_sample(
     model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs, t: Any, dt: Any
 ) -> Any:
-    """The end of a step from time t [s] once the body has moved: (`FlightState` after it, `Sample` at its start)."""
+    """The end of a step from t [s] by dt [s], once the body has moved: (`FlightState` after it, `Sample` at its start).
+
+    The detectors come last in the state: compiled loops write them only where they changed.
+    """
     before, noise = model.flight_state, inputs.noise.sensors
     readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
     sample = log_sample(model, output, acting, moved, inputs)
@@ -194,6 +210,7 @@ def finish_sample(
         impulse=impulse,
         crash=crash,
         ended=where(before.ended > 0.0, before.ended, ended),
+        detectors=until_crash(before.crash, before.detectors, detect(model, output, sample, t, dt)),
     )
     return after, sample
 

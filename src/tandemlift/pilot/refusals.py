@@ -13,9 +13,11 @@ from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import absolute, atan2, maximum, minimum, sqrt, where
 from tandemlift.algebra.selection import selected
 from tandemlift.algebra.vector import dot, total
-from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, STOPPED
+from tandemlift.common.faults import FAULTS
+from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
 from tandemlift.common.refusals import NUMBER_OF, REQUESTS, Refusals, refusal_of
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState
+from tandemlift.laws.guidance.contact_hold import ContactReaction, ContactReactionState
 from tandemlift.laws.guidance.fault_reactions import HOLDS
 from tandemlift.laws.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.laws.guidance.scheduled_guidance import ScheduledGuidance
@@ -25,6 +27,7 @@ from tandemlift.laws.rotors.rotor_faults import efficiency_at
 
 WHOLE = 6755399441055744.0  # 1.5·2⁵²: a number that is added and subtracted again becomes a whole one
 HUNDREDTHS, TENTHS = 100.0, 10.0
+LIMITED_ALARM = float(next(fault.alarm for fault in FAULTS if fault.key == "limited"))
 DEGREE, PERCENT = 180.0 / math.pi, 100.0
 
 
@@ -83,7 +86,7 @@ def _by_hand(g: HandGuidance, m: HandGuidanceState, t: Any) -> RefusalNumbers:
     landing, stopped = reason("landing"), reason("stopped")
     return RefusalNumbers(
         lift=by_value(phase, {IDLE: grounded, LAND: landing, STOPPED: stopped}, reason("in_air")),
-        land=by_value(phase, {IDLE: reason("landed"), STOPPED: stopped, LAND: landing}, NONE),
+        land=by_value(phase, {IDLE: reason("landed"), STOPPED: stopped}, NONE),
         push=by_value(
             phase,
             {
@@ -93,6 +96,8 @@ def _by_hand(g: HandGuidance, m: HandGuidanceState, t: Any) -> RefusalNumbers:
                 STOPPED: stopped,
                 HOLD: why_it_holds(g.supervision, m.supervision),
                 GUIDED: below_threshold(g.compliance, m.compliance),
+                CONTACT: touching_part(g.contact, m.contact),
+                LIMITED: reason("limited", LIMITED_ALARM + m.following.reason),
             },
             NONE,
         ),
@@ -149,6 +154,16 @@ def _why_it_holds(k: Supervision, m: SupervisionState) -> ReasonNumbers:
     cases = {**tared, NUMBER_OF["payload"]: reason("payload", m.payload)}
     check = by_value(m.failed_guidance_check, cases, reason("disabled"))
     return selected(m.reaction >= HOLDS, reason("fault", m.alarm), check)
+
+
+@choice(absent=NONE)
+def touching_part(k: Any, m: Any) -> Any:
+    """`ReasonNumbers`: which part touches a wall; `k`: the reaction to contacts."""
+
+
+@touching_part.register(ContactReaction)
+def _touching_part(k: ContactReaction, m: ContactReactionState) -> ReasonNumbers:
+    return selected(m.part < 0.0, reason("beam_touches"), reason("guard_touches", m.part))
 
 
 @law

@@ -8,9 +8,11 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from tandemlift.common.phases import CONTACT
 from tandemlift.export.messages import event_maker, status_maker
 from tandemlift.flight.record import Flight
 from tandemlift.ros.middleware import Middleware
+from tandemlift.simulation.contact_texts import contact_codes
 from tandemlift.simulation.results import describe_event
 
 AGAIN = 1.0  # s, before the same words are said again
@@ -31,7 +33,7 @@ class FlightDiagnostics:
         self._event, self._status = event_maker(middleware.types), status_maker(middleware.types)
         self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
         self._said: dict[str, float] = {}
-        self._now = (-1, 0, 0)  # phase, alarm, failed check
+        self._now = (-1, 0, 0, 0)  # phase, alarm, failed check, contact
 
     def add(self, what: str) -> None:
         """Queue an event, from any thread and without waiting; the same words once a second at most."""
@@ -50,13 +52,14 @@ class FlightDiagnostics:
             self._said.clear()
 
     def follow(self, flight: Flight, stamps: list[int]) -> None:
-        """Queue phases, alarms and failed checks as they change in samples."""
+        """Queue phases, alarms, failed checks and contacts as they change in samples."""
         if "phase" not in flight:
             return
         none = np.zeros(len(stamps))
         seen = np.column_stack([flight.channels.get(n, none) for n in ("phase", "alarm", "failed_check")])
-        for stamp, (phase, alarm, refused) in zip(stamps, seen.astype(int).tolist(), strict=True):
-            now = (phase, alarm, refused)
+        codes = contact_codes(flight) or [0] * len(stamps)
+        for stamp, (phase, alarm, refused), code in zip(stamps, seen.astype(int).tolist(), codes, strict=True):
+            now = (phase, alarm, refused, code or (self._now[3] if phase == CONTACT else 0))
             if now != self._now:
                 self._waiting.append((stamp, describe_event(now, self._now)))
                 self._now = now

@@ -10,6 +10,7 @@ from tandemlift.export.recipes import WRENCH
 from tandemlift.export.topics import ROOT
 from tandemlift.flight.record import Flight
 from tandemlift.live.session.session import Session
+from tandemlift.live.wire.quantities import ENDS
 from tandemlift.missions import tables_of
 from tandemlift.ros.diagnostics import FlightDiagnostics
 from tandemlift.ros.middleware import Middleware
@@ -24,7 +25,6 @@ PUSH = f"{ROOT}/push"
 RATE = 100.0  # Hz
 MARKERS, PATHS, STATUS, STILL, PARAMETERS = 0.05, 0.2, 1.0, 2.0, 0.2  # s, from one to the next
 PATIENCE = 0.1  # s, for a sample
-ENDS = ("over", "lost", "failed")  # phases in which nothing moves any more
 
 
 class FlightNode:

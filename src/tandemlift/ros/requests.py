@@ -14,7 +14,11 @@ from tandemlift.ros.diagnostics import Notify
 from tandemlift.ros.middleware import Answer
 
 COMES_TO = {"lift": "lift", "land": "land", "stop": "stopped"}  # the phase that a request leads to
-POSSIBLE = {"lift": ("idle",), "land": ("lift", "guided", "hold"), "stop": PHASE_NAMES}  # from which
+POSSIBLE = {  # from which
+    "lift": ("idle",),
+    "land": ("lift", "guided", "hold", "contact", "limited"),
+    "stop": PHASE_NAMES,
+}
 REQUESTS = (*COMES_TO, "tare")
 PATIENCE, NAP = 1.0, 0.02  # s, for the pilot to do it, and between looks
 
