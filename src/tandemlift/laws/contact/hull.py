@@ -200,7 +200,7 @@ def hull(
     beam: tuple[float, float] | None = None,
     payload: ArrayLike = (0.0, 0.0, 0.0),
     stiffness: float = 20000.0,
-    damping_ratio: float = 0.5,
+    damping_ratio: float = 0.2,
 ) -> Hull:
     """The shapes of a vehicle that meet the floor: as stiff as asked, softer if the step demands it.
 
