@@ -11,10 +11,10 @@ from tandemlift.common.phases import IDLE
 from tandemlift.laws.guidance.admittance import Admittance
 from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
 from tandemlift.laws.guidance.contact_hold import ContactReaction, start_reaction
-from tandemlift.laws.guidance.limits.energy_tank import EnergyTank, EnergyTankState
 from tandemlift.laws.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.laws.guidance.limits.above_ground import GroundClearance
 from tandemlift.laws.guidance.limits.available import AvailableForce
+from tandemlift.laws.guidance.limits.energy_tank import EnergyTank, EnergyTankState
 from tandemlift.laws.guidance.limits.following import AT_REST, FollowingLimits
 from tandemlift.laws.guidance.phases import SETTLING_TIME, PhaseSettings, PhaseState
 from tandemlift.laws.guidance.yaw_compliance import FixedHeading, YawCompliance, YawState
