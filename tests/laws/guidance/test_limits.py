@@ -7,7 +7,7 @@ import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.common.phases import REASONS
-from tandemlift.laws.guidance.compliance import compliance_step
+from tandemlift.laws.guidance.compliance import compliance_step, with_speed
 from tandemlift.laws.guidance.limits.above_ground import GroundClearance, above_ground
 from tandemlift.laws.guidance.limits.available import (
     AvailableForce,
@@ -118,7 +118,8 @@ def lowest(clearance, push, start=1.0, seconds=8.0):
     )
     m, heights = m.compliance, []
     for i in range(round(seconds / H)):
-        k = above_ground(clearance, g.compliance, m, m.position.z + start)
+        speed = above_ground(clearance, g.compliance.limits.speed, m.velocity.z, m.output.value.z, m.position.z + start)
+        k = with_speed(g.compliance, speed)
         m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Nothing(), H)
         heights.append(m.position.z + start)
     return np.array(heights)

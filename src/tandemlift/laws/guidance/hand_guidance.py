@@ -7,7 +7,13 @@ from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, apply, dot
 from tandemlift.common.phases import CONTACT, IDLE, LAND, LIFT
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
+from tandemlift.laws.guidance.compliance import (
+    Compliance,
+    ComplianceState,
+    compensated_push,
+    compliance_step,
+    with_speed,
+)
 from tandemlift.laws.guidance.contact_hold import (
     bounded_by,
     contact_code,
@@ -134,6 +140,13 @@ def grounded_at(phase: PhaseOutput, m: ComplianceState, state: State) -> Complia
 
 
 @law
+def kept_above_ground(g: HandGuidance, m: ComplianceState, height: Any) -> Compliance:
+    """The compliance that keeps the reference above the ground; `height` [m] of the reference above it."""
+    speed = above_ground(g.clearance, g.compliance.limits.speed, m.velocity.z, m.output.value.z, height)
+    return with_speed(g.compliance, speed)
+
+
+@law
 def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) -> Trajectory:
     """The desired trajectory: T_r with the ramps of lift and landing."""
     lift, land, end = phase.lift, phase.land, phase.end
@@ -230,7 +243,7 @@ def _by_hand(
     dissipated = dot(before.velocity * g.compliance.admittance.damping, before.velocity)
     damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
     lifted = g.phasing.height * allowed.lift.value
-    compliance = above_ground(g.clearance, g.compliance, before, before.position.z + lifted - phase.ground)
+    compliance = kept_above_ground(g, before, before.position.z + lifted - phase.ground)
     compliance = fenced(g.supervision, compliance, before, lifted)
     horizontal = available_acceleration(g.available, disturbance.force, usable_thrust(g.available, t))
     after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, boundary, dt)
