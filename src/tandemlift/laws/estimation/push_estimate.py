@@ -208,11 +208,14 @@ def concluded(
     )
 
 
-def _check_tare(start: float | None, duration: float, identify_mass: bool, interval: float) -> None:
+def _tare(start: float | None, duration: float, identify_mass: bool, interval: float) -> dict[str, Any]:
+    """The fields of a `PushEstimator` about the tare."""
     if identify_mass and start is None:
         raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
     if start is not None and duration < interval:
         raise ValueError(f"a tare of {duration:g} s holds no sample: they come every {interval:g} s")
+    window = (0.0, -math.inf) if start is None else (number(start), start + duration)
+    return {"tare_start": window[0], "tare_end": window[1], "identify": 1.0 if identify_mass else 0.0}
 
 
 def push_estimator(
@@ -256,7 +259,6 @@ def push_estimator(
     Raises:
         ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
     """
-    _check_tare(tare_start, tare_duration, identify_mass, step * imu_period)
     J, N = array(inertia), len(joints)
     return PushEstimator(
         mass=number(mass),
@@ -269,9 +271,7 @@ def push_estimator(
         per_interval=1.0 / (step * imu_period),
         low_pass=low_pass(bandwidth, step),
         least=min_force**2,
-        tare_start=0.0 if tare_start is None else number(tare_start),
-        tare_end=-math.inf if tare_start is None else tare_start + tare_duration,
-        identify=1.0 if identify_mass else 0.0,
+        **_tare(tare_start, tare_duration, identify_mass, step * imu_period),
         limit=number(disagreement_limit),
         share=1.0 / N,
         alone=N / (N - 1) if N > 1 else 0.0,
