@@ -1,4 +1,4 @@
-"""Events, and once a second the state of the flight, as messages of `/diagnostics`."""
+"""Events, also in ROS's log, and once a second the state of the flight, as messages of `/diagnostics`."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from tandemlift.common.phases import CONTACT
-from tandemlift.export.messages import MessageTypes, event_maker, status_maker
+from tandemlift.export.messages import event_maker, status_maker
 from tandemlift.flight.record import Flight
-from tandemlift.ros.middleware import TopicPublisher
+from tandemlift.ros.middleware import Middleware
 from tandemlift.simulation.contact_texts import contact_codes
 from tandemlift.simulation.results import describe_event
 
@@ -25,12 +25,12 @@ class FlightDiagnostics:
     """The events and the state of a flight, as messages.
 
     Args:
-        channel: of the topic.
-        types: of its messages.
+        middleware: what publishes them.
     """
 
-    def __init__(self, channel: TopicPublisher, types: MessageTypes) -> None:
-        self._channel, self._event, self._status = channel, event_maker(types), status_maker(types)
+    def __init__(self, middleware: Middleware) -> None:
+        self._middleware, self._channel = middleware, middleware.advertise(TOPIC, KIND, depth=MOST)
+        self._event, self._status = event_maker(middleware.types), status_maker(middleware.types)
         self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
         self._said: dict[str, float] = {}
         self._now = (-1, 0, 0, 0)  # phase, alarm, failed check, contact
@@ -47,6 +47,7 @@ class FlightDiagnostics:
         while self._waiting:
             at, what = self._waiting.popleft()
             self._channel.publish(self._event(at, what))
+            self._middleware.log(what)
         if len(self._said) > MOST:
             self._said.clear()
 

@@ -7,15 +7,15 @@ import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.common.phases import REASONS
-from tandemlift.laws.guidance.compliance import compliance_step, with_speed
-from tandemlift.laws.guidance.limits.above_ground import GroundClearance, above_ground
-from tandemlift.laws.guidance.limits.available import (
+from tandemlift.laws.compliance.above_ground import GroundClearance, above_ground
+from tandemlift.laws.compliance.available import (
     AvailableForce,
     available_acceleration,
     needed_force,
     usable_thrust,
 )
-from tandemlift.laws.guidance.limits.following import (
+from tandemlift.laws.compliance.compliance import compliance_step
+from tandemlift.laws.compliance.following import (
     AT_REST,
     Following,
     FollowingLimits,
@@ -118,8 +118,7 @@ def lowest(clearance, push, start=1.0, seconds=8.0):
     )
     m, heights = m.compliance, []
     for i in range(round(seconds / H)):
-        speed = above_ground(clearance, g.compliance.limits.speed, m.velocity.z, m.output.value.z, m.position.z + start)
-        k = with_speed(g.compliance, speed)
+        k = above_ground(clearance, g.compliance, m, m.position.z + start)
         m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Nothing(), H)
         heights.append(m.position.z + start)
     return np.array(heights)

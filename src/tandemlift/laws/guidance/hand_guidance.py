@@ -6,14 +6,23 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, apply, dot
 from tandemlift.common.phases import CONTACT, IDLE, LAND, LIFT
-from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.laws.guidance.compliance import (
-    Compliance,
-    ComplianceState,
-    compensated_push,
-    compliance_step,
-    with_speed,
+from tandemlift.laws.compliance.above_ground import above_ground, has_floor
+from tandemlift.laws.compliance.available import (
+    AvailableForce,
+    available_acceleration,
+    needed_force,
+    usable_thrust,
 )
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
+from tandemlift.laws.compliance.energy_tank import passivity_damping
+from tandemlift.laws.compliance.following import (
+    Following,
+    FollowingLimits,
+    FollowingState,
+    must_land,
+    update_following,
+)
+from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.laws.guidance.contact_hold import (
     bounded_by,
     contact_code,
@@ -29,21 +38,6 @@ from tandemlift.laws.guidance.guidance import (
     ThrustFraction,
     checked_input,
     guide,
-)
-from tandemlift.laws.guidance.limits.above_ground import above_ground, has_floor
-from tandemlift.laws.guidance.limits.available import (
-    AvailableForce,
-    available_acceleration,
-    needed_force,
-    usable_thrust,
-)
-from tandemlift.laws.guidance.limits.energy_tank import passivity_damping
-from tandemlift.laws.guidance.limits.following import (
-    Following,
-    FollowingLimits,
-    FollowingState,
-    must_land,
-    update_following,
 )
 from tandemlift.laws.guidance.phases import (
     PhaseOutput,
@@ -137,13 +131,6 @@ def grounded_at(phase: PhaseOutput, m: ComplianceState, state: State) -> Complia
         jerk=m.jerk * off,
         anchor=state.position * on + m.anchor * off,
     )
-
-
-@law
-def kept_above_ground(g: HandGuidance, m: ComplianceState, height: Any) -> Compliance:
-    """The compliance that keeps the reference above the ground; `height` [m] of the reference above it."""
-    speed = above_ground(g.clearance, g.compliance.limits.speed, m.velocity.z, m.output.value.z, height)
-    return with_speed(g.compliance, speed)
 
 
 @law
@@ -243,7 +230,7 @@ def _by_hand(
     dissipated = dot(before.velocity * g.compliance.admittance.damping, before.velocity)
     damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
     lifted = g.phasing.height * allowed.lift.value
-    compliance = kept_above_ground(g, before, before.position.z + lifted - phase.ground)
+    compliance = above_ground(g.clearance, g.compliance, before, before.position.z + lifted - phase.ground)
     compliance = fenced(g.supervision, compliance, before, lifted)
     horizontal = available_acceleration(g.available, disturbance.force, usable_thrust(g.available, t))
     after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, boundary, dt)

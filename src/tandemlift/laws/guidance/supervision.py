@@ -81,6 +81,9 @@ class SupervisionState(NamedTuple):
 
     Reaction and alarm; for how long it has held, and has been without a fault [s]; timers; the last valid state and the
     reference [m]; the numbers of the checks that fail before a lift and before pushes are followed, or 0; events.
+
+    For refusals (`pilot.refusals`): the alarm of the fault that is present now; the number of the check that fails
+    before a lift, requested or not; the estimated payload mass [kg].
     """
 
     reaction: Any
@@ -93,6 +96,9 @@ class SupervisionState(NamedTuple):
     failed_lift_check: Any
     failed_guidance_check: Any
     events: EventLog
+    fault: Any
+    lift_check: Any
+    payload: Any
 
 
 class SupervisionOutput(NamedTuple):
@@ -134,13 +140,14 @@ def _supervised(
     idle = where(phase.phase == IDLE, 1.0, 0.0)
     grounded = maximum(idle, where(phase.phase == STOPPED, 1.0, 0.0))
     faults = active_faults(k.bounds, k.fence, sensors, timers, state, status, phase.phase)
-    after = update_reaction(k, m, strongest_reaction(faults, k.reactions), idle, dt)
+    strongest = strongest_reaction(faults, k.reactions)
+    after = update_reaction(k, m, strongest, idle, dt)
     mass = k.mass + sensors.payload - k.payload
     lift = failed_lift_check(k.checks, sensors, state, status, mass, after.reaction, available)
     guidance = failed_guidance_check(k.checks, sensors)
     after = after._replace(
         timers=timers, state=state, failed_lift_check=lift * lift_requested, failed_guidance_check=guidance
-    )
+    )._replace(fault=strongest.alarm, lift_check=lift, payload=sensors.payload)
     return supervision_output(k, sensors, after, lift, grounded), after
 
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.ops import clip, where
-from tandemlift.algebra.vector import Vec3
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, with_speed
 
 APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left
 
@@ -29,21 +29,14 @@ def _floor(k: GroundClearance) -> Any:
     return 1.0
 
 
-@choice(absent="speed")
-def above_ground(k: Any, speed: Vec3, velocity: Any, pull: Any, height: Any) -> Any:
-    """The largest speeds of the reference [m/s], with a limit of that downwards.
-
-    Args:
-        k: the `GroundClearance`, or `Nothing`.
-        speed: largest along each axis [m/s].
-        velocity: of the reference along z [m/s].
-        pull: what moves it along z [N].
-        height: of the reference above the ground [m].
-    """
+@choice(absent="compliance")
+def above_ground(k: Any, compliance: Compliance, m: ComplianceState, height: Any) -> Any:
+    """The compliance with a limit of the speed downwards; `height` [m] of the reference above the ground."""
 
 
 @above_ground.register(GroundClearance)
-def _above(k: GroundClearance, speed: Vec3, velocity: Any, pull: Any, height: Any) -> Vec3:
-    down = where(pull == 0.0, velocity, pull)
+def _above(k: GroundClearance, compliance: Compliance, m: ComplianceState, height: Any) -> Compliance:
+    speed, pull = compliance.limits.speed, m.output.value.z
+    down = where(pull == 0.0, m.velocity.z, pull)
     slower = clip(APPROACH_GAIN * (height - k.height), 0.0, speed.z)
-    return speed._replace(z=where(down < 0.0, slower, speed.z))
+    return with_speed(compliance, speed._replace(z=where(down < 0.0, slower, speed.z)))
