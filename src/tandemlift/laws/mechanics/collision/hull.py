@@ -188,6 +188,15 @@ def hull_may_touch(hull: Hull, height: Number, s: State, time: Number) -> Condit
     return lowest - 2.0 * time * (way - minimum(s.velocity.z, 0.0) + faster) < height
 
 
+def lowest_of_hull(hull: Hull, R: Mat3) -> Number:
+    """z of the lowest point of a hull from the centre of mass [m]; R of the attitude."""
+    leaning, found = R.x.z * R.x.z + R.y.z * R.y.z, list[Number]()
+    for p in (hull.rotors, hull.guards, hull.beam):
+        if isinstance(p, Ellipsoids):
+            found += apply(R, p.center).z - reach_below(p.radius, p.half_thickness, leaning)
+    return least(found)
+
+
 def hull(
     quadrotors: ArrayLike,
     rotors: ArrayLike,
