@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,11 +16,12 @@ from tandemlift.algebra.vector import ZERO, Nothing, Quat, each, total, vec3
 from tandemlift.engines.compiled import advance, plant_from
 from tandemlift.engines.compiled_contact import CompiledPlant, hull_contact_with
 from tandemlift.engines.compiled_touches import wall_contact_with
-from tandemlift.laws.mechanics.contact import start_foot_grip
+from tandemlift.laws.contact.floor import start_foot_grip
+from tandemlift.laws.contact.wall_geometry import wall
+from tandemlift.laws.contact.walls import nearest_with, no_walls_near
 from tandemlift.laws.mechanics.push import CentralPush, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.wall_geometry import wall
-from tandemlift.laws.mechanics.walls import nearest_with, no_walls_near
+from tandemlift.machine_code.machine import QUICK
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
@@ -140,7 +140,7 @@ class Arena:
         table = [wall(w.start, w.end, w.top) for w in mission.all_walls]
         nowhere = no_walls_near(self.plant.walls) if table else Nothing()
         self._world = World(self.plant, record("Table", table) if table else Nothing(), nowhere)
-        self._loop = Loop(step_of, self._world, self._begun(START), Given(0.001))
+        self._loop = Loop(step_of, self._world, self._begun(START), Given(0.001), QUICK)
 
     def _begun(self, start: State) -> Thrown:
         return Thrown(start, start_foot_grip(self.plant.floor, start))
@@ -151,14 +151,16 @@ class Arena:
         return ThrownFlight(self._loop(self._world, self._begun(start), given), self.plant, self.mass, self.inertia)
 
 
-@functools.cache
+ARENAS: dict[str, Arena] = {}
+
+
 def arena(mission: str = "iris", *changes: tuple[str, Any]) -> Arena:
     """The arena of a mission with changes, made once."""
-    return Arena(
-        tl.load_mission(
-            mission, {"ground.height": 0.0, "pushes": [], "initial.position": [0.0, 0.0, 1.0]} | dict(changes)
-        )
-    )
+    name = repr((mission, changes))
+    if name not in ARENAS:
+        level = {"ground.height": 0.0, "pushes": [], "initial.position": [0.0, 0.0, 1.0]}
+        ARENAS[name] = Arena(tl.load_mission(mission, level | dict(changes)))
+    return ARENAS[name]
 
 
 def random_throw(rng: np.random.Generator, speed: float, height: tuple[float, float]) -> State:
