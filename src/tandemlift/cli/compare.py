@@ -12,6 +12,7 @@ import click
 
 from tandemlift.cli.run import FAILED, chosen_controller, engine_option, load, parse_setting, set_option
 from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
+from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
@@ -32,6 +33,7 @@ ENGINE_FILES = ("engines.html", "engines.json")
 @click.option("--engines", metavar="A,B,…", help="Compare engines instead: fly the mission once in each.")
 @set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
+@strict_option
 def compare(
     mission: str,
     controllers: str | None,
@@ -39,6 +41,7 @@ def compare(
     engines: str | None,
     settings: tuple[str, ...],
     out: str | None,
+    strict: bool,
 ) -> None:
     """Fly MISSION with several controllers, or in several engines, print a table and write a page.
 
@@ -61,14 +64,15 @@ def compare(
 
     \b
     Exit code:
-      0   all flights were flown
+      0   all flights were flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   a flight crashed, diverged or did not lift: its row says why; everything is written
+      3   a flight crashed, diverged or did not lift: its row says why; everything is written; with --strict,
+          also a flight with findings
     """
     if engines is not None:
         if controllers is not None:
             raise InputError("--engines, --controllers: give only one of them")
-        _compare_engines(mission, _names("--engines", engines, "compiled,mujoco"), settings, out)
+        _compare_engines(mission, _names("--engines", engines, "compiled,mujoco"), settings, out, strict=strict)
         return
     from tandemlift.engines.registry import engine_named
     from tandemlift.studies.controller_comparison import entrants
@@ -82,11 +86,13 @@ def compare(
         _print_tables(name, entries)
         _write(entries, folder, name, engine)
         echo(f"  page: {folder / 'compare.html'}")
+    count = print_findings((e.name, e.flight) for e in entries if e.flight)
     failed = {e.name: e.flight.failure for e in entries if e.flight and e.flight.failure}
     for controller, failure in failed.items():
         click.echo(f"{controller}: {failure}", err=True)
     if failed:
         sys.exit(FAILED)
+    exit_if_found(count, strict=strict)
 
 
 def _chosen(given: str | None) -> list[Controller] | None:
@@ -121,7 +127,7 @@ def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
 
 
 HEADS = ("RMSE x", "y", "z (mm)", "max (mm)", "effort (N m)")
-FLIGHT_HEADS = ("saturated (%)", "ns/step")
+FLIGHT_HEADS = ("saturated (%)", "findings", "ns/step")
 
 
 def _printed(value: float | None, scale: float, digits: int) -> str:
@@ -142,7 +148,11 @@ def _run(flight: Flight) -> list[str]:
     from tandemlift.studies.controller_comparison import run_of
 
     found = run_of(flight)
-    return [_printed(found["rotor_saturated_share"], 1e2, 2), _printed(found["step_ns"], 1.0, 0)]
+    return [
+        _printed(found["rotor_saturated_share"], 1e2, 2),
+        str(found["findings"]),
+        _printed(found["step_ns"], 1.0, 0),
+    ]
 
 
 def _print_rows(heads: Sequence[str], rows: Sequence[tuple[str, list[str], str]]) -> None:
@@ -193,7 +203,9 @@ def _write_json(found: Any, path: Path) -> None:
         partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
 
 
-def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], out: str | None) -> None:
+def _compare_engines(
+    mission: str, names: list[str], settings: tuple[str, ...], out: str | None, *, strict: bool
+) -> None:
     """Fly a mission in several engines, print their differences and write the page."""
     from tandemlift.report.engine_comparison import write_engines
     from tandemlift.studies.engine_comparison import fly_in, summary_of
@@ -206,11 +218,13 @@ def _compare_engines(mission: str, names: list[str], settings: tuple[str, ...], 
         _print_differences(loaded.mission.name, found)
         _write_json({"mission": loaded.mission.name, "engines": found}, folder / "engines.json")
         echo(f"  page: {write_engines(flights, folder / 'engines.html')}")
+    count = print_findings(flights.items())
     failed = [row for row in found if row["failure"]]
     for row in failed:
         click.echo(f"{row['engine']}: {row['failure']}", err=True)
     if failed:
         sys.exit(FAILED)
+    exit_if_found(count, strict=strict)
 
 
 def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:

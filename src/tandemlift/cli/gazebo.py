@@ -13,8 +13,17 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import DEFAULT
-from tandemlift.cli.run import FAILED, load, print_report_path, print_summary, set_option
+from tandemlift.cli.run import (
+    FAILED,
+    after_crash_option,
+    load,
+    print_report_path,
+    print_summary,
+    set_option,
+    with_after_crash,
+)
 from tandemlift.cli.terminal.console import echo, progress_bar
+from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
@@ -36,7 +45,9 @@ Photographs = list[tuple[str, bytes]]
 )
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/gazebo/NAME]")
 @set_option
+@after_crash_option
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
+@strict_option
 def gazebo(
     mission: str,
     by_hand: bool,
@@ -45,7 +56,9 @@ def gazebo(
     pictures: bool,
     out: str | None,
     settings: tuple[str, ...],
+    after_crash: float | None,
     no_figures: bool,
+    strict: bool,
 ) -> None:
     """Fly MISSION in Gazebo 11: start the server, the window, the world and the pilot.
 
@@ -62,9 +75,9 @@ def gazebo(
 
     \b
     Exit code:
-      0   the flight was flown
+      0   the flight was flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   crashed, diverged or not lifted: what was flown is written
+      3   crashed, diverged or not lifted: what was flown is written; with --strict, also findings
     """
     if by_hand and (fast or pictures):
         raise InputError(
@@ -72,7 +85,7 @@ def gazebo(
         )
     from tandemlift.engines.gazebo_server import root
 
-    loaded = load(mission, settings)
+    loaded = load(mission, with_after_crash(settings, after_crash))
     root()  # raises if there is no Gazebo, before anything is compiled
     with results_folder(out, Path("out/gazebo") / loaded.mission.name) as folder:
         began = time.perf_counter()
@@ -85,9 +98,11 @@ def gazebo(
             copy_recording(loaded, folder)
         write_flight(flight, folder, figures=not no_figures, photographs=photographs)
         print_report_path(folder, time.perf_counter() - began)
+    count = print_findings([(flight.name, flight)])
     if flight.failure:
         click.echo(f"{flight.name}: {flight.failure}", err=True)
         sys.exit(FAILED)
+    exit_if_found(count, strict=strict)
 
 
 def _has_display() -> bool:
@@ -121,8 +136,8 @@ def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool)
 def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:
     """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
     from tandemlift.gazebo_app.flying import running_gazebo
+    from tandemlift.interactive.recorded_flight import RecordedFlight
     from tandemlift.live.session.interactive_mission import interactive_mission
-    from tandemlift.simulation.recorded_flight import RecordedFlight
 
     mission = interactive_mission(mission)
     with running_gazebo(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.cli.terminal.console import echo, progress_bar
+from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from tandemlift.missions import Mission
 
 FAILED = 3
+NOT_KNOWN = "   not known"
 WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
 
 
@@ -37,6 +39,12 @@ set_option = click.option(
     metavar="KEY=VALUE",
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
 )
+after_crash_option = click.option(
+    "--after-crash",
+    type=click.FloatRange(min=0.0),
+    metavar="SECONDS",
+    help="Fly on after a crash, rotors stopped, at most until the vehicle lies still: the key crash.fly_on.",
+)
 
 
 @click.command()
@@ -52,13 +60,9 @@ set_option = click.option(
     metavar="NAME|FILE",
     help="Controller to fly: a registered one, or your own .py file.",
 )
-@click.option(
-    "--after-crash",
-    type=click.FloatRange(min=0.0),
-    metavar="SECONDS",
-    help="Fly on after a crash, rotors stopped, at most until the vehicle lies still: the key crash.fly_on.",
-)
+@after_crash_option
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
+@strict_option
 def run(
     mission: str,
     engine: str | None,
@@ -67,6 +71,7 @@ def run(
     controller: str | None,
     after_crash: float | None,
     no_figures: bool,
+    strict: bool,
 ) -> None:
     """Fly MISSION, print a summary and write the results.
 
@@ -85,15 +90,16 @@ def run(
       mission.toml   the mission with every key; `tandemlift run` flies it again
       flight.npz     all channels; read it with tl.Flight.load or NumPy
       metrics.json   the metrics in SI units, computed from every step
+      findings.json  what went badly, with time, place and number, and what to do
       figures/       reference, path, tracking, inputs, interaction, joints; and push, disturbance, rotors,
                      surroundings, corridor where the mission has such parts (PNG and PDF)
       report.html    all of it on one page that needs no network
 
     \b
     Exit code:
-      0   the flight was flown
+      0   the flight was flown; findings are on standard error, a line each
       2   bad input: one message, nothing is written
-      3   crashed, diverged or not lifted: what was flown is written
+      3   crashed, diverged or not lifted: what was flown is written; with --strict, also findings
     """
     from tandemlift.engines.registry import engine_named
 
@@ -101,18 +107,23 @@ def run(
     if engine is not None:
         engine_named(engine)
     chosen = None if controller is None else chosen_controller(controller)
-    if after_crash is not None:
-        settings = (*settings, f"crash.fly_on={after_crash!r}")
-    loaded = load(mission, settings, chosen)
+    loaded = load(mission, with_after_crash(settings, after_crash), chosen)
     with results_folder(out, Path("out") / loaded.mission.name) as folder:
         flight = _fly(loaded, engine, chosen)
         print_summary(flight)
         copy_recording(loaded, folder)
         write_flight(flight, folder, figures=not no_figures)
         print_report_path(folder, time.perf_counter() - began)
+    count = print_findings([(flight.name, flight)])
     if flight.failure:
         click.echo(f"{flight.name}: {flight.failure}", err=True)
         sys.exit(FAILED)
+    exit_if_found(count, strict=strict)
+
+
+def with_after_crash(settings: tuple[str, ...], seconds: float | None) -> tuple[str, ...]:
+    """Settings of a mission with how long to fly on after a crash [s], if that is given."""
+    return settings if seconds is None else (*settings, f"crash.fly_on={seconds!r}")
 
 
 def chosen_controller(given: str) -> Controller:
@@ -192,12 +203,12 @@ def print_summary(flight: Flight) -> None:
         (f"largest position error, {when}", _list(m[f"position_max_error{late}_m"], 2, 1e3), "mm"),
         ("attitude RMSE", _list(m["attitude_rmse_rad"], 2, 57.29577951308232), "deg"),
         ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (min, max)"),
-        ("human work", _list([m["human_work_j"]], 2), "J"),
+        ("human work", *((NOT_KNOWN, "") if m["human_work_j"] is None else (_list([m["human_work_j"]], 2), "J"))),
     ]
     echo(f"{flight.name}: {flight.outcome}; {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms")
     for label, value, unit in rows:
         if value:
-            echo(f"  {label:36}{value} {unit}")
+            echo(f"  {label:36}{value} {unit}".rstrip())
     for at, what in m["events"]:
         echo(f"  {at:.2f} s: {what}")
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.files import atomic_write
+from tandemlift.common.findings import Finding, finding_from
 from tandemlift.common.outcomes import FAILURES
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
@@ -29,6 +30,9 @@ LATE = 10.0
 """Time [s] from which metrics with `after_10s` in their names are formed: the disturbed start is left out."""
 
 
+ENDING_TEXT = "{outcome} at {time:.6g} s: {quantity} = {value:.6g}, {limit}"
+
+
 class Ending(NamedTuple):
     """Why a flight was stopped: which quantity, at what time [s], its value, the limit it broke, and the outcome."""
 
@@ -39,7 +43,7 @@ class Ending(NamedTuple):
     outcome: str = "diverged"
 
     def __str__(self) -> str:
-        return f"{self.outcome} at {self.time:.6g} s: {self.quantity} = {self.value:.6g}, {self.limit}"
+        return ENDING_TEXT.format(**self._asdict())
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +57,7 @@ class Flight(Mapping[str, Array]):
         results: the metrics, formed from every step and not from the log.
         ending: why the flight was stopped before its end as crashed or diverged, or None.
         version: of tandemlift and of what it flew with.
+        findings: what went badly, in the order of time; formed from every step, as the metrics.
     """
 
     time: Array
@@ -61,6 +66,7 @@ class Flight(Mapping[str, Array]):
     results: dict[str, Any]
     ending: Ending | None = None
     version: dict[str, str] = field(default_factory=dict)
+    findings: tuple[Finding, ...] = ()
 
     @property
     def name(self) -> str:
@@ -107,7 +113,7 @@ class Flight(Mapping[str, Array]):
 
     def _parts(self) -> tuple[Any, ...]:
         arrays = {name: (a.shape, a.tobytes()) for name, a in {"time": self.time, **self.channels}.items()}
-        return arrays, self.mission, self.results, str(self.ending), self.version
+        return arrays, self.mission, self.results, str(self.ending), self.version, self.findings
 
     def info(self, name: str) -> Channel:
         """Unit, frame and meaning of a channel."""
@@ -150,6 +156,7 @@ class Flight(Mapping[str, Array]):
             "metrics": self.results,
             "ending": _written(self.ending),
             "version": self.version,
+            "findings": [f.as_table() for f in self.findings],
             "channels": {name: _described(self.info(name)) for name in self.channels},
         }
         text = np.array(json.dumps(header, allow_nan=False))
@@ -225,4 +232,5 @@ def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
         quantity, at, value, *rest = ending
         ending = Ending(quantity, at, float(value), *rest)
     mission, metrics, version = (dict(header[key]) for key in ("mission", "metrics", "version"))
-    return Flight(time, arrays, mission, metrics, ending, version)
+    findings = tuple(finding_from(table) for table in header.get("findings", ()))
+    return Flight(time, arrays, mission, metrics, ending, version, findings)

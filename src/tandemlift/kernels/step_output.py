@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from tandemlift.kernels.offsets import LeafSpan, leaf_offset
 from tandemlift.kernels.step_writer import StepWriter
-from tandemlift.trace import Function
+from tandemlift.trace import Function, double
 
 COMMAND_LINE = 2  # the delay line of the rotor commands: without delay, a command acts in its own step
 
@@ -43,10 +44,50 @@ def _write_samples_of_lanes(step: StepWriter, f: Function, row: str, logged: str
 
 
 def write_next_state(step: StepWriter, f: Function, k: str) -> None:
-    """Write the state of the flight after step k, and exchange delayed values with the delay lines."""
-    f.put("%flight", 0, step.traced.next_state, "fly")
+    """Write the state of the flight after step k, and exchange delayed values with the delay lines.
+
+    The record of touches is written in steps near floor or walls only; in others it stays.
+    """
+    after, detectors = list(step.traced.next_state), leaf_offset(step.templates.model, "flight_state", "detectors")
+    if not step.graph.rolls_from:
+        _write_detectors(step, f, detectors)
+        after = after[: detectors.at]
+    if step.keeps_touches:
+        at, size = step.touches
+        touches, after[at : at + size] = after[at : at + size], step.traced.touches_before
+    f.put("%flight", 0, after, "fly")
+    if step.keeps_touches:
+        near = f.load("%work", step.near * step.lanes, "double")
+        with f.when(f.op(f"fcmp one double {near}, 0.0")):
+            f.put("%flight", at, touches)
     if step.templates.has_delays:
         _write_delays(step, f, k)
+
+
+def _write_detectors(step: StepWriter, f: Function, at: LeafSpan) -> None:
+    """Write the memory of the detectors; that of a detector that sleeps before and after the step has not changed."""
+    like, state = step.templates.model.flight_state.detectors, step.traced.next_state
+    spans = {name: leaf_offset(like, name) for name in like._fields}
+    counters = [span.at for span in spans.values() if span.size == 1]
+    f.values(state[at.at + i] for i in counters)
+    with f.when(_awake(step, f, at.at)):
+        for span in spans.values():
+            first = at.at + span.at
+            if span.size > 1:
+                with f.when(_awake(step, f, first)):
+                    f.put("%flight", first, state[first : first + span.size])
+    for i in counters:
+        f.put("%flight", at.at + i, [state[at.at + i]])
+
+
+def _awake(step: StepWriter, f: Function, at: int) -> str:
+    """Whether the number at a place of the state is other than 0 before or after the step, in any lane."""
+    kind = f.vector
+    zero = double(0.0) if step.lanes == 1 else "zeroinitializer"
+    before = f.op(f"fcmp one {kind} {f.load('%flight', at)}, {zero}")
+    after = f.op(f"fcmp one {kind} {f.value(step.traced.next_state[at])}, {zero}")
+    both = f.op(f"or {'i1' if step.lanes == 1 else f'<{step.lanes} x i1>'} {before}, {after}")
+    return f.any(both)
 
 
 def _write_delays(step: StepWriter, f: Function, k: str) -> None:

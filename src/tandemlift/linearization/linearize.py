@@ -12,6 +12,7 @@ from tandemlift.algebra.layout import flat, unflat
 from tandemlift.algebra.vector import Nothing
 from tandemlift.common.errors import InputError, unknown
 from tandemlift.common.types import Array
+from tandemlift.interactive.simulation import Simulation
 from tandemlift.laws.mechanics.push import push_moment
 from tandemlift.linearization.delay_lines import delayed_numbers
 from tandemlift.linearization.kinks import kinks_near, law_name
@@ -23,7 +24,6 @@ from tandemlift.linearization.step_graph import step_graph
 from tandemlift.linearization.variables import Outputs, outputs_from, state_variable
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
-from tandemlift.simulation.simulation import Simulation
 
 PARTS = ("loop", "body")
 LOOP_OUTPUTS = (

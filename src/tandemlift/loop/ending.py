@@ -130,7 +130,7 @@ def _stopped(crash: CrashMemory, thrusts: Any) -> Any:
 
 @choice(absent="after")
 def until_crash(crash: Any, before: Any, after: Any) -> Any:
-    """Running metrics after a step; after a crash, those before it."""
+    """Running metrics, or the memory of the detectors, after a step; after a crash, those before it."""
 
 
 @until_crash.register(CrashMemory)

@@ -15,15 +15,27 @@ from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import Nothing, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
+from tandemlift.engines.compiled_touches import touches_in
+from tandemlift.laws.contact.touches import of_turning_rotors
 from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
 from tandemlift.laws.person.person import landing_request, person_step
 from tandemlift.laws.rotors.rotors import rotors_step
+from tandemlift.loop.detectors import Detectors, FindingLimits, detect
 from tandemlift.loop.ending import ending_number, impulse_after, unless_crashed, until_crash, with_aftermath
 from tandemlift.loop.log_sample import errors_of, log_sample
-from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
+from tandemlift.loop.perception import (
+    all_sensed,
+    estimate_all,
+    measure,
+    read_push,
+    read_state,
+    surroundings_of,
+    tare_time,
+    usable,
+)
 from tandemlift.loop.running_metrics import RunningMetrics, count
 from tandemlift.loop.wind_loads import WindOutput, wind_loads
 from tandemlift.pilot.pilot import Decision, PilotInput, PilotMemory, PilotParameters, decide, with_thrusts
@@ -37,6 +49,7 @@ class FlightState(NamedTuple):
     wind: Any
     grip: Any
     near: Any
+    touches: Any
     sensing: Any
     estimator: Any
     rotors: Any
@@ -46,6 +59,7 @@ class FlightState(NamedTuple):
     impulse: Any
     crash: Any
     ended: Any
+    detectors: Detectors
 
 
 class FlightModel(NamedTuple):
@@ -65,6 +79,7 @@ class FlightModel(NamedTuple):
     person: Any
     delays: Any
     limits: Any
+    finding_limits: FindingLimits
 
 
 class StepNoise(NamedTuple):
@@ -78,7 +93,8 @@ class StepNoise(NamedTuple):
 class StepInputs(NamedTuple):
     """The inputs of a step: the push, gusts [m/s], standard normals, and the person's memory once they have pushed.
 
-    `external` is what a caller adds who steps the flight, else `Nothing`.
+    `external` is what a caller adds who steps the flight, else `Nothing`. `outside` is the push that the body's own
+    simulator applied; it is known once the body has moved, and is `Nothing` where there is no such push.
     """
 
     hand: PushSamples
@@ -86,6 +102,7 @@ class StepInputs(NamedTuple):
     noise: Any
     person: Any
     external: Any = Nothing()
+    outside: Any = Nothing()
 
 
 class PilotOutput(NamedTuple):
@@ -119,7 +136,8 @@ def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
     """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
     before, sources = model.flight_state, model.sources
     since = tare_time(model.estimator, before.memory.guidance, t)
-    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, since, dt)
+    around = surroundings_of(model.estimator, sources, before.near, before.memory.guidance)
+    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, around, since, dt)
     readings = usable(estimates, before.readings)
     state = read_state(sources.state, before.state, readings, estimates)
     wrench = read_push(sources.push, push, state, estimates)
@@ -156,6 +174,7 @@ def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Act
     before = model.flight_state
     commanded = unless_crashed(before.crash, thrusts)
     driven, rotors = rotors_step(model.rotors, before.rotors, commanded, before.state, t)
+    driven = of_turning_rotors(before.touches, driven)
     wind = wind_loads(model.wind, before.wind, model.plant.frame, before.state, inputs.gust, inputs.noise.wind)
     return Actuation(driven, rotors, wind)
 
@@ -164,37 +183,46 @@ def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Act
 def finish_sample(
     model: FlightModel, output: PilotOutput, acting: Actuation, moved: BodyStep, inputs: StepInputs, t: Any, dt: Any
 ) -> Any:
-    """The end of a step from time t [s] once the body has moved: (`FlightState` after it, `Sample` at its start)."""
+    """The end of a step from t [s] by dt [s], once the body has moved: (`FlightState` after it, `Sample` at its start).
+
+    The detectors come last in the state: compiled loops write them only where they changed.
+    """
     before, noise = model.flight_state, inputs.noise.sensors
     readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
-    sample = log_sample(model, output, acting, moved, inputs.hand)
+    sample = log_sample(model, output, acting, moved, inputs)
     impulse = impulse_after(model.limits.strike, before.impulse, moved.readings.contact_force, dt)
     number = ending_number(model.limits, moved.state, impulse)
     crash, ended = with_aftermath(model.limits.aftermath, before.crash, number, moved.state, impulse, t, dt)
+    metrics = count(before.metrics, errors_of(model, output, sample, inputs.outside))
     after = FlightState(
         state=moved.state,
         memory=output.memory,
         wind=acting.wind.memory,
         grip=moved.grip,
         near=before.near,
+        touches=moved.touches,
         sensing=sensing,
         estimator=output.estimator,
         rotors=acting.rotors,
         readings=readings,
         person=inputs.person,
-        metrics=until_crash(before.crash, before.metrics, count(before.metrics, errors_of(model, output, sample))),
+        metrics=until_crash(before.crash, before.metrics, metrics),
         impulse=impulse,
         crash=crash,
         ended=where(before.ended > 0.0, before.ended, ended),
+        detectors=until_crash(before.crash, before.detectors, detect(model, output, sample, t, dt)),
     )
     return after, sample
 
 
 @law
-def step_body(plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, dt: Any) -> BodyStep:
+def step_body(
+    plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, t: Any, dt: Any
+) -> BodyStep:
     """The body's part of a step."""
     loads = acting.wind.loads
-    return advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
+    moved = advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
+    return moved._replace(touches=touches_in(before.touches, plant, before.near, before.state, t, dt))
 
 
 @law
@@ -202,7 +230,7 @@ def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: 
     """The rest of a step once the pilot has decided: (`FlightState` after it, `Sample` at its start)."""
     output = with_caller_thrusts(output, inputs.external)
     acting = actuate(model, output.decision.thrusts, inputs, t)
-    moved = step_body(model.plant, model.flight_state, acting, inputs.hand, dt)
+    moved = step_body(model.plant, model.flight_state, acting, inputs.hand, t, dt)
     return finish_sample(model, output, acting, moved, inputs, t, dt)
 
 

@@ -18,6 +18,7 @@ from tandemlift.missions.supervision_checks import check_supervision
 from tandemlift.missions.surroundings_checks import check_surroundings, surroundings_warnings
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
+from tandemlift.settings.outcomes import promise_of
 from tandemlift.vehicle import Vehicle
 
 MAX_STEPS = 1_000_000_000
@@ -39,6 +40,7 @@ def check_flyable(m: Mission) -> None:
     check_surroundings(m)
     check_supervision(m)
     check_person(m)
+    _check_outcomes(m)
     check_heights(m)
 
 
@@ -112,6 +114,47 @@ def _check_admittance(m: Mission) -> None:
             )
 
 
+def _check_outcomes(m: Mission) -> None:
+    """Refuse promises and thresholds that contradict each other."""
+    f, promise = m.findings, promise_of(m.promise, m.pilot.guidance)
+    if promise.rms_promised(m.pilot.guidance) > promise.distance:
+        given = f"promise.rms_distance = {promise.rms_distance}"
+        raise InputError(f"{given}: must not be above promise.distance = {promise.distance}, the largest distance")
+    if promise.tilt >= m.crash.tilt:
+        given = f"promise.tilt = {promise.tilt}"
+        raise InputError(f"{given}: must be below crash.tilt = {m.crash.tilt}, where the flight ends")
+    if f.reach_distance <= promise.distance:
+        given = f"findings.reach_distance = {f.reach_distance}"
+        raise InputError(f"{given}: must be above promise.distance = {promise.distance}, which is no finding yet")
+    if f.fastest_oscillation <= f.slowest_oscillation:
+        given = f"findings.fastest_oscillation = {f.fastest_oscillation}"
+        raise InputError(f"{given}: must be above findings.slowest_oscillation = {f.slowest_oscillation}")
+    most = 0.25 / m.mission.step
+    if f.slowest_oscillation >= most:
+        given = f"findings.slowest_oscillation = {f.slowest_oscillation}"
+        raise InputError(f"{given}: must be below {most:g}, a quarter of the steps a second (mission.step)")
+
+
+def _promise_warnings(m: Mission) -> Iterator[str]:
+    """Promises that no vehicle can keep: below what the sensors tell, or below what a landing asks for."""
+    promise, motion = promise_of(m.promise, m.pilot.guidance), m.sensors.motion
+    sensed = m.sensors.model == "simulated" and m.pilot.state != "truth"
+    position, attitude = math.sqrt(3.0) * motion.position_noise, motion.attitude_noise
+    for name, value, least, key in (
+        ("rms_distance", promise.rms_promised(m.pilot.guidance), position, "sensors.motion.position_noise"),
+        ("distance", promise.distance, position, "sensors.motion.position_noise"),
+        ("heading", promise.heading, attitude, "sensors.motion.attitude_noise"),
+    ):
+        if sensed and value < least:
+            given = f"promise.{name} = {value} cannot be kept"
+            yield f"{given}: a measurement alone is {least:.2g} off, root mean square ({key}); expect a finding"
+    depth = m.compliance.touchdown_depth
+    lands = m.ground.model == "floor" and m.phases.land_start is not None and m.phases.land_start < m.mission.duration
+    if m.pilot.guidance == "hand" and lands and promise.distance <= depth:
+        given = f"promise.distance = {promise.distance} cannot be kept"
+        yield f"{given}: a landing's reference ends {depth:g} m below the ground (compliance.touchdown_depth)"
+
+
 def _phase_warnings(m: Mission) -> Iterator[str]:
     p = m.phases
     lifted = p.lift_start + p.lift_duration
@@ -121,7 +164,8 @@ def _phase_warnings(m: Mission) -> Iterator[str]:
 
 def setting_warnings(m: Mission) -> Iterator[str]:
     """What may fly badly by settings that do not fit each other."""
-    yield from (*_phase_warnings(m), *hardware_warnings(m), *surroundings_warnings(m), *person_warnings(m))
+    yield from (*_phase_warnings(m), *_promise_warnings(m), *hardware_warnings(m))
+    yield from (*surroundings_warnings(m), *person_warnings(m))
 
 
 def warn(m: Mission, source: str) -> None:

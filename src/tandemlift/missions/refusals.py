@@ -87,7 +87,9 @@ def _rule(problem: Any, field: Any, entry: bool) -> str:
 def _hint(problem: Any, field: Any, given: Any) -> str:
     kind = problem["type"]
     if isinstance(given, str) and kind == "literal_error":
-        near = nearest(given, map(str, get_args(plain(field.annotation))))
+        options = get_args(plain(field.annotation))
+        options = get_args(options[0]) or options  # of an entry of a list
+        near = nearest(given, map(str, options))
         return f". Did you mean {shown(near)}?" if near else ""
     if isinstance(given, str) and kind.startswith(("float_", "int_", "axes")) and re.match(r"[-+.\d[]", given):
         return ", without quotes"

@@ -69,7 +69,11 @@ OF_A_PART = (
     TableColumn("Largest error", "mm", "position_max_error_m", 1e3),
     TableColumn("Effort", "N m", "effort_n_m"),
 )
-OF_A_FLIGHT = (TableColumn("Saturated", "%", "rotor_saturated_share", 1e2), TableColumn("Time a step", "ns", "step_ns"))
+OF_A_FLIGHT = (
+    TableColumn("Saturated", "%", "rotor_saturated_share", 1e2),
+    TableColumn("Findings", "", "findings"),
+    TableColumn("Time a step", "ns", "step_ns"),
+)
 COLUMNS = (*OF_A_PART, *OF_A_FLIGHT)
 NOTE = """Errors are desired minus actual position in the air, {when}. The effort is the mean norm of the commanded
 moments over the same time. Saturated is the fraction of steps in which a rotor is at a limit. Bold: the least value

@@ -25,13 +25,14 @@ def _row(name: str, flight: Flight, first: Flight) -> str:
     end = flight.metrics().get("final_position_m") or ()
     place = ", ".join(f"{v + 0.0:.3f}".replace("-", "−") for v in end) or DASH
     ended = escape(flight.failure) or place
-    return f'<tr><th scope="row">{escape(name)}</th>{cells}<td>{ended}</td><td>{number(round(speed(flight)))}</td></tr>'
+    ends = f"<td>{ended}</td><td>{len(flight.findings)}</td><td>{number(round(speed(flight)))}</td>"
+    return f'<tr><th scope="row">{escape(name)}</th>{cells}{ends}</tr>'
 
 
 def _table(flights: Mapping[str, Flight]) -> str:
     first = next(iter(flights.values()))
     columns = [(name.replace("_", " ").capitalize(), unit) for name, unit in QUANTITIES.items()]
-    columns += [("Ends at", "m"), ("Steps", "1/s")]
+    columns += [("Ends at", "m"), ("Findings", ""), ("Steps", "1/s")]
     heads = "".join(f'<th scope="col">{escape(head)}<br><small>{unit}</small></th>' for head, unit in columns)
     rows = (_row(name, flight, first) for name, flight in flights.items())
     return html_table(f'<tr><th scope="col">Engine</th>{heads}</tr>', rows, "compared")

@@ -22,7 +22,7 @@ def write_flight_files(
     photographs: Sequence[tuple[str, bytes]] = (),
     progress: Progress | None = None,
 ) -> None:
-    """Write mission.toml, flight.npz, metrics.json, figures/ and report.html; figures of an earlier flight are removed.
+    """Write the files of a flight, and its figures and report; figures of an earlier flight are removed.
 
     Args:
         flight: a flight, also one that diverged.
@@ -36,6 +36,9 @@ def write_flight_files(
     flight.save(folder / "flight.npz")
     with atomic_write(folder / "metrics.json") as partial:
         partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
+    with atomic_write(folder / "findings.json") as partial:
+        found = [finding.as_table() for finding in flight.findings]
+        partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
     for name in captions():
         for kind in ("png", "pdf"):
             (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)

@@ -16,6 +16,7 @@ from tandemlift.common.files import atomic_write
 from tandemlift.figures.registry import VIEWS, captions, figures_for
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
+from tandemlift.report.findings_section import html_findings, html_place
 from tandemlift.report.page import PAGE, STYLE
 from tandemlift.report.setup_section import setup_rows
 
@@ -92,7 +93,7 @@ def _metrics(metrics: Mapping[str, Any]) -> str:
     """The metrics as a table, a row each."""
     rows = []
     for name, value in metrics.items():
-        if name in ("outcome", "events"):
+        if name in ("outcome", "events", "findings"):
             continue
         words, unit = split_unit(name)
         head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'
@@ -125,7 +126,7 @@ def _verdict(flight: Flight) -> str:
         return f'<p class="verdict"><strong>{how}</strong>.</p>'
     away = math.dist(end, reference)
     distance = "less than a micrometre" if away < 1e-6 else _length(away)
-    text = f"at {_place(end)}, {distance} from its reference {_place(reference)}"
+    text = f"at {html_place(end)}, {distance} from its reference {html_place(reference)}"
     if away > ARRIVED:
         return f'<p class="verdict missed"><strong>{how}</strong> {text}.</p>'
     return f'<p class="verdict"><strong>{how}</strong> {text}.</p>'
@@ -133,11 +134,6 @@ def _verdict(flight: Flight) -> str:
 
 def _length(metres: float) -> str:
     return f"{number(metres * 1e3)} mm" if metres < 1.0 else f"{number(metres)} m"
-
-
-def _place(point: Iterable[float]) -> str:
-    """A point of space in metres, to the millimetre."""
-    return f"({', '.join(f'{round(v, 3) + 0.0:.3f}'.replace('-', '−') for v in point)}) m"
 
 
 def _pngs(flight: Flight, figures: Any) -> dict[str, Path]:
@@ -211,7 +207,7 @@ def write_report(
         name=escape(flight.name),
         style=STYLE,
         engine=_engine(flight),
-        verdict=_verdict(flight),
+        verdict=_verdict(flight) + html_findings(flight),
         setup=_setup(flight),
         figures=f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>" if shown else "",
         metrics=_metrics(flight.metrics()),

@@ -11,7 +11,7 @@ from tandemlift.settings.changes import ChangeTable
 from tandemlift.settings.corridor import CorridorTable, WallTable
 from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
 from tandemlift.settings.key_description import key
-from tandemlift.settings.outcomes import CrashTable, OutcomeTable
+from tandemlift.settings.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
 from tandemlift.settings.parts import VehicleTable
 from tandemlift.settings.person import PersonTable
 from tandemlift.settings.pilot import (
@@ -23,7 +23,7 @@ from tandemlift.settings.pilot import (
     PilotTable,
 )
 from tandemlift.settings.sensors import SensorFaultTable, SensorsTable
-from tandemlift.settings.supervision import RequestTable, SupervisionTable
+from tandemlift.settings.supervision import ContactTable, RequestTable, SupervisionTable
 from tandemlift.settings.surroundings import GroundTable, WindTable
 from tandemlift.settings.value_types import Positive, Table, divisor, must
 from tandemlift.settings.world import ActuatorsTable, DisturbanceTable, FaultTable, InitialTable, PlantTable, PushTable
@@ -99,6 +99,7 @@ class Mission(Table):
     compliance: ComplianceTable = ComplianceTable()
     observer: ObserverTable = ObserverTable()
     supervision: SupervisionTable = SupervisionTable()
+    contact: ContactTable = ContactTable()
     requests: tuple[RequestTable, ...] = ()
     detection: DetectionTable = DetectionTable()
     actuators: ActuatorsTable = ActuatorsTable()
@@ -113,6 +114,8 @@ class Mission(Table):
     changes: tuple[ChangeTable, ...] = ()
     crash: CrashTable = CrashTable()
     outcome: OutcomeTable = OutcomeTable()
+    promise: PromiseTable = PromiseTable()
+    findings: FindingsTable = FindingsTable()
 
     @property
     def all_walls(self) -> tuple[WallTable, ...]:

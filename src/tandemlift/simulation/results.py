@@ -14,15 +14,18 @@ import numpy as np
 from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.algebra.vector import Nothing, Vec3, dot
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
+from tandemlift.common.phases import CONTACT as PHASE_CONTACT
 from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import leaf_offset
-from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
+from tandemlift.laws.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
 from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.loop.step import FlightModel, FlightState
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
+from tandemlift.simulation.contact_texts import describe_contact
+from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
 
@@ -82,6 +85,9 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
     highest = max(early.highest, late.highest)
     formed["outcome"] = outcome_of(p, flown.flight_state, last, highest)
+    formed["findings"] = [
+        [f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, flown.step, formed["outcome"])
+    ]
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
@@ -91,17 +97,23 @@ def events_of(flight_state: FlightState) -> list[list[Any]]:
     if not isinstance(supervising, SupervisionState):
         return []
     happened = list(zip(supervising.events.time, supervising.events.code, strict=True))[: int(supervising.events.count)]
-    story, before = [], (0, 0, 0)
+    story, before = [], (0, 0, 0, 0)
     for at, code in happened:
-        now = (int(code // PHASE), int(code % PHASE // ALARM), int(code % ALARM))
+        now = (int(code % CONTACT // PHASE), int(code % PHASE // ALARM), int(code % ALARM), int(code // CONTACT))
         story.append([round(float(at), 6), describe_event(now, before)])
         before = now
     return story
 
 
-def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
-    """The text of an event, from (phase, alarm, failed check) now and in the event before."""
-    phase, alarm, refused = now
+EventCode = tuple[int, int, int, int]
+
+
+def describe_event(now: EventCode, before: EventCode) -> str:
+    """The text of an event, from (phase, alarm, failed check, contact) now and in the event before."""
+    phase, alarm, refused, contact = now
+    if contact and contact != before[3]:
+        words = f"contact: {describe_contact(contact)}"
+        return words if phase == PHASE_CONTACT else f"{words} -> {PHASE_NAMES[phase]}"
     if alarm and (alarm != before[1] or phase not in (IDLE, before[0])):
         return f"{ALARM_TEXTS[alarm]} -> {PHASE_NAMES[phase]}"
     if phase != before[0] or not refused:
@@ -146,12 +158,13 @@ def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
 def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flight:
     """The record of a flight in an engine."""
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
-    channels = dict(channels_of(p.sample, flown.log[:logged]))
+    channels, metrics = dict(channels_of(p.sample, flown.log[:logged])), metrics_of(p, flown)
     return Flight(
         time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
         channels=channels,
         mission=portable(tables_of(p.mission)),
-        results=metrics_of(p, flown),
+        results=metrics,
         ending=ending_of(p, flown.flight_state, flown.step),
         version={**versions(engine), "engine": engine},
+        findings=findings_of(p, flown.flight_state, flown.step, metrics["outcome"]),
     )

@@ -196,10 +196,11 @@ def _finite(value: Any) -> Any:
 
 
 def run_of(flight: Flight) -> dict[str, Any]:
-    """Scores of a whole flight: rotor saturation, time per step, and ending."""
+    """Scores of a whole flight: rotor saturation, number of findings, time per step, and why it failed."""
     metrics = flight.metrics()
     return {
         "rotor_saturated_share": metrics["rotor_saturated_share"],
+        "findings": len(flight.findings),
         "step_ns": metrics["wall_s"] / metrics["steps"] * 1e9 if metrics["steps"] else None,
         "failure": flight.failure or None,
     }
@@ -234,6 +235,7 @@ def summary_of(entries: Sequence[Entry]) -> list[dict[str, Any]]:
         if entry.flight:
             row |= {"from_s": parts[0].first, **scores(entry.flight, parts[0]), **run_of(entry.flight)}
             row |= {"before_first_push": scores(entry.flight, parts[1])} if len(parts) > 1 else {}
+            row |= {"findings": [finding.as_table() for finding in entry.flight.findings]}
             row |= {"settings": entry.flight.mission["controller"], "metrics": entry.flight.metrics()}
         rows.append(row)
     return rows

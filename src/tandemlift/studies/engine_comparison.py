@@ -94,6 +94,7 @@ def summary_of(flights: Mapping[str, Flight]) -> list[dict[str, Any]]:
             "difference": largest_differences(flight, first),
             "final_position_m": flight.metrics()["final_position_m"],
             "steps_per_s": speed(flight),
+            "findings": [finding.as_table() for finding in flight.findings],
             "failure": flight.failure or None,
             "version": flight.version,
         }

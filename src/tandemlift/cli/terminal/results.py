@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
 
-FILES = ("mission.toml", "flight.npz", "metrics.json", "report.html")
+FILES = ("mission.toml", "flight.npz", "metrics.json", "findings.json", "report.html")
 
 
 @contextmanager

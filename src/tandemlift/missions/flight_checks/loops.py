@@ -52,13 +52,6 @@ class LoopDelay(NamedTuple):
     crossover: float
 
 
-class PushMassErrors(NamedTuple):
-    """By how much a measured push errs: its mass [kg] for accelerations of the centre of mass, and for turning."""
-
-    moving: float
-    turning: float
-
-
 def loop_checks(m: Mission) -> Iterator[CheckResult]:
     """The delay of each loop with real rotors; nothing of ideal ones."""
     for loop in loop_delays(m):
@@ -74,10 +67,9 @@ def loop_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def _remedy(m: Mission) -> str:
-    errors = push_mass_errors(m)
-    if max(map(abs, errors)) < NOTABLE * m.vehicle.payload.mass:
+    wrong = push_mass_error(m)
+    if abs(wrong) < NOTABLE * m.vehicle.payload.mass:
         return ": lower the gains of [controller], the rotors' lag_up and lag_down, or the delays"
-    wrong = max(errors, key=abs)
     return (
         f", as the measured push errs by {wrong:.3g} kg of the payload's mass: correct vehicle.payload.mass or "
         "disturbance.force, or change estimator.identify_mass"
@@ -89,21 +81,20 @@ def lag_of(m: Mission) -> float:
     return sum(q.lag_up + q.lag_down for q in m.vehicle.quadrotors) / (2.0 * len(m.vehicle.quadrotors))
 
 
-def push_mass_errors(m: Mission) -> PushMassErrors:
-    """Of the push that a guidance by hand counters.
+def push_mass_error(m: Mission) -> float:
+    """By how much the mass [kg] in the push errs that a guidance by hand counters.
 
-    The push is m̂ a − Σ f at the payload's centre of mass. What joints feel puts the difference of the real mass to the
-    payload; the simulated body keeps its centre of mass. A mass that the tare identifies takes a vertical disturbance
-    for weight.
+    The push is m̂ a − Σ f. What joints feel puts the difference of the real mass to the payload; the simulated body
+    keeps its centre of mass, and so does the pilot with a difference that it has identified. A mass that the tare
+    identifies takes a vertical disturbance for weight.
     """
     if m.pilot.guidance != "hand" or m.pilot.push == "truth":
-        return PushMassErrors(0.0, 0.0)
+        return 0.0
     believed = m.vehicle.payload.mass
     real = believed + (m.plant.mass_scale - 1.0) * Vehicle.from_settings(m.vehicle).mass
     if not m.estimator.identify_mass:
-        return PushMassErrors(believed - real, 0.0)
-    identified = real - m.disturbance.force[2] / GRAVITY
-    return PushMassErrors(identified - real, identified - believed)
+        return believed - real
+    return -m.disturbance.force[2] / GRAVITY
 
 
 def loop_delays(m: Mission) -> Iterator[LoopDelay]:
@@ -157,17 +148,14 @@ def open_loop(m: Mission, w: Array, K: Any, i: int) -> Any:
 
 def measured_push(m: Mission, s: Any, i: int) -> Any:
     """The push that is countered [N] for a unit of z [m], roll or pitch [rad], as far as it errs."""
-    errors = push_mass_errors(m)
-    depth = -float(Vehicle.from_settings(m.vehicle).center_of_mass[2])  # of the payload's centre of mass
-    size = (errors.moving, -errors.turning * depth, errors.turning * depth, 0.0)[i]
-    if size == 0.0:
+    wrong = push_mass_error(m)
+    if i != 0 or wrong == 0.0:
         return 0.0
     bandwidth = m.compliance.input_bandwidth
     path = (1.0 + m.compliance.force_lead * s) / (1.0 + s / bandwidth) ** 2
     if m.observer.model != "none":
-        axis = (2, 1, 0)[i]
-        path = path - (m.observer.force_bandwidth[axis] / (s + m.observer.force_bandwidth[axis])) ** 2
-    return size * s * s * path
+        path = path - (m.observer.force_bandwidth[2] / (s + m.observer.force_bandwidth[2])) ** 2
+    return wrong * s * s * path
 
 
 def delay_borne(w: Array, L: Any) -> tuple[float, float]:

@@ -1,0 +1,167 @@
+"""What a flight's record is searched for, beside its outcome: every kind of finding in one record.
+
+A finding says what went badly in a flight that may have ended well: with time, place and number. The choices of the
+key `findings.ignore` and the table in docs/outcomes.md come from here. `loop.detectors` has the laws that watch every
+step, `simulation.findings` forms findings from what they hold.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple, get_args
+
+FindingName = Literal[
+    "touched",
+    "oscillating",
+    "saturated",
+    "push-unanswered",
+    "off-track",
+    "out-of-reach",
+    "cannot-follow",
+    "not-landed",
+    "landed-by-fault",
+    "lift-refused",
+]
+FINDING_NAMES: tuple[FindingName, ...] = get_args(FindingName)
+
+
+class FindingKind(NamedTuple):
+    """A kind of finding: its name, what it means, what to do about it, and the keys of its thresholds."""
+
+    name: FindingName
+    meaning: str
+    remedy: str
+    keys: tuple[str, ...] = ()
+
+
+KINDS = (
+    FindingKind(
+        "touched",
+        "a rotor, a guard or the beam touched the floor or a wall",
+        "leave more room, lift higher, or lower `compliance.max_speed`",
+    ),
+    FindingKind(
+        "oscillating",
+        "a body rate, or the vertical speed beside its reference, swung to and fro in half periods of similar length "
+        "whose amplitude did not decay",
+        "lower the controller's gains, or fly rotors with less delay and lag",
+        (
+            "findings.oscillation_rate",
+            "findings.oscillation_speed",
+            "findings.slowest_oscillation",
+            "findings.fastest_oscillation",
+            "findings.oscillation_periods",
+        ),
+    ),
+    FindingKind(
+        "saturated",
+        "a rotor that still works was at its limit for long at a stretch, or for a large fraction of the flight",
+        "use stronger rotors or a lighter payload, or lower the controller's gains",
+        ("findings.saturated_time", "findings.saturated_fraction"),
+    ),
+    FindingKind(
+        "push-unanswered",
+        "a push was above its threshold, and the vehicle did not move along with it",
+        "see that rotors have thrust left beside the weight (`compliance.thrust_fraction`), and that nothing is in the "
+        "way",
+        ("findings.push_time", "findings.push_response"),
+    ),
+    FindingKind(
+        "off-track",
+        "the vehicle was farther from its reference than the mission promises: in distance, RMS distance, heading or "
+        "tilt",
+        "change what disturbs it or the controller's gains; if the deviation is acceptable, change the promise",
+        (
+            "promise.distance",
+            "promise.rms_distance",
+            "promise.heading",
+            "promise.tilt",
+            "promise.settling_time",
+        ),
+    ),
+    FindingKind(
+        "out-of-reach",
+        "the reference asked for a thrust that the rotors do not have, or left the vehicle behind",
+        "make the reference slower: a longer `phases.lift_duration`, more `admittance.damping`, less "
+        "`compliance.max_acceleration`",
+        ("findings.reach_time", "findings.reach_distance"),
+    ),
+    FindingKind(
+        "cannot-follow",
+        'the pilot ignored pushes because the vehicle could not follow them, phase "limited"; docs/safety.md has the '
+        "reasons",
+        "remove the cause that it names: use stronger rotors or a lighter payload, or fly in less wind",
+        ("compliance.following.time", "compliance.following.max_error", "compliance.following.recovery_time"),
+    ),
+    FindingKind(
+        "not-landed",
+        "the mission asks for a landing, which should be over, and the vehicle is in the air",
+        "make `mission.duration` longer, or see in the other findings and in the events what kept it in the air",
+    ),
+    FindingKind(
+        "landed-by-fault",
+        "the vehicle landed, or stopped its rotors, because of a fault, although nobody asked for it",
+        "remove the cause that it names; `supervision.reactions` has the reaction to each fault",
+    ),
+    FindingKind(
+        "lift-refused",
+        "a lift was requested, and a check before the flight refused it",
+        "see the failed check in docs/safety.md, and its keys in `supervision.checks`",
+    ),
+)
+KIND_OF = {kind.name: kind for kind in KINDS}
+
+
+class Finding(NamedTuple):
+    """Something that went badly in a flight.
+
+    Attributes:
+        kind: one of `FINDING_NAMES`.
+        time: when it began [s].
+        duration: how long it lasted in all [s].
+        place: of the vehicle's centre of mass, or of a touch [m, world axes]; None where there is none.
+        quantity: what was measured, in words.
+        value: its worst value; None where there is no number.
+        unit: of value and limit.
+        limit: what it was allowed to be; None where there is no number.
+        text: all of it in a sentence.
+    """
+
+    kind: FindingName
+    time: float
+    duration: float
+    place: tuple[float, float, float] | None
+    quantity: str
+    value: float | None
+    unit: str
+    limit: float | None
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.kind} at {self.time:.6g} s: {self.text}"
+
+    @property
+    def remedy(self) -> str:
+        """What to do about it."""
+        return KIND_OF[self.kind].remedy
+
+    def as_table(self) -> dict[str, Any]:
+        """Its fields by name, as findings.json has them, and what to do."""
+        return {**self._asdict(), "place": self.place and list(self.place), "remedy": self.remedy}
+
+
+def finding_from(table: dict[str, Any]) -> Finding:
+    """A finding from its table (`Finding.as_table`)."""
+    place = table["place"]
+    fields = {name: table[name] for name in Finding._fields}
+    return Finding(**{**fields, "place": place and tuple(place)})
+
+
+def finding_kinds_markdown() -> str:
+    """The kinds as a table for docs/outcomes.md."""
+    lines = ["| kind | what it means | what to do | keys |", "|---|---|---|---|"]
+    lines += [f"| {k.name} | {k.meaning} | {k.remedy} | {', '.join(f'`{key}`' for key in k.keys)} |" for k in KINDS]
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(finding_kinds_markdown())

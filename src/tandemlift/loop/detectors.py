@@ -1,0 +1,249 @@
+"""Detectors that watch every step of a flight for findings; `simulation.findings` forms findings from their memory.
+
+Each detector is cheap while all is well: it decides whether its limit is exceeded, and its memory changes only while it
+is, and in the step after. `Detectors.awake` says so of all of them; while it is 0, compiled loops skip them.
+
+A rotor that the pilot knows to have failed is commanded nothing, and is not taken for saturated.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.constants import GRAVITY
+from tandemlift.algebra.law import choice, elementwise, law
+from tandemlift.algebra.ops import absolute, clip, maximum, sqrt, where
+from tandemlift.algebra.selection import chosen
+from tandemlift.algebra.types import Number
+from tandemlift.algebra.vector import Vec3, dot, total
+from tandemlift.laws.compliance.admittance import soft
+from tandemlift.laws.estimation.rotor_loss_detection import left_of
+from tandemlift.laws.guidance.guidance import thrust_fraction
+from tandemlift.laws.mechanics.rotation import body_z_axis, wrap_angle
+from tandemlift.laws.rotors.allocation import ConstrainedAllocation, Mixer, limits_at
+from tandemlift.laws.rotors.rotors import IdealRotors, Rotors
+from tandemlift.loop.excess import NO_EXCESS, Excess, exceed
+from tandemlift.loop.log_sample import Sample, at_limit
+from tandemlift.loop.oscillation import NO_OSCILLATION, Oscillation, OscillationLimits, Swings, oscillation_step
+
+
+class PushLimits(NamedTuple):
+    """What a push should do.
+
+    `threshold` [N] beyond which a true push should be heard, or `Nothing` where the pilot is given every push. The
+    square of the `least` force that counts [N²]. 1/C of the axes that yield without a spring [m/(N s)], and the largest
+    `speed` [m/s]. After a `time` [s], the work of a push must be a `response` of that at the speed that the admittance
+    ends with.
+    """
+
+    threshold: Any
+    least: Any
+    inverse_damping: Vec3
+    speed: Vec3
+    time: Any
+    response: Any
+
+
+class FindingLimits(NamedTuple):
+    """From where on a flight has findings.
+
+    `settled` [s]: from when on the promise holds. Squares of the promised distance [m²], and the heading [rad]; the
+    smallest cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate` [(rad/s)²] below whose
+    square no body rate oscillates.
+    """
+
+    settled: Any
+    distance: Any
+    heading: Any
+    upright: Any
+    mass: Any
+    thrust: Any
+    rate: Any
+    push: PushLimits
+    oscillation: OscillationLimits
+
+
+class PushResponse(NamedTuple):
+    """Memory: 1 while there is a push, else 0, and its start [s].
+
+    The work that it should do and that it does [J], with what it does not reach. With `now` 0 before and after a step,
+    nothing changes.
+    """
+
+    now: Any
+    since: Any
+    expected: Any
+    done: Any
+    unanswered: Excess
+
+
+class Detectors(NamedTuple):
+    """Memory of the detectors: `awake` is 1 while one of them may have something to remember, else 0.
+
+    `steps` in flight once settled, and the sum of the squared distances from the reference in them [m²]. Ideal rotors
+    have no limits: `saturation` and `reach` are `Nothing` with them.
+    """
+
+    awake: Any
+    steps: Any
+    squares: Any
+    oscillation: Oscillation
+    distance: Excess
+    heading: Excess
+    tilt: Excess
+    saturation: Any
+    reach: Any
+    push: PushResponse
+
+
+class Watched(NamedTuple):
+    """What the detectors look at in a step: each as its limit has it, see `FindingLimits`.
+
+    `swings`: what may oscillate. `limited`: rotors at a limit. `needed`: square of the thrust that the reference asks
+    for [N²]. `push` [N] that should move the vehicle.
+    """
+
+    swings: Swings
+    distance: Any
+    heading: Any
+    upright: Any
+    limited: Any
+    needed: Any
+    push: Vec3
+
+
+NO_RESPONSE = PushResponse(0.0, 0.0, 0.0, 0.0, NO_EXCESS)
+ASLEEP = Detectors(
+    awake=0.0,
+    steps=0.0,
+    squares=0.0,
+    oscillation=NO_OSCILLATION,
+    distance=NO_EXCESS,
+    heading=NO_EXCESS,
+    tilt=NO_EXCESS,
+    saturation=NO_EXCESS,
+    reach=NO_EXCESS,
+    push=NO_RESPONSE,
+)
+
+
+@choice
+def usable_rotors(how: Any, left: Any, t: Number) -> Any:
+    """Above 0 for rotors that the pilot can use at time t [s]: a number for all, or a set; `left`: of a found loss."""
+
+
+@usable_rotors.register(Mixer)
+def _all(how: Mixer, left: Any, t: Number) -> Any:
+    return 1.0
+
+
+@usable_rotors.register(ConstrainedAllocation)
+def _not_failed(how: ConstrainedAllocation, left: Any, t: Number) -> Any:
+    return limits_at(how, left, t)
+
+
+@choice
+def rotors_at_limit(rotors: Any, commands: Any, usable: Any) -> Any:
+    """How many rotors that can be used are commanded to a limit or beyond."""
+
+
+@rotors_at_limit.register(IdealRotors)
+def _without_limits(rotors: IdealRotors, commands: Any, usable: Any) -> Number:
+    return 0.0
+
+
+@elementwise
+def counted(at_its_limit: Number, usable: Number) -> Number:
+    """1 for a rotor at its limit that can be used, else 0."""
+    return where(usable > 0.0, at_its_limit, 0.0)
+
+
+@rotors_at_limit.register(Rotors)
+def _with_limits(rotors: Rotors, commands: Any, usable: Any) -> Number:
+    return total(counted(at_limit(commands, rotors.max_thrust), usable))
+
+
+@choice(absent=0.0)
+def thrust_needed(reach: Any, mass: Any, a: Vec3) -> Any:
+    """The square of the thrust [N²] that an acceleration of the reference [m/s²] needs."""
+
+
+@thrust_needed.register(Excess)
+def _needed(reach: Excess, mass: Any, a: Vec3) -> Number:
+    up = a.z + GRAVITY
+    return (a.x * a.x + a.y * a.y + up * up) * (mass * mass)
+
+
+@choice(absent="gated")
+def push_to_answer(threshold: Any, least: Any, gated: Vec3, true: Vec3) -> Any:
+    """The push that should move the vehicle [N]: that after the gate, else a true one that should have been heard."""
+
+
+@push_to_answer.register(Vec3)
+def _heard_or_true(threshold: Vec3, least: Any, gated: Vec3, true: Vec3) -> Vec3:
+    return chosen(where(dot(gated, gated) > least, 1.0, 0.0), gated, soft(true, threshold))
+
+
+@law
+def push_step(k: PushLimits, m: PushResponse, push: Vec3, x: Sample, active: Any, t: Any, dt: Any) -> PushResponse:
+    """The memory of the response after a step under a push [N]; `active` is 1 while pushes should be answered."""
+    now = where(dot(push, push) > k.least, active, 0.0)
+    goes_on = where(now > m.now, 0.0, 1.0)
+    since = where(now > m.now, t, m.since)
+    speed = clip(push * k.inverse_damping, -k.speed, k.speed)
+    along = Vec3(*[where(c > 0.0, v, 0.0) for c, v in zip(k.inverse_damping, x.velocity, strict=True)])
+    expected = m.expected * goes_on + dot(push, speed) * (now * dt)
+    done = m.done * goes_on + dot(push, along) * (now * dt)
+    missing = now * where(t - since < k.time, 0.0, where(done < k.response * expected, 1.0, 0.0))
+    size = sqrt(maximum(dot(push, push), 1e-24))
+    return PushResponse(now, since, expected, done, exceed(m.unanswered, missing, size, x.position, t, dt))
+
+
+@law
+def watched(model: Any, output: Any, x: Sample, flying: Any, t: Any) -> Watched:
+    """What the detectors look at in a step; `flying` is 1 in flight, else 0."""
+    k, flight_state, decision = model.finding_limits, model.flight_state, output.decision
+    left = left_of(model.pilot.detection, flight_state.memory.detection)
+    error = x.reference_position - x.position
+    return Watched(
+        swings=Swings(x.rates.x, x.rates.y, x.rates.z, x.reference_velocity.z - x.velocity.z),
+        distance=dot(error, error),
+        heading=absolute(wrap_angle(x.reference_euler - x.euler).z),
+        upright=body_z_axis(x.attitude).z,
+        limited=rotors_at_limit(model.rotors, decision.thrusts, usable_rotors(model.pilot.allocation, left, t))
+        * flying,
+        needed=thrust_needed(flight_state.detectors.reach, k.mass, x.reference_acceleration),
+        push=push_to_answer(k.push.threshold, k.push.least, decision.guidance.force, x.push_force),
+    )
+
+
+@law
+def may_be_found(k: FindingLimits, w: Watched) -> Any:
+    """1 if any detector may have something to remember, else 0: quick to tell, and never 0 where one has."""
+    s = w.swings
+    found = where(dot(w.push, w.push) > k.push.least, 1.0, where(w.limited > 0.0, 1.0, 0.0))
+    found = where(w.needed > k.thrust, 1.0, where(w.upright < k.upright, 1.0, found))
+    found = where(w.heading > k.heading, 1.0, where(w.distance > k.distance, 1.0, found))
+    found = where(absolute(s.vertical) < k.oscillation.levels.vertical, found, 1.0)
+    return where(s.roll * s.roll + s.pitch * s.pitch + s.yaw * s.yaw < k.rate, found, 1.0)
+
+
+@law
+def detect(model: Any, output: Any, x: Sample, t: Any, dt: Any) -> Detectors:
+    """The detectors' memory after the step from time t [s] by dt [s], whose sample is x."""
+    k, m, guidance = model.finding_limits, model.flight_state.detectors, output.decision.guidance
+    flying = guidance.flying * thrust_fraction(guidance.running)
+    w, place = watched(model, output, x, flying, t), x.position
+    settled = flying * where(t < k.settled, 0.0, 1.0)
+    return Detectors(
+        awake=may_be_found(k, w),
+        steps=m.steps + settled,
+        squares=m.squares + w.distance * settled,
+        oscillation=oscillation_step(k.oscillation, m.oscillation, w.swings, flying, t),
+        distance=exceed(m.distance, where(w.distance > k.distance, settled, 0.0), w.distance, place, t, dt),
+        heading=exceed(m.heading, where(w.heading > k.heading, settled, 0.0), w.heading, place, t, dt),
+        tilt=exceed(m.tilt, where(w.upright < k.upright, settled, 0.0), 1.0 - w.upright, place, t, dt),
+        saturation=exceed(m.saturation, where(w.limited > 0.0, flying, 0.0), w.limited, place, t, dt),
+        reach=exceed(m.reach, where(w.needed > k.thrust, flying, 0.0), w.needed, place, t, dt),
+        push=push_step(k.push, m.push, w.push, x, settled, t, dt),
+    )

@@ -1,0 +1,286 @@
+"""Findings of a flight: formed from what the detectors, the supervision and the rotor-loss detection remember."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from tandemlift.algebra.vector import Nothing, dot, total
+from tandemlift.common.faults import ALARM_TEXTS, CHECKS
+from tandemlift.common.findings import Finding, FindingName
+from tandemlift.common.phases import IDLE, LAND, LIFT, REASONS, STOPPED
+from tandemlift.laws.compliance.following import FollowingState
+from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
+from tandemlift.loop.excess import Excess
+from tandemlift.loop.oscillation import HalfPeriods
+from tandemlift.loop.step import FlightState
+from tandemlift.settings import Mission
+from tandemlift.settings.outcomes import Promise, promise_of
+from tandemlift.simulation.plan import FlightPlan
+
+STEEPEST = 1.875  # slope of the smooth step that a landing follows
+MARGIN = 1.0  # s, in which a landing should touch down after its reference
+SIGNALS = {  # of `loop.oscillation.Swings`: name, unit
+    "roll": ("roll rate", "rad/s"),
+    "pitch": ("pitch rate", "rad/s"),
+    "yaw": ("yaw rate", "rad/s"),
+    "vertical": ("vertical speed", "m/s"),
+}
+
+
+def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: str) -> tuple[Finding, ...]:
+    """The findings of a flight, in the order of time, without the kinds that its mission ignores.
+
+    Args:
+        p: the plan of the flight.
+        flight_state: the last state.
+        steps: that were flown.
+        outcome: of the flight.
+    """
+    mission, d = p.mission, flight_state.detectors
+    promise = promise_of(mission.promise, mission.pilot.guidance)
+    found: list[Finding] = [
+        *_oscillations(d.oscillation.swings, mission),
+        *_deviations(d, promise, mission, p.dt),
+        *_saturations(d.saturation, steps, mission, p.dt),
+        *_out_of_reach(d.reach, p),
+        *_unanswered(d.push.unanswered, p.dt),
+        *_cannot_follow(flight_state, mission),
+        *_by_events(flight_state, mission),
+        *_by_lost_rotor(p, flight_state),
+        *_not_landed(p, flight_state, outcome),
+    ]
+    return tuple(sorted((f for f in found if f.kind not in mission.findings.ignore), key=lambda f: f.time))
+
+
+def finding(
+    kind: FindingName,
+    text: str,
+    *,
+    time: float,
+    duration: float = 0.0,
+    place: Iterable[float] | None = None,
+    quantity: str = "",
+    value: float | None = None,
+    unit: str = "",
+    limit: float | None = None,
+) -> Finding:
+    """A finding with plain numbers; one that is not finite, of a flight that diverged, is left out."""
+    at = None if place is None else tuple(map(float, place))
+    return Finding(
+        kind=kind,
+        time=round(float(time), 9),
+        duration=round(float(duration), 9),
+        place=at if at and all(map(math.isfinite, at)) else None,  # type: ignore[arg-type]
+        quantity=quantity,
+        value=value if value is not None and math.isfinite(value) else None,
+        unit=unit,
+        limit=limit,
+        text=text,
+    )
+
+
+def _oscillations(swings: Any, mission: Mission) -> Iterator[Finding]:
+    f = mission.findings
+    for name, m in zip(swings._fields, swings, strict=True):
+        if m.halves:
+            limit = f.oscillation_speed if name == "vertical" else f.oscillation_rate
+            yield _oscillation(m, *SIGNALS[name], limit)
+
+
+def _oscillation(m: HalfPeriods, what: str, unit: str, limit: float) -> Finding:
+    lasted = m.last - m.first
+    frequency = m.halves / (2.0 * lasted)
+    text = f"the {what} swings at {frequency:.3g} Hz with an amplitude of {m.amplitude:.3g} {unit} for {lasted:.3g} s"
+    return finding(
+        "oscillating",
+        text,
+        time=m.first,
+        duration=lasted,
+        quantity=f"{what} at {frequency:.3g} Hz",
+        value=m.amplitude,
+        unit=unit,
+        limit=limit,
+    )
+
+
+def _deviations(d: Any, promise: Promise, mission: Mission, dt: float) -> Iterator[Finding]:
+    far, reach = math.sqrt(d.distance.worst), mission.findings.reach_distance
+    if d.distance.steps and far > reach:
+        text = f"the reference is {far:.3g} m from the vehicle, which it has left behind"
+        yield _excess("out-of-reach", text, d.distance, dt, "distance from the reference", far, "m", reach)
+    elif d.distance.steps:
+        text = f"{far:.3g} m from its reference (promised: {promise.distance:g} m)"
+        yield _excess("off-track", text, d.distance, dt, "distance from the reference", far, "m", promise.distance)
+    rms = math.sqrt(d.squares / d.steps) if d.steps else 0.0
+    promised = promise.rms_promised(mission.pilot.guidance)
+    if rms > promised:
+        text = f"{rms:.3g} m from its reference, root mean square (promised: {promised:g} m)"
+        yield finding(
+            "off-track",
+            text,
+            time=promise.settling_time,
+            duration=d.steps * dt,
+            quantity="RMS distance from the reference",
+            value=rms,
+            unit="m",
+            limit=promised,
+        )
+    if d.heading.steps:
+        text = f"{_degrees(d.heading.worst)} from its reference heading (promised: {_degrees(promise.heading)})"
+        yield _excess(
+            "off-track", text, d.heading, dt, "difference from the reference heading", d.heading.worst, "rad",
+            promise.heading,
+        )  # fmt: skip
+    if d.tilt.steps:
+        angle = math.acos(max(-1.0, min(1.0, 1.0 - d.tilt.worst)))
+        text = f"tilted by {_degrees(angle)} (promised: {_degrees(promise.tilt)})"
+        yield _excess("off-track", text, d.tilt, dt, "tilt", angle, "rad", promise.tilt)
+
+
+def _excess(
+    kind: FindingName, text: str, m: Excess, dt: float, quantity: str, value: float, unit: str, limit: float
+) -> Finding:
+    """A finding of a limit that was exceeded."""
+    lasted = m.steps * dt
+    return finding(
+        kind,
+        f"{text}, worst at {m.at:.5g} s; beyond it for {lasted:.3g} s",
+        time=m.start,
+        duration=lasted,
+        place=m.place,
+        quantity=quantity,
+        value=value,
+        unit=unit,
+        limit=limit,
+    )
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.3g}°"
+
+
+def _saturations(m: Any, steps: int, mission: Mission, dt: float) -> Iterator[Finding]:
+    f = mission.findings
+    if isinstance(m, Nothing) or not steps:
+        return
+    fraction, long = m.steps / steps, m.stretch > f.saturated_time
+    if not long and fraction <= f.saturated_fraction:
+        return
+    text = f"a rotor is at its limit for {m.stretch:.3g} s at a stretch, {100.0 * fraction:.3g} % of the flight"
+    yield finding(
+        "saturated",
+        text,
+        time=m.start,
+        duration=m.steps * dt,
+        place=m.place,
+        quantity="longest time with a rotor at its limit" if long else "fraction of the time with a rotor at its limit",
+        value=m.stretch if long else fraction,
+        unit="s" if long else "1",
+        limit=f.saturated_time if long else f.saturated_fraction,
+    )
+
+
+def _out_of_reach(m: Any, p: FlightPlan) -> Iterator[Finding]:
+    if isinstance(m, Nothing) or not m.steps or m.stretch <= p.mission.findings.reach_time:
+        return
+    needed, most = math.sqrt(m.worst), math.sqrt(p.model.finding_limits.thrust)
+    text = f"the reference asks for {needed:.4g} N of thrust, the rotors have {most:.4g} N"
+    yield _excess("out-of-reach", text, m, p.dt, "thrust that the reference needs", needed, "N", most)
+
+
+def _unanswered(m: Excess, dt: float) -> Iterator[Finding]:
+    if m.steps:
+        text = f"a push of up to {m.worst:.3g} N moves nothing"
+        yield finding(
+            "push-unanswered",
+            f"{text} for {m.steps * dt:.3g} s",
+            time=m.start,
+            duration=m.steps * dt,
+            place=m.place,
+            quantity="push",
+            value=m.worst,
+            unit="N",
+        )
+
+
+def _cannot_follow(flight_state: FlightState, mission: Mission) -> Iterator[Finding]:
+    m = getattr(flight_state.memory.guidance, "following", None)
+    if isinstance(m, FollowingState) and m.most_urgent:
+        reason, limit = REASONS[int(m.most_urgent) - 1], mission.compliance.following.heading_timeout
+        lands = ", so that it lands" if m.longest_lost > limit else ""
+        text = f"the vehicle cannot follow: {reason.text}, for {m.lasted:.3g} s{lands}"
+        yield finding("cannot-follow", text, time=m.first, duration=m.lasted, quantity=reason.text)
+
+
+def _by_events(flight_state: FlightState, mission: Mission) -> Iterator[Finding]:
+    """Findings from the events of the supervision."""
+    supervising = getattr(flight_state.memory.guidance, "supervision", None)
+    if not isinstance(supervising, SupervisionState):
+        return
+    log = supervising.events
+    happened = [(t, code // PHASE, int(code % PHASE // ALARM), int(code % ALARM)) for t, code in _events(log)]
+    before, refused = IDLE, None
+    for t, phase, alarm, check in happened:
+        if phase in (LAND, STOPPED) and phase != before and alarm:
+            did = "landed" if phase == LAND else "stopped its rotors"
+            yield finding(
+                "landed-by-fault",
+                f"{did} because of a fault: {ALARM_TEXTS[alarm]}",
+                time=t,
+                quantity=ALARM_TEXTS[alarm],
+            )
+        refused = (t, check) if phase == IDLE and check else None if phase == LIFT else refused
+        before = phase
+    if refused:
+        text = CHECKS[refused[1] - 1].text
+        yield finding("lift-refused", f"a lift was refused: {text}", time=refused[0], quantity=text)
+
+
+def _events(log: Any) -> list[tuple[float, float]]:
+    return list(zip(log.time, log.code, strict=True))[: int(log.count)]
+
+
+def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding]:
+    """The landing after a failed rotor that was found, where no supervision reports it."""
+    detection, guidance = p.model.pilot.detection, flight_state.memory.guidance
+    if isinstance(detection, Nothing) or isinstance(getattr(guidance, "supervision", None), SupervisionState):
+        return
+    verdict = flight_state.memory.detection.verdict
+    if p.mission.pilot.guidance != "hand" or not total(verdict.lost):
+        return
+    text = f"landed because of a fault: rotor {int(dot(verdict.lost, detection.numbers))} failed"
+    yield finding(
+        "landed-by-fault", text, time=verdict.since + p.mission.detection.retest_time, quantity="rotor failed"
+    )
+
+
+def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str) -> Iterator[Finding]:
+    """A landing that the mission asks for by its clock, that should be over, and is not."""
+    mission, position = p.mission, flight_state.state.position
+    height = position.z - p.model.flight_state.state.position.z
+    asked = [r.time for r in mission.requests if r.action == "land"]
+    land_start = mission.phases.land_start
+    first = min([*asked, *([] if land_start is None else [land_start])], default=math.inf)
+    over = first + _landing_time(mission, height)
+    if outcome == "flying" and over <= mission.mission.duration:
+        text = f"{height:.3g} m above its start at the end, with a landing asked for at {first:g} s"
+        yield finding(
+            "not-landed",
+            text,
+            time=mission.mission.duration,
+            place=position,
+            quantity="height above the start",
+            value=height,
+            unit="m",
+            limit=mission.outcome.landed_height,
+        )
+
+
+def _landing_time(mission: Mission, height: float) -> float:
+    """The longest time that a landing from a height [m] takes [s]."""
+    if mission.pilot.guidance == "clock":
+        return mission.phases.land_duration
+    slowest = STEEPEST * (height + mission.compliance.touchdown_depth) / mission.compliance.max_descent_speed
+    return max(mission.phases.land_duration, slowest) + MARGIN
