@@ -8,7 +8,7 @@ import pytest
 
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS, REACTION_MEANINGS, REACTIONS, Reaction
 from tandemlift.flight.channels import CHANNELS
-from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
+from tandemlift.laws.guidance.fault_detection import ActiveFaults, strongest_reaction
 from tandemlift.laws.guidance.preflight_checks import first_failed
 from tandemlift.settings import SupervisionTable
 
@@ -73,7 +73,7 @@ def test_the_first_check_that_fails_is_reported():
 
 
 def test_the_channel_knows_every_phase():
-    assert CHANNELS["phase"].meaning == "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped"
+    assert CHANNELS["phase"].meaning == "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped, 6 contact"
 
 
 RECIPE = """
@@ -83,7 +83,7 @@ faults.FAULTS = (*faults.FAULTS, new)
 faults.ALARM_TEXTS = faults._alarm_texts()
 
 import tandemlift as tl
-from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
+from tandemlift.laws.guidance.fault_detection import ActiveFaults, strongest_reaction
 from tandemlift.missions.key_reference.markdown import keys_page
 from tandemlift.live.session.scene_builder import scene_of
 
@@ -96,7 +96,7 @@ assert scene_of(mission, "compiled")["alarms"][210] == "battery low"
 none = ActiveFaults(*[0.0] * len(faults.FAULTS))
 assert strongest_reaction(none._replace(battery=1.0), none._replace(battery=3.0)) == (3.0, 210.0)
 from tandemlift.simulation.results import describe_event
-assert describe_event((3, 210, 0), (2, 0, 0)) == "battery low -> land"
+assert describe_event((3, 210, 0, 0), (2, 0, 0, 0)) == "battery low -> land"
 try:
     tl.fly(mission)
 except TypeError as error:
