@@ -225,6 +225,16 @@ def _detected(
     )
 
 
+@choice(absent=0.0)
+def shaken(m: Any) -> Any:
+    """1 in a contact and shortly after it, when readings of different times differ; `m`: memory of the detection."""
+
+
+@shaken.register(ContactState)
+def _shaken(m: ContactState) -> Any:
+    return is_explained(m)
+
+
 @choice(absent="push")
 def explained_push(m: Any, push: PushEstimate) -> Any:
     """The push, trusted although joints disagree while a contact explains it; `m`: memory of the detection."""
