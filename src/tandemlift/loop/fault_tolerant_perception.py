@@ -95,7 +95,7 @@ def trusted_push(p: PushEstimate, r: WatchdogReport) -> PushEstimate:
 
 @law
 def without_blow(r: WatchdogReport, blow: Any) -> WatchdogReport:
-    """The report; in a blow (1) the accelerometer and a velocity of a moment earlier or later differ without a fault."""
+    """The report; in a blow (1) the accelerometer and the velocity of another moment differ without a fault."""
     return r._replace(speed_inconsistent=r.speed_inconsistent * (1.0 - blow))
 
 
