@@ -8,7 +8,7 @@ import pytest
 
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS, REACTION_MEANINGS, REACTIONS, Reaction
 from tandemlift.flight.channels import CHANNELS
-from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
+from tandemlift.laws.guidance.fault_detection import ActiveFaults, strongest_reaction
 from tandemlift.laws.guidance.preflight_checks import first_failed
 from tandemlift.settings import SupervisionTable
 
@@ -84,7 +84,7 @@ faults.FAULTS = (*faults.FAULTS, new)
 faults.ALARM_TEXTS = faults._alarm_texts()
 
 import tandemlift as tl
-from tandemlift.laws.guidance.fault_reactions import ActiveFaults, strongest_reaction
+from tandemlift.laws.guidance.fault_detection import ActiveFaults, strongest_reaction
 from tandemlift.missions.key_reference.markdown import keys_page
 from tandemlift.live.session.scene_builder import scene_of
 

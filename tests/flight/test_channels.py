@@ -12,7 +12,7 @@ from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.laws.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.laws.guidance.supervision import SupervisionChannels
-from tandemlift.loop.estimate_channels import EstimatedChannels, MeasuredChannels
+from tandemlift.loop.estimate_channels import ContactEstimateChannels, EstimatedChannels, MeasuredChannels
 from tandemlift.loop.log_sample import (
     ActuatorChannels,
     ContactChannels,
@@ -32,6 +32,7 @@ GROUPS = {
     "measured": MeasuredChannels,
     "additional": Nothing,
     "estimated": EstimatedChannels,
+    "contact_estimate": ContactEstimateChannels,
     "disturbance": DisturbanceChannels,
     "guidance": HandGuidanceChannels,
     "supervised": SupervisionChannels,
@@ -75,14 +76,25 @@ def unflown(changes, count=2):
 
 
 BARE = {"pilot": {"state": "truth", "push": "truth"}, "phases.rotors": "always"}
-WHOLE = BARE | {"wind.model": "air", "supervision.model": "watch", "detection.model": "residual"}
+WHOLE = BARE | {
+    "pilot": {"state": "truth", "push": "measurement"},
+    "wind.model": "air",
+    "supervision.model": "watch",
+    "contact.model": "watch",
+    "detection.model": "residual",
+}
 PARTS = {  # a part that a mission may have, what takes it out, and the group of channels that goes with it
     "actuators": {"actuators.model": "ideal", "ground.effect": False},
     "contact": {"ground": {"model": "none", "effect": False}},
-    "measured, estimated": {"sensors.model": "none"},
+    "measured, estimated": BARE | {"sensors.model": "none", "contact.model": "none"},
+    "contact_estimate": {"contact.model": "none"},
     "wind": {"wind.model": "none"},
     "disturbance": {"observer.model": "none"},
-    "guidance": {"pilot.guidance": "clock", "supervision.model": "none"},
+    "guidance, contact_estimate": {
+        "pilot.guidance": "clock",
+        "supervision.model": "none",
+        "contact.model": "none",
+    },
     "supervised": {"supervision.model": "none"},
     "detection": {"detection.model": "none"},
 }

@@ -1,6 +1,6 @@
 """What can go wrong in a supervised flight: every fault, every check, and the reactions, each in one record.
 
-The keys of `[supervision.reactions]`, the alarms and their texts, the order in which `laws.guidance.fault_reactions`
+The keys of `[supervision.reactions]`, the alarms and their texts, the order in which `laws.guidance.fault_detection`
 looks at faults, and the tables in docs/safety.md come from here. What detects a fault is a law:
 `laws.guidance.fault_detection`.
 """
@@ -40,7 +40,7 @@ class Fault(NamedTuple):
 
     Attributes:
         number: in alarms; recorded flights hold it, so it stays.
-        key: in `[supervision.reactions]`, and the field of `laws.guidance.fault_reactions.ActiveFaults`.
+        key: in `[supervision.reactions]`, and the field of `laws.guidance.fault_detection.ActiveFaults`.
         text: in alarms, events and on the live page.
         condition: when it is present, as a clause.
         reaction: the default.

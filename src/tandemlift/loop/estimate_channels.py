@@ -39,7 +39,7 @@ class EstimatedChannels(NamedTuple):
     payload_mass_estimate: Number
     sensor_disagreement: Number
     push_usable: Number
-    contact: Any
+    contact_estimate: Any
 
 
 class ContactEstimateChannels(NamedTuple):
@@ -118,5 +118,5 @@ def _estimates(known: Estimates) -> Any:
         payload_mass_estimate=p.payload_mass,
         sensor_disagreement=p.disagreement,
         push_usable=p.trusted * p.armed,
-        contact=contact_channels(known.contact),
+        contact_estimate=contact_channels(known.contact),
     )

@@ -8,6 +8,7 @@ from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import Quat, Vec3
+from tandemlift.laws.estimation.contact_detection import shaken
 from tandemlift.laws.estimation.navigation import centre_of_mass
 from tandemlift.laws.estimation.push_estimate import PushEstimate
 from tandemlift.laws.guidance.preflight_checks import SensorStatus, sensor_status
@@ -93,6 +94,12 @@ def trusted_push(p: PushEstimate, r: WatchdogReport) -> PushEstimate:
 
 
 @law
+def without_blow(r: WatchdogReport, blow: Any) -> WatchdogReport:
+    """The report; in a blow (1) the accelerometer and the velocity of another moment differ without a fault."""
+    return r._replace(speed_inconsistent=r.speed_inconsistent * (1.0 - blow))
+
+
+@law
 def best_state(s: State, readings: Readings, r: WatchdogReport, rates: Vec3) -> State:
     """The estimated state, or readings where the sensors of the estimate are lost; `rates`: measured or substituted."""
     no_accelerometer, no_gyroscope = maximum(r.accelerometer, r.imu), maximum(r.gyroscope, r.imu)
@@ -116,6 +123,7 @@ def _watched(k: WatchedEstimators, m: Any, readings: Any, around: Any, t: Any, d
         k.watchdog, m.watchdog, readings, predicted(k.estimators, m.estimators), dt
     )
     known, estimators = estimate_all(k.estimators, m.estimators, usable_readings, around, t, dt)
+    report = without_blow(report, shaken(estimators.contact))
     push, state = trusted_push(known.push, report), best_state(known.state, usable_readings, report, watchdog.rates)
     checked = CheckedEstimates(push, state, known.vehicle, known.contact, usable_readings, report)
     return checked, WatchedEstimatorsState(watchdog, estimators)

@@ -7,8 +7,7 @@ from typing import Any
 from tandemlift.algebra.ops import cos
 from tandemlift.algebra.vector import Nothing, Vec3, each, vec3
 from tandemlift.common.faults import REACTIONS
-from tandemlift.laws.guidance.fault_detection import NO_TIME, Fence, SupervisionLimits
-from tandemlift.laws.guidance.fault_reactions import ActiveFaults
+from tandemlift.laws.guidance.fault_detection import NO_TIME, ActiveFaults, Fence, SupervisionLimits
 from tandemlift.laws.guidance.preflight_checks import PreflightChecks
 from tandemlift.laws.guidance.requests import RequestSchedule
 from tandemlift.laws.guidance.supervision import EventLog, Supervision, SupervisionState

@@ -105,7 +105,7 @@ def rise_time(x: LowPassState, y: LowPassState, f: SideForces) -> Any:
 
 @law
 def horizontal(f: Vec3) -> Vec3:
-    """The direction of a force in the horizontal plane, a unit vector, or zero for none."""
+    """The direction of a vector in the horizontal plane, a unit vector, or zero for none."""
     size = sqrt(maximum(f.x * f.x + f.y * f.y, TINY))
     return Vec3(f.x / size, f.y / size, 0.0)
 
@@ -158,9 +158,9 @@ def begun(
         y=LowPassState(0.0, picked(number, part, m.outside.y.rate)),
     )
     mapped = where(part < 0.0, beam.matched, picked(number, part, guards.matched))
-    out = Vec3(picked(number, part, guards.normal.x), picked(number, part, guards.normal.y), 0.0)
+    off = Vec3(picked(number, part, guards.offset.x), picked(number, part, guards.offset.y), 0.0)
     force = force_on(k, d, part, s)
-    normal = chosen(mapped, chosen(on_beam, beam.normal, out), horizontal(force))
+    normal = horizontal(chosen(mapped, chosen(on_beam, beam.offset, off), force))
     along = where(
         part < 0.0, where(beam.matched > 0.0, beam.along, y), picked(number, part, g.quadrotors.y) - g.payload.y
     )
@@ -223,6 +223,16 @@ def _detected(
         quiet_time=quiet_time * touches,
         over_time=where(touches > 0.0, 0.0, m.over_time + dt),
     )
+
+
+@choice(absent=0.0)
+def shaken(m: Any) -> Any:
+    """1 in a contact and shortly after it, when readings of different times differ; `m`: memory of the detection."""
+
+
+@shaken.register(ContactState)
+def _shaken(m: ContactState) -> Any:
+    return is_explained(m)
 
 
 @choice(absent="push")

@@ -7,7 +7,7 @@ Upright sides and edges count; the tops of walls do not, because their forces ar
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, elementwise, law
-from tandemlift.algebra.ops import maximum, sqrt, where
+from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, dot, total
@@ -18,7 +18,6 @@ from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 LEAST_COSINE = 0.6  # between a force and the way out of a wall: friction of 0.8 turns it by 39°, and noise by more
-TINY = 1e-12  # m² N², m²
 
 
 class TouchGeometry(NamedTuple):
@@ -38,18 +37,18 @@ class TouchGeometry(NamedTuple):
 
 
 class BeamMatch(NamedTuple):
-    """1 if a known wall explains a force on the beam, else 0; where on it [m, body y]; the way out (unit, world)."""
+    """1 if a known wall explains a force on the beam, else 0; where on it [m, body y]; the offset from the wall [m]."""
 
     matched: Any
     along: Any
-    normal: Vec3
+    offset: Vec3
 
 
 class GuardMatch(NamedTuple):
-    """Likewise for every guard, as sets; the way out is zero where no wall matches."""
+    """Likewise for every guard, as sets; the offset is zero where no wall matches."""
 
     matched: Any
-    normal: Vec3
+    offset: Vec3
 
 
 UNMATCHED = BeamMatch(0.0, 0.0, ZERO)
@@ -66,14 +65,8 @@ def explains(square: Number, radius: Number, margin: Number, product: Number, fo
         product: of the offset from the wall with the force [m N].
         force: its square [N²].
     """
-    least = LEAST_COSINE * sqrt(maximum(square * force, TINY))
-    return where(square < (radius + margin) * (radius + margin), where(product > least, 1.0, 0.0), 0.0)
-
-
-@elementwise
-def unit(x: Number, square: Number) -> Number:
-    """A component of a vector of squared length `square`, over that length."""
-    return x / sqrt(maximum(square, TINY))
+    aligned = where(product * product > LEAST_COSINE * LEAST_COSINE * square * force, 1.0, 0.0)
+    return where(square < (radius + margin) * (radius + margin), where(product > 0.0, aligned, 0.0), 0.0)
 
 
 @elementwise
@@ -94,7 +87,7 @@ def guard_match(g: TouchGeometry, wall: Wall, p: Vec3, force: Vec3) -> GuardMatc
     o = level(offset(wall, p))
     square = dot(o, o)
     matched = explains(square, g.guards, g.margin, dot(o, force), dot(force, force))
-    return GuardMatch(matched, Vec3(unit(o.x, square) * matched, unit(o.y, square) * matched, o.z))
+    return GuardMatch(matched, Vec3(o.x * matched, o.y * matched, o.z))
 
 
 @choice
@@ -115,7 +108,7 @@ def _on_map(near: NearWalls, g: TouchGeometry, s: State, force: Vec3) -> GuardMa
     other = unless(first.matched, second.matched)
     return GuardMatch(
         first.matched + other,
-        Vec3(first.normal.x + second.normal.x * other, first.normal.y + second.normal.y * other, first.normal.z),
+        Vec3(first.offset.x + second.offset.x * other, first.offset.y + second.offset.y * other, first.offset.z),
     )
 
 
@@ -125,14 +118,14 @@ def beam_match(g: TouchGeometry, a: BeamAxis, along: Any, wall: Wall, force: Vec
     o = level(offset(wall, beam_point(a, along)))
     square = dot(o, o)
     matched = explains(square, g.radius, g.margin, dot(o, force), dot(force, force))
-    return BeamMatch(matched, along, Vec3(unit(o.x, square), unit(o.y, square), 0.0))
+    return BeamMatch(matched, along, o)
 
 
 @law
 def first_match(a: BeamMatch, b: BeamMatch) -> BeamMatch:
     """The first of two matches, or the second if the first is none."""
     matched = maximum(a.matched, b.matched)
-    return BeamMatch(matched, where(a.matched > 0.0, a.along, b.along), chosen(a.matched, a.normal, b.normal))
+    return BeamMatch(matched, where(a.matched > 0.0, a.along, b.along), chosen(a.matched, a.offset, b.offset))
 
 
 @choice(absent=UNMATCHED)

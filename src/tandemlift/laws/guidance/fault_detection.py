@@ -1,16 +1,57 @@
-"""Detection of faults: from the watchdogs' report and the limits of a flight; `common.faults.FAULTS` names them."""
+"""Faults: detected from the watchdogs' report and the limits of a flight, and the reaction to those that are present.
 
-from typing import Any, NamedTuple
+The reaction is the strongest that is configured for any of them. `common.faults` has the faults, their numbers and
+their order.
+"""
+
+from collections import namedtuple
+from typing import Any, NamedTuple, cast
 
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, dot
+from tandemlift.common.faults import FAULTS, REACTIONS
 from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIMITED, STOPPED
-from tandemlift.laws.guidance.fault_reactions import ActiveFaults
 from tandemlift.laws.guidance.preflight_checks import SensorStatus
 from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import body_z_axis
+
+_, HOLDS, LANDS, STOPS = map(float, range(len(REACTIONS)))
+_FaultTuple: Any = cast(Any, namedtuple("_FaultTuple", [fault.key for fault in sorted(FAULTS)]))
+
+
+class ActiveFaults(_FaultTuple):
+    """A value for each fault, by its key: 1 or the number of a symptom (from 1) while it is present, else 0."""
+
+    __slots__ = ()
+
+
+class FaultReaction(NamedTuple):
+    """The strongest reaction to the faults that are present, and the alarm of the first that calls for it; or zeros."""
+
+    reaction: Any
+    alarm: Any
+
+
+NO_ALARM = FaultReaction(0.0, 0.0)
+
+
+@law
+def stronger(w: FaultReaction, fault: Any, reaction: Any, alarm: Any) -> FaultReaction:
+    """The reaction with one more fault: to that fault if it is present (above 0) and its reaction is stronger."""
+    more = where(fault > 0.0, where(reaction > w.reaction, 1.0, 0.0), 0.0)
+    return FaultReaction(where(more > 0.0, reaction, w.reaction), where(more > 0.0, alarm, w.alarm))
+
+
+@law
+def strongest_reaction(f: ActiveFaults, r: ActiveFaults) -> FaultReaction:
+    """The strongest reaction to the faults `f`, with the reaction `r` to each."""
+    w = NO_ALARM
+    for fault in FAULTS:
+        present, alarm = getattr(f, fault.key), float(fault.alarm)
+        w = stronger(w, present, getattr(r, fault.key), alarm + present if fault.symptoms else alarm)
+    return w
 
 
 class Fence(NamedTuple):

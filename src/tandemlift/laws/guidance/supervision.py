@@ -1,6 +1,6 @@
 """Supervision of a flight by hand: checks, detection of faults, the reaction to them, and the log of events.
 
-`preflight_checks` › `fault_detection` › `fault_reactions` › what the phases may do. A reaction is to hold the position
+`preflight_checks` › `fault_detection` › what the phases may do. A reaction is to hold the position
 and ignore pushes, to land, or to stop the rotors. A hold ends after a time without a fault, or in a landing when it
 lasts too long; a landing and a stop are final.
 """
@@ -12,20 +12,18 @@ from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, total
 from tandemlift.common.phases import HOLD, IDLE, STOPPED
 from tandemlift.laws.guidance.fault_detection import (
-    Fence,
-    LimitTimers,
-    SupervisionLimits,
-    active_faults,
-    expired,
-    update_timers,
-)
-from tandemlift.laws.guidance.fault_reactions import (
     HOLDS,
     LANDS,
     STOPS,
     ActiveFaults,
     FaultReaction,
+    Fence,
+    LimitTimers,
+    SupervisionLimits,
+    active_faults,
+    expired,
     strongest_reaction,
+    update_timers,
 )
 from tandemlift.laws.guidance.phases import PhaseBounds, PhaseState
 from tandemlift.laws.guidance.preflight_checks import (
