@@ -27,11 +27,13 @@ from tandemlift.assembly.sensors import sensors_from, start_estimators
 from tandemlift.assembly.watchdogs import with_faults, with_watchdogs
 from tandemlift.common.outcomes import FLIES
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
+from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.mechanics.clearance import clearance
 from tandemlift.laws.mechanics.collision.touches import start_touches
 from tandemlift.laws.mechanics.contact import start_foot_grip
 from tandemlift.laws.mechanics.push import PushSamples
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.readings import by_name, readings_of, start_sensing
 from tandemlift.laws.signals.random_numbers import key_from_seed
 from tandemlift.loop.delays import Delayed, DelayLines
@@ -90,14 +92,24 @@ def start_metrics(far: Any, person: Any) -> RunningMetrics:
     return EMPTY._replace(clearance=far, effort=person if isinstance(person, Nothing) else NO_EFFORT)
 
 
+def _first_readings(
+    devices: Any, plant: CompiledPlant, state: State, grip: Any, near: Any, thrusts: Any, hand: PushSamples
+) -> tuple[Any, Any]:
+    """The memory of the sensors before the first step, and their readings; `Nothing` without sensors."""
+    if isinstance(devices, Nothing):
+        return Nothing(), Nothing()
+    at_rest = readings_at_rest(plant, state, grip, near, thrusts, hand)
+    sensing = start_sensing(devices, state, at_rest, state.attitude)
+    return sensing, readings_of(sensing)
+
+
 def assemble(mission: Mission) -> AssembledFlight:
     """Assemble the flight of a mission at t = 0.
 
     Raises:
         InputError: a part of the mission cannot be built.
     """
-    vehicle = Vehicle.from_settings(mission.vehicle)
-    chance = np.random.default_rng(mission.mission.seed)
+    vehicle, chance = Vehicle.from_settings(mission.vehicle), np.random.default_rng(mission.mission.seed)
     pilot, memory = start_pilot(mission, vehicle)
     state, plant = start_state(mission), plant_from(mission, vehicle)
     floor, walls = plant.floor, plant.walls
@@ -105,14 +117,9 @@ def assemble(mission: Mission) -> AssembledFlight:
     delays = delays_from(mission)
     rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, delayed=bool(delays[2]))
     wind, wind_state = start_weather(mission, vehicle, chance)
-    push = push_kind(mission)
-    near, hand = near_walls_from(walls), PushSamples(push, push, push)
+    near, hand = near_walls_from(walls), PushSamples(*[push_kind(mission)] * 3)
     devices, sensor_noise = sensors_from(mission, vehicle, chance)
-    sensing: Any = Nothing()
-    if not isinstance(devices, Nothing):
-        initial = readings_at_rest(plant, state, grip, near, thrusts, hand)
-        sensing = start_sensing(devices, state, initial, state.attitude)
-    readings = Nothing() if isinstance(devices, Nothing) else readings_of(sensing)
+    sensing, readings = _first_readings(devices, plant, state, grip, near, thrusts, hand)
     estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
     devices, sensing = with_faults(mission, devices, sensing)
     person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
@@ -135,8 +142,6 @@ def assemble(mission: Mission) -> AssembledFlight:
         ended=FLIES,
         detectors=start_detectors(mission),
     )
-    sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map])
-    late = delay_lines_from(mission, delays)
     model = FlightModel(
         flight_state=flight_state,
         pilot=pilot,
@@ -145,9 +150,9 @@ def assemble(mission: Mission) -> AssembledFlight:
         wind=wind,
         sensors=devices,
         estimator=estimators,
-        sources=sources,
+        sources=PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map]),
         person=person,
-        delays=late,
+        delays=delay_lines_from(mission, delays),
         limits=limits,
         finding_limits=finding_limits_from(mission, vehicle),
     )

@@ -185,7 +185,7 @@ class RecordedFlight:
 
     def findings(self, numbers: Array) -> tuple[Finding, ...]:
         """What went badly until it had these numbers, which may be formed while the flight goes on."""
-        return findings_of(self._p, unflat(numbers, self._like), FLYING)
+        return findings_of(self._p, unflat(numbers, self._like), self.step, FLYING)
 
     @property
     def ending_place(self) -> Vec3:

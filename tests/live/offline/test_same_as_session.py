@@ -98,7 +98,14 @@ def frames_flown(session, seconds):
     return frames, statuses
 
 
-CLOCKED = {"findings", "factor", "behind_ms", "viewers", "holder", "type"}  # of a status: what the clock and the viewers make of it
+CLOCKED = {
+    "findings",
+    "factor",
+    "behind_ms",
+    "viewers",
+    "holder",
+    "type",
+}  # of a status: what the clock and the viewers make of it
 
 
 def untimed(status):

@@ -17,7 +17,6 @@ from tandemlift.laws.guidance.contact_hold import (
     turning_out,
     without_wall,
 )
-from tandemlift.laws.guidance.limits.energy_tank import passivity_damping
 from tandemlift.laws.guidance.guidance import (
     Guidance,
     PilotInput,
@@ -32,6 +31,7 @@ from tandemlift.laws.guidance.limits.available import (
     needed_force,
     usable_thrust,
 )
+from tandemlift.laws.guidance.limits.energy_tank import passivity_damping
 from tandemlift.laws.guidance.limits.following import (
     Following,
     FollowingLimits,
