@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.export.write import export
-from tandemlift.laws.mechanics.collision.hull import HALF_THICKNESS
-from tandemlift.laws.mechanics.collision.spheres import SPARED
+from tandemlift.laws.contact.hull import HALF_THICKNESS
+from tandemlift.laws.contact.spheres import SPARED
 from tandemlift.models.surroundings import floor_from
 
 

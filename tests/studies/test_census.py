@@ -1,7 +1,7 @@
 """The census of a study counts flights by outcome and by the kinds of their findings."""
 
 import tandemlift as tl
-from tandemlift.studies.rows import Census
+from tandemlift.studies.census import Census
 from tandemlift.studies.scenarios import Bench
 
 

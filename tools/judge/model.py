@@ -135,11 +135,13 @@ def _text(mission: dict[str, Any], body: Body, step: float, floor: float | None)
             gear = numbers([0.0, 0.0, 1.0, 0.0, 0.0, q["torque_per_thrust"] * spin])
             actuators.append(f'<general site="r{i}.{j}" gear="{gear}"/>')
     if floor is not None:
-        shapes += _feet(mission, body)
-    world = [] if floor is None else [f'<geom name="floor" type="plane" size="0 0 1" pos="0 0 {floor!r}" {FLOOR}/>']
-    if walls:
-        shapes += _guards(mission, body)
-        world += [_wall(wall) for wall in walls]
+        shapes += [*_feet(mission, body), *_hull(mission, body)]
+    world = (
+        []
+        if floor is None
+        else [f'<geom name="floor" type="plane" size="0 0 1" pos="0 0 {floor!r}" {_meets(FEET, HULL)}/>']
+    )
+    world += [_wall(wall) for wall in walls]
     return f"""<mujoco>
   <compiler inertiafromgeom="false" angle="radian"/>
   <option timestep="{step!r}" gravity="0 0 -{GRAVITY}" integrator="RK4" cone="elliptic" impratio="{FRICTION_IMPEDANCE}">
@@ -154,12 +156,17 @@ def _text(mission: dict[str, Any], body: Body, step: float, floor: float | None)
 </mujoco>"""
 
 
-FLOOR, WALL, FOOT, GUARD = (  # bits: 1 feet and floor, 2 guards, beam and walls
-    'contype="1" conaffinity="1"',
-    'contype="2" conaffinity="2"',
-    'contype="1" conaffinity="1"',
-    'contype="2" conaffinity="2"',
-)
+FEET, HULL, SIDES = (
+    1,
+    2,
+    4,
+)  # bits of what meets: feet and floor; rotors, rings, beam and floor; spheres, beam and walls
+THIN = 0.01  # m, half thickness of rotors and rings
+
+
+def _meets(*bits: int) -> str:
+    """Attributes of a shape that meets others with one of the same bits."""
+    return f'contype="{sum(bits)}" conaffinity="{sum(bits)}"'
 
 
 def _soft(stiffness: float, damping: float, mass: float, friction: float) -> str:
@@ -180,22 +187,35 @@ def _feet(mission: dict[str, Any], body: Body) -> list[str]:
     soft = _soft(share * GRAVITY / sinkage, 2.0 * share * math.sqrt(GRAVITY / sinkage), body.mass, ground["friction"])
     centers = np.add(soles, [0.0, 0.0, PAD])
     return [
-        f'<geom name="foot{i}" type="sphere" size="{PAD}" pos="{numbers(center)}" {FOOT} {soft}/>'
+        f'<geom name="foot{i}" type="sphere" size="{PAD}" pos="{numbers(center)}" {_meets(FEET)} {soft}/>'
         for i, center in enumerate(centers)
     ]
 
 
-def _guards(mission: dict[str, Any], body: Body) -> list[str]:
-    soft = _soft(STIFF, 2.0 * DAMPED * math.sqrt(STIFF * body.mass), body.mass, mission["ground"]["friction"])
-    found = [
-        f'<geom name="guard{i}" type="sphere" size="{q["guard_radius"]!r}" pos="{numbers(place)}" {GUARD} {soft}/>'
-        for i, (q, place) in enumerate(zip(mission["vehicle"]["quadrotors"], body.quadrotors, strict=True))
-    ]
+def _hull(mission: dict[str, Any], body: Body) -> list[str]:
+    """Rotors and the guards' rings as flat ellipsoids, guards as spheres, the beam as a capsule."""
+    found, soft = (
+        [],
+        _soft(STIFF, 2.0 * DAMPED * math.sqrt(STIFF * body.mass), body.mass, mission["ground"]["friction"]),
+    )
+
+    def add(kind: str, place: np.ndarray, *size: float, meets: int) -> None:
+        found.append(f'<geom type="{kind}" size="{numbers(size)}" pos="{numbers(place)}" {_meets(meets)} {soft}/>')
+
+    for q, place in zip(mission["vehicle"]["quadrotors"], body.quadrotors, strict=True):
+        guard, disc = q["guard_radius"], q["rotor_radius"]
+        add("sphere", place, guard, meets=SIDES)
+        add("ellipsoid", place, guard, guard, THIN, meets=HULL)
+        for x, y in rotors_of(q):
+            hub = np.add(place, [x, y, 0.0])
+            add("ellipsoid", hub, disc, disc, THIN, meets=HULL)
+            if math.hypot(x, y) + disc > guard:
+                add("sphere", hub, disc, meets=SIDES)
     payload = mission["vehicle"]["payload"]
     if payload.get("length") is not None and payload.get("radius") is not None:
         half = np.array([0.0, payload["length"] / 2.0, 0.0])
-        line = numbers(body.payload - half, body.payload + half)
-        found.append(f'<geom name="beam" type="capsule" size="{payload["radius"]!r}" fromto="{line}" {GUARD} {soft}/>')
+        line, beam = numbers(body.payload - half, body.payload + half), numbers(payload["radius"])
+        found.append(f'<geom type="capsule" size="{beam}" fromto="{line}" {_meets(HULL, SIDES)} {soft}/>')
     return found
 
 
@@ -204,7 +224,7 @@ def _wall(wall: dict[str, Any]) -> str:
     half, turn = math.hypot(x2 - x1, y2 - y1) / 2.0, math.atan2(y2 - y1, x2 - x1)
     place = numbers([(x1 + x2) / 2.0, (y1 + y2) / 2.0, top - DEPTH / 2.0])
     size = numbers([half, 1e-4, DEPTH / 2.0])
-    return f'<geom type="box" pos="{place}" size="{size}" euler="0 0 {turn!r}" {WALL}/>'
+    return f'<geom type="box" pos="{place}" size="{size}" euler="0 0 {turn!r}" {_meets(SIDES)}/>'
 
 
 def corridor_walls(corridor: dict[str, Any]) -> list[dict[str, Any]]:

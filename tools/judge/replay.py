@@ -13,6 +13,7 @@ import numpy as np
 
 from judge.model import GRAVITY, Model, model_of
 
+LOST = 1e5  # m/s, rad/s, beyond which the flight has diverged and is not followed
 EVERY = 10  # steps between comparisons of the replay with the record
 APART = (0.005, 0.02, 0.005, 0.1)  # m, m/s, rad, rad/s: distance between replay and record at which it starts again
 
@@ -104,19 +105,18 @@ def _turned(mission: dict[str, Any], model: Model, force: np.ndarray, states: np
 def _fly(mission: dict[str, Any], model: Model, data: Any, loads: Loads, states: np.ndarray) -> Any:
     """The states (T + 1, 13) with the normal force (T + 1, 14), and the restarts."""
     count, step, compiled = len(states), mission["mission"]["step"], model.mujoco
-    out, restarts, touched = np.zeros((count + 1, 14)), list[tuple[int, str, bool]](), False
+    out, restarts = np.full((count + 1, 14), np.nan), list[tuple[int, str, bool]]()
     state, applied, pushed = out[:, :13], data.qfrc_applied, loads.pushes.mean_levers.any(axis=(1, 2))
-    _start(data, states[0])
+    touched = _start(compiled, data, states[0])
     for k in range(count):
         if k and k % EVERY == 0:
             apart = _apart(data, states[k])
             if apart:
                 restarts.append((k, apart, touched))
-                _start(data, states[k])
-                touched = False
-        state[k, :7], state[k, 7:] = data.qpos, data.qvel
-        if data.ncon:
-            out[k, 13] = _normal_force(data)
+                touched = _start(compiled, data, states[k])
+        if not np.abs(data.qvel).max() < LOST:
+            return out, restarts
+        state[k, :7], state[k, 7:], out[k, 13] = data.qpos, data.qvel, _normal_force(data)
         data.ctrl[:] = loads.thrusts[k]
         applied[:3], applied[3:] = loads.force[k], loads.moment[k]
         if pushed[k]:
@@ -189,8 +189,11 @@ def _push_moment(data: Any, levers: np.ndarray, step: float) -> np.ndarray:
     return moments(rotation(middle), levers)
 
 
-def _start(data: Any, state: np.ndarray) -> None:
+def _start(model: Any, data: Any, state: np.ndarray) -> bool:
+    """Start from a state; whether anything touches there."""
     data.qpos[:], data.qvel[:] = state[:7], state[7:]
+    mujoco.mj_forward(model, data)
+    return bool(data.ncon)
 
 
 def _apart(data: Any, state: np.ndarray) -> str:

@@ -136,8 +136,8 @@ def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool)
 def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:
     """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
     from tandemlift.gazebo_app.flying import running_gazebo
+    from tandemlift.interactive.recorded_flight import RecordedFlight
     from tandemlift.live.session.interactive_mission import interactive_mission
-    from tandemlift.simulation.recorded_flight import RecordedFlight
 
     mission = interactive_mission(mission)
     with running_gazebo(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:

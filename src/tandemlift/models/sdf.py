@@ -19,14 +19,14 @@ from numpy.typing import ArrayLike
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.contact import Floor
+from tandemlift.laws.contact.floor import Floor
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
 from tandemlift.models.links import Link, links_of
 from tandemlift.models.sdf_collisions import (
     FASTEST,
     FLOOR_BIT,
     WALL_BIT,
-    Surface,
+    CollisionSurface,
     VehicleCollisions,
     add_collision,
     add_surface,
@@ -138,7 +138,7 @@ def _add_floor(top: Element, floor: Floor, mission: Mission) -> None:
         part = add(link, kind, name="floor")
         fill(part, {"geometry": {"plane": {"normal": [0.0, 0.0, 1.0], "size": high - low}}})
         if kind == "collision":
-            add_surface(part, Surface(FLOOR_BIT, floor.friction))
+            add_surface(part, CollisionSurface(FLOOR_BIT, floor.friction))
         else:
             _set_color(part, GROUND)
     for line in _grid_lines(high - low):
@@ -156,7 +156,7 @@ def _grid_lines(size: Array) -> Iterator[VisualShape]:
 
 def _add_walls(top: Element, mission: Mission, floor: Floor) -> None:
     """Add each wall: a thin box for contact and a thicker one as visual."""
-    link, surface = _add_static_link(top, "walls", np.zeros(3)), Surface(WALL_BIT, mission.ground.friction)
+    link, surface = _add_static_link(top, "walls", np.zeros(3)), CollisionSurface(WALL_BIT, mission.ground.friction)
     for k, wall in enumerate(mission.all_walls, 1):
         shape = _wall(f"wall_{k}", wall, floor.height)
         add_collision(link, shape, surface)

@@ -2,10 +2,10 @@
 
 | shape | of | touches | in the laws |
 |---|---|---|---|
-| `foot_J` | a quadrotor | the floor | `laws.mechanics.contact`: the sole of a foot |
-| `rotor_J`, `guard_ring` | a quadrotor | the floor | `laws.mechanics.collision.hull`: a flat disc |
+| `foot_J` | a quadrotor | the floor | `laws.contact.floor`: the sole of a foot |
+| `rotor_J`, `guard_ring` | a quadrotor | the floor | `laws.contact.hull`: a flat disc |
 | `beam_tip_K` | the payload | the floor | the same: an end of the beam |
-| `guard`, `rotor_J_sphere` | a quadrotor | walls | `laws.mechanics.walls`: a sphere |
+| `guard`, `rotor_J_sphere` | a quadrotor | walls | `laws.contact.walls`: a sphere |
 | `beam`, `beam_end_K` | the payload | walls | the same: a capsule |
 
 Gazebo has no flat ellipsoid: a disc is a cylinder of the same radius and thickness, which reaches up to 4 mm farther
@@ -21,9 +21,9 @@ import numpy as np
 
 from tandemlift.algebra.vector import Nothing
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.collision.hull import Ellipsoids
-from tandemlift.laws.mechanics.contact import Floor
-from tandemlift.laws.mechanics.walls import Beam, Walls
+from tandemlift.laws.contact.floor import Floor
+from tandemlift.laws.contact.hull import Ellipsoids
+from tandemlift.laws.contact.walls import Beam, Walls
 from tandemlift.models.links import Link
 from tandemlift.models.sdf_elements import Element, add, fill, geometry, pose
 from tandemlift.models.surroundings import feet_and_floor_from, wall_contact_from
@@ -37,7 +37,7 @@ CREEP = 1e-7  # (m/s)/N, slip of friction: without it ODE's exact solver fails o
 FASTEST = 100.0  # m/s, limit of contact correction; Gazebo's default of 0.01 m/s would limit the springs
 
 
-class Surface(NamedTuple):
+class CollisionSurface(NamedTuple):
     """Of a shape: the bit of what it touches, friction, stiffness [N/m], damping [N·s/m]."""
 
     bit: int
@@ -46,7 +46,7 @@ class Surface(NamedTuple):
     damping: float = 0.0
 
 
-def add_collision(link: Element, shape: VisualShape, surface: Surface, points: int | None = None) -> None:
+def add_collision(link: Element, shape: VisualShape, surface: CollisionSurface, points: int | None = None) -> None:
     """Add a shape to a link; `points`: of contact with another shape at most."""
     collision = add(link, "collision", name=shape.name)
     pose(collision, shape.position, shape.axes)
@@ -56,7 +56,7 @@ def add_collision(link: Element, shape: VisualShape, surface: Surface, points: i
     add_surface(collision, surface)
 
 
-def add_surface(collision: Element, surface: Surface) -> None:
+def add_surface(collision: Element, surface: CollisionSurface) -> None:
     """Add a surface to a shape."""
     spring = {"kp": surface.stiffness, "kd": surface.damping, "max_vel": FASTEST, "min_depth": 0.0}
     slip = {"mu": surface.friction, "mu2": surface.friction, "slip1": CREEP, "slip2": CREEP}
@@ -75,9 +75,9 @@ class VehicleCollisions:
     def __init__(self, mission: Mission, vehicle: Vehicle) -> None:
         self._floor, self._walls = feet_and_floor_from(mission, vehicle), wall_contact_from(mission, vehicle)
         floor, hull, walls = self._floor, self._floor.hull, self._walls
-        self._foot = Surface(FLOOR_BIT, floor.friction, floor.stiffness, floor.damping)
-        self._hull = Surface(FLOOR_BIT, floor.friction, hull.stiffness, hull.damping)
-        self._wall = Surface(WALL_BIT, walls.friction, walls.stiffness, walls.damping)
+        self._foot = CollisionSurface(FLOOR_BIT, floor.friction, floor.stiffness, floor.damping)
+        self._hull = CollisionSurface(FLOOR_BIT, floor.friction, hull.stiffness, hull.damping)
+        self._wall = CollisionSurface(WALL_BIT, walls.friction, walls.stiffness, walls.damping)
 
     def add_to_payload(self, element: Element, link: Link) -> None:
         """Add the shapes of the beam; none without a beam."""

@@ -17,10 +17,10 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.export.coordinate_frames import ALIGNED, BASE, WORLD, fixed, to_body, to_world
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.live.session.session import Session
 from tandemlift.live.wire.page_messages import ForceMessage
 from tandemlift.ros.diagnostics import Notify
-from tandemlift.simulation.recorded_flight import RecordedFlight
 from tandemlift.vehicle import Vehicle
 
 HELD = 0.5  # s of the flight, for which a push acts without another message

@@ -10,7 +10,7 @@ from tandemlift.algebra.vector import Nothing, dot, total
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
 from tandemlift.common.findings import Finding, FindingName
 from tandemlift.common.phases import IDLE, LAND, LIFT, REASONS, STOPPED
-from tandemlift.laws.guidance.limits.following import FollowingState
+from tandemlift.laws.compliance.following import FollowingState
 from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
 from tandemlift.loop.excess import Excess
 from tandemlift.loop.oscillation import HalfPeriods

@@ -21,7 +21,6 @@ from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.machine_code.code import Code
 from tandemlift.machine_code.store import key_of
-from tandemlift.missions import changed
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.pilot.pilot import PilotInput
 from tandemlift.pilot.refusals import refusals_of
@@ -131,23 +130,3 @@ class Pilot:
     def reset(self) -> None:
         """Start anew at t = 0."""
         self._numbers[:] = flat(self._start)
-
-
-def portable_mission(mission: Mission) -> Mission:
-    """The mission with `mission.fused = false`.
-
-    Raises:
-        InputError: its controller is plain Python, or it changes while it is flown.
-    """
-    if mission.changes:
-        count = len(mission.changes)
-        raise InputError(f"changes: {count} given, but other machines fly a mission as it begins; remove them")
-    if mission.person.recording:
-        recording = str(mission.person.recording)
-        raise InputError(f"person.recording = {recording!r}: other machines play no recorded hand; remove it")
-    portable = changed(mission, "mission.fused", False) if mission.mission.fused else mission
-    if type(pilot_at_start(portable).parameters.controller) in control.interpreted:
-        name = mission.controller.name
-        way = "register it as a law, without compiled=False"
-        raise InputError(f"controller.name = {name!r}: is plain Python, of which no other machine has code; {way}")
-    return portable

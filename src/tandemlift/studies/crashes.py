@@ -14,7 +14,7 @@ import numpy as np
 
 from tandemlift.algebra.vector import Nothing
 from tandemlift.common.errors import FlightWarning
-from tandemlift.laws.mechanics.collision.touches import TouchRecord
+from tandemlift.laws.contact.touches import TouchRecord
 from tandemlift.missions import load_mission
 from tandemlift.simulation.outcome import ending_of
 from tandemlift.simulation.plan import FlightPlan

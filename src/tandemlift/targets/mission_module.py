@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 from tandemlift.assembly.traced_assembly import TracedAssembly, trace_assembly
 from tandemlift.machine_code import store
 from tandemlift.settings import Mission
-from tandemlift.simulation.pilot_api import portable_mission
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.portable_mission import portable_mission
 from tandemlift.targets.machines import Machine, machine_named, object_code
 from tandemlift.targets.manifest import manifest_of
 from tandemlift.targets.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function

@@ -7,8 +7,8 @@ from scipy.integrate import solve_ivp
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.common.phases import GUIDED
-from tandemlift.laws.guidance.compliance import DeadBand, DeadBandState, compliance_step, dead_band
-from tandemlift.laws.guidance.limits.energy_tank import EnergyTank, EnergyTankState, passivity_damping
+from tandemlift.laws.compliance.compliance import DeadBand, DeadBandState, compliance_step, dead_band
+from tandemlift.laws.compliance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.laws.guidance.phases import PhaseOutput
 from tandemlift.laws.guidance.yaw_compliance import yaw_step
 from tandemlift.laws.rotors.rotor_faults import NoFaults

@@ -7,15 +7,15 @@ import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.common.phases import REASONS
-from tandemlift.laws.guidance.compliance import compliance_step
-from tandemlift.laws.guidance.limits.above_ground import GroundClearance, above_ground
-from tandemlift.laws.guidance.limits.available import (
+from tandemlift.laws.compliance.above_ground import GroundClearance, above_ground
+from tandemlift.laws.compliance.available import (
     AvailableForce,
     available_acceleration,
     needed_force,
     usable_thrust,
 )
-from tandemlift.laws.guidance.limits.following import (
+from tandemlift.laws.compliance.compliance import compliance_step
+from tandemlift.laws.compliance.following import (
     AT_REST,
     Following,
     FollowingLimits,

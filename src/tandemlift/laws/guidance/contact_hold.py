@@ -14,8 +14,8 @@ from tandemlift.algebra.law import Nothing, choice, law
 from tandemlift.algebra.ops import maximum, minimum, sqrt, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Vec3, apply_transposed, cross, dot
+from tandemlift.laws.compliance.compliance import ComplianceState, moved_towards, within
 from tandemlift.laws.estimation.contact_detection import NO_CONTACT, ContactEstimate
-from tandemlift.laws.guidance.compliance import ComplianceState, moved_towards, within
 from tandemlift.laws.guidance.guidance import LoadOfWall, PilotInput
 from tandemlift.laws.guidance.phases import PhaseBounds
 from tandemlift.laws.mechanics.rigid_body import State

@@ -13,10 +13,10 @@ from tandemlift.algebra.ops import sqrt, where
 from tandemlift.algebra.vector import ZERO, Vec3, dot
 from tandemlift.common.errors import InputError
 from tandemlift.common.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.live.session import refusal_texts as texts
 from tandemlift.live.wire.scene import SceneVehicle
 from tandemlift.missions import Mission
-from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
 HOVER_TIME = ("memory", "guidance", "phase", "hover_time")  # of a flight's state

@@ -10,10 +10,10 @@ from tandemlift.common.faults import ALARM_TEXTS
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.common.refusals import Refusals, refusals_for
 from tandemlift.common.types import Array
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.live.session.checks import failed_rotors
 from tandemlift.live.session.pacing import Pacer
 from tandemlift.live.wire.server_messages import FlightStatus, StatusEnding, StatusFinding, StatusRefusals
-from tandemlift.simulation.recorded_flight import RecordedFlight
 
 FINDINGS_EVERY = 1.0  # s
 NO_REFUSALS = StatusRefusals(lift="", land="", push="")

@@ -31,6 +31,7 @@ from tandemlift.vehicle import Vehicle
 
 LOOPS = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.02, 1000.0, 120  # rad/s
+CLEAR = 0.25  # of an integrator, within which the slope of a loop at low frequencies tells their number
 NEAR = 0.3  # of the delay that a loop bears
 NOTABLE = 0.5  # of the payload's mass, by which a measured push errs
 
@@ -158,10 +159,13 @@ def measured_push(m: Mission, s: Any, i: int) -> Any:
 
 
 def delay_borne(w: Array, L: Any) -> tuple[float, float]:
-    """(The delay that a loop without delay bears [s], the frequency of the crossing [rad/s])."""
+    """(The delay that a loop without delay bears [s], 0 if it is unstable; the frequency of the crossing [rad/s])."""
+    return delay_to_crossing(w, L) if _stable(w, L) else (0.0, math.nan)
+
+
+def delay_to_crossing(w: Array, L: Any) -> tuple[float, float]:
+    """(The least delay [s] by which a loop meets −1, the frequency where it does [rad/s])."""
     size, phase = np.log(np.abs(L)), np.unwrap(np.angle(L))
-    if not _stable(w, L, size):
-        return 0.0, math.nan
     best, crossover = math.inf, math.nan
     for k in np.flatnonzero((size[:-1] >= 0.0) != (size[1:] >= 0.0)):
         part = size[k] / (size[k] - size[k + 1])
@@ -172,10 +176,10 @@ def delay_borne(w: Array, L: Any) -> tuple[float, float]:
     return best, crossover
 
 
-def _stable(w: Array, L: Any, size: Array) -> bool:
+def _stable(w: Array, L: Any) -> bool:
     """Whether the closed loop is stable: by the turns of 1 + L, from the highest to the lowest frequency."""
     turned = np.unwrap(np.angle(1.0 + L[::-1]))
-    slope = -(size[1] - size[0]) / math.log(w[1] / w[0])
-    around = [n for n in range(6) if abs(n - slope) < 1.0]
-    misses = [abs(float(turned[-1] - turned[0]) + 0.5 * math.pi * n) for n in around] or [0.0]
-    return min(misses) < 0.5 * math.pi
+    slope = -math.log(abs(L[1] / L[0])) / math.log(w[1] / w[0])
+    around = {math.floor(slope + CLEAR), math.ceil(slope - CLEAR)}
+    misses = [abs(float(turned[-1] - turned[0]) + 0.5 * math.pi * n) for n in around]
+    return min(misses) < 0.4 * math.pi

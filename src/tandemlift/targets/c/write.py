@@ -6,7 +6,8 @@ from pathlib import Path
 
 from tandemlift.assembly.traced_assembly import assembled_by_graph, assembled_flight, trace_assembly
 from tandemlift.settings import Mission
-from tandemlift.simulation.pilot_api import INPUT, pilot_at_start, portable_mission
+from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
+from tandemlift.simulation.portable_mission import portable_mission
 from tandemlift.targets.c.flight_file import FlightFile
 from tandemlift.targets.c.pilot_file import PilotFile
 from tandemlift.targets.c.prepare_file import PrepareFile

@@ -19,7 +19,7 @@ from tandemlift.missions.bounds import plain
 from tandemlift.missions.files import built_in
 from tandemlift.missions.key_reference.sections import Key, is_of_the_package, sections
 from tandemlift.settings import Mission
-from tandemlift.studies.random_values import varied
+from tandemlift.studies.random_missions.values import varied
 
 Changes = dict[str, Any]
 
@@ -129,7 +129,9 @@ def shortened(base: str, duration: float = 14.0) -> Changes:
     }
     if e.tare_start is not None:
         changes |= {"estimator.tare_start": 3.2, "estimator.tare_duration": 1.0}
-    pushes = [q.model_dump(mode="json") for q in mission.pushes[:3]]
+    if mission.person.model not in ("none", "grab"):
+        changes["person.path"] = [{"point": [1.5, mission.person.grip]}]
+    pushes = [q.model_dump(mode="json") for q in mission.pushes[-3:]]
     changes["pushes"] = [{**q, "time": 5.5 + 1.5 * i, "sigma": min(q["sigma"], 0.4)} for i, q in enumerate(pushes)]
     changes |= {f"wind.gusts.{i}.start": 5.0 + 2.0 * i for i in range(len(mission.wind.gusts))}
     changes |= {f"faults.{i}.time": 6.0 + i for i in range(len(mission.faults))}

@@ -1,0 +1,29 @@
+"""Missions as other machines fly them."""
+
+from __future__ import annotations
+
+from tandemlift.common.errors import InputError
+from tandemlift.controllers import control
+from tandemlift.missions import changed
+from tandemlift.settings import Mission
+from tandemlift.simulation.pilot_api import pilot_at_start
+
+
+def portable_mission(mission: Mission) -> Mission:
+    """The mission with `mission.fused = false`.
+
+    Raises:
+        InputError: its controller is plain Python, or it changes while it is flown.
+    """
+    if mission.changes:
+        count = len(mission.changes)
+        raise InputError(f"changes: {count} given, but other machines fly a mission as it begins; remove them")
+    if mission.person.recording:
+        recording = str(mission.person.recording)
+        raise InputError(f"person.recording = {recording!r}: other machines play no recorded hand; remove it")
+    portable = changed(mission, "mission.fused", False) if mission.mission.fused else mission
+    if type(pilot_at_start(portable).parameters.controller) in control.interpreted:
+        name = mission.controller.name
+        way = "register it as a law, without compiled=False"
+        raise InputError(f"controller.name = {name!r}: is plain Python, of which no other machine has code; {way}")
+    return portable
