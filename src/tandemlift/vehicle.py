@@ -120,6 +120,29 @@ class Vehicle:
         """Quadrotors' centres of mass from the system's [m], body axes (N × 3)."""
         return np.array([q.position for q in self.quadrotors]) - self.center_of_mass
 
+    @property
+    def rotor_hubs(self) -> list[list[tuple[float, float, float]]]:
+        """The hubs of every quadrotor's rotors from its centre of mass [m], body axes (N × 4 × 3)."""
+        return [[(x, y, q.rotor_height) for x, y in q.rotors] for q in self.quadrotors]
+
+    @property
+    def beam(self) -> tuple[float, float] | None:
+        """Length and radius [m] of a payload that is a beam, else None."""
+        payload = self.payload
+        return (payload.length, payload.radius) if payload.length is not None and payload.radius is not None else None
+
+    @property
+    def hull_shapes(self) -> dict[str, Any]:
+        """The shapes that meet a floor, as arguments of `laws.contact.hull.hull`."""
+        return {
+            "quadrotors": self.lever_arms,
+            "rotors": self.rotor_hubs,
+            "radii": [q.rotor_radius for q in self.quadrotors],
+            "guards": [q.guard_radius for q in self.quadrotors],
+            "beam": self.beam,
+            "payload": -self.center_of_mass,
+        }
+
     @cached_property
     def inertia(self) -> Array:
         """J_t [kg m²] about the system's centre of mass, body axes (3 × 3)."""

@@ -113,7 +113,7 @@ def test_the_version_is_told(run):
             ("rnu", "paper"),
             [
                 "No such command 'rnu'",
-                "run, compare, render, live, page, replay, gazebo, ros, validate, linearize, export, compile,",
+                "run, compare, render, live, page, replay, gazebo, ros, validate, linearize, check, export, compile,",
                 "Did you mean 'run'?",
             ],
         ),

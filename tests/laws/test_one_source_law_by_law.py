@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from law_values import flat, rebuilt, record
 from machine_code import answers
+from tandemlift.laws.mechanics.collision import hull, spheres, touches
 
 from tandemlift.algebra.ops import power
 from tandemlift.algebra.vector import (
@@ -49,11 +50,19 @@ VV, FOUR = Vec3(TWO, TWO, TWO), Quarters(TWO, TWO, TWO, TWO)
 FRAME = loads.PartsLayout(V, VV, VV, TWO, VV, FOUR, FOUR, FOUR)
 LOADS = loads.PartLoads(loads.PartLoad(V, V), loads.PartLoad(VV, VV))
 FELT = loads.PerfectReadings(V, VV, VV, V)
-FLOOR = contact.Floor(*[0.0] * 7, Quarters(VV, VV, VV, VV), V, 0.0)
+FLOOR = contact.Floor(*[0.0] * 7, Quarters(VV, VV, VV, VV), V, 0.0, Nothing())
+ROUND = hull.Ellipsoids(VV, TWO, TWO)
+HULL = hull.Hull(*[0.0] * 3, hull.Ellipsoids(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, EIGHT), ROUND, ROUND, V, V, 0.0)
+PRESSED = hull.FloorContact(VV, TWO, VV)
+LYING = hull.HullContact(
+    hull.FloorContact(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, Vec3(EIGHT, EIGHT, EIGHT)), PRESSED, PRESSED
+)
+SPHERES = spheres.RotorSpheres(Vec3(EIGHT, EIGHT, EIGHT), EIGHT)
 GRIP = Quarters(*[contact.FootGrip(TWO, TWO, TWO)] * 4)
-WALLS = walls.Walls(*[0.0] * 4, TWO, walls.Beam(0.0, TWO), 0.0)
+WALLS = walls.Walls(*[0.0] * 4, TWO, SPHERES, walls.Beam(0.0, TWO), 0.0)
 UPRIGHT, UPRIGHTS = Wall(*[0.0] * 6), Wall(*[TWO] * 6)
-NEAR = walls.NearWalls(UPRIGHTS, UPRIGHTS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT, UPRIGHT))
+NEAR_ROTORS = spheres.NearRotors(Wall(*[EIGHT] * 6), Wall(*[EIGHT] * 6))
+NEAR = walls.NearWalls(UPRIGHTS, UPRIGHTS, NEAR_ROTORS, walls.NearBeam(UPRIGHTS, UPRIGHT, UPRIGHT, UPRIGHT))
 LAG, MIXER = rotor_lag.Lag(EIGHT, EIGHT, EIGHT), allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
 SURFACES = ground_effect.GroundEffect(Vec3(EIGHT, EIGHT, EIGHT), EIGHT, 0.0)
 ROTORS = rotors.Rotors(
@@ -123,6 +132,12 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "loads together": (loads.resultant, (FRAME, Q, LOADS)),
     "feet on the floor": (contact.feet_load, (FLOOR, GRIP, FRAME, STATE)),
     "feet that slip": (contact.grips_after_step, (FLOOR, GRIP, STATE)),
+    "rotors, guards and beam on the floor": (hull.hull_contact, (HULL, 0.0, 0.0, STATE, M)),
+    "loads of the floor on them": (hull.hull_loads, (LYING, FRAME, M)),
+    "a record of touches": (
+        touches.record_after,
+        (touches.TouchRecord(0.0, V, 0.0, 0.0, 0.0), touches.PartContacts(EIGHT, Vec3(EIGHT, EIGHT, EIGHT)), 0.0, 0.0),
+    ),
     "near walls": (walls.near_wall_loads, (WALLS, NEAR, FRAME, STATE)),
     "nearest walls": (walls.nearest_with, (WALLS, UPRIGHT, NEAR, FRAME, STATE)),
     "motion, pushed at points": (motion, (BODY, State(V, V, Q, V), Wrench(0.0, V), PointPush(V, M))),
@@ -134,6 +149,7 @@ POSITIVE |= {
     "commands to weak rotors",
     "feet on the floor",
     "feet that slip",
+    "rotors, guards and beam on the floor",
 }
 BATCH = 12
 EACH = pytest.mark.parametrize("name", LAWS)

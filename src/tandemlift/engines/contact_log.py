@@ -36,7 +36,7 @@ class ContactLog:
         self._step, self._k = step, 0
 
     def add(self, surface: str, kind: str, index: int, normal: float, place: ArrayLike) -> None:
-        """Note a contact of this step.
+        """Note a contact at the end of this step.
 
         Args:
             surface: "floor" or "wall".
@@ -55,14 +55,14 @@ class ContactLog:
             hardest[index], places[:, index] = normal, place
 
     def end_step(self) -> None:
-        """Enter the contacts of a step into the record."""
+        """Enter the contacts at the end of a step into the record."""
+        self._k += 1
         if self._found and not isinstance(self._touches, Nothing):
             floor, walls = (self._surface(surface) for surface in SURFACES)
             t = self._k * self._step
             self._touches = touches_after(self._touches, floor, walls, t, self._step)
             self.numbers[:] = flat(self._touches)
             self._found.clear()
-        self._k += 1
 
     def _surface(self, surface: str) -> Any:
         """The contacts with a surface, or `Nothing`."""

@@ -206,6 +206,7 @@ class LoopWriter(StepWriter):
 
     def write_parts(self, leaves_body: bool) -> str:
         """Step k in parts: `ask` up to a controller in Python, `decide` up to another body, `complete` to its end."""
+        self.moves_body = not leaves_body
         self.write_outside()
         x = self.traced
         parts = ["ask"] * x.calls_python + ["decide"] * leaves_body + ["complete"]

@@ -26,6 +26,7 @@ class StepWriter:
     def __init__(self, traced: TracedStep, lanes: int, draw_lanes: int = 8, largest: int = 0) -> None:
         self.traced, self.templates, self.graph, self.lanes = traced, traced.templates, traced.graph, lanes
         self.module, self.scratch, self.draw_lanes, self.largest = Module(), ScratchLayout(), draw_lanes, largest
+        self.moves_body = True
         self.width, self.draws = leaves(self.templates.given.hand.start), 0
         self.state_size = leaves(self.templates.model.flight_state)
         self.delayed = delayed_spans(self.templates.model)
@@ -111,7 +112,7 @@ class StepWriter:
     @property
     def keeps_touches(self) -> bool:
         """Whether the record of touches stays in its place except in steps near floor or walls."""
-        return bool(self.touches.size and self.traced.body_in_free_air)
+        return bool(self.moves_body and self.touches.size and self.traced.body_in_free_air)
 
     def body_roots(self) -> Symbols:
         """The values of the body after the step in all its forms, and what decides among them."""

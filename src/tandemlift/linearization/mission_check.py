@@ -27,7 +27,7 @@ NEAR_DELAY = 0.3
 
 LOOP_CHECKS = (
     FlightCheck("loop phase", "phase lag of an axis where its loop's gain is 1", "180°", "deg", "", "the gains"),
-    FlightCheck("loop gain", "1", "the factor by which an axis' gain may grow", "1", "", "the gains"),
+    FlightCheck("loop gain", "1", "the factor by which the gain of an axis may grow", "1", "", "the gains"),
     FlightCheck(
         "loop delay",
         "delay of the rotors",

@@ -12,6 +12,7 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
 from tandemlift.common.errors import InputError
 from tandemlift.laws.contact.floor import Floor, floor, sinkage_of, sole_positions, standing_height
+from tandemlift.laws.contact.hull import hull, lowest_of_hull
 from tandemlift.laws.contact.wall_geometry import offset, wall
 from tandemlift.laws.mechanics.rotation import rotation_from_euler
 from tandemlift.laws.mechanics.turbulence import FOOT, HIGHEST, LOWEST
@@ -29,7 +30,7 @@ SOFT = 2.0  # times the sinkage that was asked for
 class Standing(NamedTuple):
     """The floor and, as the vehicle really is, z [m] of its centre of mass where it stands, and its sinkage there [m].
 
-    `depth`: of its lowest sole in the floor at t = 0, beyond that sinkage [m].
+    `depth`: of its lowest point in the floor at t = 0, beyond that sinkage [m].
     """
 
     floor: Floor
@@ -74,7 +75,7 @@ def _check_start(m: Mission) -> None:
         if value is None:
             key, hint = "initial.euler", "must be level, or ground.height lower"
         given = shown(m.initial.euler if value is None else value)
-        raise InputError(f"{key} = {given}: the feet start {depth:.3g} m deep in the floor; {hint}")
+        raise InputError(f"{key} = {given}: the vehicle starts {depth:.3g} m deep in the floor; {hint}")
 
 
 def standing_of(m: Mission) -> Standing:
@@ -83,11 +84,12 @@ def standing_of(m: Mission) -> Standing:
     mass, z = vehicle.mass * m.plant.mass_scale, m.initial.position[2]
     soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
     g = m.ground
-    built = floor(soles, mass, vehicle.inertia, m.mission.step, friction=g.friction, sinkage=g.sinkage)
+    shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=m.mission.step)
+    built = floor(soles, mass, vehicle.inertia, m.mission.step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
     stands, sinkage = standing_height(built, mass * GRAVITY), sinkage_of(built, mass * GRAVITY)
     height = z - stands if g.height is None else g.height
-    down = np.array(rotation_from_euler(vec3(m.initial.euler)).z)
-    lowest = z + float((soles @ down).min())
+    R = rotation_from_euler(vec3(m.initial.euler))
+    lowest = z + min(float((soles @ np.array(R.z)).min()), lowest_of_hull(shapes, R))
     return Standing(built._replace(height=height), height + stands, sinkage, height - lowest - sinkage)
 
 
@@ -109,15 +111,16 @@ def _of_floor(m: Mission, standing: Standing) -> Iterator[str]:
             f"and the standing vehicle sinks by {standing.sinkage:.2g} m"
         )
     soles = min(q.position[2] - q.feet_depth for q in m.vehicle.quadrotors)
-    if soles > -(m.vehicle.payload.radius or 0.0):
-        yield "the payload hangs lower than the feet, and nothing but the feet touches the floor"
+    radius = m.vehicle.payload.radius or 0.0
+    if soles > -radius:
+        yield f"the payload hangs {soles + radius:.3g} m lower than the feet: the vehicle stands on it, and may roll"
 
 
 def _of_start(m: Mission, standing: Standing) -> Iterator[str]:
     depth, p = standing.depth, m.phases
     if depth > THROWN * standing.sinkage:
         height = f"{depth**2 / (2.0 * standing.sinkage):.2g} m"  # of springs, undamped
-        yield f"the feet start {depth:.2g} m deep in the floor, which throws the vehicle up by as much as {height}"
+        yield f"the vehicle starts {depth:.2g} m deep in the floor, which throws the vehicle up by as much as {height}"
     if p.rotors == "flight" and p.lift_start > 0.0 and -depth > FAR_DOWN:
         yield f"the vehicle starts {-depth:.3g} m above the floor, with its rotors stopped until {p.lift_start:g} s"
 

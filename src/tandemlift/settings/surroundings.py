@@ -61,7 +61,10 @@ class WindTable(Table):
 
 
 class GroundTable(Table):
-    """`[ground]`: a level floor on which the quadrotors' feet stand, with friction; nothing but feet touches it."""
+    """`[ground]`: a level floor with friction. Feet stand on it; rotors, guards and beam touch it in all attitudes.
+
+    A rotor that touches floor or wall stops for the rest of the flight.
+    """
 
     model: Literal["none", "floor"] = key(
         "none", None, "model of the ground", choices={"none": "no ground", "floor": "a level floor"}
@@ -70,7 +73,7 @@ class GroundTable(Table):
         None,
         "m",
         "height z of the floor",
-        rule="the feet start at most 0.02 m deep in it",
+        rule="the vehicle starts at most 0.02 m deep in it",
         unset="such that the level vehicle stands on it at the start",
         example=-0.1688,
     )

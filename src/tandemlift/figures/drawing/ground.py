@@ -8,6 +8,7 @@ from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.vehicle import true_mass
 from tandemlift.flight.record import Flight
 from tandemlift.laws.contact.floor import floor, sole_positions, standing_height
+from tandemlift.laws.contact.hull import hull
 from tandemlift.settings.surroundings import GroundTable
 from tandemlift.vehicle import Vehicle
 
@@ -28,7 +29,10 @@ def floor_height(flight: Flight) -> float | None:
         return ground.height if ground.model != "none" else None
     vehicle, mission, mass = Vehicle.from_mission(flight.mission), flight.mission, true_mass(flight)
     step, friction = mission["mission"]["step"], ground.friction
-    at_zero = floor(_soles(vehicle), mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage)
+    shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
+    at_zero = floor(
+        _soles(vehicle), mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage, hull=shapes
+    )
     return mission["initial"]["position"][2] - standing_height(at_zero, mass * GRAVITY)
 
 

@@ -4,7 +4,7 @@ Rotor discs and the quadrotors' guards are flat ellipsoids: radius r across body
 of the beam are spheres (r = c), as the lowest point of a capsule is always at one of its ends. With body z at b, and
 with the part of the vertical n that lies in the disc, u = n − (b·n) b, a shape reaches below its centre by
 
-    h = √(c² + (r² − c²) |u|²),        at its point        −(c² n + (r² − c²) u)/h.
+    h = √(r² |u|² + c² (b·n)²),        at its point        −(c² n + (r² − c²) u)/h.
 
 That point is −∂h/∂n, so δ = z_floor − z + h changes at the rate at which the point moves down. Both forces act there:
 
@@ -89,10 +89,9 @@ class HullContact(NamedTuple):
 
 
 @elementwise
-def reach_below(radius: Number, half_thickness: Number, leaning: Number) -> Number:
-    """h [m], how far a shape reaches below its centre; `leaning`: |u|², from 0 where it lies flat to 1 on edge."""
-    flat = half_thickness * half_thickness
-    return sqrt(flat + (radius * radius - flat) * leaning)
+def reach_below(radius: Number, half_thickness: Number, leaning: Number, level: Number) -> Number:
+    """h [m], how far a shape reaches below its centre; |u|² and (b·n)²: `level` is 1 where it lies flat, else less."""
+    return sqrt(radius * radius * leaning + half_thickness * half_thickness * level)
 
 
 @elementwise
@@ -108,8 +107,8 @@ def floor_contact(shapes: Any, hull: Hull, friction: Number, height: Number, s: 
 
 @floor_contact.register(Ellipsoids)
 def _touching(shapes: Ellipsoids, hull: Hull, friction: Number, height: Number, s: State, R: Mat3) -> FloorContact:
-    leaning = R.x.z * R.x.z + R.y.z * R.y.z
-    below = reach_below(shapes.radius, shapes.half_thickness, leaning)
+    leaning, level = R.x.z * R.x.z + R.y.z * R.y.z, R.z.z * R.z.z
+    below = reach_below(shapes.radius, shapes.half_thickness, leaning, level)
     center = apply(R, shapes.center)
     arm = Vec3(
         center.x + sideways(shapes.radius, shapes.half_thickness, below, R.x.z * R.z.z),
@@ -188,6 +187,15 @@ def hull_may_touch(hull: Hull, height: Number, s: State, time: Number) -> Condit
     return lowest - 2.0 * time * (way - minimum(s.velocity.z, 0.0) + faster) < height
 
 
+def lowest_of_hull(hull: Hull, R: Mat3) -> Number:
+    """z of the lowest point of a hull from the centre of mass [m]; R of the attitude."""
+    leaning, level, found = R.x.z * R.x.z + R.y.z * R.y.z, R.z.z * R.z.z, list[Number]()
+    for p in (hull.rotors, hull.guards, hull.beam):
+        if isinstance(p, Ellipsoids):
+            found += apply(R, p.center).z - reach_below(p.radius, p.half_thickness, leaning, level)
+    return least(found)
+
+
 def hull(
     quadrotors: ArrayLike,
     rotors: ArrayLike,
@@ -200,7 +208,7 @@ def hull(
     beam: tuple[float, float] | None = None,
     payload: ArrayLike = (0.0, 0.0, 0.0),
     stiffness: float = 20000.0,
-    damping_ratio: float = 0.5,
+    damping_ratio: float = 0.2,
 ) -> Hull:
     """The shapes of a vehicle that meet the floor: as stiff as asked, softer if the step demands it.
 

@@ -22,7 +22,7 @@ from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 
 SMALL = 1e-18  # m²: no direction is known at this distance
-SPARED = 0.01  # m: the guard is a tube of about this radius, which a rim that stands out no further does not pass
+SPARED = 0.02  # m, by which a guard gives under some 100 N
 
 
 @elementwise
