@@ -13,6 +13,7 @@ from html_page import check_page
 from patience import completed
 
 import tandemlift as tl
+from tandemlift.common.findings import Finding
 from tandemlift.figures.registry import captions, figures_for, save_figures
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
@@ -156,6 +157,7 @@ def test_every_metric_is_in_the_table_with_its_value_and_unit(page, paper):
     metrics = paper.metrics()
     assert metrics.pop("events") == []  # in a list of their own
     assert metrics.pop("outcome") == "landed"  # the verdict
+    assert metrics.pop("findings") == []  # a list of their own
     assert list(rows) == list(metrics)
     for name, value in metrics.items():
         if name == "command_at_start":
@@ -306,3 +308,14 @@ def test_a_browser_without_a_network_shows_every_figure(report, tmp_path, progra
     assert shown.returncode == 0, shown.stderr
     assert "<title>2148,2148,2148,2148,1050,2148</title>" in shown.stdout
     shutil.rmtree(tmp_path / "profile", ignore_errors=True)
+
+
+def test_findings_are_told_under_the_verdict_with_place_and_what_to_do(page, paper, write):
+    assert "No findings." in page.text
+    text = "tilted by 34° (promised: 29°)"
+    found = Finding("off-track", 1.0, 0.5, (1.0, -2.0, 0.5), "tilt", 0.6, "rad", 0.5, text)
+    told = write(dataclasses.replace(paper, findings=(found,))).text
+    assert f"<strong>off-track</strong> at 1.00 s, at (1.000, −2.000, 0.500) m: {text}." in told
+    assert "What to do: change what disturbs it" in told
+    older = dataclasses.replace(paper, results={k: v for k, v in paper.results.items() if k != "findings"})
+    assert "No findings." not in write(older).text  # it was never searched for any

@@ -53,3 +53,25 @@ def test_a_rotor_that_failed_is_the_reason_of_a_landing_without_supervision():
     assert kinds(flight) == ["landed-by-fault"]
     assert "rotor 1" in flight.findings[0].text
     assert 14.0 < flight.findings[0].time < 14.5
+
+
+def test_a_part_that_meets_the_floor_is_named_with_its_place_and_force():
+    """A vehicle that starts tilted above the floor, its rotors weak: it falls onto a guard."""
+    changes = {
+        "mission.duration": 1.0,
+        "ground.height": -1.5,  # m
+        "initial.euler": [0.9, 0.0, 0.0],
+        "crash.tilt": 3.2,
+        "crash.impulse": 1e6,
+        "supervision.model": "none",
+        "sensor_faults": [],
+    }
+    flight = tl.fly(tl.load_mission("iris", {**WATCHED, **changes}))
+    touched = [f for f in flight.findings if f.kind == "touched"]
+    assert touched
+    assert touched[0].quantity.endswith("on floor")
+    assert touched[0].place[2] == pytest.approx(-1.5, abs=0.4)
+    contact = flight["contact_force"][:, 2]
+    assert touched[0].value > 0.0
+    assert flight.time[(contact > 0.0).argmax()] == pytest.approx(touched[0].time, abs=0.02)
+    assert not any(f.kind == "touched" for f in tl.fly(tl.load_mission("iris", WATCHED)).findings)

@@ -16,13 +16,13 @@ from matplotlib.ticker import EngFormatter
 from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import fit, line, time_axis
 from tandemlift.figures.drawing.series import drawable, normalised
-from tandemlift.figures.drawing.style import ACTUAL, COMPONENTS, DESIRED, GREY, PAGE, journal
+from tandemlift.figures.drawing.style import ACTUAL, COMPONENTS, DESIRED, GREY, PAGE, VERMILLION, journal
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption(
     "Tracking",
     "Desired and actual orientation, position and velocity. Bottom row: the errors, desired minus actual, each "
-    "divided by its largest absolute value, which the legend gives.",
+    "divided by its largest absolute value, which the legend gives; a triangle marks the beginning of a finding.",
     "Twelve panels over time, three columns for orientation, position and velocity: desired and actual value of each "
     "component, and their normalised errors.",
 )
@@ -87,6 +87,13 @@ def _trajectories(axes: Any, flight: Flight, column: FigureColumn) -> list[Any]:
     return handles
 
 
+def _mark_findings(ax: Any, flight: Flight) -> None:
+    """Mark the times at which findings begin by triangles at the upper edge."""
+    times = sorted({f.time for f in flight.findings})
+    if times:
+        ax.plot(times, [1.1] * len(times), "v", color=VERMILLION, ms=3.5, clip_on=False, zorder=5)
+
+
 def _errors(ax: Any, flight: Flight, column: FigureColumn) -> None:
     """Fill the bottom panel of a column with the errors over their largest absolute values."""
     for i, look in enumerate(COMPONENTS):
@@ -99,6 +106,7 @@ def _errors(ax: Any, flight: Flight, column: FigureColumn) -> None:
     ax.set_ylabel("error / max|error|", labelpad=1)
     above = {"loc": "lower center", "bbox_to_anchor": (0.46, 1.0), "borderaxespad": 0.0}
     ax.legend(ncols=3, fontsize=7, handlelength=1.5, handletextpad=0.4, columnspacing=0.7, **above)
+    _mark_findings(ax, flight)
     time_axis(ax, flight)
 
 

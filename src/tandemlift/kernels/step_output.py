@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tandemlift.kernels.offsets import LeafSpan, leaf_offset
 from tandemlift.kernels.step_writer import StepWriter
-from tandemlift.trace import Function, double
+from tandemlift.trace import Function, Symbol, double
 
 COMMAND_LINE = 2  # the delay line of the rotor commands: without delay, a command acts in its own step
 
@@ -49,34 +49,51 @@ def write_next_state(step: StepWriter, f: Function, k: str) -> None:
     The record of touches is written in steps near floor or walls only; in others it stays.
     """
     after, detectors = list(step.traced.next_state), leaf_offset(step.templates.model, "flight_state", "detectors")
-    if not step.graph.rolls_from:
-        _write_detectors(step, f, detectors)
+    watches = not step.graph.rolls_from
+    if watches:
         after = after[: detectors.at]
     if step.keeps_touches:
         at, size = step.touches
         touches, after[at : at + size] = after[at : at + size], step.traced.touches_before
+    if watches:
+        f.values([*after, *_read_by_detectors(step, detectors)])
     f.put("%flight", 0, after, "fly")
     if step.keeps_touches:
         near = f.load("%work", step.near * step.lanes, "double")
         with f.when(f.op(f"fcmp one double {near}, 0.0")):
             f.put("%flight", at, touches)
+    if watches:
+        _write_detectors(step, f, detectors)
     if step.templates.has_delays:
         _write_delays(step, f, k)
+
+
+def _read_by_detectors(step: StepWriter, at: LeafSpan) -> list[Symbol]:
+    """What detectors need of the state before the step, which is read before the state is written; their counters."""
+    g, state = step.graph, step.traced.next_state[at.at : at.at + at.size]
+    needed = g.needed([s.node for s in state])
+    inputs = [n for n in needed if g.ops[n] == "in" and g.args[n][0] == "fly" and g.args[n][1] < at.at]
+    return [*(Symbol(g, n, g.types[n]) for n in inputs), *(state[i] for i in _counters(step))]
+
+
+def _counters(step: StepWriter) -> list[int]:
+    """Places of the numbers of the detectors that change in every step, `awake` first."""
+    like = step.templates.model.flight_state.detectors
+    spans = [leaf_offset(like, name) for name in like._fields]
+    return [span.at for span in spans if span.size == 1]
 
 
 def _write_detectors(step: StepWriter, f: Function, at: LeafSpan) -> None:
     """Write the memory of the detectors; that of a detector that sleeps before and after the step has not changed."""
     like, state = step.templates.model.flight_state.detectors, step.traced.next_state
     spans = {name: leaf_offset(like, name) for name in like._fields}
-    counters = [span.at for span in spans.values() if span.size == 1]
-    f.values(state[at.at + i] for i in counters)
     with f.when(_awake(step, f, at.at)):
         for span in spans.values():
             first = at.at + span.at
             if span.size > 1:
                 with f.when(_awake(step, f, first)):
                     f.put("%flight", first, state[first : first + span.size])
-    for i in counters:
+    for i in _counters(step):
         f.put("%flight", at.at + i, [state[at.at + i]])
 
 

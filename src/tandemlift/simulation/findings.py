@@ -17,10 +17,10 @@ from tandemlift.loop.oscillation import HalfPeriods
 from tandemlift.loop.step import FlightState
 from tandemlift.settings import Mission
 from tandemlift.settings.outcomes import Promise, promise_of
+from tandemlift.simulation.outcome import landing_time
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.touches import touches_of
 
-STEEPEST = 1.875  # slope of the smooth step that a landing follows
-MARGIN = 1.0  # s, in which a landing should touch down after its reference
 SIGNALS = {  # of `loop.oscillation.Swings`: name, unit
     "roll": ("roll rate", "rad/s"),
     "pitch": ("pitch rate", "rad/s"),
@@ -47,6 +47,7 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         *_out_of_reach(d.reach, p),
         *_unanswered(d.push.unanswered, p.dt),
         *_cannot_follow(flight_state, mission),
+        *_touches(flight_state),
         *_by_events(flight_state, mission),
         *_by_lost_rotor(p, flight_state),
         *_not_landed(p, flight_state, outcome),
@@ -214,6 +215,20 @@ def _cannot_follow(flight_state: FlightState, mission: Mission) -> Iterator[Find
         yield finding("cannot-follow", text, time=m.first, duration=m.lasted, quantity=reason.text)
 
 
+def _touches(flight_state: FlightState) -> Iterator[Finding]:
+    for t in touches_of(flight_state):
+        text = f"the {t.part} touched {'the floor' if t.surface == 'floor' else 'a wall'} with up to {t.force:.3g} N"
+        yield finding(
+            "touched",
+            f"{text}; impulse {t.impulse:.3g} N s",
+            time=t.time,
+            place=t.place,
+            quantity=f"{t.part} on {t.surface}",
+            value=t.force,
+            unit="N",
+        )
+
+
 def _by_events(flight_state: FlightState, mission: Mission) -> Iterator[Finding]:
     """Findings from the events of the supervision."""
     supervising = getattr(flight_state.memory.guidance, "supervision", None)
@@ -263,7 +278,7 @@ def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str) -> Itera
     asked = [r.time for r in mission.requests if r.action == "land"]
     land_start = mission.phases.land_start
     first = min([*asked, *([] if land_start is None else [land_start])], default=math.inf)
-    over = first + _landing_time(mission, height)
+    over = first + landing_time(mission, height)
     if outcome == "flying" and over <= mission.mission.duration:
         text = f"{height:.3g} m above its start at the end, with a landing asked for at {first:g} s"
         yield finding(
@@ -276,11 +291,3 @@ def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str) -> Itera
             unit="m",
             limit=mission.outcome.landed_height,
         )
-
-
-def _landing_time(mission: Mission, height: float) -> float:
-    """The longest time that a landing from a height [m] takes [s]."""
-    if mission.pilot.guidance == "clock":
-        return mission.phases.land_duration
-    slowest = STEEPEST * (height + mission.compliance.touchdown_depth) / mission.compliance.max_descent_speed
-    return max(mission.phases.land_duration, slowest) + MARGIN

@@ -15,6 +15,8 @@ from tandemlift.simulation.ending_numbers import EndingMoment, ending_numbers
 from tandemlift.simulation.plan import FlightPlan
 
 NOT_FINITE = "must be finite"
+STEEPEST = 1.875  # slope of the smooth step that a landing follows
+MARGIN = 1.0  # s, in which a landing should touch down after its reference
 BORNE = 0.5  # of the weight: what the floor bears of a vehicle that stands on it
 
 
@@ -86,3 +88,11 @@ def _stands(p: FlightPlan, state: State, last: Any, start: float) -> bool:
     if land is None or land + mission.phases.land_duration > mission.mission.duration:
         return False
     return slow and abs(state.position.z - start) < mission.outcome.landed_height
+
+
+def landing_time(mission: Mission, height: float) -> float:
+    """The longest time that a landing from a height [m] takes [s]."""
+    if mission.pilot.guidance == "clock":
+        return mission.phases.land_duration
+    slowest = STEEPEST * (height + mission.compliance.touchdown_depth) / mission.compliance.max_descent_speed
+    return max(mission.phases.land_duration, slowest) + MARGIN
