@@ -99,7 +99,7 @@ def test_frames_are_the_channels_of_the_flight_to_the_last_bit_of_float32(flight
 def test_there_are_sixty_frames_a_second_at_most_and_they_span_the_flight(flight):
     scene, frames = scene_and_frames(flight)
     assert np.diff(frames[:, 0]).min() > 1.0 / 60.0
-    assert scene["replay"] == {"start": 0.0, "end": pytest.approx(16.0, abs=0.02), "speed": 1}
+    assert scene["replay"] == {"start": 0.0, "end": pytest.approx(16.0, abs=0.02), "speed": 1, "ending": None}
     assert frames[-1, 0] == np.float32(scene["replay"]["end"])
 
 
@@ -364,3 +364,14 @@ def test_the_page_that_ships_can_stand_alone(flight):
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     assert f"'sha256-{digest}'" in read.of("meta", **{"http-equiv": "Content-Security-Policy"})[0][0]["content"]
     assert embedded(text)[0]["mission"] == flight.name
+
+
+def test_a_flight_that_crashed_carries_its_ending():
+    tender = {"crash.tilt": 0.02, "mission.duration": 20.0}
+    flight = tl.fly(tl.load_mission("one-push", tender))
+    assert flight.ending is not None
+    scene, _ = scene_and_frames(flight)
+    ending = scene["replay"]["ending"]
+    assert ending["text"] == str(flight.ending)
+    assert ending["outcome"] == "crashed"
+    assert abs(ending["place"][2] - flight["position"][-1, 2]) < 0.1

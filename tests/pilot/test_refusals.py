@@ -13,11 +13,12 @@ from tandemlift.pilot.refusals import refusal_numbers
 
 BY_HAND = {"pilot.guidance": "hand", "phases.rotors": "flight", "ground.model": "floor"}
 SUPERVISED = BY_HAND | {"supervision.model": "watch", "phases.lift_start": 1e6, "phases.land_start": 2e6}
+STAYS = {"compliance.following.max_error": 100.0}  # the vehicle of these tests never moves
 LEVEL = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, *[0.0] * 9])
 
 
 def pilot(**changes):
-    settings = {"phases.lift_duration": 0.5, "supervision.limits.tracking_error": 100.0, **changes}  # it stays in place
+    settings = {"phases.lift_duration": 0.5, "supervision.limits.tracking_error": 100.0, **STAYS, **changes}
     return tl.Pilot(tl.load_mission("hover", SUPERVISED | settings))
 
 

@@ -23,8 +23,7 @@ import {
   type FlightScene,
   type PageMessage,
   type ParameterValue,
-  type Phase,
-  type StatusEnding,
+  type SceneEnding,
   type StatusMessage,
   STIFFNESS,
   THRESHOLD,
@@ -59,7 +58,7 @@ export class App implements FlightListener, ShellPage {
   private drawnAt = 0;
   private readonly eye = new Matrix4();
   private unheld = 0;
-  private end: (StatusEnding & { outcome: Phase }) | null = null;
+  private end: SceneEnding | null = null;
 
   constructor(
     private readonly source: FlightSource,
@@ -158,7 +157,7 @@ export class App implements FlightListener, ShellPage {
     this.unheld = this.grab.pulling && status.holder !== "you" ? this.unheld + 1 : 0;
     if (this.unheld > LET_GO_AFTER) this.grab.cancel(); // the server has let go
     this.remarks.status(status);
-    this.end = status.ending && { ...status.ending, outcome: status.phase };
+    this.end = status.ending;
     this.shell.status(status);
   }
 

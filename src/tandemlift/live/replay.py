@@ -17,6 +17,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.live.self_contained import data_element, in_one_file, page_text, with_data
 from tandemlift.live.session.frame_values import arrays_of, components_of, field_values, phase_times
 from tandemlift.live.session.scene_builder import scene_of_tables
+from tandemlift.live.session.status import scene_ending
 from tandemlift.live.wire.frames import RATE, layout_for, pack_frames
 from tandemlift.live.wire.scene import FlightScene, SceneReplay
 from tandemlift.rendering.stage import FlightStage
@@ -41,7 +42,9 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
     values = arrays_of(field_values(channels, flight.time[shown], phase_times(flight.mission["phases"])))
     frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(shown))
     scene = scene_of_tables(flight.mission, stage.vehicle, flight.version.get("engine", ""), stage.floor)
-    scene["replay"] = SceneReplay(start=float(flight.time[shown[0]]), end=float(flight.time[shown[-1]]), speed=1)
+    start, end = (float(flight.time[shown[i]]) for i in (0, -1))
+    ending = scene_ending(flight.ending, flight["position"][shown[-1]])
+    scene["replay"] = SceneReplay(start=start, end=end, speed=1, ending=ending)
     return scene, frames
 
 

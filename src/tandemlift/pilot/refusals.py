@@ -18,7 +18,7 @@ from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LI
 from tandemlift.common.refusals import NUMBER_OF, REQUESTS, Refusals, refusal_of
 from tandemlift.laws.compliance.compliance import Compliance, ComplianceState
 from tandemlift.laws.guidance.contact_hold import ContactReaction, ContactReactionState
-from tandemlift.laws.guidance.fault_reactions import HOLDS
+from tandemlift.laws.guidance.fault_detection import HOLDS
 from tandemlift.laws.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.laws.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.laws.guidance.supervision import Supervision, SupervisionState

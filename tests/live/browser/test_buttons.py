@@ -68,7 +68,7 @@ def test_who_is_not_to_be_heard_is_not_and_stop_stops_at_once(page, live):
     page.get_by_role("button", name="Disabled").click()
     live.wait_status(lambda status: status["enabled"], "a pilot that listens")
     page.get_by_role("button", name="Stop").click()
-    live.wait_status(lambda status: status["phase"] in ("stopped", "lost"), "stopped rotors")
+    live.wait_status(lambda status: status["phase"] in ("stopped", "crashed"), "stopped rotors")
     page.get_by_role("button", name="Reset").click()
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
 

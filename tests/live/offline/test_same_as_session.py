@@ -98,14 +98,7 @@ def frames_flown(session, seconds):
     return frames, statuses
 
 
-CLOCKED = {
-    "findings",
-    "factor",
-    "behind_ms",
-    "viewers",
-    "holder",
-    "type",
-}  # of a status: what the clock and the viewers make of it
+CLOCKED = {"findings", "factor", "behind_ms", "viewers", "holder", "type"}  # what clock and server make of it
 
 
 def untimed(status):

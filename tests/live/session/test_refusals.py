@@ -1,6 +1,6 @@
 """A session says why a lift, a landing or a push has no effect, to who asked and in its status."""
 
-from sessions import fly, say, up
+from sessions import fly, say, seen, up
 
 import tandemlift as tl
 from tandemlift.live.session.session import Session
@@ -48,3 +48,34 @@ def test_a_flight_at_its_end_refuses_everything(session, monkeypatch):
 def test_before_the_first_step_nothing_is_said_to_be_refused(tmp_path):
     one = Session(tl.load_mission("hover"), out=tmp_path)
     assert set(one.status()["refusals"].values()) == {""}
+
+
+def test_zigzag_pulled_against_a_wall_names_what_touches_it_and_then_why_it_does_not_lift(tmp_path):
+    one = Session(tl.load_mission("zigzag"), out=tmp_path)
+    one.prepare()
+    fly(one, 8.0)
+    (x, y, z) = map(float, seen(one)["position"])
+    say(one, "grab", point=(0.0, 0.0, 0.0), target=(x, y + 3.0, z), at="point")
+    told, phases, marked = set(), set(), set()
+    for _ in range(120):
+        fly(one, 0.05)
+        status, frame = one.status(), seen(one)
+        phases.add(status["phase"])
+        assert "disagree" not in status["alarm"]
+        if status["phase"] == "contact":
+            told.add(status["refusals"]["push"])
+        if frame["contact_part"]:
+            marked.add(float(frame["contact_part"][0]))
+            assert frame["contact_normal"] @ [0.0, -1.0, 0.0] > 0.7  # the wall is to the left
+            assert frame["contact_point"][1] > y
+    assert "contact" in phases
+    assert marked
+    assert any("touches a wall. Pull it away from the wall" in text for text in told)
+    say(one, "release")
+    say(one, "ask", what="land")
+    fly(one, 12.0)
+    assert one.status()["phase"] == "idle"
+    refused_now = refused(say(one, "ask", what="lift"))
+    fly(one, 1.0)
+    assert one.status()["phase"] == "lift" or refused_now == [one.status()["refusals"]["lift"]]
+    one.stop()

@@ -1,17 +1,13 @@
 // Why a flight was stopped before its end, in words. As `simulation.outcome` says it.
 
-import type { StatusEnding } from "../wire/messages.generated.ts";
+import type { SceneEnding } from "../wire/messages.generated.ts";
 import type { Flight } from "./flight.ts";
-import type { EndingText, PageManifest } from "./manifest.ts";
+import type { PageManifest } from "./manifest.ts";
 import type { FlightModule } from "./module.ts";
 import { filled, general } from "./python_text.ts";
 
-export interface KnownEnding extends StatusEnding {
-  outcome: EndingText["outcome"];
-}
-
 /** The ending of a flight; null while it goes on. */
-export function endingOf(module: FlightModule, page: PageManifest, flight: Flight): KnownEnding | null {
+export function endingOf(module: FlightModule, page: PageManifest, flight: Flight): SceneEnding | null {
   if (!flight.lost) return null;
   const given = page.ending.flatMap(([at, size]) => [...flight.numbersAt(at, size)]);
   const [number, time, value, notFinite, x, y, z] = module.values("ending", [...given, flight.time]);

@@ -4,12 +4,13 @@ import type {
   FlightScene,
   PageMessage,
   Phase,
+  SceneEnding,
   ServerMessage,
   StatusMessage,
   StatusRefusals,
 } from "../wire/messages.generated.ts";
 import { Layout } from "../wire/frames.ts";
-import { endingOf, type KnownEnding } from "./endings.ts";
+import { endingOf } from "./endings.ts";
 import { Flight } from "./flight.ts";
 import { HandControl } from "./hand_control.ts";
 import type { FlightManifest } from "./manifest.ts";
@@ -114,7 +115,7 @@ export class Session {
       recorded_s: Number(flight.time.toFixed(3)),
       failed_rotors: this.parameters.failed(flight.time),
       refusals: this.refusals(),
-      ending: ending && { text: ending.text, time: ending.time, place: ending.place },
+      ending,
       viewers: 1,
       holder: this.held ? "you" : "none",
     };
@@ -238,7 +239,7 @@ export class Session {
     return { type: "saved", name: `${name}.zip`, bytes };
   }
 
-  private phase(ending: KnownEnding | null): Phase {
+  private phase(ending: SceneEnding | null): Phase {
     if (this.failed) return "failed";
     if (ending) return ending.outcome;
     return this.flight.over ? "over" : this.manifest.page.scene.phases[this.value("phase")[0]];

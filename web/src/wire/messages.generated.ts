@@ -128,11 +128,20 @@ export interface SceneParameter {
   choices?: string[]; // in place of bounds
 }
 
+/** Why a flight was stopped before its end. */
+export interface SceneEnding {
+  outcome: Phase; // `crashed` or `diverged`
+  text: string; // names outcome, time, quantity, value and limit
+  time: number; // s
+  place: Vector | null; // of the vehicle; null if that is not known
+}
+
 /** A span of time. */
 export interface SceneReplay {
   start: number; // s
   end: number; // s
   speed: number; // flight time over wall time
+  ending: SceneEnding | null; // why it was stopped before its end; null unless it was
 }
 
 /** Everything about a flight that does not change from frame to frame. */
@@ -163,13 +172,6 @@ export interface StatusRefusals {
   push: string; // why a push is not followed
 }
 
-/** Why a flight was stopped before its end. */
-export interface StatusEnding {
-  text: string; // names outcome, time, quantity, value and limit
-  time: number; // s
-  place: Vector | null; // of the vehicle; null if that is not known
-}
-
 /** Something that went badly in the flight so far. */
 export interface StatusFinding {
   kind: string; // as in docs/outcomes.md
@@ -196,7 +198,7 @@ export interface FlightStatus {
   recorded_s: number; // length of the recording, s
   failed_rotors: readonly number[]; // rotors that have stopped for good, counted over the whole vehicle from 0
   refusals: StatusRefusals; // why a request would be refused right now, and what to do
-  ending: StatusEnding | null; // why the flight was stopped before its end; null unless it was
+  ending: SceneEnding | null; // why the flight was stopped before its end; null unless it was
   findings?: StatusFinding[]; // what went badly so far; a server forms it once a second
   preparing?: PreparationStatus; // before the first step
 }

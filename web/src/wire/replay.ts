@@ -11,7 +11,6 @@ const NOT_LIVE = {
   recorded_s: 0,
   failed_rotors: [],
   refusals: { lift: "", land: "", push: "" },
-  ending: null,
   viewers: 1,
   holder: "none",
 } as const;
@@ -35,7 +34,7 @@ export class Replay implements FlightSource {
     this.values = values;
     this.timeAt = this.layout.place("time").start;
     this.count = Math.floor(values.length / this.layout.size);
-    this.scene.replay ??= { start: this.timeOf(0), end: this.timeOf(this.count - 1), speed: 1 };
+    this.scene.replay ??= { start: this.timeOf(0), end: this.timeOf(this.count - 1), speed: 1, ending: null };
     this.time = this.scene.replay.start;
     this.speed = this.scene.replay.speed;
   }
@@ -105,7 +104,10 @@ export class Replay implements FlightSource {
   private status(frame: Frame): StatusMessage {
     const phase = this.scene.phases[frame.scalar("phase")] ?? "idle";
     const alarm = this.scene.alarms[frame.scalar("alarm")] ?? "";
-    return { ...NOT_LIVE, phase, alarm, paused: this.paused, speed: this.speed, factor: this.speed };
+    const { end, ending } = this.scene.replay!;
+    const over = this.time >= end ? ending : null;
+    const state = { phase: over?.outcome ?? phase, alarm, ending: over };
+    return { ...NOT_LIVE, ...state, paused: this.paused, speed: this.speed, factor: this.speed };
   }
 
   private timeOf(i: number): number {

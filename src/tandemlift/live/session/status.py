@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from tandemlift.common.faults import ALARM_TEXTS
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.common.refusals import Refusals, refusals_for
 from tandemlift.common.types import Array
-from tandemlift.interactive.recorded_flight import RecordedFlight
+from tandemlift.flight.record import Ending
 from tandemlift.live.session.checks import failed_rotors
 from tandemlift.live.session.pacing import Pacer
-from tandemlift.live.wire.server_messages import FlightStatus, StatusEnding, StatusFinding, StatusRefusals
+from tandemlift.live.wire.scene import SceneEnding
+from tandemlift.live.wire.server_messages import FlightStatus, StatusFinding, StatusRefusals
+from tandemlift.interactive.recorded_flight import RecordedFlight
 
 FINDINGS_EVERY = 1.0  # s
 NO_REFUSALS = StatusRefusals(lift="", land="", push="")
@@ -58,13 +60,13 @@ def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
     return flight.refusals
 
 
-def _ending_of(flight: RecordedFlight) -> StatusEnding | None:
-    """Why and where a flight was stopped before its end."""
-    ending = flight.ending
+def scene_ending(ending: Ending | None, place: Iterable[float]) -> SceneEnding | None:
+    """Why and where [m, world] a flight was stopped before its end, as a page is told of it; None if it was not."""
     if ending is None:
         return None
-    place = [float(x) for x in flight.ending_place]
-    return StatusEnding(text=str(ending), time=ending.time, place=place if all(map(math.isfinite, place)) else None)
+    at = [float(x) for x in place]
+    known = at if all(map(math.isfinite, at)) else None
+    return SceneEnding(outcome=ending.outcome, text=str(ending), time=ending.time, place=known)
 
 
 def in_sentences(refusals: Refusals) -> StatusRefusals:
@@ -87,5 +89,5 @@ def status_of(flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], f
         recorded_s=round(flight.step * flight.dt, 3),
         failed_rotors=failed_rotors(flight),
         refusals=in_sentences(refusals_now(flight, failed)),
-        ending=_ending_of(flight),
+        ending=scene_ending(flight.ending, flight.ending_place),
     )

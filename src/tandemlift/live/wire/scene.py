@@ -109,12 +109,22 @@ class SceneParameter(TypedDict):
     choices: NotRequired[Annotated[list[str], "in place of bounds"]]
 
 
+class SceneEnding(TypedDict):
+    """Why a flight was stopped before its end."""
+
+    outcome: Annotated[Phase, "`crashed` or `diverged`"]
+    text: Annotated[str, "names outcome, time, quantity, value and limit"]
+    time: Seconds
+    place: Annotated[WorldPosition | None, "of the vehicle; null if that is not known"]
+
+
 class SceneReplay(TypedDict):
     """A span of time."""
 
     start: Seconds
     end: Seconds
     speed: Annotated[float, "flight time over wall time"]
+    ending: Annotated[SceneEnding | None, "why it was stopped before its end; null unless it was"]
 
 
 class FlightScene(TypedDict):

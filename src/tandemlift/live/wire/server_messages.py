@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, NotRequired, TypedDict, get_args, get_type_hints
 
-from tandemlift.live.wire.quantities import ParameterValue, Phase, Seconds, WorldPosition
-from tandemlift.live.wire.scene import FlightScene
+from tandemlift.live.wire.quantities import ParameterValue, Phase, Seconds
+from tandemlift.live.wire.scene import FlightScene, SceneEnding
 
 THRESHOLD, STIFFNESS, MAX_FORCE = "admittance.threshold", "person.stiffness", "person.max_force"
 SHOWN_PARAMETERS = {"THRESHOLD": THRESHOLD, "STIFFNESS": STIFFNESS, "MAX_FORCE": MAX_FORCE}  # the page draws these
@@ -25,14 +25,6 @@ class StatusRefusals(TypedDict):
     lift: str
     land: str
     push: Annotated[str, "why a push is not followed"]
-
-
-class StatusEnding(TypedDict):
-    """Why a flight was stopped before its end."""
-
-    text: Annotated[str, "names outcome, time, quantity, value and limit"]
-    time: Seconds
-    place: Annotated[WorldPosition | None, "of the vehicle; null if that is not known"]
 
 
 class StatusFinding(TypedDict):
@@ -56,7 +48,7 @@ class FlightStatus(TypedDict):
     recorded_s: Annotated[float, "length of the recording, s"]
     failed_rotors: Annotated[list[int], "rotors that have stopped for good, counted over the whole vehicle from 0"]
     refusals: Annotated[StatusRefusals, "why a request would be refused right now, and what to do"]
-    ending: Annotated[StatusEnding | None, "why the flight was stopped before its end; null unless it was"]
+    ending: Annotated[SceneEnding | None, "why the flight was stopped before its end; null unless it was"]
     findings: NotRequired[Annotated[list[StatusFinding], "what went badly so far; a server forms it once a second"]]
     preparing: NotRequired[Annotated[PreparationStatus, "before the first step"]]
 
