@@ -28,7 +28,7 @@ from judge.verdict import judge
 
 import tandemlift as tl
 from tandemlift.flight.record import Flight
-from tandemlift.studies.random_missions import RandomMission, random_family, shortened
+from tandemlift.studies.random_missions.generate import RandomMission, random_family, shortened
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "validation.md"
 MARK, END = "<!-- random missions -->", "<!-- end of random missions -->"

@@ -47,7 +47,7 @@ def test_every_fault_has_a_reaction_key_with_its_default():
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda f: f.key)
 def test_the_reaction_to_a_fault_is_that_of_its_key_and_the_alarm_is_its_number(fault):
-    symptom = 3.0 if fault.has_symptoms else 0.0
+    symptom = float(len(fault.symptoms))
     present = NONE._replace(**{fault.key: symptom or 1.0})
     found = strongest_reaction(present, NONE._replace(**{fault.key: 2.0}))
     assert found == (2.0, 10.0 * fault.number + symptom)
@@ -60,7 +60,7 @@ def test_of_all_faults_the_first_with_the_strongest_reaction_gives_the_alarm():
     for i, fault in enumerate(FAULTS):
         reactions = {f.key: 1.0 if j < i else 2.0 for j, f in enumerate(FAULTS)}
         found = strongest_reaction(every, ActiveFaults(**reactions))
-        assert found == (2.0, 10.0 * fault.number + fault.has_symptoms)
+        assert found == (2.0, 10.0 * fault.number + bool(fault.symptoms))
 
 
 def test_the_first_check_that_fails_is_reported():
@@ -73,12 +73,13 @@ def test_the_first_check_that_fails_is_reported():
 
 
 def test_the_channel_knows_every_phase():
-    assert CHANNELS["phase"].meaning == "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped"
+    assert CHANNELS["phase"].meaning == "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped, 6 contact, 7 limited"
 
 
 RECIPE = """
 from tandemlift.common import faults
-new = faults.Fault(21, "battery", "battery low", "the battery is low", "stop", "below a voltage")
+NEXT = len(faults.FAULTS) + 1
+new = faults.Fault(NEXT, "battery", "battery low", "the battery is low", "stop", "below a voltage")
 faults.FAULTS = (*faults.FAULTS, new)
 faults.ALARM_TEXTS = faults._alarm_texts()
 
@@ -92,11 +93,11 @@ mission = tl.load_mission("iris", {"pilot.guidance": "hand", "supervision.model"
 assert mission.supervision.reactions.battery == "land"
 assert "| `supervision.reactions.battery` |" in keys_page()
 assert "reaction when the battery is low" in keys_page()
-assert scene_of(mission, "compiled")["alarms"][210] == "battery low"
+assert scene_of(mission, "compiled")["alarms"][10 * NEXT] == "battery low"
 none = ActiveFaults(*[0.0] * len(faults.FAULTS))
-assert strongest_reaction(none._replace(battery=1.0), none._replace(battery=3.0)) == (3.0, 210.0)
+assert strongest_reaction(none._replace(battery=1.0), none._replace(battery=3.0)) == (3.0, 10.0 * NEXT)
 from tandemlift.simulation.results import describe_event
-assert describe_event((3, 210, 0), (2, 0, 0)) == "battery low -> land"
+assert describe_event((3, 10 * NEXT, 0), (2, 0, 0)) == "battery low -> land"
 try:
     tl.fly(mission)
 except TypeError as error:

@@ -10,8 +10,8 @@ from repository import ROOT
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing
 from tandemlift.assembly.assemble import assemble
-from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS, SYMPTOMS
-from tandemlift.common.phases import PHASE_NAMES, PHASES
+from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS
+from tandemlift.common.phases import PHASE_NAMES, PHASES, REASONS
 from tandemlift.laws.estimation.disturbance_observer import NONE
 from tandemlift.laws.guidance.guidance import PilotInput, checked_input, guide
 from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
@@ -28,6 +28,7 @@ FLOWN = {
     "pushes": [{"force": [2.0, 0.0, 0.0], "time": 7.0, "sigma": 0.4}],
     "requests": [{"time": 1000.0, "action": "land"}],
     "supervision.model": "watch",
+    "contact.model": "watch",
     "sensor_faults": QUIET,
 }
 
@@ -66,11 +67,13 @@ def test_every_fault_has_the_reaction_of_the_table_and_ends_safely(row, fly):
     number, fault, _, _, reaction, tried = row
     flight = fly(tried_with(tried))
     events = [what for _, what in flight.metrics()["events"]]
-    entered = {"hold": "hold", "land": "land", "stop": "stopped"}[reaction]
+    held = "limited" if fault.startswith("cannot follow") else "hold"
+    entered = {"hold": held, "land": "land", "stop": "stopped"}[reaction]
     assert f"{fault} -> {entered}" in events, events
     assert {int(a) // 10 for a in flight["alarm"]} - {0} == {int(number)}
     assert flight.ending is None
     assert PHASE_NAMES[int(flight["phase"][-1])] == ("stopped" if reaction == "stop" else "idle"), events
+    assert not flight["contact_part"].any()
     assert flight["rotor_thrusts"][-1].max() < 1e-6
     assert flight["position"][-1, 2] == pytest.approx(STANDS, abs=0.02)
     assert np.abs(flight["euler"][-1, :2]).max() < 0.02
@@ -153,7 +156,8 @@ def test_a_check_that_fails_refuses(changes, check, fly):
 
 def in_plain_python(seconds, heard_at):
     """Names of the phases of a guidance by hand that is told a state at rest, and what `heard_at` makes of it."""
-    changes = {**FLOWN, "supervision.limits.tracking_error": 100.0}  # the state at rest does not follow the lift
+    far = {"supervision.limits.tracking_error": 100.0, "compliance.following.max_error": 100.0}
+    changes = {**FLOWN, **far}  # the state at rest does not follow the lift
     model = assemble(tl.load_mission("iris", changes)).model
     guidance, memory, dt, names = model.pilot.guidance, model.flight_state.memory.guidance, 0.01, []
     for i in range(round(seconds / dt)):
@@ -195,9 +199,9 @@ def fault_rows():
     """The rows of the table of faults, without what each was tried with."""
     for fault in FAULTS:
         cells = [f"`{fault.key}`", fault.reaction]
-        if not fault.has_symptoms:
+        if not fault.symptoms:
             yield [str(fault.number), fault.text, fault.detection, *cells]
-        for symptom in SYMPTOMS if fault.has_symptoms else ():
+        for symptom in fault.symptoms:
             detection = symptom.detection.format(range=fault.detection)
             yield [str(fault.number), f"{fault.text} {symptom.text}", detection, *cells]
 
@@ -213,6 +217,9 @@ def test_the_tables_of_checks_and_phases_are_those_of_the_code():
     told = re.findall(
         r"^\| (\w+) \| (\d) \| (.*) \|$", TEXT.partition("## Phases")[2].partition("\n## ")[0], flags=re.M
     )
+    reasons = [[reason.text, str(i), reason.detection] for i, reason in enumerate(REASONS, start=1)]
+    lines = TEXT.partition("## When the vehicle cannot follow")[2].partition("\n## ")[0].splitlines()
+    assert [line.strip("| ").split(" | ") for line in lines if re.match(r"\| .* \| \d", line)] == reasons
     assert told == [(p.name, str(i), f"{p.rotors} | {p.pushes} | {p.reference}") for i, p in enumerate(PHASES)]
 
 

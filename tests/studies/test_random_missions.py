@@ -15,7 +15,14 @@ from random_missions import Judged, judged_family, report, table
 import tandemlift as tl
 from tandemlift.missions import tables_of
 from tandemlift.settings import CorridorTable
-from tandemlift.studies.random_missions import FIXED, LISTS, drawable_keys, random_family, random_missions, shortened
+from tandemlift.studies.random_missions.generate import (
+    FIXED,
+    LISTS,
+    drawable_keys,
+    random_family,
+    random_missions,
+    shortened,
+)
 from tandemlift.vehicle import Vehicle
 
 FAMILIES = range(10)  # five missions each

@@ -20,6 +20,8 @@ def say(session, kind, **what):
 
 def fly(session, seconds):
     for _ in range(round(seconds / session._flight.dt)):
+        if session._flight.over:
+            return
         session._hand.expire_requests()
         session._flight.advance()
 

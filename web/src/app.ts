@@ -5,6 +5,7 @@ import { Matrix4 } from "three";
 import { ForceInput } from "./hand/force_input.ts";
 import { Grab } from "./hand/grab.ts";
 import type { HandOptions } from "./hand/options.ts";
+import { Remarks } from "./hand/remarks.ts";
 import { forgetColors } from "./ui/colors.ts";
 import { byId } from "./ui/dom.ts";
 import { Shell, type ShellPage } from "./ui/shell.ts";
@@ -13,7 +14,7 @@ import { ChaseCamera, type View } from "./view/camera.ts";
 import { FrameRate, type Graphics, type GraphicsChoice, suitableGraphics } from "./view/graphics.ts";
 import { Label } from "./view/labels.ts";
 import { setPalette, type Theme } from "./view/palette.ts";
-import { type Overlays, Picture } from "./view/picture.ts";
+import { type Labels, type Overlays, Picture } from "./view/picture.ts";
 import { Stage } from "./view/stage.ts";
 import { beamAxis } from "./view/vehicle.ts";
 import type { Frame } from "./wire/frames.ts";
@@ -22,6 +23,8 @@ import {
   type FlightScene,
   type PageMessage,
   type ParameterValue,
+  type Phase,
+  type StatusEnding,
   type StatusMessage,
   STIFFNESS,
   THRESHOLD,
@@ -47,7 +50,8 @@ export class App implements FlightListener, ShellPage {
   private readonly grab: Grab;
   private readonly force: ForceInput;
   private readonly shell: Shell;
-  private readonly labels = { push: new Label(byId("labels"), "push"), wind: new Label(byId("labels"), "wind") };
+  private readonly remarks = new Remarks();
+  private readonly labels: Labels = { push: label("push"), wind: label("wind"), refusal: label("refusal"), ending: label("ending"), contact: label("contact") };
   private picture: Picture | null = null;
   private choice: GraphicsChoice = "auto";
   private last = 0;
@@ -55,6 +59,7 @@ export class App implements FlightListener, ShellPage {
   private drawnAt = 0;
   private readonly eye = new Matrix4();
   private unheld = 0;
+  private end: (StatusEnding & { outcome: Phase }) | null = null;
 
   constructor(
     private readonly source: FlightSource,
@@ -152,6 +157,8 @@ export class App implements FlightListener, ShellPage {
   status(status: StatusMessage): void {
     this.unheld = this.grab.pulling && status.holder !== "you" ? this.unheld + 1 : 0;
     if (this.unheld > LET_GO_AFTER) this.grab.cancel(); // the server has let go
+    this.remarks.status(status);
+    this.end = status.ending && { ...status.ending, outcome: status.phase };
     this.shell.status(status);
   }
 
@@ -162,7 +169,11 @@ export class App implements FlightListener, ShellPage {
   }
 
   refused(what: string, reason: string): void {
-    if (what.startsWith("grab")) this.grab.cancel();
+    if (["grab", "force"].includes(what)) {
+      this.remarks.refuse(reason, this.grab.hand);
+      this.grab.cancel();
+      return;
+    }
     this.shell.refused(what, reason);
   }
 
@@ -191,7 +202,8 @@ export class App implements FlightListener, ShellPage {
   };
 
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
-    picture.update(frame, this.grab.hand, this.overlays);
+    picture.update(frame, this.grab.hand, this.overlays, this.remarks.now(frame));
+    picture.showEnding(this.end ? `${this.end.outcome} here, ${this.end.time.toFixed(2)} s` : "", this.end?.place ?? null);
     this.camera.update(picture.center, this.grab.pulling, passed);
     this.grab.flush();
     this.force.flush(this.grab.pulling);
@@ -234,4 +246,8 @@ export class App implements FlightListener, ShellPage {
     Object.assign(this.picture, { threshold, stiffness });
     this.drawn = null;
   }
+}
+
+function label(kind: string): Label {
+  return new Label(byId("labels"), kind);
 }

@@ -11,6 +11,7 @@ import numpy as np
 from tandemlift.algebra.arrays import array
 from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import Nothing, vec3
+from tandemlift.assembly.contacts import start_contacts
 from tandemlift.common.sensors import additional_sensor
 from tandemlift.common.types import Array
 from tandemlift.laws.estimation.navigation import navigator, start_navigation
@@ -116,6 +117,7 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
         identify_mass=e.identify_mass,
         disagreement_limit=e.disagreement_limit,
         windage=Nothing() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, step),
+        system=vehicle.center_of_mass,
     )
     observer = navigator(
         vehicle.center_of_mass,
@@ -129,5 +131,6 @@ def start_estimators(mission: Mission, vehicle: Vehicle, state: State, readings:
     drag = vehicle.drag
     believed = NominalVehicle(vec3(-vehicle.center_of_mass), vec3(drag.force), vec3(drag.moment))
     tare = TareInHover() if e.tare == "hover" else TareAtTime()
-    known = Estimators(push, observer, believed, tare)
-    return known, EstimatorState(start_push(push, readings.imu), start_navigation(observer, state))
+    contact, no_contact = start_contacts(mission, vehicle)
+    known = Estimators(push, observer, believed, tare, contact)
+    return known, EstimatorState(start_push(push, readings.imu), start_navigation(observer, state), no_contact)

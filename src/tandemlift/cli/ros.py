@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from tandemlift.live.session.session import Session
     from tandemlift.ros.middleware import Middleware
 
-BAD_ENDS = ("lost", "failed")
+BAD_ENDS = ("crashed", "diverged", "failed")
 
 
 @click.command()
@@ -62,7 +62,7 @@ def ros(
     Exit code:
       0   ended by Ctrl-C, by ROS, or after an hour of flight
       2   bad input: one message, nothing is flown
-      3   the vehicle was lost, or the flight failed
+      3   the vehicle crashed or diverged, or the flight failed
     """
     from tandemlift.engines.registry import engine_named
     from tandemlift.ros.ros1 import folder as package

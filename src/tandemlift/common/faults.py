@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, get_args
 
+from tandemlift.common.phases import REASONS
+
 Reaction = Literal["none", "hold", "land", "stop"]
 REACTIONS: tuple[Reaction, ...] = get_args(Reaction)  # from the weakest to the strongest
 REACTION_MEANINGS: dict[str, str] = {
@@ -43,7 +45,7 @@ class Fault(NamedTuple):
         condition: when it is present, as a clause.
         reaction: the default.
         detection: what detects it; of a sensor's samples, the largest value in range.
-        has_symptoms: whether an alarm also says which of `SYMPTOMS` it is.
+        symptoms: of which an alarm also says the number, from 1.
     """
 
     number: int
@@ -52,7 +54,7 @@ class Fault(NamedTuple):
     condition: str
     reaction: Reaction
     detection: str
-    has_symptoms: bool = False
+    symptoms: tuple[Symptom, ...] = ()
 
     @property
     def alarm(self) -> int:
@@ -62,7 +64,7 @@ class Fault(NamedTuple):
 
 def _of_sensor(number: int, key: str, condition: str, reaction: Reaction, in_range: str) -> Fault:
     """A fault in the samples of one sensor."""
-    return Fault(number, key, key, condition, reaction, in_range, has_symptoms=True)
+    return Fault(number, key, key, condition, reaction, in_range, SYMPTOMS)
 
 
 STALE = "no fresh sample for `supervision.watchdog.stale_time`"
@@ -170,6 +172,15 @@ FAULTS = (  # by priority: of two with the same reaction, the first gives the al
         "land",
         "by `supervision.limits.tracking_error` for `supervision.limits.tracking_error_time`",
     ),
+    Fault(
+        21,
+        "limited",
+        "cannot follow:",
+        "the vehicle cannot follow its reference",
+        "hold",
+        "for `compliance.following.time`",
+        tuple(Symptom(reason.text, f"{reason.detection}, for `compliance.following.time`") for reason in REASONS),
+    ),
 )
 
 
@@ -228,7 +239,7 @@ def _alarm_texts() -> tuple[str, ...]:
     texts = [""] * (10 * max(fault.number for fault in FAULTS) + 10)
     for fault in FAULTS:
         texts[fault.alarm] = fault.text
-        for i, symptom in enumerate(SYMPTOMS if fault.has_symptoms else (), start=1):
+        for i, symptom in enumerate(fault.symptoms, start=1):
             texts[fault.alarm + i] = f"{fault.text} {symptom.text}"
     return tuple(texts)
 

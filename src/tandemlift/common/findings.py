@@ -16,6 +16,7 @@ FindingName = Literal[
     "push-unanswered",
     "off-track",
     "out-of-reach",
+    "cannot-follow",
     "not-landed",
     "landed-by-fault",
     "lift-refused",
@@ -83,6 +84,13 @@ KINDS = (
         "make the reference slower: a longer `phases.lift_duration`, more `admittance.damping`, less "
         "`compliance.max_acceleration`",
         ("findings.reach_time", "findings.reach_distance"),
+    ),
+    FindingKind(
+        "cannot-follow",
+        'the pilot ignored pushes because the vehicle could not follow them, phase "limited"; docs/safety.md has the '
+        "reasons",
+        "remove the cause that it names: use stronger rotors or a lighter payload, or fly in less wind",
+        ("compliance.following.time", "compliance.following.max_error", "compliance.following.recovery_time"),
     ),
     FindingKind(
         "not-landed",

@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import ZERO, Nothing
-from tandemlift.laws.mechanics.collision.hull import Hull, HullContact, hull_contact, hull_loads
-from tandemlift.laws.mechanics.contact import Floor, feet_load, grips_after_step
+from tandemlift.laws.contact.floor import Floor, feet_load, grips_after_step
+from tandemlift.laws.contact.hull import Hull, HullContact, hull_contact, hull_loads
+from tandemlift.laws.contact.walls import Walls, near_wall_loads
 from tandemlift.laws.mechanics.inertia import apply_inertia
 from tandemlift.laws.mechanics.loads import (
     PartLoad,
@@ -25,7 +26,6 @@ from tandemlift.laws.mechanics.loads import (
 )
 from tandemlift.laws.mechanics.rigid_body import RigidBody, State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.walls import Walls, near_wall_loads
 from tandemlift.laws.rotors.allocation import Mixer
 
 NO_LOAD = PartLoad(ZERO, ZERO)
@@ -56,6 +56,12 @@ class DistantFloor(NamedTuple):
     floor: Floor
 
 
+class DistantHull(NamedTuple):
+    """Rotors, guards and beam out of the floor's reach for a step: the same numbers, without force."""
+
+    hull: Any
+
+
 class DistantWalls(NamedTuple):
     """Walls out of reach for a step: the same numbers, without force."""
 
@@ -71,6 +77,15 @@ def without_contact(plant: CompiledPlant) -> CompiledPlant:
     floor, walls = plant.floor, plant.walls
     return plant._replace(
         floor=floor if isinstance(floor, Nothing) else DistantFloor(floor),
+        walls=walls if isinstance(walls, Nothing) else DistantWalls(walls),
+    )
+
+
+def on_feet_only(plant: CompiledPlant) -> CompiledPlant:
+    """The same body, with nothing but its feet within reach of the floor, and walls out of reach."""
+    floor, walls = plant.floor, plant.walls
+    return plant._replace(
+        floor=floor if isinstance(floor, Nothing) else floor._replace(hull=DistantHull(floor.hull)),
         walls=walls if isinstance(walls, Nothing) else DistantWalls(walls),
     )
 
@@ -128,6 +143,11 @@ def contact_of_hull(hull: Any, floor: Floor, s: State) -> Any:
 @contact_of_hull.register(Hull)
 def _with_floor(hull: Hull, floor: Floor, s: State) -> HullContact:
     return hull_contact(hull, floor.friction, floor.height, s, rotation_from_quaternion(s.attitude))
+
+
+@contact_of_hull.register(DistantHull)
+def _distant_hull(hull: DistantHull, floor: Floor, s: State) -> Nothing:
+    return Nothing()
 
 
 @choice(absent="contact")

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.common.phases import PHASE_NUMBERS
+from tandemlift.common.phases import PHASE_NUMBERS, REASON_NUMBERS
 from tandemlift.common.sensors import ADDITIONAL
 
 
@@ -130,6 +130,20 @@ GROUPS: tuple[ChannelGroup, ...] = (
         "from such values.",
     ),
     ChannelGroup(
+        'With detection of contacts (`contact.model = "watch"`)',
+        {
+            "contact_part": Channel(
+                "1", "", "part that touches: number of the quadrotor of a guard, −1 for the beam, 0 for none", 1
+            ),
+            "contact_force_estimate": Channel("N", "world", "estimated horizontal force of the wall on that part"),
+            "contact_point_estimate": Channel("m", "world", "where it began to act; zero for none"),
+            "contact_along_beam": Channel("m", "body y", "that point along the beam, from the payload's centre", 1),
+            "contact_normal": Channel("1", "world", "unit vector out of the wall, towards the vehicle; zero for none"),
+            "contact_rise_time": Channel("s", "", "time in which the force rose, when the contact was found", 1),
+            "contact_on_map": Channel("1", "", "1 if the pilot knows a wall there (`pilot.map`), else 0", 1),
+        },
+    ),
+    ChannelGroup(
         "With a disturbance observer (`observer.model`)",
         {
             "disturbance_force": Channel("N", "world", "estimated force besides rotors, weight and person"),
@@ -150,6 +164,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
             "push_active": Channel("1", "world", "1 while the pilot follows the push along an axis, else 0"),
             "added_damping": Channel("N s/m", "", "damping that is added to keep the compliance passive", 1),
             "reference_yaw_rate": Channel("rad/s", "world", "derivative of the yaw reference", 1),
+            "limited_reason": Channel("1", "", f"why it cannot follow: 0 it can, {REASON_NUMBERS}", 1),
         },
     ),
     ChannelGroup(

@@ -30,6 +30,9 @@ LATE = 10.0
 """Time [s] from which metrics with `after_10s` in their names are formed: the disturbed start is left out."""
 
 
+ENDING_TEXT = "{outcome} at {time:.6g} s: {quantity} = {value:.6g}, {limit}"
+
+
 class Ending(NamedTuple):
     """Why a flight was stopped: which quantity, at what time [s], its value, the limit it broke, and the outcome."""
 
@@ -40,7 +43,7 @@ class Ending(NamedTuple):
     outcome: str = "diverged"
 
     def __str__(self) -> str:
-        return f"{self.outcome} at {self.time:.6g} s: {self.quantity} = {self.value:.6g}, {self.limit}"
+        return ENDING_TEXT.format(**self._asdict())
 
 
 @dataclass(frozen=True, eq=False)

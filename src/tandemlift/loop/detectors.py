@@ -16,8 +16,8 @@ from tandemlift.algebra.ops import absolute, clip, maximum, sqrt, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Vec3, dot, total
+from tandemlift.laws.compliance.admittance import soft
 from tandemlift.laws.estimation.rotor_loss_detection import left_of
-from tandemlift.laws.guidance.admittance import soft
 from tandemlift.laws.guidance.guidance import thrust_fraction
 from tandemlift.laws.mechanics.rotation import body_z_axis, wrap_angle
 from tandemlift.laws.rotors.allocation import ConstrainedAllocation, Mixer, limits_at

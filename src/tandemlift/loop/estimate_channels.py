@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Quat, Vec3
+from tandemlift.laws.estimation.contact_detection import ContactEstimate
 from tandemlift.laws.sensors.readings import Readings, by_name
 from tandemlift.loop.perception import Estimates
 
@@ -38,6 +39,37 @@ class EstimatedChannels(NamedTuple):
     payload_mass_estimate: Number
     sensor_disagreement: Number
     push_usable: Number
+    contact: Any
+
+
+class ContactEstimateChannels(NamedTuple):
+    """The contact as estimated; `laws.estimation.contact_detection.ContactEstimate` describes it."""
+
+    contact_part: Number
+    contact_force_estimate: Vec3
+    contact_point_estimate: Vec3
+    contact_along_beam: Number
+    contact_normal: Vec3
+    contact_rise_time: Number
+    contact_on_map: Number
+
+
+@choice(absent="contact")
+def contact_channels(contact: Any) -> Any:
+    """The channels of an estimated contact."""
+
+
+@contact_channels.register(ContactEstimate)
+def _contact(contact: ContactEstimate) -> Any:
+    return ContactEstimateChannels(
+        contact_part=contact.part,
+        contact_force_estimate=contact.force,
+        contact_point_estimate=contact.point,
+        contact_along_beam=contact.along,
+        contact_normal=contact.normal,
+        contact_rise_time=contact.rise,
+        contact_on_map=contact.on_map,
+    )
 
 
 def channels_of_additional(readings: Any) -> Any:
@@ -86,4 +118,5 @@ def _estimates(known: Estimates) -> Any:
         payload_mass_estimate=p.payload_mass,
         sensor_disagreement=p.disagreement,
         push_usable=p.trusted * p.armed,
+        contact=contact_channels(known.contact),
     )

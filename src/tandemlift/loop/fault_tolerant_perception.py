@@ -26,6 +26,7 @@ from tandemlift.loop.perception import (
     PerceptionData,
     estimate_all,
     measure,
+    surroundings_of,
     tare_begun,
     tare_time,
     usable,
@@ -66,6 +67,7 @@ class CheckedEstimates(NamedTuple):
     push: PushEstimate
     state: State
     vehicle: NominalVehicle
+    contact: Any
     readings: Readings
     report: WatchdogReport
 
@@ -109,14 +111,19 @@ def _tare_watched(estimators: WatchedEstimators, guidance: Any, t: Any) -> Any:
 
 
 @estimate_all.register(WatchedEstimators)
-def _watched(k: WatchedEstimators, m: Any, readings: Any, t: Any, dt: Any) -> Any:
+def _watched(k: WatchedEstimators, m: Any, readings: Any, around: Any, t: Any, dt: Any) -> Any:
     usable_readings, report, watchdog = watchdog_step(
         k.watchdog, m.watchdog, readings, predicted(k.estimators, m.estimators), dt
     )
-    known, estimators = estimate_all(k.estimators, m.estimators, usable_readings, t, dt)
+    known, estimators = estimate_all(k.estimators, m.estimators, usable_readings, around, t, dt)
     push, state = trusted_push(known.push, report), best_state(known.state, usable_readings, report, watchdog.rates)
-    checked = CheckedEstimates(push, state, known.vehicle, usable_readings, report)
+    checked = CheckedEstimates(push, state, known.vehicle, known.contact, usable_readings, report)
     return checked, WatchedEstimatorsState(watchdog, estimators)
+
+
+@surroundings_of.register(WatchedEstimators)
+def _surroundings(k: WatchedEstimators, sources: Any, near: Any, guidance: Any) -> Any:
+    return surroundings_of(k.estimators, sources, near, guidance)
 
 
 @usable.register(CheckedEstimates)
@@ -126,7 +133,7 @@ def _checked_readings(known: CheckedEstimates, readings: Any) -> Any:
 
 @estimated_channels.register(CheckedEstimates)
 def _shown_checked(known: CheckedEstimates) -> Any:
-    return estimated_channels(Estimates(known.push, known.state, known.vehicle))
+    return estimated_channels(Estimates(known.push, known.state, known.vehicle, known.contact))
 
 
 @choice

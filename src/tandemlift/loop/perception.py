@@ -5,13 +5,24 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
-from tandemlift.algebra.vector import Quat, Vec3, apply_transposed, cross
+from tandemlift.algebra.vector import Nothing, Quat, Vec3, apply_transposed, cross
+from tandemlift.common.phases import LAND
+from tandemlift.laws.estimation.contact_detection import (
+    Around,
+    contact_step,
+    explained_push,
+)
+from tandemlift.laws.estimation.contact_evidence import ContactDetector, PushReading
 from tandemlift.laws.estimation.navigation import Navigator, navigate
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
+from tandemlift.laws.guidance.contact_hold import contact_of
+from tandemlift.laws.guidance.phases import in_the_air, is_in
 from tandemlift.laws.mechanics.push import push_moment
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import Readings, Sensors, sense
+
+NOTHING_AROUND = Around(Nothing(), 0.0, 0.0, 0.0)
 
 
 class TruthSource(NamedTuple):
@@ -40,11 +51,16 @@ class PerceptionData(NamedTuple):
     known: Any
 
 
+class KnownWalls(NamedTuple):
+    """The pilot knows the walls."""
+
+
 class PilotSources(NamedTuple):
-    """The source of the state that the pilot uses, and that of the push."""
+    """The source of the state that the pilot uses, and that of the push; `map`: `KnownWalls`, or `Nothing`."""
 
     state: Any
     push: Any
+    map: Any
 
 
 class NominalVehicle(NamedTuple):
@@ -60,12 +76,13 @@ class NominalVehicle(NamedTuple):
 
 
 class Estimators(NamedTuple):
-    """The estimators of push and state, the nominal vehicle, and when the tare begins."""
+    """The estimators of push and state, the nominal vehicle, when the tare begins, and the detector of contacts."""
 
     push: PushEstimator
     state: Navigator
     vehicle: NominalVehicle
     tare: Any
+    contact: Any
 
 
 class TareAtTime(NamedTuple):
@@ -81,14 +98,16 @@ class EstimatorState(NamedTuple):
 
     push: Any
     state: Any
+    contact: Any
 
 
 class Estimates(NamedTuple):
-    """The estimates of push and state, and the nominal vehicle."""
+    """The estimates of push and state, the nominal vehicle, and the contact; `Nothing` if it is not estimated."""
 
     push: PushEstimate
     state: State
     vehicle: NominalVehicle
+    contact: Any
 
 
 @choice(absent=("sensors", "memory"))
@@ -127,15 +146,49 @@ def _tare(estimators: Estimators, guidance: Any, t: Any) -> Any:
 
 
 @choice(absent=("estimators", "memory"))
-def estimate_all(estimators: Any, memory: Any, readings: Any, t: Any, dt: Any) -> Any:
-    """(the estimates from readings, the estimators' memory) at time t [s]."""
+def estimate_all(estimators: Any, memory: Any, readings: Any, around: Around, t: Any, dt: Any) -> Any:
+    """(the estimates from readings, the estimators' memory) at time t [s]; `around`: what is known of obstacles."""
 
 
 @estimate_all.register(Estimators)
-def _estimated(estimators: Estimators, memory: Any, readings: Any, t: Any, dt: Any) -> Any:
+def _estimated(estimators: Estimators, memory: Any, readings: Any, around: Around, t: Any, dt: Any) -> Any:
     push, push_memory = estimate(estimators.push, memory.push, readings.imu, t)
     state, state_memory = navigate(estimators.state, memory.state, readings)
-    return Estimates(push, state, estimators.vehicle), EstimatorState(push_memory, state_memory)
+    seen = PushReading(readings.imu, push_memory.angular, push)
+    contact, contact_memory = contact_step(estimators.contact, memory.contact, estimators.push, seen, state, around, dt)
+    estimates = Estimates(explained_push(contact_memory, push), state, estimators.vehicle, contact)
+    return estimates, EstimatorState(push_memory, state_memory, contact_memory)
+
+
+@choice(absent=NOTHING_AROUND)
+def surroundings_of(estimators: Any, sources: PilotSources, near: Any, guidance: Any) -> Any:
+    """What the estimators know of obstacles; `near`: the walls near the vehicle, `guidance`: its memory."""
+
+
+@choice(absent=Nothing())
+def walls_known(known: Any, near: Any) -> Any:
+    """The walls near the vehicle, if the pilot knows them."""
+
+
+@walls_known.register(KnownWalls)
+def _known(known: KnownWalls, near: Any) -> Any:
+    return near
+
+
+@choice(absent=NOTHING_AROUND)
+def known_around(contact: Any, sources: PilotSources, near: Any, guidance: Any) -> Any:
+    """The same, for the detector of contacts that the estimators have."""
+
+
+@known_around.register(ContactDetector)
+def _around(contact: ContactDetector, sources: PilotSources, near: Any, guidance: Any) -> Around:
+    m = guidance.phase
+    return Around(walls_known(sources.map, near), in_the_air(m), is_in(m, LAND), m.ground)
+
+
+@surroundings_of.register(Estimators)
+def _surroundings(estimators: Estimators, sources: PilotSources, near: Any, guidance: Any) -> Any:
+    return known_around(estimators.contact, sources, near, guidance)
 
 
 @choice(absent="readings")
@@ -202,6 +255,11 @@ def push_without_drag(vehicle: NominalVehicle, state: State, force: Vec3, moment
     return PushWrench(push * usable, (moment + vehicle.drag_moment * state.rates + arm) * usable)
 
 
+@contact_of.register(PerceptionData)
+def _contact(what: PerceptionData) -> Any:
+    return what.known.contact
+
+
 @choice(absent="readings")
 def all_sensed(readings: Any, known: Any) -> Any:
     """`PerceptionData`, or `Nothing` without sensors."""
@@ -213,3 +271,4 @@ def _some_sensed(readings: Readings, known: Any) -> Any:
 
 
 READS = {"truth": TruthSource(), "measurement": MeasurementSource(), "estimate": EstimateSource()}
+MAPS = {"none": Nothing(), "walls": KnownWalls()}

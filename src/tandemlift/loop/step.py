@@ -16,8 +16,8 @@ from tandemlift.algebra.vector import Nothing, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.engines.compiled_touches import touches_in
+from tandemlift.laws.contact.touches import of_turning_rotors
 from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
-from tandemlift.laws.mechanics.collision.touches import of_turning_rotors
 from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push
@@ -26,7 +26,16 @@ from tandemlift.laws.rotors.rotors import rotors_step
 from tandemlift.loop.detectors import Detectors, FindingLimits, detect
 from tandemlift.loop.ending import ending_number, impulse_after, unless_crashed, until_crash, with_aftermath
 from tandemlift.loop.log_sample import errors_of, log_sample
-from tandemlift.loop.perception import all_sensed, estimate_all, measure, read_push, read_state, tare_time, usable
+from tandemlift.loop.perception import (
+    all_sensed,
+    estimate_all,
+    measure,
+    read_push,
+    read_state,
+    surroundings_of,
+    tare_time,
+    usable,
+)
 from tandemlift.loop.running_metrics import RunningMetrics, count
 from tandemlift.loop.wind_loads import WindOutput, wind_loads
 from tandemlift.pilot.pilot import Decision, PilotInput, PilotMemory, PilotParameters, decide, with_thrusts
@@ -84,7 +93,8 @@ class StepNoise(NamedTuple):
 class StepInputs(NamedTuple):
     """The inputs of a step: the push, gusts [m/s], standard normals, and the person's memory once they have pushed.
 
-    `external` is what a caller adds who steps the flight, else `Nothing`.
+    `external` is what a caller adds who steps the flight, else `Nothing`. `outside` is the push that the body's own
+    simulator applied; it is known once the body has moved, and is `Nothing` where there is no such push.
     """
 
     hand: PushSamples
@@ -92,6 +102,7 @@ class StepInputs(NamedTuple):
     noise: Any
     person: Any
     external: Any = Nothing()
+    outside: Any = Nothing()
 
 
 class PilotOutput(NamedTuple):
@@ -125,7 +136,8 @@ def perceive(model: FlightModel, push: Push, t: Any, dt: Any) -> Any:
     """(estimates, the pilot's input, the estimators' memory) at time t [s]; `push` is the true one."""
     before, sources = model.flight_state, model.sources
     since = tare_time(model.estimator, before.memory.guidance, t)
-    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, since, dt)
+    around = surroundings_of(model.estimator, sources, before.near, before.memory.guidance)
+    estimates, memory = estimate_all(model.estimator, before.estimator, before.readings, around, since, dt)
     readings = usable(estimates, before.readings)
     state = read_state(sources.state, before.state, readings, estimates)
     wrench = read_push(sources.push, push, state, estimates)
@@ -177,10 +189,11 @@ def finish_sample(
     """
     before, noise = model.flight_state, inputs.noise.sensors
     readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
-    sample = log_sample(model, output, acting, moved, inputs.hand)
+    sample = log_sample(model, output, acting, moved, inputs)
     impulse = impulse_after(model.limits.strike, before.impulse, moved.readings.contact_force, dt)
     number = ending_number(model.limits, moved.state, impulse)
     crash, ended = with_aftermath(model.limits.aftermath, before.crash, number, moved.state, impulse, t, dt)
+    metrics = count(before.metrics, errors_of(model, output, sample, inputs.outside))
     after = FlightState(
         state=moved.state,
         memory=output.memory,
@@ -193,7 +206,7 @@ def finish_sample(
         rotors=acting.rotors,
         readings=readings,
         person=inputs.person,
-        metrics=until_crash(before.crash, before.metrics, count(before.metrics, errors_of(model, output, sample))),
+        metrics=until_crash(before.crash, before.metrics, metrics),
         impulse=impulse,
         crash=crash,
         ended=where(before.ended > 0.0, before.ended, ended),

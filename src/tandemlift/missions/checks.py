@@ -40,8 +40,8 @@ def check_flyable(m: Mission) -> None:
     check_surroundings(m)
     check_supervision(m)
     check_person(m)
-    check_heights(m)
     _check_outcomes(m)
+    check_heights(m)
 
 
 def sample_size(m: Mission) -> int:
@@ -120,6 +120,9 @@ def _check_outcomes(m: Mission) -> None:
     if promise.rms_promised(m.pilot.guidance) > promise.distance:
         given = f"promise.rms_distance = {promise.rms_distance}"
         raise InputError(f"{given}: must not be above promise.distance = {promise.distance}, the largest distance")
+    if promise.tilt >= m.crash.tilt:
+        given = f"promise.tilt = {promise.tilt}"
+        raise InputError(f"{given}: must be below crash.tilt = {m.crash.tilt}, where the flight ends")
     if f.reach_distance <= promise.distance:
         given = f"findings.reach_distance = {f.reach_distance}"
         raise InputError(f"{given}: must be above promise.distance = {promise.distance}, which is no finding yet")
@@ -161,7 +164,8 @@ def _phase_warnings(m: Mission) -> Iterator[str]:
 
 def setting_warnings(m: Mission) -> Iterator[str]:
     """What may fly badly by settings that do not fit each other."""
-    yield from (*_phase_warnings(m), *_promise_warnings(m), *hardware_warnings(m), *surroundings_warnings(m), *person_warnings(m))
+    yield from (*_phase_warnings(m), *_promise_warnings(m), *hardware_warnings(m))
+    yield from (*surroundings_warnings(m), *person_warnings(m))
 
 
 def warn(m: Mission, source: str) -> None:

@@ -17,6 +17,7 @@ def check_supervision(m: Mission) -> None:
         InputError: with the key, its value and what is allowed.
     """
     _check_guidance(m)
+    _check_contact(m)
     _check_limits(m)
     _check_sensor_faults(m)
 
@@ -31,6 +32,17 @@ def _check_guidance(m: Mission) -> None:
         raise InputError(f'requests.0.action = "{action}": must be left out where pilot.guidance is "clock"')
     if m.estimator.tare == "hover":
         raise InputError('estimator.tare = "hover": must be "clock" where pilot.guidance is "clock"')
+
+
+def _check_contact(m: Mission) -> None:
+    if m.contact.model == "none":
+        return
+    if m.pilot.guidance != "hand":
+        raise InputError('contact.model = "watch": must be "none" where pilot.guidance is "clock"')
+    if m.sensors.model == "none" or m.pilot.push == "truth":
+        raise InputError(
+            'contact.model = "watch": must be "none" where the pilot reads no joints (pilot.push = "truth")'
+        )
 
 
 def _check_limits(m: Mission) -> None:

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from tandemlift.algebra.ops import tan
+from tandemlift.algebra.ops import minimum, tan
 from tandemlift.algebra.types import number
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.common.phases import IDLE
-from tandemlift.laws.guidance.admittance import Admittance
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
-from tandemlift.laws.guidance.energy_tank import EnergyTank, EnergyTankState
+from tandemlift.laws.compliance.above_ground import GroundClearance
+from tandemlift.laws.compliance.admittance import Admittance
+from tandemlift.laws.compliance.available import AvailableForce
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
+from tandemlift.laws.compliance.energy_tank import EnergyTank, EnergyTankState
+from tandemlift.laws.compliance.following import AT_REST, FollowingLimits
+from tandemlift.laws.guidance.contact_hold import ContactReaction, start_reaction
 from tandemlift.laws.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.laws.guidance.phases import SETTLING_TIME, PhaseSettings, PhaseState
 from tandemlift.laws.guidance.yaw_compliance import FixedHeading, YawCompliance, YawState
@@ -21,6 +25,7 @@ from tandemlift.vehicle import Vehicle
 
 NO_PUSH = LowPassState(ZERO, ZERO)
 NO_MOMENT = LowPassState(0.0, 0.0)
+HEADING_FRACTION = 0.9  # of the angle by which the reference heading may lead, at which the heading counts as lost
 
 
 def _phasing(mission: Mission) -> PhaseSettings:
@@ -80,6 +85,37 @@ def _heading(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     return turning, YawState(NO_MOMENT, quiet, NO_MOMENT, start, 0.0, 0.0)
 
 
+def _available(mission: Mission, vehicle: Vehicle, known: Any) -> AvailableForce:
+    c, rotors = mission.compliance, each(vehicle.rotor_count)
+    return AvailableForce(
+        mass=vehicle.mass,
+        max_thrust=vehicle.max_thrust * c.thrust_fraction,
+        tangent=tan(c.max_tilt),
+        limits=rotors(*[q.max_thrust for q in vehicle.quadrotors for _ in range(4)]),
+        known=known,
+    )
+
+
+def _following(mission: Mission, vehicle: Vehicle) -> FollowingLimits:
+    c, of_controller = mission.compliance, getattr(mission.controller, "max_tilt", None)
+    max_tilt = c.max_tilt if of_controller is None else minimum(c.max_tilt, of_controller)
+    return FollowingLimits(
+        side_force=tan(max_tilt) * vehicle.weight,
+        heading_error=HEADING_FRACTION * c.yaw.max_lead_angle,
+        position_error=c.following.max_error,
+        time=c.following.time,
+        recovery_time=c.following.recovery_time,
+        heading_timeout=c.following.heading_timeout,
+    )
+
+
+def _contact(mission: Mission) -> tuple[Any, Any]:
+    c = mission.contact
+    if c.model == "none":
+        return Nothing(), Nothing()
+    return ContactReaction(c.gap, c.recovery_time, c.hold_timeout), start_reaction()
+
+
 def start_hand_guidance(
     mission: Mission, vehicle: Vehicle, admittance: Admittance, known: Any
 ) -> tuple[HandGuidance, HandGuidanceState]:
@@ -88,6 +124,7 @@ def start_hand_guidance(
     supervision, supervising = start_supervision(mission, vehicle, known)
     tank, filled = _tank(c)
     heading, turned = _heading(mission, vehicle)
+    reaction, reacting = _contact(mission)
     guided = HandGuidance(
         phasing=_phasing(mission),
         compliance=_compliance(mission, admittance),
@@ -95,10 +132,11 @@ def start_hand_guidance(
         heading=heading,
         moment=low_pass(c.input_bandwidth, mission.mission.step),
         moment_lead=c.moment_lead,
-        mass=vehicle.mass,
-        max_thrust=vehicle.max_thrust * c.thrust_fraction,
-        tangent=tan(c.max_tilt),
+        available=_available(mission, vehicle, known),
+        clearance=GroundClearance(c.min_height) if mission.ground.model == "floor" else Nothing(),
+        following=_following(mission, vehicle),
         supervision=supervision,
+        contact=reaction,
     )
     quiet = DeadBandState(active=ZERO, above_time=ZERO, inactive_time=ZERO, mean=ZERO, bias=ZERO)
     at = ZERO if mission.phases.rotors == "always" else Vec3(*mission.initial.position)
@@ -123,4 +161,5 @@ def start_hand_guidance(
         handled_lands=0.0,
         hover_time=-SETTLING_TIME,
     )
-    return guided, HandGuidanceState(phase, compliance, filled, turned, NO_PUSH, supervising)
+    memory = HandGuidanceState(phase, compliance, filled, turned, NO_PUSH, AT_REST, supervising, reacting)
+    return guided, memory

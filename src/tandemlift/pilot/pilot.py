@@ -14,7 +14,15 @@ from tandemlift.algebra.vector import total
 from tandemlift.controllers import Command, Disturbance, Measured, control
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, last_known, observer_step
 from tandemlift.laws.estimation.rotor_loss_detection import detection_step, failed_rotors
-from tandemlift.laws.guidance.guidance import Guidance, PilotInput, checked_input, guide, running
+from tandemlift.laws.guidance.guidance import (
+    Guidance,
+    PilotInput,
+    checked_input,
+    guide,
+    running,
+    untouched,
+    with_wall,
+)
 from tandemlift.laws.rotors.allocation import AllocationState, allocate
 
 __all__ = [
@@ -97,8 +105,10 @@ def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t
     guidance, guidance_memory = guide(p.guidance, m.guidance, pilot_input, before, failed, t, dt)
     thrusts = last_thrusts(m.allocation)
     flying, learning = guidance.flying, guidance.learning
-    estimate, observer_memory = observer_step(p.observer, m.observer, pilot_input, thrusts, flying, learning, dt)
-    detection_memory = detection_step(p.detection, m.detection, pilot_input, thrusts, flying * learning, t, dt)
+    known = with_wall(guidance.wall, pilot_input)
+    estimate, observer_memory = observer_step(p.observer, m.observer, known, thrusts, flying, learning, dt)
+    watched = flying * learning * untouched(guidance.wall)
+    detection_memory = detection_step(p.detection, m.detection, pilot_input, thrusts, watched, t, dt)
     disturbance = Disturbance(estimate.force, estimate.moment + guidance.moment)
     return ControlInput(
         measured=Measured(pilot_input.state, guidance.push, disturbance),

@@ -114,4 +114,7 @@ def start_supervision(mission: Mission, vehicle: Vehicle, known: Any) -> tuple[A
         failed_lift_check=0.0,
         failed_guidance_check=0.0,
         events=EventLog(empty, empty, 0.0, 0.0, 0.0),
+        fault=0.0,
+        lift_check=0.0,
+        payload=vehicle.payload.mass,
     )

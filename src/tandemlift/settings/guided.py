@@ -69,6 +69,25 @@ class TankTable(Table):
     fade_time: Positive = key(2.0, "s", "time constant with which added damping fades", source=CHOSEN)
 
 
+class FollowingTable(Table):
+    """`[compliance.following]`: from when on the vehicle counts as unable to follow, phase "limited".
+
+    It then holds and ignores pushes, until it can follow again. docs/safety.md lists all reasons.
+    """
+
+    max_error: Positive = key(
+        0.3, "m", "largest distance from the reference", source="chosen: ten times that in wind and with slow rotors"
+    )
+    time: NonNegative = key(0.5, "s", "time for which it must be unable to follow", source=CHOSEN)
+    recovery_time: NonNegative = key(1.0, "s", "time after which it counts as able to follow again", source=CHOSEN)
+    heading_timeout: NonNegative = key(
+        5.0,
+        "s",
+        "time after which a vehicle that has lost its heading lands, before it turns too fast for that",
+        source=CHOSEN,
+    )
+
+
 class ComplianceTable(Table):
     """`[compliance]`: guidance by hand, around mass, damping, stiffness and threshold of `[admittance]`.
 
@@ -123,8 +142,16 @@ class ComplianceTable(Table):
     touchdown_depth: NonNegative = key(
         0.03, "m", "a landing's reference ends this far below the ground, so that the feet press on it", source=CHOSEN
     )
+    min_height: NonNegative = key(
+        0.1,
+        "m",
+        "height above the ground from which it was lifted, below which a push moves the reference no further down; "
+        "where there is a floor",
+        source="chosen: far above the depth of a landing",
+    )
     spin_up_time: NonNegative = key(0.3, "s", "time from the start of the rotors to the lift", source="chosen")
     max_descent_speed: Positive = key(0.3, "m/s", "largest speed of a landing", source=CHOSEN)
+    following: FollowingTable = FollowingTable()
     yaw: YawTable = YawTable()
     tank: TankTable = TankTable()
 

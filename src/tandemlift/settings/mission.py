@@ -23,7 +23,7 @@ from tandemlift.settings.pilot import (
     PilotTable,
 )
 from tandemlift.settings.sensors import SensorFaultTable, SensorsTable
-from tandemlift.settings.supervision import RequestTable, SupervisionTable
+from tandemlift.settings.supervision import ContactTable, RequestTable, SupervisionTable
 from tandemlift.settings.surroundings import GroundTable, WindTable
 from tandemlift.settings.value_types import Positive, Table, divisor, must
 from tandemlift.settings.world import ActuatorsTable, DisturbanceTable, FaultTable, InitialTable, PlantTable, PushTable
@@ -99,6 +99,7 @@ class Mission(Table):
     compliance: ComplianceTable = ComplianceTable()
     observer: ObserverTable = ObserverTable()
     supervision: SupervisionTable = SupervisionTable()
+    contact: ContactTable = ContactTable()
     requests: tuple[RequestTable, ...] = ()
     detection: DetectionTable = DetectionTable()
     actuators: ActuatorsTable = ActuatorsTable()

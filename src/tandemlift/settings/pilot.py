@@ -198,6 +198,15 @@ class PilotTable(Table):
             "estimate": "that sample after a low-pass filter, zero before the tare ends and while the joints disagree",
         },
     )
+    map: Literal["none", "walls"] = key(
+        "none",
+        None,
+        "what the pilot knows of its surroundings",
+        choices={
+            "none": "nothing",
+            "walls": 'the walls, so that a contact is told from a hand more surely (with `contact.model = "watch"`)',
+        },
+    )
 
 
 class EstimatorTable(Table):

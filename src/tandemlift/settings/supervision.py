@@ -148,6 +148,37 @@ class SupervisionTable(Table):
     reactions: ReactionsTable = ReactionsTable()
 
 
+class ContactTable(Table):
+    """`[contact]`: how a touch of a wall is told from a hand and from a broken sensor, and the reaction to it.
+
+    It needs `pilot.guidance = "hand"`, `pilot.push` other than "truth", and rotors that push along body z alone, as all
+    do here. See docs/safety.md.
+    """
+
+    model: Literal["none", "watch"] = key(
+        "none",
+        None,
+        "detection of contacts",
+        choices={
+            "none": "none: a guard that touches a wall looks like joints that disagree",
+            "watch": "contacts are named, and the reference is kept out of the wall (needs sensors)",
+        },
+    )
+    threshold: Positive = key(
+        1.0,
+        "N",
+        "smallest sudden force on a part that may be a contact",
+        source="chosen: twenty times the noise of mission iris's sensors in it",
+    )
+    gap: NonNegative = key(0.06, "m", "distance by which the reference leaves the wall", source=CHOSEN)
+    recovery_time: NonNegative = key(
+        1.0, "s", "time after a contact for which the reference still does not cross the place of it", source=CHOSEN
+    )
+    hold_timeout: Positive = key(
+        10.0, "s", "time in contact, less time without, after which the vehicle lands", source=CHOSEN
+    )
+
+
 class RequestTable(Table):
     """`[[requests]]`: requests of an operator, one table each; they need `pilot.guidance = "hand"`.
 

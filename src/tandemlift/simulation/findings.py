@@ -9,7 +9,8 @@ from typing import Any
 from tandemlift.algebra.vector import Nothing, dot, total
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
 from tandemlift.common.findings import Finding, FindingName
-from tandemlift.common.phases import IDLE, LAND, LIFT, STOPPED
+from tandemlift.common.phases import IDLE, LAND, LIFT, REASONS, STOPPED
+from tandemlift.laws.compliance.following import FollowingState
 from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
 from tandemlift.loop.excess import Excess
 from tandemlift.loop.oscillation import HalfPeriods
@@ -45,6 +46,7 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         *_saturations(d.saturation, steps, mission, p.dt),
         *_out_of_reach(d.reach, p),
         *_unanswered(d.push.unanswered, p.dt),
+        *_cannot_follow(flight_state, mission),
         *_by_events(flight_state, mission),
         *_by_lost_rotor(p, flight_state),
         *_not_landed(p, flight_state, outcome),
@@ -201,6 +203,15 @@ def _unanswered(m: Excess, dt: float) -> Iterator[Finding]:
             value=m.worst,
             unit="N",
         )
+
+
+def _cannot_follow(flight_state: FlightState, mission: Mission) -> Iterator[Finding]:
+    m = getattr(flight_state.memory.guidance, "following", None)
+    if isinstance(m, FollowingState) and m.most_urgent:
+        reason, limit = REASONS[int(m.most_urgent) - 1], mission.compliance.following.heading_timeout
+        lands = ", so that it lands" if m.longest_lost > limit else ""
+        text = f"the vehicle cannot follow: {reason.text}, for {m.lasted:.3g} s{lands}"
+        yield finding("cannot-follow", text, time=m.first, duration=m.lasted, quantity=reason.text)
 
 
 def _by_events(flight_state: FlightState, mission: Mission) -> Iterator[Finding]:

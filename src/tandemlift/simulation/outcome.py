@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from tandemlift.algebra.vector import ZERO, Nothing
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3
 from tandemlift.common.outcomes import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
 from tandemlift.flight.record import Ending
-from tandemlift.laws.guidance.fault_detection import distance_outside
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.rotation import body_z_axis
 from tandemlift.loop.step import FlightState
 from tandemlift.settings import Mission
+from tandemlift.simulation.ending_numbers import EndingMoment, ending_numbers
 from tandemlift.simulation.plan import FlightPlan
 
+NOT_FINITE = "must be finite"
 BORNE = 0.5  # of the weight: what the floor bears of a vehicle that stands on it
 
 
@@ -22,29 +22,28 @@ def ending_of(p: FlightPlan, s: FlightState, step: int) -> Ending | None:
     """Why a flight was stopped at a step, or None."""
     if s.ended == 0.0:
         return None
-    number, at, state, impulse = s.ended, step * p.dt, s.state, s.impulse
-    if not isinstance(s.crash, Nothing) and s.crash.number > 0.0:
-        number, at, state, impulse = s.crash.number, s.crash.time, s.crash.state, s.crash.impulse
-    for quantity, values in zip(State._fields, state, strict=True):
-        bad = [v for v in values if not math.isfinite(v)]
-        if bad:
-            return Ending(quantity, at, bad[0], "must be finite")
-    value, limit = _measured(p, number, state, impulse)
-    return Ending(ENDING_OF[number].quantity, at, value, limit, ENDING_OF[number].outcome)
+    found = ending_numbers(p.model.limits, s.crash, EndingMoment(s.ended, step * p.dt, s.state, s.impulse))
+    if found.not_finite:
+        return Ending(State._fields[int(found.not_finite) - 1], found.time, found.value, NOT_FINITE)
+    kind = ENDING_OF[found.number]
+    return Ending(kind.quantity, found.time, found.value, limit_of(p, found.number), kind.outcome)
 
 
-def _measured(p: FlightPlan, number: float, state: State, impulse: Any) -> tuple[float, str]:
-    """The value that ended a flight, and its limit in words."""
+def place_of(p: FlightPlan, s: FlightState) -> Vec3:
+    """Where a flight ended [m, world]."""
+    return ending_numbers(p.model.limits, s.crash, EndingMoment(s.ended, 0.0, s.state, s.impulse)).place
+
+
+def limit_of(p: FlightPlan, number: float) -> str:
+    """The limit that an ending has broken, in words."""
     limits = p.model.limits
     if number == TURNED_OVER:
-        tilt = math.acos(max(-1.0, min(1.0, body_z_axis(state.attitude).z)))
-        return math.degrees(tilt), f"must stay within {math.degrees(p.mission.crash.tilt):g} degrees"
-    if number == STRUCK:
-        return impulse, f"must stay below {limits.strike.impulse:.3g} N s"
+        return f"must stay within {math.degrees(p.mission.crash.tilt):g} degrees"
+    if number == STRUCK and not isinstance(limits.strike, Nothing):
+        return f"must stay below {limits.strike.impulse:.3g} N s"
     if number == LEFT_FENCE:
-        fence = limits.fence
-        return distance_outside(fence.low, fence.high, state.position), f"must stay below {fence.margin:g} m"
-    return math.dist(state.position, ZERO), f"must stay below {FAR:g} m"
+        return f"must stay below {p.mission.crash.fence_margin:g} m"
+    return f"must stay below {FAR:g} m"
 
 
 def outcome_of(p: FlightPlan, s: FlightState, last: Any, highest: float) -> str:

@@ -8,10 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from tandemlift.algebra.layout import flat, leaves
+from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.algebra.vector import ZERO, Nothing, Quat
 from tandemlift.assembly.traced_assembly import assembled_by_graph
 from tandemlift.common.errors import InputError
+from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array
 from tandemlift.controllers import control
 from tandemlift.kernels.context import aligned
@@ -22,6 +23,7 @@ from tandemlift.machine_code.code import Code
 from tandemlift.machine_code.store import key_of
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.pilot.pilot import PilotInput
+from tandemlift.pilot.refusals import refusals_of
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
@@ -94,7 +96,7 @@ class Pilot:
             stop: whether to stop the rotors at once; they stay stopped until `reset`.
             enabled: whether the pilot may follow the person; otherwise it holds its position.
 
-        The requests affect only a pilot that is guided by hand.
+        The requests affect only a pilot that is guided by hand. `refusals` says why one of them is refused.
 
         Returns:
             Thrust of every rotor [N] (4N,), the same array each time.
@@ -113,6 +115,12 @@ class Pilot:
         )
         self._sample()
         return self.thrusts
+
+    @property
+    def refusals(self) -> Refusals:
+        """What the pilot would refuse right now, as of the last sample: to lift, to land, to follow a push; and why."""
+        data: PilotData = unflat(self._numbers, self._start)
+        return refusals_of(data.parameters.guidance, data.memory.guidance, data.samples * self._dt)
 
     @property
     def memory(self) -> Array:

@@ -14,15 +14,17 @@ import numpy as np
 from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.algebra.vector import Nothing, Vec3, dot
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
+from tandemlift.common.phases import CONTACT as PHASE_CONTACT
 from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import leaf_offset
-from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
+from tandemlift.laws.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
 from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.loop.step import FlightModel, FlightState
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
+from tandemlift.simulation.contact_texts import describe_contact
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
@@ -95,17 +97,23 @@ def events_of(flight_state: FlightState) -> list[list[Any]]:
     if not isinstance(supervising, SupervisionState):
         return []
     happened = list(zip(supervising.events.time, supervising.events.code, strict=True))[: int(supervising.events.count)]
-    story, before = [], (0, 0, 0)
+    story, before = [], (0, 0, 0, 0)
     for at, code in happened:
-        now = (int(code // PHASE), int(code % PHASE // ALARM), int(code % ALARM))
+        now = (int(code % CONTACT // PHASE), int(code % PHASE // ALARM), int(code % ALARM), int(code // CONTACT))
         story.append([round(float(at), 6), describe_event(now, before)])
         before = now
     return story
 
 
-def describe_event(now: tuple[int, int, int], before: tuple[int, int, int]) -> str:
-    """The text of an event, from (phase, alarm, failed check) now and in the event before."""
-    phase, alarm, refused = now
+EventCode = tuple[int, int, int, int]
+
+
+def describe_event(now: EventCode, before: EventCode) -> str:
+    """The text of an event, from (phase, alarm, failed check, contact) now and in the event before."""
+    phase, alarm, refused, contact = now
+    if contact and contact != before[3]:
+        words = f"contact: {describe_contact(contact)}"
+        return words if phase == PHASE_CONTACT else f"{words} -> {PHASE_NAMES[phase]}"
     if alarm and (alarm != before[1] or phase not in (IDLE, before[0])):
         return f"{ALARM_TEXTS[alarm]} -> {PHASE_NAMES[phase]}"
     if phase != before[0] or not refused:

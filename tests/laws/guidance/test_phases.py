@@ -3,7 +3,7 @@
 import pytest
 
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, Vec3, each
-from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, PHASE_NAMES, STOPPED
+from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, PHASE_NAMES, STOPPED
 from tandemlift.laws.guidance.phases import (
     SETTLING_TIME,
     PhaseBounds,
@@ -51,6 +51,17 @@ def flown(until, k=PHASING, bounds=lambda t: FREE, operator=lambda t: NO_REQUEST
 
 def names(story):
     return [name for _, name in story]
+
+
+def test_at_a_wall_it_listens_on_in_a_phase_of_its_own_until_it_may_land():
+    def touched(t):
+        return FREE._replace(contact=float(5.0 <= t < 7.0 or t >= 9.0), land=float(t >= 10.0))
+
+    story, _, _ = flown(9.5, bounds=touched)
+    assert story[2:] == [(5.0, "contact"), (7.0, "guided"), (9.0, "contact")]
+    assert flown(6.0, bounds=touched)[2].responding == 1.0
+    assert flown(6.0, bounds=lambda t: touched(t)._replace(hold=float(t > 5.5)))[0][-1] == (5.55, "hold")
+    assert names(flown(15.0, bounds=touched)[0])[-2:] == ["land", "idle"]
 
 
 def test_by_the_clock_it_lifts_listens_lands_and_stays_down():
@@ -158,4 +169,29 @@ def test_hovering_counts_from_steady_flight():
 
 def test_nobody_asks_for_nothing():
     assert requests_until(Nothing(), 1.0) == RequestCounts(0.0, 0.0, 0.0, 1.0)
-    assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED} == set(map(float, range(len(PHASE_NAMES))))
+    assert {IDLE, LIFT, GUIDED, LAND, HOLD, STOPPED, CONTACT, LIMITED} == set(map(float, range(len(PHASE_NAMES))))
+
+
+def test_a_vehicle_that_cannot_follow_is_limited_until_it_can():
+    story, _, _ = flown(12.0, bounds=lambda t: FREE._replace(limited=float(5.0 < t < 8.0)))
+    assert story == [(1.0, "lift"), (3.3, "guided"), (5.05, "limited"), (8.0, "guided")]
+
+
+def test_a_limit_during_the_lift_counts_once_it_is_over_and_a_landing_ends_it():
+    story, _, orders = flown(9.0, PHASING._replace(land_start=8.0), bounds=lambda t: FREE._replace(limited=2.0))
+    assert story == [(1.0, "lift"), (3.3, "limited"), (8.0, "land")]
+    _, _, orders = flown(7.0, bounds=lambda t: FREE._replace(limited=2.0))
+    assert (orders.running, orders.responding, orders.compensating, orders.grounded) == (1.0, 0.0, 1.0, 0.0)
+
+
+def test_being_limited_is_not_the_beginning_of_another_hover():
+    _, m, _ = flown(9.0, bounds=lambda t: FREE._replace(limited=float(6.0 < t < 7.0)))
+    assert m.hover_time == pytest.approx(9.0 - 3.3 - SETTLING_TIME, abs=2 * DT)
+
+
+@pytest.mark.parametrize(("rate", "height", "ends"), [(3.0, 0.02, True), (-3.0, 0.02, True), (3.0, 0.1, False)])
+def test_a_landing_ends_just_above_the_ground_where_the_vehicle_still_turns(rate, height, ends):
+    m = BEFORE._replace(phase=LAND, land_rate=0.1)
+    state = State(Vec3(0.0, 0.0, height), ZERO, LEVEL, Vec3(0.0, 0.0, rate))
+    after = update_phase(PHASING, m, state, requests_until(Nothing(), 1.0), (0.0, 0.0), FREE, 1.0, DT)
+    assert (after.phase == IDLE) == ends

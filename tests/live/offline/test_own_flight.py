@@ -134,9 +134,9 @@ def test_a_flight_that_diverged_is_saved_and_diverges_again_at_the_same_step(tmp
     flight.say("force", force=[20, 0, 20], point=[0, 1, 0])
     for _ in range(60):
         flight.fly(1.0)
-        if flight.status()["phase"] == "lost":
+        if flight.status()["phase"] == "crashed":
             break
-    assert flight.status()["phase"] == "lost"
+    assert flight.status()["phase"] == "crashed"
     flight.saved(tmp_path)
     flight.close()
     mission = tl.load_mission(tmp_path / "recorded.toml")

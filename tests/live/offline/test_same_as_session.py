@@ -73,37 +73,57 @@ def answers_of(session, message):
         answers = session.apply(read_message(json.dumps(as_a_browser_sends({**message, "seq": 1}))))
     except tl.InputError as error:
         return str(error)
-    return [one for one in answers if one["type"] != "scene"]
+    return worded([one for one in answers if one["type"] != "scene"], message)
+
+
+def worded(answers, message):
+    """Answers; the reason alone if the message is refused."""
+    refused = answers and answers[0]["type"] == "refused" and message["type"] != "restore"
+    return answers[0]["reason"] if refused else answers
 
 
 def said_by(flight, message):
     """The same of a page's own flight."""
     kind, rest = message["type"], {name: value for name, value in message.items() if name != "type"}
-    answers = [one for one in flight.say(kind, **rest) if one["type"] != "scene"]
-    if answers and answers[0]["type"] == "refused" and message["type"] != "restore":
-        return answers[0]["reason"]
-    return answers
+    return worded([one for one in flight.say(kind, **rest) if one["type"] != "scene"], message)
 
 
 def frames_flown(session, seconds):
-    """Fly a session; its frame after each step, by the time in it."""
-    frames = {}
+    """Fly a session; its frame and its status after each step, by the time in them."""
+    frames, statuses = {}, {}
     for _ in range(round(seconds / session.flight.dt)):
         fly(session, session.flight.dt)
-        frame = session.frame()
-        frames[frame[:4]] = frame
-    return frames
+        frame, status = session.frame(), session.status()
+        frames[frame[:4]], statuses[status["recorded_s"]] = frame, untimed(status)
+    return frames, statuses
+
+
+CLOCKED = {
+    "findings",
+    "factor",
+    "behind_ms",
+    "viewers",
+    "holder",
+    "type",
+}  # of a status: what the clock and the viewers make of it
+
+
+def untimed(status):
+    """What a status says of the flight itself."""
+    return {name: value for name, value in status.items() if name not in CLOCKED}
 
 
 def check_same(session, flight, message, seconds):
     """Send a message to both and let both fly on; they answer and show the same."""
     assert said_by(flight, message) == answers_of(session, message), message
-    frames = frames_flown(session, seconds)
+    frames, statuses = frames_flown(session, seconds)
     flight.fly(seconds)
     shown = [bytes.fromhex(one["values"]) for one in flight.said if one["type"] == "frame"]
     assert shown
     for frame in shown:
         assert frame == frames.get(frame[:4]), (message, np.frombuffer(frame, "<f4")[0])
+    for status in [one for one in flight.said if one["type"] == "status"]:
+        assert untimed(status) == statuses[status["recorded_s"]], message
 
 
 @pytest.fixture
@@ -133,6 +153,50 @@ def test_requests_and_rotors_are_refused_where_the_mission_has_none(session, fli
         refused = answers_of(session, message)
         assert isinstance(refused, str)
         assert said_by(flight, message) == refused
+
+
+def test_requests_are_refused_for_the_same_reasons_from_the_ground_to_the_air_and_back(by_hand):
+    session, flight = by_hand
+    lift, land = ({"type": "ask", "what": what} for what in ("lift", "land"))
+    seen = set()
+    for message, seconds in (
+        (land, 0.3),
+        (lift, 1.0),
+        (GRAB, 1.0),
+        ({"type": "release"}, 5.0),
+        (lift, 0.3),
+        ({"type": "force", "force": [0.2, 0.0, 0.0], "point": [0.0, 0.0, 0.0]}, 0.6),
+        ({"type": "force", "force": [0.0, 0.0, 0.0], "point": [0.0, 0.0, 0.0]}, 0.1),
+        ({"type": "enable", "on": False}, 0.6),
+        (land, 0.6),
+        (lift, 0.3),
+        ({"type": "ask", "what": "stop"}, 0.6),
+        (lift, 0.3),
+    ):
+        check_same(session, flight, message, seconds)
+        seen |= {text for one in flight.said if one["type"] == "status" for text in one["refusals"].values()}
+    told = " ".join(seen)
+    for part in ("on the ground already", "in the air already", "below the threshold (0.", "Enable it.", "final"):
+        assert part in told, part
+
+
+def test_a_crash_ends_both_with_the_same_words_at_the_same_place_until_both_begin_again(by_hand):
+    session, flight = by_hand
+    check_same(session, flight, {"type": "ask", "what": "lift"}, 5.5)
+    hard = {"type": "force", "force": [4.0, 0.0, 0.0], "point": [0.0, 0.0, 0.0]}
+    check_same(session, flight, hard, 1.5)
+    status = flight.status()
+    assert status["phase"] == "crashed"
+    assert "tilt [deg] = 6.8" in status["ending"]["text"]
+    assert status["ending"]["place"] == session.status()["ending"]["place"]
+    check_same(session, flight, {"type": "ask", "what": "lift"}, 0.3)
+    assert "crashed" in flight.status()["refusals"]["push"]
+    for one in (session.status(), flight.status()):
+        assert one["refusals"]["lift"].endswith("Begin the flight again.")
+    flight.say("reset")
+    flight.fly(0.5)
+    assert flight.status()["ending"] is None
+    assert flight.status()["phase"] == "idle"
 
 
 def test_what_only_a_server_has_is_refused_with_a_reason(flight):

@@ -64,6 +64,10 @@ export class Flight {
     return this.module.view(this.flight)[index];
   }
 
+  numbersAt(at: number, size: number): Float64Array {
+    return this.module.view(this.flight).subarray(at, at + size);
+  }
+
   get hand(): Float64Array {
     const [at, size] = this.module.manifest.hand;
     return this.module.view(this.flight).subarray(at, at + size);

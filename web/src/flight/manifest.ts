@@ -1,6 +1,6 @@
 // What a page is given of a mission: its module, and the manifest that Python wrote with it (`live.offline`).
 
-import type { FlightScene, SceneParameter } from "../wire/messages.generated.ts";
+import type { FlightScene, Phase, SceneParameter, StatusRefusals } from "../wire/messages.generated.ts";
 import { sha256 } from "./sha256.ts";
 import type { Tables } from "./toml.ts";
 
@@ -62,6 +62,12 @@ export interface FieldRule {
   wrong: string;
 }
 
+/** Of an ending: the phase that it leads to, and what is said of it. */
+export interface EndingText {
+  outcome: Phase;
+  text: string;
+}
+
 export interface PageTexts {
   unknown: string;
   no_number: string;
@@ -73,6 +79,9 @@ export interface PageTexts {
   failed_already: string;
   no_requests: string; // empty if the pilot takes requests
   touch: Record<string, string>; // by the number that the module gives
+  refusals: Record<keyof StatusRefusals, string[]>; // likewise
+  refused_at_end: Record<"over" | "stopped_early" | "error", StatusRefusals>;
+  endings: { by_number: Record<string, EndingText>; not_finite: EndingText[] }; // by part of the state
   empty: string;
   name: string;
   only_server: string;
@@ -101,8 +110,10 @@ export interface PageManifest {
   released: number[]; // the numbers of a hand that holds nothing
   engine: string;
   plant: Span;
-  lost: number; // index of the number that is 0 until the flight diverges
+  lost: number; // index of the number that is 0 until the flight crashes or diverges
   hover_time: number; // index, or −1 if no tare needs it
+  guidance: Span[]; // the pilot's guidance and its memory, of which `refusals` is a function
+  ending: Span[]; // what `ending` is a function of, and the time
   frame: [field: string, count: number][]; // what `frame` returns
   phase_times: number[]; // s
   touch_rule: number[];

@@ -16,6 +16,7 @@ const pad = (exponent: number): string => String(Math.abs(exponent)).padStart(2,
 /** A number as Python's format `g` gives it, with six figures. */
 export function general(x: number): string {
   if (x === 0) return Object.is(x, -0) ? "-0" : "0";
+  if (!Number.isFinite(x)) return float(x);
   const [digits, power] = x.toExponential(5).split("e");
   const exponent = Number(power);
   const trimmed = (text: string): string => (text.includes(".") ? text.replace(/\.?0+$/, "") : text);

@@ -1,7 +1,15 @@
 // A flight in real time, pushed by the page. As `live.session.session` does it.
 
-import type { FlightScene, PageMessage, Phase, ServerMessage, StatusMessage } from "../wire/messages.generated.ts";
+import type {
+  FlightScene,
+  PageMessage,
+  Phase,
+  ServerMessage,
+  StatusMessage,
+  StatusRefusals,
+} from "../wire/messages.generated.ts";
 import { Layout } from "../wire/frames.ts";
+import { endingOf, type KnownEnding } from "./endings.ts";
 import { Flight } from "./flight.ts";
 import { HandControl } from "./hand_control.ts";
 import type { FlightManifest } from "./manifest.ts";
@@ -12,6 +20,7 @@ import { Pacer } from "./pacer.ts";
 import { ParameterControl } from "./parameter_control.ts";
 import { recordedFlight } from "./recording.ts";
 import { Refusal } from "./refusal.ts";
+import { refusalsNow } from "./refusals.ts";
 import type { Tables } from "./toml.ts";
 
 export type Answer = Exclude<ServerMessage, { type: "status" | "pong" | "done" }> | SavedFile;
@@ -90,11 +99,12 @@ export class Session {
 
   status(): StatusMessage {
     const { flight, pacer, hand } = this;
+    const ending = endingOf(this.module, this.manifest.page, flight);
     const behind = pacer.mostBehind;
     pacer.mostBehind = 0;
     return {
       type: "status",
-      phase: this.phase(),
+      phase: this.phase(ending),
       alarm: this.manifest.page.scene.alarms[this.value("alarm")[0] ?? 0],
       enabled: hand.part("enabled")[0] !== 0,
       paused: pacer.paused,
@@ -103,6 +113,8 @@ export class Session {
       behind_ms: Number((1e3 * behind).toFixed(2)),
       recorded_s: Number(flight.time.toFixed(3)),
       failed_rotors: this.parameters.failed(flight.time),
+      refusals: this.refusals(),
+      ending: ending && { text: ending.text, time: ending.time, place: ending.place },
       viewers: 1,
       holder: this.held ? "you" : "none",
     };
@@ -191,12 +203,24 @@ export class Session {
     return [];
   }
 
-  private request(message: RequestMessage): [] {
+  private request(message: RequestMessage): Answer[] {
     const { no_requests: none } = this.manifest.page.texts;
     if (none) throw new Refusal(none, { what: message.type === "ask" ? message.what : "enable" });
-    if (message.type === "ask") this.hand.ask(message);
-    else this.hand.enable(message.on);
-    return [];
+    if (message.type === "enable") {
+      this.hand.enable(message.on);
+      return [];
+    }
+    this.hand.ask(message);
+    const reason = message.what === "stop" ? "" : this.refusals()[message.what];
+    return reason ? [{ type: "refused", what: message.type, reason }] : [];
+  }
+
+  private refusals(): StatusRefusals {
+    const { module, manifest, flight } = this;
+    const { refused_at_end: ended } = manifest.page.texts;
+    if (this.failed) return ended.error;
+    if (flight.lost) return ended.stopped_early;
+    return flight.over ? ended.over : refusalsNow(module, manifest.page, flight);
   }
 
   private begin(start: MissionNumbers): void {
@@ -214,9 +238,9 @@ export class Session {
     return { type: "saved", name: `${name}.zip`, bytes };
   }
 
-  private phase(): Phase {
+  private phase(ending: KnownEnding | null): Phase {
     if (this.failed) return "failed";
-    if (this.flight.lost) return "lost";
+    if (ending) return ending.outcome;
     return this.flight.over ? "over" : this.manifest.page.scene.phases[this.value("phase")[0]];
   }
 

@@ -2,11 +2,16 @@
 
 import { LIMITS, type PageMessage, type StatusMessage } from "../wire/messages.generated.ts";
 import { button, el, icon } from "./dom.ts";
+import { RefusalNote } from "./refusal_note.ts";
 
 const { min, max } = LIMITS.speed.factor;
+const [LIFT, LAND] = ["Lift off (L)", "Land here (K)"];
+const STOP = "Stop all rotors at once: the vehicle falls";
 const SPEEDS = [max, 0.5, 0.25, min].map(String);
 
 export class Dock {
+  private readonly note = new RefusalNote();
+  private readonly asking: Record<"lift" | "land", HTMLButtonElement>;
   private paused = false;
   private enabled = true;
   private readonly pauseButton: HTMLButtonElement;
@@ -30,8 +35,13 @@ export class Dock {
     this.enable(true);
     this.speeds = this.speedChoice();
     this.videoButton = button("video", "Video", "Record a video of the picture", film);
+    this.asking = { lift: this.request("lift", LIFT, "go"), land: this.request("land", LAND) };
+    const stop = button("stop", "Stop", STOP, () => {
+      send({ type: "ask", what: "stop" });
+    }, "danger");
     place.replaceChildren(
-      el("div", { class: "strip" }, ...this.requests(), this.enableButton),
+      this.note.element,
+      el("div", { class: "strip" }, this.asking.lift, this.asking.land, stop, this.enableButton),
       el("div", { class: "strip" }, this.pauseButton, this.speeds, this.resetButton()),
       el("div", { class: "strip" }, button("save", "Save", "Save the flight so far", save), this.videoButton),
     );
@@ -46,6 +56,22 @@ export class Dock {
     const speed = String(Number(status.speed.toPrecision(3)));
     if (document.activeElement !== this.speeds && SPEEDS.includes(speed)) this.speeds.value = speed;
     this.enable(status.enabled);
+    const { lift, land } = status.refusals;
+    mark(this.asking.lift, lift, LIFT);
+    mark(this.asking.land, land, LAND);
+    if (!status.paused) this.note.status(status.refusals, status.phase === "idle" ? lift : "");
+  }
+
+  /** Asks the pilot to lift off or to land. */
+  ask(what: "lift" | "land"): void {
+    this.note.ask(what);
+    if (this.paused) this.note.refused("The flight is paused. Press Continue, and the pilot is asked.");
+    this.send({ type: "ask", what });
+  }
+
+  /** A request is refused. */
+  refused(reason: string): void {
+    this.note.refused(reason);
   }
 
   togglePause(): void {
@@ -68,15 +94,11 @@ export class Dock {
     this.enableButton.querySelector("span")!.textContent = on ? "Enabled" : "Disabled";
   }
 
-  private requests(): HTMLButtonElement[] {
-    const ask = (what: "lift" | "land" | "stop") => () => {
-      this.send({ type: "ask", what });
+  private request(what: "lift" | "land", title: string, kind?: string): HTMLButtonElement {
+    const ask = (): void => {
+      this.ask(what);
     };
-    return [
-      button("lift", "Lift", "Lift off (L)", ask("lift"), "go"),
-      button("land", "Land", "Land here (K)", ask("land")),
-      button("stop", "Stop", "Stop all rotors at once: the vehicle falls", ask("stop"), "danger"),
-    ];
+    return button(what, what === "lift" ? "Lift" : "Land", title, ask, kind);
   }
 
   private speedChoice(): HTMLSelectElement {
@@ -94,4 +116,10 @@ export class Dock {
       this.send({ type: "reset" });
     });
   }
+}
+
+/** A button of a request that would be refused is pale and says why; it can be pressed all the same. */
+function mark(element: HTMLButtonElement, reason: string, title: string): void {
+  element.classList.toggle("refused", reason !== "");
+  if (element.title !== (reason || title)) element.title = reason || title;
 }

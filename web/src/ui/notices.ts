@@ -14,7 +14,7 @@ export class Notices {
     byId("retry").addEventListener("click", retry);
   }
 
-  show(text: string, kind: "done" | "refused"): void {
+  show(text: string, kind: "done" | "refused" | "finding"): void {
     const same = [...this.place.children].find((one) => one.textContent === text);
     same?.remove();
     const notice = el("p", { class: kind }, text);

@@ -15,10 +15,14 @@ const LOOKS: Record<Phase, PhaseLook> = {
   guided: { text: "guided", kind: "active", tint: "rgba(31, 157, 118, 0.13)" },
   land: { text: "landing", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
   hold: { text: "holding", kind: "calm", tint: "rgba(47, 111, 176, 0.12)" },
-  lost: { text: "out of control", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
+  contact: { text: "touching a wall", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
+  crashed: { text: "crashed", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
+  diverged: { text: "out of control", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
   over: { text: "over: press Reset", kind: "off", tint: "rgba(93, 104, 117, 0.10)" },
   failed: { text: "failed: press Reset", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
+  limited: { text: "cannot follow", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
   stopped: { text: "stopped", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
+  contact: { text: "at a wall", kind: "calm", tint: "rgba(47, 111, 176, 0.12)" },
 };
 
 export function phaseTint(phase: Phase): string {
@@ -28,5 +32,6 @@ export function phaseTint(phase: Phase): string {
 /** What the badge says: a fault before all else. */
 export function badgeOf({ phase, alarm }: StatusMessage): { text: string; kind: string } {
   const { text, kind } = LOOKS[phase];
+  if (alarm.startsWith(text)) return { text: alarm, kind: "fault" };
   return alarm ? { text: `${text} \u00b7 fault: ${alarm}`, kind: "fault" } : { text, kind };
 }

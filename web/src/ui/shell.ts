@@ -11,6 +11,7 @@ import {
   type FlightScene,
   type PageMessage,
   type ParameterValue,
+  type Phase,
   type StatusMessage,
   THRESHOLD,
 } from "../wire/messages.generated.ts";
@@ -20,6 +21,8 @@ import { Dock } from "./dock.ts";
 import { byId, choice, toggle } from "./dom.ts";
 import { timedName } from "./file_names.ts";
 import { helpDialog } from "./help.ts";
+import { EndedCard } from "./ended_card.ts";
+import { Findings } from "./findings.ts";
 import { SPAN } from "./history.ts";
 import { Notices } from "./notices.ts";
 import { Panel } from "./panel.ts";
@@ -62,6 +65,8 @@ export class Shell {
   private readonly panel: Panel;
   private readonly help: HTMLDialogElement;
   private readonly saving: SaveDialog;
+  private readonly ended: EndedCard;
+  private readonly findings: Findings;
   private readonly video = new VideoRecorder();
   private plots: Plots | null = null;
   private dock: Dock | null = null;
@@ -75,6 +80,7 @@ export class Shell {
     this.notices = new Notices(() => {
       page.retry();
     });
+    this.findings = new Findings(this.notices);
     this.bar = new StatusBar(page.replay !== null);
     this.panel = new Panel(byId("panel"), page);
     this.help = helpDialog(page.replay !== null);
@@ -88,6 +94,9 @@ export class Shell {
     foldable("show-plots", "plots", window.innerHeight >= LOW);
     this.makeViews();
     if (!page.replay) this.makeDock();
+    this.ended = new EndedCard(() => {
+      page.send({ type: "reset" });
+    });
     window.addEventListener("keydown", this.key);
   }
 
@@ -117,8 +126,10 @@ export class Shell {
   status(status: StatusMessage): void {
     this.bar.status(status);
     this.dock?.status(status);
+    if (!this.page.replay) this.ended.status(status);
     this.panel.markFailed(status.failed_rotors);
     this.hint(status);
+    this.findings.status(status.findings ?? []);
   }
 
   changed(key: string, value: ParameterValue, duration: number): void {
@@ -128,6 +139,10 @@ export class Shell {
 
   refused(what: string, reason: string): void {
     if (what === "save" && this.saving.refused(reason)) return;
+    if (what === "ask" && this.dock) {
+      this.dock.refused(reason);
+      return;
+    }
     const shown = this.panel.refused(what, reason);
     if (!shown || byId("panel").hidden) this.notices.show(`${what}: ${reason}`, "refused");
   }
@@ -209,7 +224,7 @@ export class Shell {
   };
 
   private keys(): Map<string, () => void> {
-    const { page, timeline } = this;
+    const { timeline } = this;
     const views = [...byId("views").querySelectorAll<HTMLElement>("button, input")];
     const names = ["Digit1", "Digit2", "Digit3", "KeyF"];
     const keys = new Map(names.map((name, i) => [name, () => views[i].click()]));
@@ -219,17 +234,20 @@ export class Shell {
       keys.set("ArrowRight", () => timeline.step(1));
     } else {
       keys.set("KeyP", () => this.dock?.togglePause());
-      keys.set("KeyL", () => page.send({ type: "ask", what: "lift" }));
-      keys.set("KeyK", () => page.send({ type: "ask", what: "land" }));
+      keys.set("KeyL", () => this.dock?.ask("lift"));
+      keys.set("KeyK", () => this.dock?.ask("land"));
     }
     return keys;
   }
 }
 
-function hintOf({ phase, preparing }: StatusMessage, pulled: boolean): string {
+const HELD: Phase[] = ["hold", "contact", "limited"]; // phases in which a pilot does not follow, and says why
+
+function hintOf({ phase, preparing, refusals, holder }: StatusMessage, pulled: boolean): string {
   if (preparing?.failure) return `The flight cannot be flown: ${preparing.failure}`;
   if (preparing) return `Preparing the flight: ${preparing.step} \u2026`;
-  if (phase === "idle") return "Press Lift to take off.";
+  if (phase === "idle") return refusals.lift ? "" : "Press Lift to take off.";
+  if (HELD.includes(phase)) return holder === "none" ? refusals.push : ""; // else it is said at the hand
   return phase === "guided" && !pulled ? "Drag the beam to pull it." : "";
 }
 

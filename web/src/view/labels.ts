@@ -2,11 +2,14 @@
 
 import type { PerspectiveCamera, Vector3 } from "three";
 
+const GAP = 12; // pixels that a label keeps to the sides of the picture
+
 export class Label {
   private readonly element: HTMLElement;
   private text = "";
   private width = 0;
   private height = 0;
+  private own: [width: number, height: number] = [0, 0];
 
   constructor(layer: HTMLElement, kind: string) {
     this.element = document.createElement("div");
@@ -27,8 +30,12 @@ export class Label {
     const spot = place.clone().project(camera);
     const hidden = Math.abs(spot.z) > 1;
     if (hidden !== this.element.hidden) this.element.hidden = hidden;
-    if (text !== this.text) this.element.textContent = this.text = text;
-    const [x, y] = [(spot.x / 2 + 0.5) * this.width, (0.5 - spot.y / 2) * this.height];
-    this.element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    if (text !== this.text) {
+      this.element.textContent = this.text = text;
+      this.own = [this.element.offsetWidth, this.element.offsetHeight];
+    }
+    const x = Math.min((spot.x / 2 + 0.5) * this.width, this.width - this.own[0] - GAP);
+    const y = Math.min((0.5 - spot.y / 2) * this.height, this.height - this.own[1] - GAP);
+    this.element.style.transform = `translate(${Math.max(x, -GAP).toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
 }

@@ -6,8 +6,10 @@ import { size } from "../math/vectors.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { FlightScene, Vector } from "../wire/messages.generated.ts";
 import { Arrow } from "./arrow.ts";
+import { ContactMark } from "./contact.ts";
 import { HandMarker } from "./hand.ts";
 import { Label } from "./labels.ts";
+import { Mark } from "./mark.ts";
 import { palette } from "./palette.ts";
 import { FlatShadow } from "./shadow.ts";
 import type { Stage } from "./stage.ts";
@@ -22,6 +24,14 @@ export type Overlays = Record<Overlay, boolean>;
 export type HandView =
   { kind: "none" } | { kind: "offer"; point: Vector } | { kind: "pull"; point: Vector; target: Vector };
 
+export type Labels = Record<"push" | "wind" | "refusal" | "ending" | "contact", Label>;
+
+/** A sentence at a point of the body: why what a person does there has no effect. */
+export interface Remark {
+  text: string;
+  point: Vector;
+}
+
 export class Picture {
   readonly vehicle: Vehicle;
   readonly center = new Vector3();
@@ -35,6 +45,8 @@ export class Picture {
   private readonly push = new Arrow(palette.push, 0.02, 0.22, 0.05);
   private readonly wind = new Arrow(palette.wind, 0.014, 0.14, 0.1);
   private readonly hold = new HandMarker();
+  private readonly end = new Mark(palette.push);
+  private readonly contact = new ContactMark();
   private readonly trail = new Trail();
   private readonly plumb: Plumb;
   private time = NaN;
@@ -42,7 +54,7 @@ export class Picture {
   constructor(
     readonly scene: FlightScene,
     private readonly stage: Stage,
-    private readonly labels: { push: Label; wind: Label },
+    private readonly labels: Labels,
   ) {
     this.vehicle = new Vehicle(scene, stage.graphics);
     this.world = new World(scene, stage.graphics);
@@ -53,7 +65,7 @@ export class Picture {
     this.stiffness = scene.spring.stiffness;
     this.reach = reachOf(scene);
     this.shadow.mesh.visible = scene.ground && stage.graphics === "light";
-    const arrows = [this.push.group, this.wind.group, this.hold.group];
+    const arrows = [this.push.group, this.wind.group, this.hold.group, this.end.group, this.contact.group];
     const lines = [this.trail.line, this.plumb.line];
     this.root.add(this.world.group, this.shadow.mesh, this.vehicle.group, this.ghost.group, ...arrows, ...lines);
     stage.scene.add(this.root);
@@ -67,11 +79,10 @@ export class Picture {
       drawn.geometry.dispose();
       for (const paint of [drawn.material].flat()) paint.dispose();
     });
-    this.labels.push.hide();
-    this.labels.wind.hide();
+    for (const label of Object.values(this.labels)) label.hide();
   }
 
-  update(frame: Frame, hand: HandView, shown: Overlays): void {
+  update(frame: Frame, hand: HandView, shown: Overlays, remark: Remark | null): void {
     const time = frame.scalar("time");
     const passed = Math.min(Math.max(time - this.time, 0), 0.1) || 0;
     if (time < this.time - 0.001 || time > this.time + 1) this.trail.clear();
@@ -88,12 +99,26 @@ export class Picture {
     this.showReference(frame, position, shown.ghost);
     this.showForces(frame, shown);
     this.showHand(frame, hand, shown.zone);
+    this.showContact(frame);
+    if (remark) this.labels.refusal.show(remark.text, this.inWorld(remark.point), this.stage.camera);
+    else this.labels.refusal.hide();
     this.time = time;
   }
 
   draw(): void {
     this.world.update(this.center, this.stage.camera.position);
     this.stage.draw(this.center, this.reach);
+  }
+
+  /** Where the flight ended, and what is said there. */
+  showEnding(text: string, place: Vector | null): void {
+    if (place) {
+      this.end.show(new Vector3(...place));
+      this.labels.ending.show(text, this.end.group.position, this.stage.camera);
+    } else {
+      this.end.hide();
+      this.labels.ending.hide();
+    }
   }
 
   /** A point of the body where it is in the world. */
@@ -119,6 +144,12 @@ export class Picture {
     else this.labels.push.hide();
     if (this.wind.visible) this.labels.wind.show(`wind ${size(wind).toFixed(1)} m/s`, this.wind.tip, camera);
     else this.labels.wind.hide();
+  }
+
+  private showContact(frame: Frame): void {
+    const touching = this.contact.update(frame, this.scene.phases);
+    if (touching) this.labels.contact.show(touching, this.contact.place, this.stage.camera);
+    else this.labels.contact.hide();
   }
 
   private showHand(frame: Frame, hand: HandView, shown: boolean): void {

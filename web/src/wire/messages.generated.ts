@@ -11,9 +11,12 @@ export type Phase =
   | "land"
   | "hold"
   | "stopped"
+  | "contact"
+  | "limited"
   | "preparing"
   | "failed"
-  | "lost"
+  | "diverged"
+  | "crashed"
   | "over";
 
 export type FrameFieldName =
@@ -30,6 +33,9 @@ export type FrameFieldName =
   | "wind"
   | "phase"
   | "alarm"
+  | "contact_part"
+  | "contact_point"
+  | "contact_normal"
   | "held"
   | "hand_point"
   | "hand_target"
@@ -37,7 +43,7 @@ export type FrameFieldName =
   | "thrusts";
 
 /** Fields of which a value between two frames means nothing. */
-export const JUMPING_FIELDS: readonly FrameFieldName[] = ["phase", "alarm", "held", "seq"];
+export const JUMPING_FIELDS: readonly FrameFieldName[] = ["phase", "alarm", "contact_part", "contact_point", "contact_normal", "held", "seq"];
 
 /** Parameters that the picture and the plots show. */
 export const THRESHOLD = "admittance.threshold";
@@ -150,6 +156,27 @@ export interface FlightScene {
   replay?: SceneReplay; // span of a saved flight
 }
 
+/** Why a request would be refused right now, and what to do; each a sentence or two, empty if it would not. */
+export interface StatusRefusals {
+  lift: string;
+  land: string;
+  push: string; // why a push is not followed
+}
+
+/** Why a flight was stopped before its end. */
+export interface StatusEnding {
+  text: string; // names outcome, time, quantity, value and limit
+  time: number; // s
+  place: Vector | null; // of the vehicle; null if that is not known
+}
+
+/** Something that went badly in the flight so far. */
+export interface StatusFinding {
+  kind: string; // as in docs/outcomes.md
+  time: number; // when it began; s
+  text: string;
+}
+
 /** The preparation of a flight. */
 export interface PreparationStatus {
   step: string; // what is being done
@@ -159,7 +186,7 @@ export interface PreparationStatus {
 
 /** The state of a flight in words, and how it keeps up with the clock. */
 export interface FlightStatus {
-  phase: Phase; // of the flight; before it `preparing`, at its end `over`, `lost` or `failed`
+  phase: Phase; // of the flight; before it `preparing`; at its end `over`, `crashed`, `diverged`, `failed`
   alarm: string; // what has failed; empty if nothing has
   enabled: boolean; // whether the pilot follows pushes
   paused: boolean; // whether time stands still
@@ -168,6 +195,9 @@ export interface FlightStatus {
   behind_ms: number; // how late the flight was at most since the last status, ms
   recorded_s: number; // length of the recording, s
   failed_rotors: readonly number[]; // rotors that have stopped for good, counted over the whole vehicle from 0
+  refusals: StatusRefusals; // why a request would be refused right now, and what to do
+  ending: StatusEnding | null; // why the flight was stopped before its end; null unless it was
+  findings?: StatusFinding[]; // what went badly so far; a server forms it once a second
   preparing?: PreparationStatus; // before the first step
 }
 

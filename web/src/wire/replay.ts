@@ -10,6 +10,8 @@ const NOT_LIVE = {
   behind_ms: 0,
   recorded_s: 0,
   failed_rotors: [],
+  refusals: { lift: "", land: "", push: "" },
+  ending: null,
   viewers: 1,
   holder: "none",
 } as const;

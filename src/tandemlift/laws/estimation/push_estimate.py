@@ -6,7 +6,8 @@ a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_
 Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
 
 In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
-identified (`laws.estimation.tare`). The wind on the payload may be subtracted (`laws.mechanics.air_drag`).
+identified (`laws.estimation.tare`); where an excess of mass sits, hover does not tell (`inertial_force`). The wind on
+the payload may be subtracted (`laws.mechanics.air_drag`).
 
 The external force on quadrotor i is f_i + m_i s_i, with s_i its specific force. Thrust is only in z, so x and y are
 wind or sensor error; where they differ between quadrotors, the push is not trusted. Errors in z, of torques, and errors
@@ -25,7 +26,7 @@ from tandemlift.algebra.arrays import array
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, sqrt, where
 from tandemlift.algebra.types import number
-from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, cross, each, spread, total, vec3
 from tandemlift.laws.estimation.tare import TINY, SideForces, TareSums, summed, tare_of
 from tandemlift.laws.estimation.wind_compensation import start_payload_drag, wind_on_payload
 from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
@@ -40,16 +41,17 @@ NOTHING = Nothing()
 class PushEstimator(NamedTuple):
     """The nominal vehicle and the numbers of the estimator; body axes.
 
-    Payload: `mass` [kg] and `inertia` [kg·m²]. From its centre of mass [m]: `joints` and the `quadrotors`' centres of
-    mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length. `per_interval`: samples of the IMU
-    per second. `least`: square of the least force [N²] that has a point of application. Tare from `tare_start` [s]
-    until before `tare_end`; `identify` is 1 to identify the payload's mass, else 0. `limit`: disagreement [N] from
-    which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N = 1. `windage`: how wind is
-    taken off, or `Nothing`.
+    Payload: `mass` [kg] and `inertia` [kg·m²]. From its centre of mass [m]: the `system`'s centre of mass, `joints`,
+    and the `quadrotors`' centres of mass, which weigh `quadrotor_mass` [kg] (sets); `reach`, half the beam's length.
+    `per_interval`: samples of the IMU per second. `least`: square of the least force [N²] that has a point of
+    application. Tare from `tare_start` [s] until before `tare_end`; `identify` is 1 to identify the payload's mass,
+    else 0. `limit`: disagreement [N] from which on nothing is trusted; `share` is 1/N, `alone` N/(N − 1) or 0 for N =
+    1. `windage`: how wind is taken off, or `Nothing`.
     """
 
     mass: Any
     inertia: Any
+    system: Vec3
     joints: Vec3
     quadrotors: Vec3
     quadrotor_mass: Any
@@ -109,6 +111,17 @@ def moment_on_payload(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
 
 
 @law
+def inertial_force(k: PushEstimator, specific_force: Vec3, rates: Vec3, angular: Vec3, mass: Any) -> Vec3:
+    """m_L a [N, body axes]; `mass` [kg] beyond the nominal is taken to be at the system's centre of mass.
+
+    `specific_force` [m/s²] is at the payload's centre of mass. Taken to be there too, a large excess would make every
+    turn of the vehicle look like a push, which the pilot then compensates: an unstable loop.
+    """
+    turn = cross(cross(k.system, rates), rates) - cross(k.system, angular)
+    return specific_force * mass + turn * (mass - k.mass)
+
+
+@law
 def external_forces(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces:
     """The external horizontal force on every quadrotor [N], body axes."""
     a, w = imu.specific_force, imu.rates
@@ -158,7 +171,7 @@ def estimate(k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: A
     armed = where(t < k.tare_end, 0.0, 1.0)
     tare = tare_of(k.mass, k.identify, sums, armed)
     wind, wind_memory = wind_on_payload(k.windage, memory.wind, outside.x, outside.y, begun, taken, armed)
-    force = a * tare.mass - f - tare.force - wind
+    force = inertial_force(k, a, imu.rates, angular, tare.mass) - f - tare.force - wind
     after = PushEstimatorState(
         imu.rates,
         angular,
@@ -195,11 +208,15 @@ def concluded(
     )
 
 
-def _check_tare(start: float | None, duration: float, identify_mass: bool, interval: float) -> None:
-    if identify_mass and start is None:
-        raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
-    if start is not None and duration < interval:
+def _tare_fields(start: float | None, duration: float, identify_mass: bool, interval: float) -> dict[str, Any]:
+    """The fields of an estimator's tare; the end of none is before every time."""
+    if start is None:
+        if identify_mass:
+            raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
+        return {"tare_start": 0.0, "tare_end": -math.inf, "identify": 0.0}
+    if duration < interval:
         raise ValueError(f"a tare of {duration:g} s holds no sample: they come every {interval:g} s")
+    return {"tare_start": number(start), "tare_end": start + duration, "identify": float(identify_mass)}
 
 
 def push_estimator(
@@ -218,6 +235,7 @@ def push_estimator(
     identify_mass: bool = False,
     disagreement_limit: float = 2.0,
     windage: Any = NOTHING,
+    system: Any = (0.0, 0.0, 0.0),
 ) -> PushEstimator:
     """The estimator of the push on a payload, as the pilot believes the vehicle to be.
 
@@ -231,21 +249,23 @@ def push_estimator(
         imu_period: of the IMU, in steps.
         length: of the beam along body y [m]; no point of application lies beyond its ends.
         bandwidth: of the low-pass [rad/s].
-        min_force: across the beam [N], below which no point of application is given.
+        min_force: across the beam [N], below which there is no point of application.
         tare_start: of the tare in hover [s]; None for no tare.
         tare_duration: [s].
         identify_mass: whether to identify the payload's mass during the tare.
         disagreement_limit: [N], from which on the push is not trusted.
         windage: how the wind on the payload is taken off, or `Nothing`.
+        system: the whole vehicle's centre of mass from the payload's [m], body axes (3).
 
     Raises:
         ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
     """
-    _check_tare(tare_start, tare_duration, identify_mass, step * imu_period)
+    tare = _tare_fields(tare_start, tare_duration, identify_mass, step * imu_period)
     J, N = array(inertia), len(joints)
     return PushEstimator(
         mass=number(mass),
         inertia=inertia_value(np.diag(J) if J.ndim == 1 else J),
+        system=vec3(system),
         joints=spread(joints),
         quadrotors=spread(quadrotors),
         quadrotor_mass=each(N)(*map(number, quadrotor_masses)),
@@ -253,9 +273,7 @@ def push_estimator(
         per_interval=1.0 / (step * imu_period),
         low_pass=low_pass(bandwidth, step),
         least=min_force**2,
-        tare_start=0.0 if tare_start is None else number(tare_start),
-        tare_end=-math.inf if tare_start is None else tare_start + tare_duration,
-        identify=1.0 if identify_mass else 0.0,
+        **tare,
         limit=number(disagreement_limit),
         share=1.0 / N,
         alone=N / (N - 1) if N > 1 else 0.0,

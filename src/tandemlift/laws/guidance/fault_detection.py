@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, dot
-from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, STOPPED
+from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIMITED, STOPPED
 from tandemlift.laws.guidance.fault_reactions import ActiveFaults
 from tandemlift.laws.guidance.preflight_checks import SensorStatus
 from tandemlift.laws.guidance.requests import VehicleStatus
@@ -140,7 +140,9 @@ def active_faults(
 ) -> ActiveFaults:
     """Every fault that is present: 1, or the number of its symptom; else 0."""
     r = s.report
-    fenced = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, 0.0))
+    fenced = 0.0
+    for hovering in (GUIDED, HOLD, CONTACT, LIMITED):
+        fenced = where(phase == hovering, 1.0, fenced)
     no_attitude = where(r.attitude + r.motion > 0.0, where(r.gyroscope + r.imu > 0.0, 1.0, 0.0), 0.0)
     return ActiveFaults(
         imu=r.imu,
@@ -163,4 +165,5 @@ def active_faults(
         tracking_error=expired(timers.tracking_error, b.tracking_error_time),
         rotor=status.rotor_failed,
         speed_inconsistent=r.speed_inconsistent,
+        limited=status.limited,
     )

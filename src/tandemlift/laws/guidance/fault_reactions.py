@@ -43,5 +43,5 @@ def strongest_reaction(f: ActiveFaults, r: ActiveFaults) -> FaultReaction:
     w = NO_ALARM
     for fault in FAULTS:
         present, alarm = getattr(f, fault.key), float(fault.alarm)
-        w = stronger(w, present, getattr(r, fault.key), alarm + present if fault.has_symptoms else alarm)
+        w = stronger(w, present, getattr(r, fault.key), alarm + present if fault.symptoms else alarm)
     return w

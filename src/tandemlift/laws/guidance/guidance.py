@@ -5,7 +5,7 @@ By a schedule as in the paper: `scheduled_guidance`. By hand, in phases: `hand_g
 
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.law import choice
+from tandemlift.algebra.law import Nothing, choice
 from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import Vec3
 from tandemlift.laws.guidance.requests import (
@@ -35,6 +35,17 @@ class PilotInput(NamedTuple):
     status: VehicleStatus = UNKNOWN_STATUS
 
 
+class LoadOfWall(NamedTuple):
+    """The estimated force of a wall on a guard [N, world axes], its moment about the centre of mass [N·m, body axes].
+
+    `touching`: 1 while any part touches, else 0.
+    """
+
+    force: Vec3
+    moment: Vec3
+    touching: Any
+
+
 class AlwaysRunning(NamedTuple):
     """Rotors always run."""
 
@@ -57,7 +68,8 @@ class Guidance(NamedTuple):
 
     The gated force [N, world axes]; T_r with its derivatives; the reference; the push that the controller compensates:
     force [N, world axes] and moment [N·m, body axes]; the fraction of the thrusts that is commanded; 1 in flight, else
-    0; 1 while observers may learn, else 0, as where the feet may press on the ground; the channels.
+    0; 1 while observers may learn, else 0, as where the feet may press on the ground; the channels. `wall`: what a wall
+    gives besides, a `LoadOfWall`, or `Nothing`.
     """
 
     force: Vec3
@@ -69,6 +81,7 @@ class Guidance(NamedTuple):
     flying: Any
     learning: Any
     channels: Any
+    wall: Any = Nothing()
 
 
 @choice
@@ -89,6 +102,26 @@ def guide(g: Any, m: Any, pilot_input: Any, disturbance: Any, rotor_failed: Any,
 @choice
 def checked_input(g: Any, m: Any, pilot_input: PilotInput, thrust: Any, rotor_failed: Any) -> Any:
     """The pilot's input, made usable; with the thrust of all rotors [N], and 1 once a rotor has failed, else 0."""
+
+
+@choice(absent="pilot_input")
+def with_wall(wall: Any, pilot_input: PilotInput) -> Any:
+    """The pilot's input with the load of a wall added to the push, so that it is no disturbance."""
+
+
+@with_wall.register(LoadOfWall)
+def _with_wall(wall: LoadOfWall, pilot_input: PilotInput) -> PilotInput:
+    return pilot_input._replace(push=pilot_input.push + wall.force, moment=pilot_input.moment + wall.moment)
+
+
+@choice(absent=1.0)
+def untouched(wall: Any) -> Any:
+    """1 while no wall acts, else 0."""
+
+
+@untouched.register(LoadOfWall)
+def _untouched(wall: LoadOfWall) -> Any:
+    return 1.0 - wall.touching
 
 
 @choice

@@ -2,14 +2,36 @@
 
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import law
-from tandemlift.algebra.ops import maximum, sqrt, where
+from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, apply, dot
-from tandemlift.common.phases import LAND
+from tandemlift.common.phases import CONTACT, IDLE, LAND, LIFT
+from tandemlift.laws.compliance.above_ground import above_ground, has_floor
+from tandemlift.laws.compliance.available import (
+    AvailableForce,
+    available_acceleration,
+    needed_force,
+    usable_thrust,
+)
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
+from tandemlift.laws.compliance.energy_tank import passivity_damping
+from tandemlift.laws.compliance.following import (
+    Following,
+    FollowingLimits,
+    FollowingState,
+    must_land,
+    update_following,
+)
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
-from tandemlift.laws.guidance.energy_tank import passivity_damping
+from tandemlift.laws.guidance.contact_hold import (
+    bounded_by,
+    contact_code,
+    kept_out,
+    load_of_wall,
+    react_to_contact,
+    turning_out,
+    without_wall,
+)
 from tandemlift.laws.guidance.guidance import (
     Guidance,
     PilotInput,
@@ -22,6 +44,7 @@ from tandemlift.laws.guidance.phases import (
     PhaseSettings,
     PhaseState,
     exceeds,
+    in_the_air,
     is_in,
     lift_request,
     phase_output,
@@ -36,15 +59,16 @@ from tandemlift.laws.guidance.supervised_reference import fenced, usable_input, 
 from tandemlift.laws.guidance.supervision import finish_supervision, supervise
 from tandemlift.laws.guidance.yaw_compliance import HeadingReference, yaw_step
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.laws.signals.trajectories import Reference, Trajectory
 
 
 class HandGuidance(NamedTuple):
-    """Guidance by hand. `mass` [kg]; `max_thrust` [N] that may be used; `tangent` of the largest tilt.
+    """Guidance by hand.
 
     `moment`: low-pass of the push's moment, which the controller compensates with a lead time of `moment_lead` [s].
+    `available`: what rotors and tilt can give; `clearance` of the reference above the ground, or `Nothing`.
     """
 
     phasing: PhaseSettings
@@ -53,10 +77,11 @@ class HandGuidance(NamedTuple):
     heading: Any
     moment: LowPass
     moment_lead: Any
-    mass: Any
-    max_thrust: Any
-    tangent: Any
+    available: AvailableForce
+    clearance: Any
+    following: FollowingLimits
     supervision: Any
+    contact: Any
 
 
 class HandGuidanceState(NamedTuple):
@@ -67,7 +92,9 @@ class HandGuidanceState(NamedTuple):
     tank: Any
     heading: Any
     moment: LowPassState
+    following: FollowingState
     supervision: Any
+    contact: Any
 
 
 class HandGuidanceChannels(NamedTuple):
@@ -78,6 +105,7 @@ class HandGuidanceChannels(NamedTuple):
     push_active: Vec3
     added_damping: Any
     reference_yaw_rate: Any
+    limited_reason: Any
     supervised: Any
 
 
@@ -86,18 +114,8 @@ def _checked(
     g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, thrust: Any, rotor_failed: Any
 ) -> PilotInput:
     usable = usable_input(g.supervision, m.supervision, pilot_input, thrust, rotor_failed)
-    return pilot_input._replace(state=usable.state, push=usable.push, moment=usable.moment, status=usable.status)
-
-
-@law
-def available_acceleration(g: HandGuidance, disturbance: DisturbanceEstimate) -> Any:
-    """The horizontal acceleration [m/s²] that rotors and tilt can give beside weight and disturbance."""
-    d = disturbance.force
-    up = maximum(g.mass * GRAVITY - d.z, 0.0)
-    thrust = sqrt(maximum(g.max_thrust * g.max_thrust - up * up, 0.0))
-    across = sqrt(maximum(d.x * d.x + d.y * d.y, 1e-24))
-    limit = where(thrust < up * g.tangent, thrust, up * g.tangent)
-    return maximum(limit - across, 0.0) / g.mass
+    status = usable.status._replace(limited=m.following.reason)
+    return pilot_input._replace(state=usable.state, push=usable.push, moment=usable.moment, status=status)
 
 
 @law
@@ -131,33 +149,65 @@ def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) ->
 
 
 @law
-def presses_on_ground(m: PhaseState, height: Any) -> Any:
-    """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0."""
-    return is_in(m, LAND) * where(height < m.ground, 1.0, 0.0)
+def presses_on_ground(m: PhaseState, height: Any, floor: Any) -> Any:
+    """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0.
+
+    On a `floor` (1) also after the landing, with rotors that keep running: what the floor gives is no disturbance.
+    """
+    return (is_in(m, LAND) + is_in(m, IDLE) * floor) * where(height < m.ground, 1.0, 0.0)
 
 
 @law
 def channels_from(
-    phase: PhaseOutput, m: ComplianceState, damping: Any, heading: HeadingReference, supervision: Any
+    phase: PhaseOutput, m: ComplianceState, damping: Any, heading: HeadingReference, limited: Any, supervision: Any
 ) -> HandGuidanceChannels:
-    """The channels of a step; `supervision`: those of supervision."""
+    """The channels of a step; `limited`: why it cannot follow, or 0; `supervision`: its channels."""
     push = m.filtered.value - m.band.bias
-    return HandGuidanceChannels(phase.phase, push, m.band.active, damping, heading.rate, supervision)
+    return HandGuidanceChannels(phase.phase, push, m.band.active, damping, heading.rate, limited, supervision)
+
+
+@law
+def following_step(
+    g: HandGuidance, m: FollowingState, phase: PhaseState, state: State, load: Vec3, reference: Reference, time: tuple
+) -> FollowingState:
+    """The memory of what limits the vehicle; nothing does on the ground, in a landing or in contact.
+
+    Args:
+        g: the guidance.
+        m: the memory before.
+        phase: that of the phases.
+        state: of the vehicle.
+        load: disturbance and compensated push together [N, world axes].
+        reference: the present one.
+        time: (t, dt) [s].
+    """
+    t, dt = time
+    yaw = euler_from_quaternion(state.attitude).angles.z
+    now = Following(
+        needed=needed_force(g.available, load),
+        max_thrust=usable_thrust(g.available, t),
+        error=reference.trajectory.position - state.position,
+        heading_error=wrap_angle(reference.yaw - yaw),
+        active=is_in(phase, LIFT) + in_the_air(phase) - is_in(phase, CONTACT),
+    )
+    return update_following(g.following, m, now, t, dt)
 
 
 @law
 def supervised_phase(
-    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, rotor_failed: Any, t: Any, dt: Any
+    g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, boundary: Any, rotor_failed: Any, t: Any, dt: Any
 ) -> Any:
     """(the phase, `SupervisionOutput`, the memory of supervision) at time t [s]."""
     k, operator = g.phasing, pilot_input.operator
     requests = with_operator(
         requests_until(k.requests, t), operator, reached(t, k.lift_start), reached(t, k.land_start)
     )
-    land = maximum(maximum(pilot_input.land, rotor_failed), exceeds(requests.lands, m.phase.handled_lands))
+    unable = maximum(rotor_failed, must_land(g.following, m.following))
+    land = maximum(maximum(pilot_input.land, unable), exceeds(requests.lands, m.phase.handled_lands))
     lift = lift_request(k, m.phase, requests, operator.lift, land)
     output, memory = supervise(g.supervision, m.supervision, pilot_input, m.phase, lift, t, dt)
-    phase = update_phase(k, m.phase, pilot_input.state, requests, (lift, land), output.bounds, t, dt)
+    bounds = bounded_by(boundary, output.bounds._replace(limited=pilot_input.status.limited))
+    phase = update_phase(k, m.phase, pilot_input.state, requests, (lift, land), bounds, t, dt)
     return phase, output, memory
 
 
@@ -172,32 +222,40 @@ def _by_hand(
     dt: Any,
 ) -> Any:
     state = pilot_input.state
-    phase, supervised, memory = supervised_phase(g, m, pilot_input, rotor_failed, t, dt)
+    boundary, contact = react_to_contact(g.contact, m.contact, pilot_input, in_the_air(m.phase), dt)
+    pilot_input = without_wall(boundary, pilot_input)
+    phase, supervised, memory = supervised_phase(g, m, pilot_input, boundary, rotor_failed, t, dt)
     allowed = phase_output(g.phasing, phase, t)
-    before = grounded_at(allowed, m.compliance, state)
+    before = kept_out(boundary, grounded_at(allowed, m.compliance, state), dt)
     dissipated = dot(before.velocity * g.compliance.admittance.damping, before.velocity)
     damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
-    compliance = fenced(g.supervision, g.compliance, before, g.phasing.height * allowed.lift.value)
-    horizontal = available_acceleration(g, disturbance)
-    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, dt)
-    about_vertical = apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z
+    lifted = g.phasing.height * allowed.lift.value
+    compliance = above_ground(g.clearance, g.compliance, before, before.position.z + lifted - phase.ground)
+    compliance = fenced(g.supervision, compliance, before, lifted)
+    horizontal = available_acceleration(g.available, disturbance.force, usable_thrust(g.available, t))
+    after = compliance_step(compliance, before, pilot_input.push, allowed.responding, damping, horizontal, boundary, dt)
+    about_vertical = turning_out(boundary, apply(rotation_from_quaternion(state.attitude), pilot_input.moment).z)
     yaw = euler_from_quaternion(state.attitude).angles.z
     heading, turned = yaw_step(g.heading, m.heading, about_vertical, yaw, allowed, rotor_failed, dt)
     moment = low_pass_step(g.moment, m.moment, pilot_input.moment)
     motion = Trajectory(before.position, before.velocity, after.acceleration)
     target, blind = with_lift_and_landing(g, motion, allowed), supervised.motion_unknown
     target = with_blind_descent(g.supervision, target, state, blind, is_in(phase, LAND), allowed.land.value)
-    shown, memory = finish_supervision(g.supervision, memory, phase, target.position, t)
+    shown, memory = finish_supervision(g.supervision, memory, phase, target.position, contact_code(boundary), t)
     lead = after.jerk * g.compliance.reference_lead
+    reference = Reference(target, heading.angle, heading.rate, heading.acceleration, lead)
+    load = disturbance.force + after.filtered.value * allowed.compensating
+    following = following_step(g, m.following, phase, state, load, reference, (t, dt))
     guidance = Guidance(
         force=after.output.value,
         admittance=motion,
-        reference=Reference(target, heading.angle, heading.rate, heading.acceleration, lead),
+        reference=reference,
         push=compensated_push(g.compliance, after) * allowed.compensating,
         moment=(moment.value + moment.rate * g.moment_lead) * allowed.compensating,
         running=ThrustFraction(allowed.running),
         flying=allowed.flying * (1.0 - blind),
-        learning=1.0 - presses_on_ground(phase, target.position.z),
-        channels=channels_from(allowed, after, damping, heading, shown),
+        learning=1.0 - presses_on_ground(phase, target.position.z, has_floor(g.clearance)),
+        channels=channels_from(allowed, after, damping, heading, following.reason, shown),
+        wall=load_of_wall(boundary),
     )
-    return guidance, HandGuidanceState(phase, after, tank, turned, moment, memory)
+    return guidance, HandGuidanceState(phase, after, tank, turned, moment, following, memory, contact)

@@ -1,22 +1,23 @@
 """The phases of a flight with a person, as a state machine.
 
-idle on the ground → lift → hold ⇄ guided → land → idle; from each of them → stopped, which is final. `next_phase` has
-the transitions, `PhaseOutput` what a phase allows. The laws have no branches: every condition is a number, 1 or 0. The
-diagram is in docs/safety.md; `common.phases` has names and numbers.
+idle on the ground → lift → hold ⇄ guided ⇄ contact, limited → land → idle; from each of them → stopped, which is final.
+`next_phase` has the transitions, `PhaseOutput` what a phase allows. The laws have no branches: every condition is a
+number, 1 or 0. The diagram is in docs/safety.md; `common.phases` has names and numbers.
 """
 
 from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import law
-from tandemlift.algebra.ops import maximum, minimum, where
+from tandemlift.algebra.ops import absolute, maximum, minimum, where
 from tandemlift.algebra.vector import dot
-from tandemlift.common.phases import GUIDED, HOLD, IDLE, LAND, LIFT, STOPPED
+from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
 from tandemlift.laws.guidance.requests import RequestCounts
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.signals.trajectories import SmoothStep, smoothstep
 
 SETTLING_TIME = 1.0  # s, of steady hover before a tare
 STEADY_SPEED = 0.1  # m/s and rad/s
+SPIN, SPIN_HEIGHT = 2.0, 0.03  # rad/s, m: a landing that still turns so fast ends this far above the ground
 
 
 class PhaseSettings(NamedTuple):
@@ -59,10 +60,11 @@ class PhaseState(NamedTuple):
 
 
 class PhaseBounds(NamedTuple):
-    """Bounds by supervision, 1 or 0: whether it allows a lift and guidance; whether it demands to hold, land, stop.
+    """Bounds, 1 or 0: whether supervision allows a lift and guidance; whether it demands to hold, land, stop.
 
     `touched_down`: whether a landing has ended early on something. `extra_depth` [m]: how much farther down a landing
-    that begins now ends.
+    that begins now ends. `contact`: whether the reference is kept out of a wall. `limited`: above 0 while the vehicle
+    cannot follow its reference.
     """
 
     lift_allowed: Any
@@ -72,6 +74,8 @@ class PhaseBounds(NamedTuple):
     stop: Any
     touched_down: Any
     extra_depth: Any
+    contact: Any = 0.0
+    limited: Any = 0.0
 
 
 class PhaseOutput(NamedTuple):
@@ -99,6 +103,12 @@ def is_in(m: PhaseState, phase: Any) -> Any:
 
 
 @law
+def in_the_air(m: PhaseState) -> Any:
+    """1 in flight, except in lift and landing, where feet may touch the ground; else 0."""
+    return is_in(m, GUIDED) + is_in(m, HOLD) + is_in(m, CONTACT) + is_in(m, LIMITED)
+
+
+@law
 def reached(t: Any, start: Any) -> Any:
     """1 from a time on, before 0."""
     return where(t >= start, 1.0, 0.0)
@@ -122,16 +132,27 @@ def next_phase(
     k: PhaseSettings, m: PhaseState, requests: RequestCounts, bounds: PhaseBounds, lifts: Any, land: Any, t: Any
 ) -> Any:
     """The phase after this sample; `lifts` is 1 if a lift begins, `land` 1 if a landing is requested."""
-    lift = is_in(m, LIFT)
-    up = lift * where((t - m.since - k.spin_up_time) * k.lift_rate >= 1.0, 1.0, 0.0) + is_in(m, GUIDED) + is_in(m, HOLD)
+    lift, aloft = is_in(m, LIFT), in_the_air(m)
+    up = lift * where((t - m.since - k.spin_up_time) * k.lift_rate >= 1.0, 1.0, 0.0) + aloft
     guided = requests.enabled * bounds.guidance_allowed * (1.0 - bounds.hold)
     demanded = maximum(maximum(land, bounds.land), lift * bounds.hold)
-    lands = (lift + is_in(m, GUIDED) + is_in(m, HOLD)) * demanded
+    lands = (lift + aloft) * demanded
+    followed = where(bounds.contact > 0.0, CONTACT, GUIDED)
     landed = is_in(m, LAND) * maximum(where((t - m.since) * m.land_rate >= 1.0, 1.0, 0.0), bounds.touched_down)
+    able = where(guided > 0.0, followed, HOLD)
     phase = where(lifts > 0.0, LIFT, m.phase)
-    phase = where(up > 0.0, where(guided > 0.0, GUIDED, HOLD), phase)
+    phase = where(up > 0.0, where(bounds.limited > 0.0, LIMITED, able), phase)
     phase = where(lands > 0.0, LAND, where(landed > 0.0, IDLE, phase))
     return where(maximum(requests.stop, bounds.stop) > 0.0, STOPPED, phase)
+
+
+@law
+def turning_at_ground(m: PhaseState, state: State) -> Any:
+    """1 where a vehicle that turns about the vertical is about to touch the ground, else 0.
+
+    Feet that are dragged over the ground while the rotors run would turn it over.
+    """
+    return where(state.position.z < m.ground + SPIN_HEIGHT, where(absolute(state.rates.z) > SPIN, 1.0, 0.0), 0.0)
 
 
 @law
@@ -144,7 +165,8 @@ def landing_rate(k: PhaseSettings, height: Any) -> Any:
 @law
 def hover_time(m: PhaseState, phase: Any, state: State, dt: Any) -> Any:
     """For how long it has hovered steadily, less `SETTLING_TIME` [s]; above zero it only needs to be in the air."""
-    up = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, 0.0))
+    flies = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, where(phase == CONTACT, 1.0, 0.0)))
+    up = where(phase == LIMITED, 1.0, flies)
     moving = maximum(dot(state.velocity, state.velocity), dot(state.rates, state.rates))
     steady = where(moving < STEADY_SPEED * STEADY_SPEED, up, where(m.hover_time >= 0.0, up, 0.0))
     return where(steady > 0.0, m.hover_time + dt, where(m.hover_time >= 0.0, m.hover_time, -SETTLING_TIME))
@@ -175,7 +197,8 @@ def update_phase(
     """
     height, idle = state.position.z, is_in(m, IDLE)
     lifts = wanted[0] * bounds.lift_allowed * (1.0 - bounds.stop)
-    phase = next_phase(k, m, requests, bounds, lifts, wanted[1], t)
+    touched_down = maximum(bounds.touched_down, turning_at_ground(m, state))
+    phase = next_phase(k, m, requests, bounds._replace(touched_down=touched_down), lifts, wanted[1], t)
     lands = where(phase == LAND, 1.0 - is_in(m, LAND), 0.0)
     ground = where(lifts > 0.0, height, m.ground)
     extra_depth = where(lands > 0.0, bounds.extra_depth, m.extra_depth)
@@ -208,7 +231,7 @@ def phase_output(k: PhaseSettings, m: PhaseState, t: Any) -> PhaseOutput:
     return PhaseOutput(
         phase=m.phase,
         grounded=parked + stopped,
-        responding=is_in(m, GUIDED),
+        responding=is_in(m, GUIDED) + is_in(m, CONTACT),
         running=(1.0 - parked) * (1.0 - stopped),
         flying=(1.0 - parked) * (1.0 - stopped) * (1.0 - lift * (1.0 - begun) * (1.0 - k.always_running)),
         lift=SmoothStep(where(lift > 0.0, up.value, lift_fraction), lift * up.rate, lift * up.curvature),

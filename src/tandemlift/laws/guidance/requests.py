@@ -23,12 +23,14 @@ class VehicleStatus(NamedTuple):
     """The status of the vehicle at a sample, as the pilot knows it.
 
     `rotor_failed` is 1 once a rotor has failed, else 0; `thrust` [N] of all rotors as allocated at the last sample, 0
-    if unknown; `state_invalid` is 1 if the pilot's state has values that are not numbers, else 0.
+    if unknown; `state_invalid` is 1 if the pilot's state has values that are not numbers, else 0; `limited`: the number
+    of the reason why it cannot follow its reference, or 0.
     """
 
     rotor_failed: Any
     thrust: Any
     state_invalid: Any
+    limited: Any = 0.0
 
 
 NO_REQUEST = OperatorRequest(0.0, 0.0, 1.0)

@@ -39,7 +39,7 @@ from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.rotors.rotor_faults import efficiency_at
 
 TOUCHDOWN_TIME = 0.2  # s, after which a vehicle above its landing's reference is taken to stand on something
-PHASE, ALARM = 1e6, 1e2  # factors in the code of an event: phase, alarm, failed check
+CONTACT, PHASE, ALARM = 1e8, 1e6, 1e2  # factors in the code of an event: contact, phase, alarm, failed check
 
 
 class Supervision(NamedTuple):
@@ -81,6 +81,9 @@ class SupervisionState(NamedTuple):
 
     Reaction and alarm; for how long it has held, and has been without a fault [s]; timers; the last valid state and the
     reference [m]; the numbers of the checks that fail before a lift and before pushes are followed, or 0; events.
+
+    For refusals (`pilot.refusals`): the alarm of the fault that is present now; the number of the check that fails
+    before a lift, requested or not; the estimated payload mass [kg].
     """
 
     reaction: Any
@@ -93,6 +96,9 @@ class SupervisionState(NamedTuple):
     failed_lift_check: Any
     failed_guidance_check: Any
     events: EventLog
+    fault: Any
+    lift_check: Any
+    payload: Any
 
 
 class SupervisionOutput(NamedTuple):
@@ -134,13 +140,14 @@ def _supervised(
     idle = where(phase.phase == IDLE, 1.0, 0.0)
     grounded = maximum(idle, where(phase.phase == STOPPED, 1.0, 0.0))
     faults = active_faults(k.bounds, k.fence, sensors, timers, state, status, phase.phase)
-    after = update_reaction(k, m, strongest_reaction(faults, k.reactions), idle, dt)
+    strongest = strongest_reaction(faults, k.reactions)
+    after = update_reaction(k, m, strongest, idle, dt)
     mass = k.mass + sensors.payload - k.payload
     lift = failed_lift_check(k.checks, sensors, state, status, mass, after.reaction, available)
     guidance = failed_guidance_check(k.checks, sensors)
     after = after._replace(
         timers=timers, state=state, failed_lift_check=lift * lift_requested, failed_guidance_check=guidance
-    )
+    )._replace(fault=strongest.alarm, lift_check=lift, payload=sensors.payload)
     return supervision_output(k, sensors, after, lift, grounded), after
 
 
@@ -186,13 +193,13 @@ def filled_slot(old: Any, slot: Any, count: Any, new: Any, value: Any) -> Any:
 
 
 @law
-def with_event(k: Supervision, m: EventLog, phase: Any, alarm: Any, failed_check: Any, t: Any) -> EventLog:
-    """The log, with one more event if phase or alarm have changed, or another check fails."""
-    changed = where(phase * PHASE + alarm * ALARM == m.last - m.failed_check, 0.0, 1.0)
+def with_event(k: Supervision, m: EventLog, now: Any, failed_check: Any, t: Any) -> EventLog:
+    """The log, with one more event if phase, alarm or contact (the code `now`) have changed, or another check fails."""
+    changed = where(now == m.last - m.failed_check, 0.0, 1.0)
     other = where(failed_check > 0.0, where(failed_check == m.failed_check, 0.0, 1.0), 0.0)
     new = maximum(changed, other)
     check = where(new > 0.0, failed_check, m.failed_check)
-    code = phase * PHASE + alarm * ALARM + check
+    code = now + check
     return EventLog(
         time=filled_slot(m.time, k.slots, m.count, new, t),
         code=filled_slot(m.code, k.slots, m.count, new, code),
@@ -203,13 +210,14 @@ def with_event(k: Supervision, m: EventLog, phase: Any, alarm: Any, failed_check
 
 
 @choice(absent=("k", "m"))
-def finish_supervision(k: Any, m: Any, phase: PhaseState, reference: Vec3, t: Any) -> Any:
-    """(`SupervisionChannels`, the new memory) once the phase and the reference [m] are known."""
+def finish_supervision(k: Any, m: Any, phase: PhaseState, reference: Vec3, contact: Any, t: Any) -> Any:
+    """(`SupervisionChannels`, the new memory) once the phase and the reference [m] are known; `contact`: its code."""
 
 
 @finish_supervision.register(Supervision)
-def _finished(k: Supervision, m: SupervisionState, phase: PhaseState, reference: Vec3, t: Any) -> Any:
+def _finished(k: Supervision, m: SupervisionState, phase: PhaseState, reference: Vec3, contact: Any, t: Any) -> Any:
     waiting = where(phase.phase == HOLD, where(m.reaction > 0.0, 0.0, m.failed_guidance_check), 0.0)
     failed_check = where(phase.phase == IDLE, m.failed_lift_check, waiting)
-    events = with_event(k, m.events, phase.phase, m.alarm, failed_check, t)
+    now = contact * CONTACT + phase.phase * PHASE + m.alarm * ALARM
+    events = with_event(k, m.events, now, failed_check, t)
     return SupervisionChannels(m.alarm, failed_check), m._replace(reference=reference, events=events)

@@ -10,10 +10,15 @@ from typing import Any
 
 from tandemlift.algebra.layout import flat
 from tandemlift.common.errors import InputError
+from tandemlift.common.outcomes import DIVERGED, ENDING_OF, ENDINGS
+from tandemlift.common.refusals import REQUESTS, refusals_for, sentences_for
+from tandemlift.flight.record import ENDING_TEXT
+from tandemlift.interactive.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
 from tandemlift.kernels import leaf_offset
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.live.offline.message_rules import message_rules, name_rule
-from tandemlift.live.offline.page_functions import frame_fields
+from tandemlift.live.offline.page_functions import ENDING_PARTS, frame_fields
 from tandemlift.live.session import checks, pacing
 from tandemlift.live.session import refusal_texts as texts
 from tandemlift.live.session.frame_values import phase_times
@@ -21,6 +26,7 @@ from tandemlift.live.session.hand_control import REQUEST_TIME
 from tandemlift.live.session.interactive_mission import NEVER
 from tandemlift.live.session.parameter_control import RAMP
 from tandemlift.live.session.scene_builder import scene_of
+from tandemlift.live.session.status import in_sentences
 from tandemlift.live.session.tunable_parameters import (
     BY_KEY,
     CHOICES,
@@ -32,9 +38,10 @@ from tandemlift.live.wire.frames import ECHO, FRESH, RATE
 from tandemlift.live.wire.page_messages import SILENT
 from tandemlift.live.wire.scene import SceneParameter
 from tandemlift.missions import Mission, changed, tables_of
+from tandemlift.simulation.outcome import NOT_FINITE, limit_of
 from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
+from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 
 ENGINE = "compiled"
 ONLY_SERVER = "{what}: only a flight of `tandemlift live` has it"
@@ -66,13 +73,15 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "plant": leaf_offset(plan.model, "plant"),
         "lost": leaf_offset(plan.model, "flight_state", "ended").at,
         "hover_time": leaf_offset(plan.model, "flight_state", *checks.HOVER_TIME).at if rule.tare_duration else -1,
+        "guidance": [leaf_offset(plan.model, *path) for path in (("pilot", "guidance"), GUIDANCE_MEMORY)],
+        "ending": [leaf_offset(plan.model, *path) for path in ENDING_PARTS],
         "frame": frame_fields(plan),
         "phase_times": list(phase_times(tables["phases"])),
         "touch_rule": list(rule),
         "ramp": RAMP,
         "request_time": REQUEST_TIME,
         "pacing": _pacing(),
-        "texts": _texts(mission, rule),
+        "texts": _texts(plan, rule),
         "rules": message_rules(),
         "save_name": name_rule()[0],
         "files": {"mission": MISSION, "hand": HAND},
@@ -135,7 +144,21 @@ def _pacing() -> dict[str, float]:
     }
 
 
-def _texts(mission: Mission, rule: checks.TouchRule) -> dict[str, Any]:
+def _endings(plan: FlightPlan) -> dict[str, Any]:
+    """By number the outcome of an ending and its text; by the place in the state what is said if that is not finite."""
+    known = {str(int(k.number)): _ending(k.outcome, k.quantity, limit_of(plan, k.number)) for k in ENDINGS}
+    parts = [_ending(ENDING_OF[DIVERGED].outcome, part, NOT_FINITE) for part in State._fields]
+    return {"by_number": known, "not_finite": parts}
+
+
+def _ending(outcome: str, quantity: str, limit: str) -> dict[str, str]:
+    """An ending's outcome, and its text with the places of its numbers in braces."""
+    named = {"outcome": outcome, "quantity": quantity, "limit": limit, "time": "{time}", "value": "{value}"}
+    return {"outcome": outcome, "text": ENDING_TEXT.replace(":.6g", "").format(**named)}
+
+
+def _texts(plan: FlightPlan, rule: checks.TouchRule) -> dict[str, Any]:
+    mission = plan.mission
     by_clock = mission.pilot.guidance == "clock"
     return {
         "unknown": texts.UNKNOWN.format(key="{key}", known=", ".join([*CHOICES, *BY_KEY])),
@@ -148,6 +171,9 @@ def _texts(mission: Mission, rule: checks.TouchRule) -> dict[str, Any]:
         "failed_already": texts.FAILED_ALREADY.replace("{time:g}", "{time}"),
         "no_requests": texts.NO_REQUESTS.format(what="{what}", mission=mission.mission.name) if by_clock else "",
         "touch": {str(int(number)): text for number, text in checks.touch_texts(rule).items()},
+        "refusals": {request: sentences_for(request) for request in REQUESTS},
+        "refused_at_end": {key: in_sentences(refusals_for(key)) for key in ("over", "stopped_early", "error")},
+        "endings": _endings(plan),
         "empty": EMPTY_FLIGHT,
         "name": name_rule()[1],
         "only_server": ONLY_SERVER,

@@ -11,7 +11,7 @@ import gzip
 import hashlib
 import json
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -47,11 +47,11 @@ class PackedFlight(NamedTuple):
     data: bytes
 
 
-def page_mission(name: str) -> Mission:
-    """A mission as a page flies it: pushed by hand, and rounded alike on every machine."""
+def page_mission(name: str, changes: Mapping[str, Any] | None = None) -> Mission:
+    """A mission, with changes of its keys, as a page flies it: pushed by hand, and rounded alike on every machine."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FlightWarning)
-        return changed(interactive_mission(load_mission(name)), "mission.fused", False)
+        return changed(interactive_mission(load_mission(name, changes)), "mission.fused", False)
 
 
 def flight_manifest(mission: Mission) -> tuple[dict[str, Any], bytes]:
@@ -67,15 +67,20 @@ def flight_manifest(mission: Mission) -> tuple[dict[str, Any], bytes]:
 def packed_flight(name: str) -> PackedFlight:
     """The flight of a mission: as it was shipped, or else made; its module is compiled if it is in no cache."""
     shipped = SHIPPED / f"{name}{ENDING}"
-    if shipped.is_file():
-        data = shipped.read_bytes()
-        whole = gzip.decompress(data)
-    else:
-        manifest, code = flight_manifest(page_mission(name))
-        text = json.dumps(manifest, allow_nan=False, separators=(",", ":")).encode()
-        whole = len(text).to_bytes(4, "little") + text + code
-        data = gzip.compress(whole, 9, mtime=0)
-    return PackedFlight(name, built_in()[name], hashlib.sha256(whole).hexdigest(), data)
+    if not shipped.is_file():
+        return packed_mission(page_mission(name), built_in()[name])
+    data = shipped.read_bytes()
+    return PackedFlight(name, built_in()[name], hashlib.sha256(gzip.decompress(data)).hexdigest(), data)
+
+
+def packed_mission(mission: Mission, title: str) -> PackedFlight:
+    """The flight of a mission that is as `page_mission` makes it."""
+    manifest, code = flight_manifest(mission)
+    text = json.dumps(manifest, allow_nan=False, separators=(",", ":")).encode()
+    whole = len(text).to_bytes(4, "little") + text + code
+    return PackedFlight(
+        mission.mission.name, title, hashlib.sha256(whole).hexdigest(), gzip.compress(whole, 9, mtime=0)
+    )
 
 
 def packed_flights(

@@ -31,6 +31,9 @@ CHANNELS = {  # of each field: the channels that it may come from, the best firs
     "disturbance": ("disturbance_force",),
     "wind": ("wind_velocity",),
     "alarm": ("alarm",),
+    "contact_part": ("contact_part",),
+    "contact_point": ("contact_point_estimate",),
+    "contact_normal": ("contact_normal",),
     "thrusts": ("rotor_thrusts",),
 }
 USED = {"reference_euler", "push_moment", "phase"}.union(*CHANNELS.values())

@@ -57,5 +57,6 @@ def _if_possible(mission: Mission) -> Iterator[tuple[str, Any]]:
     yield "faults", [*kept, *faults]
     yield "detection.model", "residual"
     yield "supervision.model", "watch"
+    yield "contact.model", "watch"
     if mission.wind.model == "none":
         yield "wind", {"model": "air", "turbulence": FAINT_TURBULENCE}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 
+from tandemlift.live.session.status import NO_REFUSALS
 from tandemlift.live.wire.quantities import PREPARING
 from tandemlift.live.wire.server_messages import FlightStatus
 
@@ -32,6 +33,8 @@ class Preparation:
             behind_ms=0.0,
             recorded_s=0.0,
             failed_rotors=[],
+            refusals=NO_REFUSALS,
+            ending=None,
             preparing={"step": self.step, "seconds": seconds, "failure": self.failure},
         )
 

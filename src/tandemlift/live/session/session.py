@@ -15,10 +15,10 @@ from typing import Any
 
 from tandemlift.algebra.vector import Quat
 from tandemlift.common.errors import InputError
-from tandemlift.common.faults import ALARM_TEXTS
-from tandemlift.common.phases import PHASE_NAMES
+from tandemlift.common.refusals import Refusals
+from tandemlift.interactive.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED
-from tandemlift.live.session.checks import check_may_tare, check_takes_requests, failed_rotors
+from tandemlift.live.session.checks import check_may_tare, check_takes_requests
 from tandemlift.live.session.frame_builder import FrameBuilder
 from tandemlift.live.session.hand_control import HandControl
 from tandemlift.live.session.interactive_mission import interactive_mission, with_whole_rotors
@@ -26,12 +26,12 @@ from tandemlift.live.session.pacing import Pacer, RealTimeThread
 from tandemlift.live.session.parameter_control import ParameterControl
 from tandemlift.live.session.preparation import Preparation
 from tandemlift.live.session.saving import save_in_process
+from tandemlift.live.session.status import FlightFindings, phase_of, refusals_now, status_of
 from tandemlift.live.session.tunable_parameters import CHOICES, parameters_of
 from tandemlift.live.wire import page_messages as page
 from tandemlift.live.wire.scene import FlightScene, SceneSpring
-from tandemlift.live.wire.server_messages import Answer, DoneMessage, FlightStatus, SceneMessage
+from tandemlift.live.wire.server_messages import Answer, DoneMessage, FlightStatus, RefusedMessage, SceneMessage
 from tandemlift.missions import Mission
-from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
 
 log = logging.getLogger(__name__)
@@ -59,7 +59,7 @@ class Session:
         self._lock, self.pacer = threading.RLock(), Pacer(mission.mission.step)
         self._thread = RealTimeThread(self.pacer, self._lock, self._is_prepared, self._fly)
         self._parameters = ParameterControl(self._mission, self._lock)
-        self._failed = False
+        self._failed, self._findings = False, FlightFindings()
         self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
         self._flight: RecordedFlight
         self._hand: HandControl
@@ -154,26 +154,19 @@ class Session:
         if not self.is_ready:
             return self._preparation.status()
         with self._lock:
-            flight, pacer, values = self._flight, self.pacer, self._values()
-            most, pacer.most_behind = pacer.most_behind, 0.0
-            return FlightStatus(
-                phase=self._phase(int(values["phase"][0])),
-                alarm=ALARM_TEXTS[int(values["alarm"][0])] if "alarm" in values else "",
-                enabled=bool(flight.hand.enabled),
-                paused=pacer.paused,
-                speed=pacer.speed,
-                factor=round(pacer.factor, 3),
-                behind_ms=round(1e3 * most, 2),
-                recorded_s=round(flight.step * flight.dt, 3),
-                failed_rotors=failed_rotors(flight),
-            )
+            status = status_of(self._flight, self.pacer, self._values(), self._failed)
+            self._findings.look(self._flight)
+        status["findings"] = self._findings.formed()
+        return status
+
+    @property
+    def refusals(self) -> Refusals:
+        """What would be refused right now: to lift, to land, to follow a push; and why, and what to do."""
+        with self._lock:
+            return refusals_now(self._flight, self._failed)
 
     def _values(self) -> dict[str, Any]:
         return self._frames.values(*self._flight.moment)
-
-    def _phase(self, number: int) -> str:
-        ends = {"failed": self._failed, "lost": self._flight.lost, "over": self._flight.over}
-        return next((name for name, true in ends.items() if true), PHASE_NAMES[number])
 
     # messages
 
@@ -220,10 +213,12 @@ class Session:
             self._hand.push(m)
 
     @_handle.register
-    def _ask(self, m: page.AskMessage) -> None:
+    def _ask(self, m: page.AskMessage) -> list[Answer]:
         check_takes_requests(self._mission, m.what)
         with self._lock:
             self._hand.request(m)
+        refusal = None if m.what == "stop" else getattr(self.refusals, m.what)
+        return [RefusedMessage(type="refused", what=m.type, reason=str(refusal))] if refusal else []
 
     @_handle.register
     def _enable(self, m: page.EnableMessage) -> None:
@@ -260,7 +255,8 @@ class Session:
     @_handle.register
     def _tare(self, m: page.TareMessage) -> list[Answer]:
         with self._lock:
-            check_may_tare(self._flight, self._frames.scene["vehicle"], self._phase(int(self._values()["phase"][0])))
+            phase = phase_of(self._flight, int(self._values()["phase"][0]), self._failed)
+            check_may_tare(self._flight, self._frames.scene["vehicle"], phase)
         return [DoneMessage(type="done", what="tare", detail=self._parameters.tare(self._flight))]
 
     @_handle.register

@@ -46,6 +46,11 @@ FRAME_FIELDS = (
     FrameField("wind", 3, "wind velocity, m/s"),
     FrameField("phase", 1, "index into the scene's `phases`", jumps=True),
     FrameField("alarm", 1, "index into the scene's `alarms`", jumps=True),
+    FrameField(
+        "contact_part", 1, "what touches a wall: number of the quadrotor of a guard, −1 the beam, 0 none", jumps=True
+    ),
+    FrameField("contact_point", 3, "where it touches, as the pilot estimates it, m", jumps=True),
+    FrameField("contact_normal", 3, "unit vector out of that wall", jumps=True),
     FrameField("held", 1, "1 while a page holds the beam, else 0", jumps=True),
     FrameField("hand_point", 3, "where the hand holds, m, body axes"),
     FrameField("hand_target", 3, "where the hand pulls to, m"),

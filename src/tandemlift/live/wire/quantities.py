@@ -12,13 +12,15 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import AfterValidator, Field
 
+from tandemlift.common.outcomes import ENDINGS
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.settings.value_types import must
 
 MAX_WORD = 100  # characters of a key or of a word
 NAME_PATTERN = "[A-Za-z0-9][A-Za-z0-9._-]{0,63}"  # of the name of a saved flight
 NAME_RULE = "be 1 to 64 letters, digits, '.', '_' or '-', the first a letter or a digit"
-ENDS = ("failed", "lost", "over")  # phases of a flight that has ended: by an error, out of control, at its full length
+LOST = tuple(dict.fromkeys(kind.outcome for kind in ENDINGS))  # phases of a flight that was stopped before its end
+ENDS = ("failed", *LOST, "over")  # phases of a flight that has ended; by an error, stopped, at its full length
 PREPARING = "preparing"  # the phase before the first step
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, NotRequired, TypedDict, get_args, get_type_hints
 
-from tandemlift.live.wire.quantities import ParameterValue, Phase, Seconds
+from tandemlift.live.wire.quantities import ParameterValue, Phase, Seconds, WorldPosition
 from tandemlift.live.wire.scene import FlightScene
 
 THRESHOLD, STIFFNESS, MAX_FORCE = "admittance.threshold", "person.stiffness", "person.max_force"
@@ -19,10 +19,34 @@ class PreparationStatus(TypedDict):
     failure: Annotated[str, "why the mission cannot be flown; empty unless that is so"]
 
 
+class StatusRefusals(TypedDict):
+    """Why a request would be refused right now, and what to do; each a sentence or two, empty if it would not."""
+
+    lift: str
+    land: str
+    push: Annotated[str, "why a push is not followed"]
+
+
+class StatusEnding(TypedDict):
+    """Why a flight was stopped before its end."""
+
+    text: Annotated[str, "names outcome, time, quantity, value and limit"]
+    time: Seconds
+    place: Annotated[WorldPosition | None, "of the vehicle; null if that is not known"]
+
+
+class StatusFinding(TypedDict):
+    """Something that went badly in the flight so far."""
+
+    kind: Annotated[str, "as in docs/outcomes.md"]
+    time: Annotated[Seconds, "when it began"]
+    text: str
+
+
 class FlightStatus(TypedDict):
     """The state of a flight in words, and how it keeps up with the clock."""
 
-    phase: Annotated[Phase, "of the flight; before it `preparing`, at its end `over`, `lost` or `failed`"]
+    phase: Annotated[Phase, "of the flight; before it `preparing`; at its end `over`, `crashed`, `diverged`, `failed`"]
     alarm: Annotated[str, "what has failed; empty if nothing has"]
     enabled: Annotated[bool, "whether the pilot follows pushes"]
     paused: Annotated[bool, "whether time stands still"]
@@ -31,6 +55,9 @@ class FlightStatus(TypedDict):
     behind_ms: Annotated[float, "how late the flight was at most since the last status, ms"]
     recorded_s: Annotated[float, "length of the recording, s"]
     failed_rotors: Annotated[list[int], "rotors that have stopped for good, counted over the whole vehicle from 0"]
+    refusals: Annotated[StatusRefusals, "why a request would be refused right now, and what to do"]
+    ending: Annotated[StatusEnding | None, "why the flight was stopped before its end; null unless it was"]
+    findings: NotRequired[Annotated[list[StatusFinding], "what went badly so far; a server forms it once a second"]]
     preparing: NotRequired[Annotated[PreparationStatus, "before the first step"]]
 
 

@@ -31,6 +31,7 @@ from tandemlift.vehicle import Vehicle
 
 LOOPS = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.02, 1000.0, 120  # rad/s
+CLEAR = 0.25  # of an integrator, within which the slope of a loop at low frequencies tells their number
 NEAR = 0.3  # of the delay that a loop bears
 NOTABLE = 0.5  # of the payload's mass, by which a measured push errs
 
@@ -51,13 +52,6 @@ class LoopDelay(NamedTuple):
     crossover: float
 
 
-class PushMassErrors(NamedTuple):
-    """By how much a measured push errs: its mass [kg] for accelerations of the centre of mass, and for turning."""
-
-    moving: float
-    turning: float
-
-
 def loop_checks(m: Mission) -> Iterator[CheckResult]:
     """The delay of each loop with real rotors; nothing of ideal ones."""
     for loop in loop_delays(m):
@@ -73,10 +67,9 @@ def loop_checks(m: Mission) -> Iterator[CheckResult]:
 
 
 def _remedy(m: Mission) -> str:
-    errors = push_mass_errors(m)
-    if max(map(abs, errors)) < NOTABLE * m.vehicle.payload.mass:
+    wrong = push_mass_error(m)
+    if abs(wrong) < NOTABLE * m.vehicle.payload.mass:
         return ": lower the gains of [controller], the rotors' lag_up and lag_down, or the delays"
-    wrong = max(errors, key=abs)
     return (
         f", as the measured push errs by {wrong:.3g} kg of the payload's mass: correct vehicle.payload.mass or "
         "disturbance.force, or change estimator.identify_mass"
@@ -88,21 +81,20 @@ def lag_of(m: Mission) -> float:
     return sum(q.lag_up + q.lag_down for q in m.vehicle.quadrotors) / (2.0 * len(m.vehicle.quadrotors))
 
 
-def push_mass_errors(m: Mission) -> PushMassErrors:
-    """Of the push that a guidance by hand counters.
+def push_mass_error(m: Mission) -> float:
+    """By how much the mass [kg] in the push errs that a guidance by hand counters.
 
-    The push is m̂ a − Σ f at the payload's centre of mass. What joints feel puts the difference of the real mass to the
-    payload; the simulated body keeps its centre of mass. A mass that the tare identifies takes a vertical disturbance
-    for weight.
+    The push is m̂ a − Σ f. What joints feel puts the difference of the real mass to the payload; the simulated body
+    keeps its centre of mass, and so does the pilot with a difference that it has identified. A mass that the tare
+    identifies takes a vertical disturbance for weight.
     """
     if m.pilot.guidance != "hand" or m.pilot.push == "truth":
-        return PushMassErrors(0.0, 0.0)
+        return 0.0
     believed = m.vehicle.payload.mass
     real = believed + (m.plant.mass_scale - 1.0) * Vehicle.from_settings(m.vehicle).mass
     if not m.estimator.identify_mass:
-        return PushMassErrors(believed - real, 0.0)
-    identified = real - m.disturbance.force[2] / GRAVITY
-    return PushMassErrors(identified - real, identified - believed)
+        return believed - real
+    return -m.disturbance.force[2] / GRAVITY
 
 
 def loop_delays(m: Mission) -> Iterator[LoopDelay]:
@@ -156,24 +148,24 @@ def open_loop(m: Mission, w: Array, K: Any, i: int) -> Any:
 
 def measured_push(m: Mission, s: Any, i: int) -> Any:
     """The push that is countered [N] for a unit of z [m], roll or pitch [rad], as far as it errs."""
-    errors = push_mass_errors(m)
-    depth = -float(Vehicle.from_settings(m.vehicle).center_of_mass[2])  # of the payload's centre of mass
-    size = (errors.moving, -errors.turning * depth, errors.turning * depth, 0.0)[i]
-    if size == 0.0:
+    wrong = push_mass_error(m)
+    if i != 0 or wrong == 0.0:
         return 0.0
     bandwidth = m.compliance.input_bandwidth
     path = (1.0 + m.compliance.force_lead * s) / (1.0 + s / bandwidth) ** 2
     if m.observer.model != "none":
-        axis = (2, 1, 0)[i]
-        path = path - (m.observer.force_bandwidth[axis] / (s + m.observer.force_bandwidth[axis])) ** 2
-    return size * s * s * path
+        path = path - (m.observer.force_bandwidth[2] / (s + m.observer.force_bandwidth[2])) ** 2
+    return wrong * s * s * path
 
 
 def delay_borne(w: Array, L: Any) -> tuple[float, float]:
-    """(The delay that a loop without delay bears [s], the frequency of the crossing [rad/s])."""
+    """(The delay that a loop without delay bears [s], 0 if it is unstable; the frequency of the crossing [rad/s])."""
+    return delay_to_crossing(w, L) if _stable(w, L) else (0.0, math.nan)
+
+
+def delay_to_crossing(w: Array, L: Any) -> tuple[float, float]:
+    """(The least delay [s] by which a loop meets −1, the frequency where it does [rad/s])."""
     size, phase = np.log(np.abs(L)), np.unwrap(np.angle(L))
-    if not _stable(w, L, size):
-        return 0.0, math.nan
     best, crossover = math.inf, math.nan
     for k in np.flatnonzero((size[:-1] >= 0.0) != (size[1:] >= 0.0)):
         part = size[k] / (size[k] - size[k + 1])
@@ -184,10 +176,10 @@ def delay_borne(w: Array, L: Any) -> tuple[float, float]:
     return best, crossover
 
 
-def _stable(w: Array, L: Any, size: Array) -> bool:
+def _stable(w: Array, L: Any) -> bool:
     """Whether the closed loop is stable: by the turns of 1 + L, from the highest to the lowest frequency."""
     turned = np.unwrap(np.angle(1.0 + L[::-1]))
-    slope = -(size[1] - size[0]) / math.log(w[1] / w[0])
-    around = [n for n in range(6) if abs(n - slope) < 1.0]
-    misses = [abs(float(turned[-1] - turned[0]) + 0.5 * math.pi * n) for n in around] or [0.0]
-    return min(misses) < 0.5 * math.pi
+    slope = -math.log(abs(L[1] / L[0])) / math.log(w[1] / w[0])
+    around = {math.floor(slope + CLEAR), math.ceil(slope - CLEAR)}
+    misses = [abs(float(turned[-1] - turned[0]) + 0.5 * math.pi * n) for n in around]
+    return min(misses) < 0.4 * math.pi

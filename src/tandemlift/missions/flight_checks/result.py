@@ -14,13 +14,13 @@ class CheckResult(NamedTuple):
     """A check of a mission.
 
     Attributes:
-        check: its name, one of `tandemlift.missions.flight_checks.table.CHECKS`, or "settings" or "loop".
+        check: its name, as in docs/checks.md.
         subject: what was checked, such as an axis or a key; "" for the whole mission.
         value: the number; None where a sentence says it all.
         limit: the largest that is allowed; None likewise.
         unit: of both.
         verdict: "ok", "close" or "fails"; what fails is warned of when the mission is loaded.
-        text: the number, the limit and the key to change, in one sentence.
+        text: the number, the limit and the key to change, in one sentence; "" for what is well.
     """
 
     check: str
@@ -49,14 +49,14 @@ def judged(
         value: the number.
         limit: the largest that is allowed.
         unit: of both.
-        text: the sentence.
+        text: the sentence, for a value beyond the limit.
         subject: what was checked.
         near: the share of the limit below which a margin is close.
     """
     if math.isnan(value) or math.isnan(limit):
         return noted(check, "its numbers are too extreme to compute with", verdict=CLOSE, subject=subject)
     verdict = FAILS if value > limit else CLOSE if value > limit - near * abs(limit) else OK
-    return CheckResult(check, subject, float(value), float(limit), unit, verdict, text)
+    return CheckResult(check, subject, float(value), float(limit), unit, verdict, text if verdict == FAILS else "")
 
 
 def noted(check: str, text: str, *, verdict: str, subject: str = "") -> CheckResult:

@@ -15,22 +15,29 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.algebra.layout import flat, leaves, unflat
+from tandemlift.algebra.vector import Vec3
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.files import atomic_write
+from tandemlift.common.findings import Finding
+from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array
 from tandemlift.engines.registry import EngineBody
-from tandemlift.flight.record import Flight
+from tandemlift.flight.record import Ending, Flight
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.loop.step import FlightState
 from tandemlift.missions import changed, format_toml, load_mission, tables_of
 from tandemlift.missions.recording import HAND_FILE, MISSION_FILE, WIDTH, Recording, write_recording
 from tandemlift.settings import Mission
+from tandemlift.simulation.findings import findings_of
+from tandemlift.simulation.outcome import ending_of, place_of
 from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
-from tandemlift.simulation.stepping import Stepper, body_in
+from tandemlift.simulation.stepping import Stepper, body_of
 
+FLYING = "flying"  # the outcome of a flight that goes on
 MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, "flight.npz"
 EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
 
@@ -106,8 +113,8 @@ def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
-    plan = FlightPlan(mission)
-    return FlightSetup(plan, body_in(engine, plan))
+    plan = FlightPlan(mission, engine)
+    return FlightSetup(plan, body_of(plan))
 
 
 class RecordedFlight:
@@ -159,17 +166,43 @@ class RecordedFlight:
 
     @property
     def over(self) -> bool:
-        """Whether it has reached its mission's duration, or has diverged."""
+        """Whether it has reached its mission's duration, or has crashed or diverged."""
         return self.step >= self._p.steps or self._stepper.lost
 
     @property
     def lost(self) -> bool:
-        """Whether it has diverged."""
+        """Whether it has crashed or diverged."""
         return self._stepper.lost
+
+    @property
+    def ending(self) -> Ending | None:
+        """Why it was stopped as crashed or diverged, or None."""
+        return ending_of(self._p, self._flight_state(), self.step) if self.lost else None
+
+    def numbers(self) -> Array:
+        """A copy of the numbers of its state."""
+        return self._stepper.a[: leaves(self._like)].copy()
+
+    def findings(self, numbers: Array) -> tuple[Finding, ...]:
+        """What went badly until it had these numbers, which may be formed while the flight goes on."""
+        return findings_of(self._p, unflat(numbers, self._like), self.step, FLYING)
+
+    @property
+    def ending_place(self) -> Vec3:
+        """Where it was stopped [m, world]."""
+        return place_of(self._p, self._flight_state())
+
+    def _flight_state(self) -> FlightState:
+        return unflat(self._stepper.a[: leaves(self._like)], self._like)
 
     def number(self, *path: str) -> float:
         """A number of the flight's memory, by its path from `FlightState`."""
         return float(self._stepper.a[leaf_offset(self._stepper.p.model, "flight_state", *path).at])
+
+    @property
+    def refusals(self) -> Refusals:
+        """What the pilot would refuse right now, and why."""
+        return self._stepper.refusals(self.step * self.dt)
 
     @property
     def hand(self) -> VirtualHandInput:

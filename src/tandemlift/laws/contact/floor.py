@@ -24,14 +24,13 @@ from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, greatest, maximum, minimum, sqrt, where
 from tandemlift.algebra.types import Condition, Number, PerQuadrotor, number
 from tandemlift.algebra.vector import Mat3, Nothing, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
-from tandemlift.laws.mechanics.collision.hull import Ellipsoids, Hull, extent_of
-from tandemlift.laws.mechanics.collision.springs import friction_factor, mobility, softened_for_step, spring_damper
+from tandemlift.laws.contact.hull import MAX_ACCELERATION, MAX_ANGULAR_ACCELERATION, Ellipsoids, Hull
+from tandemlift.laws.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, add_to_each
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion, world_z_in_body
 
 NO_HULL = Nothing()
-MAX_ANGULAR_ACCELERATION = 1000.0  # rad/s², more than rotors give
 
 
 class Floor(NamedTuple):
@@ -159,12 +158,10 @@ def grips_after_step(floor: Floor, grip: Quarters, s: State) -> Quarters:
 
 @law
 def may_touch(floor: Floor, s: State, time: Number) -> Condition:
-    """Whether a foot may touch the floor within `time` [s] of state `s`."""
-    q, size = s.attitude, floor.extent
-    tilt = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
-    hangs = dot(absolute(tilt), size) + floor.radius
+    """Whether a foot or any other part may touch the floor within `time` [s] of state `s`."""
+    hangs = dot(absolute(world_z_in_body(s.attitude)), floor.extent) + floor.radius
     swings = floor.reach * (sqrt(dot(s.rates, s.rates)) + MAX_ANGULAR_ACCELERATION * time) * time
-    fall = (minimum(s.velocity.z, 0.0) - 2.0 * GRAVITY * time) * time  # four g, as thrust may add to weight
+    fall = (minimum(s.velocity.z, 0.0) - 0.5 * MAX_ACCELERATION * time) * time
     return s.position.z + fall - minimum(hangs + swings, floor.reach) < floor.height
 
 
@@ -218,8 +215,7 @@ def floor(
     feet = Quarters(*[spread(places[:, j]) for j in range(4)])
     extent = vec3(largest(np.abs(points), axis=0))
     if isinstance(hull, Hull):
-        size, most = extent_of(hull)
-        extent, reach = maximum(extent, size), maximum(reach, most)
+        extent, reach = maximum(extent, absolute(hull.middle) + hull.half), maximum(reach, hull.reach)
     return Floor(number(height), k, c, number(friction), k, c, float(radius), feet, extent, reach, hull)
 
 

@@ -19,7 +19,7 @@ from tandemlift.missions.bounds import plain
 from tandemlift.missions.files import built_in
 from tandemlift.missions.key_reference.sections import Key, is_of_the_package, sections
 from tandemlift.settings import Mission
-from tandemlift.studies.random_values import varied
+from tandemlift.studies.random_missions.values import varied
 
 Changes = dict[str, Any]
 

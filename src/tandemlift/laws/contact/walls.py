@@ -23,14 +23,14 @@ from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import greatest, minimum, sqrt
 from tandemlift.algebra.types import Number, PerQuadrotor, number
 from tandemlift.algebra.vector import ZERO, Mat3, Nothing, Vec3, apply, apply_transposed, cross, dot, each
-from tandemlift.laws.mechanics.collision.beam_axis import (
+from tandemlift.laws.contact.beam_axis import (
     BeamAxis,
     beam_axis,
     beam_point,
     point_by_edge,
     point_by_top,
 )
-from tandemlift.laws.mechanics.collision.spheres import (
+from tandemlift.laws.contact.spheres import (
     ContactPair,
     RotorSpheres,
     WallContact,
@@ -40,7 +40,17 @@ from tandemlift.laws.mechanics.collision.spheres import (
     sphere_contact,
     with_rotor_loads,
 )
-from tandemlift.laws.mechanics.collision.springs import mobility, softened_for_step, surface_mobility
+from tandemlift.laws.contact.springs import mobility, softened_for_step, surface_mobility
+from tandemlift.laws.contact.wall_geometry import (
+    WALL,
+    Wall,
+    edges_of,
+    nearer,
+    offset,
+    offset_from_top,
+    second_nearest,
+    selected_wall,
+)
 from tandemlift.laws.mechanics.loads import (
     PartLoad,
     PartLoads,
@@ -51,16 +61,6 @@ from tandemlift.laws.mechanics.loads import (
 )
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.wall_geometry import (
-    WALL,
-    Wall,
-    edges_of,
-    nearer,
-    offset,
-    offset_from_top,
-    second_nearest,
-    selected_wall,
-)
 
 IN_GUARDS = Nothing()
 

@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike
 
 from tandemlift.algebra.arrays import array
 from tandemlift.algebra.law import choice, elementwise, law
-from tandemlift.algebra.ops import absolute, greatest, minimum, sqrt
-from tandemlift.algebra.types import Number, number
+from tandemlift.algebra.ops import absolute, greatest, least, minimum, sqrt
+from tandemlift.algebra.types import Condition, Number, number
 from tandemlift.algebra.vector import (
     ZERO,
     Mat3,
@@ -30,14 +30,18 @@ from tandemlift.algebra.vector import (
     apply,
     apply_transposed,
     cross,
+    dot,
     each,
     quarters,
     spread,
 )
-from tandemlift.laws.mechanics.collision.springs import friction_factor, mobility, softened_for_step, spring_damper
+from tandemlift.laws.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
 from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.laws.mechanics.rotation import world_z_in_body
 
+MAX_ACCELERATION = 500.0  # m/s², more than rotors, pushes and walls give
+MAX_ANGULAR_ACCELERATION = 1000.0  # rad/s², more than rotors give
 HALF_THICKNESS = 0.01  # m, of a rotor's disc and of a guard
 
 
@@ -53,7 +57,8 @@ class Hull(NamedTuple):
     """What of a vehicle meets the floor besides its feet; of one contact k [N/m], c and c_t [N·s/m].
 
     `rotors`: number j of quadrotor i, both from 0, is 4 i + j; `guards`: one for each quadrotor; `beam`: its two ends,
-    at −y and at +y, or `Nothing` if the payload has no shape.
+    at −y and at +y, or `Nothing` if the payload has no shape. All are in a box about `middle` with sides of twice
+    `half` [m, body axes], no further than `reach` [m] from the centre of mass.
     """
 
     stiffness: Number
@@ -62,6 +67,9 @@ class Hull(NamedTuple):
     rotors: Ellipsoids
     guards: Ellipsoids
     beam: Any
+    middle: Vec3
+    half: Vec3
+    reach: Number
 
 
 class FloorContact(NamedTuple):
@@ -168,6 +176,18 @@ def hull_loads(contact: HullContact, frame: PartsLayout, R: Mat3) -> PartLoads:
     )
 
 
+@law
+def hull_may_touch(hull: Hull, height: Number, s: State, time: Number) -> Condition:
+    """Whether any part may touch the floor at z = `height` [m] within `time` [s] of state `s`.
+
+    The distance that a point may fall is doubled for safety.
+    """
+    up, way = world_z_in_body(s.attitude), sqrt(dot(s.rates, s.rates)) * hull.reach
+    lowest = s.position.z + dot(up, hull.middle) - dot(absolute(up), hull.half)
+    faster = (MAX_ACCELERATION + MAX_ANGULAR_ACCELERATION * hull.reach) * time
+    return lowest - 2.0 * time * (way - minimum(s.velocity.z, 0.0) + faster) < height
+
+
 def hull(
     quadrotors: ArrayLike,
     rotors: ArrayLike,
@@ -203,13 +223,20 @@ def hull(
     points = np.concatenate([hubs, centers] if ends is None else [hubs, centers, ends])
     body_mobility = mobility(points, mass, array(inertia))
     k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), body_mobility, step)
+    shapes = [_discs(hubs, np.repeat(radii, 4)), _discs(centers, guards)]
+    if beam is not None and ends is not None:
+        shapes.append(_ellipsoids(ends, [beam[1]] * 2, [beam[1]] * 2))
+    box = _box_of(shapes)
     return Hull(
-        k,
-        c,
-        minimum(c, 1.0 / (body_mobility * step)),
-        _discs(hubs, np.repeat(radii, 4)),
-        _discs(centers, guards),
-        Nothing() if beam is None or ends is None else _ellipsoids(ends, [beam[1]] * 2, [beam[1]] * 2),
+        stiffness=k,
+        damping=c,
+        tangential_damping=minimum(c, 1.0 / (body_mobility * step)),
+        rotors=shapes[0],
+        guards=shapes[1],
+        beam=shapes[2] if beam is not None else Nothing(),
+        middle=box.middle,
+        half=box.half,
+        reach=_reach_of(shapes),
     )
 
 
@@ -222,13 +249,26 @@ def _discs(centers: Any, radii: Any) -> Ellipsoids:
     return _ellipsoids(centers, radii, [HALF_THICKNESS] * len(centers))
 
 
-def extent_of(hull: Hull) -> tuple[Vec3, Number]:
-    """How far a hull is from the centre of mass along each body axis, and at most [m]."""
-    shapes = [p for p in (hull.rotors, hull.guards, hull.beam) if isinstance(p, Ellipsoids)]
-    sizes, lengths = [list[Number](), list[Number](), list[Number]()], list[Number]()
-    for p in shapes:
-        for x, y, z, r, c in zip(*p.center, p.radius, p.half_thickness, strict=True):
-            for size, center, half in zip(sizes, (x, y, z), (r, r, c), strict=True):
-                size.append(absolute(center) + half)
-            lengths.append(sqrt(x * x + y * y + z * z) + r)
-    return Vec3(*map(greatest, sizes)), greatest(lengths)
+class Box(NamedTuple):
+    """A box with sides along the body axes: its middle and half of each side [m]."""
+
+    middle: Vec3
+    half: Vec3
+
+
+def _box_of(shapes: list[Ellipsoids]) -> Box:
+    """The box of shapes."""
+    lows, highs = list[Number](), list[Number]()
+    for axis in range(3):
+        places = [center for p in shapes for center in p.center[axis]]
+        sizes = [size for p in shapes for size in (p.half_thickness if axis == 2 else p.radius)]
+        lows.append(least([place - size for place, size in zip(places, sizes, strict=True)]))
+        highs.append(greatest([place + size for place, size in zip(places, sizes, strict=True)]))
+    low, high = Vec3(*lows), Vec3(*highs)
+    return Box((low + high) * 0.5, (high - low) * 0.5)
+
+
+def _reach_of(shapes: list[Ellipsoids]) -> Number:
+    """How far any point of shapes is from the centre of mass [m]."""
+    numbers = [row for p in shapes for row in zip(*p.center, p.radius, strict=True)]
+    return greatest([sqrt(x * x + y * y + z * z) + radius for x, y, z, radius in numbers])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import operator
 import time
 from collections.abc import Iterator
 from typing import Any
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.common.errors import InputError, suggestion
+from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Ending, Flight
@@ -21,17 +21,17 @@ from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.missions.recording import engine_of
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
+from tandemlift.simulation.caller_values import numbers, with_seed
 from tandemlift.simulation.outcome import ending_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, channels_of, flight_of, take_metrics
-from tandemlift.simulation.stepping import Stepper, body_in
+from tandemlift.simulation.stepping import Stepper, body_of
 
 FORCE, POINT, THRUSTS = (
     slice(0, 3),
     slice(3, 6),
     slice(6, -1),
 )  # of the numbers of a `laws.person.caller_inputs.CallerInput`
-MOST_SEED = 10**18  # as `mission.seed`
 REPORT_EVERY = 1000  # steps between reports of computing time, which decides when optimised code is made
 
 
@@ -64,7 +64,7 @@ class Simulation:
         self._begin()
 
     def _prepare(self) -> None:
-        p = self._p = FlightPlan(self.mission, interactive=True)
+        p = self._p = FlightPlan(self.mission, self.engine, interactive=True)
         self.dt = p.dt
         row = np.arange(leaves(p.sample), dtype=np.float64)[None, :]
         self._places: dict[str, Any] = {name: at[0].astype(np.intp) for name, at in channels_of(p.sample, row)}
@@ -74,7 +74,7 @@ class Simulation:
 
     def _begin(self) -> None:
         vars(self).pop("_stepper", None)  # first release an engine that only one pilot can drive
-        self._stepper = Stepper(self._p, body_in(self.engine, self._p))
+        self._stepper = Stepper(self._p, body_of(self._p))
         self.k, self._early, self._rows, self._end = 0, EMPTY, list[Array](), None
         self._wall = self._reported = 0.0
 
@@ -187,6 +187,11 @@ class Simulation:
         """Why the flight has diverged: quantity, time, value and limit; None if it has not."""
         return ending_of(self._p, self._result(np.empty((0, 0)), np.empty(0)).flight_state, self.k)
 
+    @property
+    def refusals(self) -> Refusals:
+        """What the pilot would refuse right now: to lift, to land, to follow a push; and why, and what to do."""
+        return self._stepper.refusals(self.time)
+
     def _why_over(self) -> str:
         return str(self.ending or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s")
 
@@ -266,34 +271,3 @@ class Simulation:
             self._end = stepper.row.copy()
             stepper.row[:] = row
         return self._end
-
-
-def numbers(name: str, value: Any, count: int, what: str) -> Array:
-    """An array of `count` finite numbers.
-
-    Raises:
-        InputError: the value is something else.
-    """
-    try:
-        found = np.asarray(value)
-    except ValueError:  # rows of different lengths
-        found = np.empty(0, dtype=object)
-    if found.shape != (count,) or found.dtype.kind not in "fiu" or not all(map(math.isfinite, found.tolist())):
-        given = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
-        raise InputError(f"{name} = {shown(given)}: must be {count} finite numbers ({what})")
-    return found
-
-
-def with_seed(mission: Mission, seed: Any) -> Mission:
-    """A mission with another seed.
-
-    Raises:
-        InputError: the seed is not allowed.
-    """
-    try:
-        number = operator.index(seed)
-    except TypeError:
-        number = -1
-    if not 0 <= number <= MOST_SEED:
-        raise InputError(f"seed = {shown(seed)}: must be a whole number from 0 to {MOST_SEED:g}")
-    return mission.model_copy(update={"mission": mission.mission.model_copy(update={"seed": number})})

@@ -7,15 +7,15 @@ so the rate of the acceleration is known too, and the reference can lead by the 
 acceleration and jerk are bounded, also by the thrust that is left; every start and stop is smooth. While nobody pushes,
 a slow mean of the measured push becomes its bias.
 
-Passivity: `laws.guidance.energy_tank`. Yaw: `laws.guidance.yaw_compliance`.
+Passivity: `laws.compliance.energy_tank`. Yaw: `laws.guidance.yaw_compliance`.
 """
 
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.law import elementwise, law
+from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Vec3
-from tandemlift.laws.guidance.admittance import Admittance, anchored, soft
+from tandemlift.laws.compliance.admittance import Admittance, anchored, soft
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
@@ -159,9 +159,14 @@ def admittance_acceleration(k: Compliance, m: ComplianceState, force: Vec3, damp
     return with_horizontal_limit(speed_limited(free, m.velocity, k.limits.speed, k.limits.braking_gain), horizontal)
 
 
+@choice(absent="acceleration")
+def within(boundary: Any, acceleration: Vec3) -> Any:
+    """An acceleration of the reference [m/s²] that does not carry it across a boundary."""
+
+
 @law
 def compliance_step(
-    k: Compliance, m: ComplianceState, push: Vec3, enabled: Any, damping: Any, horizontal: Any, dt: Any
+    k: Compliance, m: ComplianceState, push: Vec3, enabled: Any, damping: Any, horizontal: Any, boundary: Any, dt: Any
 ) -> ComplianceState:
     """The memory after a step.
 
@@ -172,12 +177,13 @@ def compliance_step(
         enabled: 1 while the vehicle follows pushes, else 0.
         damping: to be added to C [N·s/m].
         horizontal: the largest horizontal acceleration that the rotors can still give [m/s²].
+        boundary: which the reference must not cross, or `Nothing`.
         dt: of the step [s].
     """
     filtered = low_pass_step(k.input_filter, m.filtered, push)
     beyond, band = dead_band(k.band, m.band, filtered.value, enabled, dt)
     output = low_pass_step(k.output_filter, m.output, beyond)
-    target = admittance_acceleration(k, m, output.value, damping, horizontal)
+    target = within(boundary, admittance_acceleration(k, m, output.value, damping, horizontal))
     acceleration = moved_towards(m.acceleration, target, k.limits.jerk * dt)
     position = m.position + m.velocity * dt + acceleration * (0.5 * dt * dt)
     velocity = m.velocity + acceleration * dt

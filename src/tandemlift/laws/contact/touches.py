@@ -9,11 +9,11 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, greatest, least, maximum, where
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, set_of, total
-from tandemlift.laws.mechanics.collision.hull import FloorContact, Hull, HullContact
-from tandemlift.laws.mechanics.collision.spheres import ContactPair
+from tandemlift.laws.contact.hull import FloorContact, Hull, HullContact
+from tandemlift.laws.contact.spheres import ContactPair
+from tandemlift.laws.contact.walls import BeamContact, NearWallContact, Walls
 from tandemlift.laws.mechanics.loads import translated
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.walls import BeamContact, NearWallContact, Walls
 
 NEVER = 1e18  # s
 
@@ -159,6 +159,12 @@ def touches_after(touches: Touches, floor: Any, walls: Any, t: Number, dt: Numbe
     )
 
 
+@elementwise
+def thrust_if_turning(thrust: Number, turning: Number) -> Number:
+    """The thrust of a rotor [N], 0 if it no longer turns."""
+    return where(turning > 0.5, thrust, 0.0)
+
+
 @choice(absent="thrusts")
 def of_turning_rotors(touches: Touches | Nothing, thrusts: PerRotor) -> Any:
     """The thrust of each rotor [N], 0 of one that has touched anything."""
@@ -166,7 +172,7 @@ def of_turning_rotors(touches: Touches | Nothing, thrusts: PerRotor) -> Any:
 
 @of_turning_rotors.register(Touches)
 def _turning(touches: Touches, thrusts: PerRotor) -> PerRotor:
-    return thrusts * touches.turning
+    return thrust_if_turning(thrusts, touches.turning)
 
 
 @choice(absent="contact")

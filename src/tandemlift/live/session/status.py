@@ -1,0 +1,91 @@
+"""The status of a flight in progress: its state in words, how it keeps up, and what would be refused now."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from tandemlift.common.faults import ALARM_TEXTS
+from tandemlift.common.phases import PHASE_NAMES
+from tandemlift.common.refusals import Refusals, refusals_for
+from tandemlift.common.types import Array
+from tandemlift.interactive.recorded_flight import RecordedFlight
+from tandemlift.live.session.checks import failed_rotors
+from tandemlift.live.session.pacing import Pacer
+from tandemlift.live.wire.server_messages import FlightStatus, StatusEnding, StatusFinding, StatusRefusals
+
+FINDINGS_EVERY = 1.0  # s
+NO_REFUSALS = StatusRefusals(lift="", land="", push="")
+
+
+class FlightFindings:
+    """The findings of a flight so far, formed anew once a second: that takes some milliseconds."""
+
+    def __init__(self) -> None:
+        self._of: RecordedFlight | None = None
+        self._numbers: Array | None = None
+        self._due, self._found = 0, list[StatusFinding]()
+
+    def look(self, flight: RecordedFlight) -> None:
+        """Take the numbers of a flight if they are due; while it stands still."""
+        if flight is not self._of or flight.step >= self._due:
+            self._of, self._due = flight, flight.step + round(FINDINGS_EVERY / flight.dt)
+            self._numbers = flight.numbers()
+
+    def formed(self) -> list[StatusFinding]:
+        """The findings as of the last look; the flight may go on meanwhile."""
+        flight, numbers = self._of, self._numbers
+        if flight and numbers is not None:
+            self._numbers = None
+            self._found = [StatusFinding(kind=f.kind, time=f.time, text=f.text) for f in flight.findings(numbers)]
+        return self._found
+
+
+def phase_of(flight: RecordedFlight, number: int, failed: bool) -> str:
+    """The phase of a flight by its number, or how it ended; `failed`: by an error."""
+    if failed:
+        return "failed"
+    if flight.ending:
+        return flight.ending.outcome
+    return "over" if flight.over else PHASE_NAMES[number]
+
+
+def refusals_now(flight: RecordedFlight, failed: bool) -> Refusals:
+    """What would be refused right now, and why; `failed`: whether the flight has ended by an error."""
+    if failed or flight.over:
+        return refusals_for("error" if failed else "stopped_early" if flight.lost else "over")
+    return flight.refusals
+
+
+def _ending_of(flight: RecordedFlight) -> StatusEnding | None:
+    """Why and where a flight was stopped before its end."""
+    ending = flight.ending
+    if ending is None:
+        return None
+    place = [float(x) for x in flight.ending_place]
+    return StatusEnding(text=str(ending), time=ending.time, place=place if all(map(math.isfinite, place)) else None)
+
+
+def in_sentences(refusals: Refusals) -> StatusRefusals:
+    """Refusals as a page is told of them."""
+    lift, land, push = (str(refusal or "") for refusal in refusals)
+    return StatusRefusals(lift=lift, land=land, push=push)
+
+
+def status_of(flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], failed: bool) -> FlightStatus:
+    """The status of a flight, without its findings; `values`: of the fields of its latest frame."""
+    most, pacer.most_behind = pacer.most_behind, 0.0
+    return FlightStatus(
+        phase=phase_of(flight, int(values["phase"][0]), failed),
+        alarm=ALARM_TEXTS[int(values["alarm"][0])] if "alarm" in values else "",
+        enabled=bool(flight.hand.enabled),
+        paused=pacer.paused,
+        speed=pacer.speed,
+        factor=round(pacer.factor, 3),
+        behind_ms=round(1e3 * most, 2),
+        recorded_s=round(flight.step * flight.dt, 3),
+        failed_rotors=failed_rotors(flight),
+        refusals=in_sentences(refusals_now(flight, failed)),
+        ending=_ending_of(flight),
+    )

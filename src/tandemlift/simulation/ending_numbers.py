@@ -1,0 +1,94 @@
+"""What ended a flight, as numbers: a law, which modules of missions carry too. `simulation.outcome` has the words."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tandemlift.algebra.law import choice, law
+from tandemlift.algebra.ops import atan2, maximum, sqrt, where
+from tandemlift.algebra.selection import chosen
+from tandemlift.algebra.vector import Vec3, dot
+from tandemlift.common.outcomes import LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.laws.guidance.fault_detection import distance_outside
+from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.laws.mechanics.rotation import body_z_axis
+from tandemlift.loop.ending import CrashLimits, CrashMemory, OuterFence, Strike
+
+DEGREE = 57.29577951308232  # 180/π
+
+
+class EndingMoment(NamedTuple):
+    """The moment of an ending: its number in `common.outcomes`, 0 for none; time [s]; state; impulse [N·s]."""
+
+    number: Any
+    time: Any
+    state: State
+    impulse: Any
+
+
+class EndingNumbers(NamedTuple):
+    """Number and time [s] of an ending; the value that broke its limit; position of the vehicle [m, world].
+
+    `not_finite`: from 1, the place of the part of the state that is not finite, of which the value is one; else 0.
+    """
+
+    number: Any
+    time: Any
+    value: Any
+    not_finite: Any
+    place: Vec3
+
+
+@choice(absent="now")
+def moment_of(crash: Any, now: EndingMoment) -> Any:
+    """The `EndingMoment` of a crash that is remembered; without one, that of now."""
+
+
+@moment_of.register(CrashMemory)
+def _remembered(crash: CrashMemory, now: EndingMoment) -> Any:
+    before = EndingMoment(crash.number, crash.time, crash.state, crash.impulse)
+    return chosen(crash.number, before, now)
+
+
+@choice(absent=0.0)
+def impulse_of(strike: Any, impulse: Any) -> Any:
+    """The impulse of contact [N·s]; 0 where there is nothing to touch."""
+
+
+@impulse_of.register(Strike)
+def _impulse_of(strike: Strike, impulse: Any) -> Any:
+    return impulse
+
+
+@choice(absent=0.0)
+def outside_of(fence: Any, position: Vec3) -> Any:
+    """How far a position is outside the fence [m]."""
+
+
+@outside_of.register(OuterFence)
+def _outside_of(fence: OuterFence, position: Vec3) -> Any:
+    return distance_outside(fence.low, fence.high, position)
+
+
+@law
+def ending_numbers(limits: CrashLimits, crash: Any, now: EndingMoment) -> EndingNumbers:
+    """What ended a flight.
+
+    Args:
+        limits: what ends a flight.
+        crash: the memory of a crash, or `Nothing`.
+        now: the number of the ending that stops the flight now, at this time and in this state.
+    """
+    found = moment_of(crash, now)
+    number, state = found.number, found.state
+    upright = body_z_axis(state.attitude).z
+    tilt = DEGREE * atan2(sqrt(maximum(1.0 - upright * upright, 0.0)), upright)
+    value = where(number == TURNED_OVER, tilt, sqrt(dot(state.position, state.position)))
+    value = where(number == STRUCK, impulse_of(limits.strike, found.impulse), value)
+    value = where(number == LEFT_FENCE, outside_of(limits.fence, state.position), value)
+    bad = 0.0
+    for place, part in reversed(list(enumerate(state, start=1))):
+        for component in part:
+            finite = component - component == 0.0
+            value, bad = where(finite, value, component), where(finite, bad, float(place))
+    return EndingNumbers(number, found.time, value, bad, state.position)
