@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import tandemlift as tl
 from tandemlift.common.outcomes import FAILURES
-from tandemlift.studies.random_missions import shortened
+from tandemlift.studies.random_missions.generate import shortened
 
 AXES = st.integers(0, 2)
 CHANGES = {  # what may be wrong with a vehicle, its surroundings, or what is asked of it; each within its own range
