@@ -7,13 +7,11 @@ from typing import Any
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.ops import cos
 from tandemlift.algebra.vector import Nothing, vec3
-from tandemlift.common.outcomes import FLIES
+from tandemlift.common.outcomes import FLIES, HARD
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.loop.ending import Aftermath, CrashLimits, CrashMemory, OuterFence, Strike
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
-
-HARD = 2.0  # m/s: a blow that stops the vehicle from this speed is a crash
 
 
 def crash_limits_from(mission: Mission, vehicle: Vehicle) -> CrashLimits:

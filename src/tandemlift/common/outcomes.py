@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 FAR = 1000.0  # m
+HARD = 2.0  # m/s: a blow that stops the vehicle from this speed is a crash, unless `crash.impulse` says otherwise
 FLIES, DIVERGED, TURNED_OVER, STRUCK, LEFT_FENCE = map(float, range(5))  # values of `FlightState.ended`
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
 from tandemlift.common.errors import InputError
+from tandemlift.common.outcomes import HARD
 from tandemlift.laws.contact.floor import Floor, floor, sinkage_of, sole_positions, standing_height
 from tandemlift.laws.contact.hull import hull, lowest_of_hull
 from tandemlift.laws.contact.wall_geometry import offset, wall
@@ -24,6 +25,7 @@ from tandemlift.vehicle import Vehicle
 DEEP = 0.02  # m, of feet in the floor at the start
 FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below where the vehicle stands
 THROWN = 5.0  # times its sinkage
+NEARLY = 0.75  # of the impulse that ends a flight, as a contact gives back some of it
 SOFT = 2.0  # times the sinkage that was asked for
 
 
@@ -123,6 +125,19 @@ def _of_start(m: Mission, standing: Standing) -> Iterator[str]:
         yield f"the vehicle starts {depth:.2g} m deep in the floor, which throws the vehicle up by as much as {height}"
     if p.rotors == "flight" and p.lift_start > 0.0 and -depth > FAR_DOWN:
         yield f"the vehicle starts {-depth:.3g} m above the floor, with its rotors stopped until {p.lift_start:g} s"
+    yield from _of_first_blow(m, depth)
+
+
+def _of_first_blow(m: Mission, depth: float) -> Iterator[str]:
+    """A start so fast into the floor that it ends the flight, or nearly so; a contact gives back some of the speed."""
+    down = max(-m.initial.velocity[2], 0.0)
+    mass = Vehicle.from_settings(m.vehicle).mass * m.plant.mass_scale
+    limit = mass * HARD if m.crash.impulse is None else m.crash.impulse
+    if -depth < FAR_DOWN and mass * down > NEARLY * limit:
+        yield (
+            f"initial.velocity[2] = {m.initial.velocity[2]:g} m/s drives the vehicle into the floor with "
+            f"{mass * down:.3g} N s, and a blow of {limit:.3g} N s (crash.impulse) ends the flight"
+        )
 
 
 def _of_reference(m: Mission, standing: Standing) -> Iterator[str]:
