@@ -30,12 +30,8 @@ TOLD = {  # on top of mission iris
     "a start in the air": ({"ground.height": -1.0}, ["0.861 m above the floor", "until 2 s", "0.831 m above where"]),
     "a landing in the air": ({"initial.position": [0.0, 0.0, -0.5]}, ["ends at z = 0, 0.5 m above where"]),
     "a high floor": ({"initial.position": [0.0, 0.0, 1.0]}, ["stands at z = 1 m", "presses down"]),
-<<<<<<< HEAD
     "short legs": (SHORT_LEGS, ["the payload hangs 0.025 m lower than the feet"]),
-=======
-    "short legs": (SHORT_LEGS, ["the payload hangs lower than the feet"]),
     "a start into the floor": ({"initial.velocity": [0.0, 0.0, -2.3]}, ["= -2.3 m/s", "8.05 N s", "7 N s (crash"]),
->>>>>>> random
     "a start in a wall": ({"walls": ALONG}, ["quadrotor 1 starts 0.17 m deep in walls.0", "quadrotor 2"]),
     "gusts of no wind": ({"wind.gusts": GUSTS}, ['wind.gusts do not blow while wind.model is "none"']),
     "eddies too low": (AIR | {"wind.height": 1.0}, ["wind.height = 1.0", "3.048 m to 304.8 m", "that of 3.048 m"]),
