@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page test lint types imports tests test-pythons test-gazebo test-targets bench compare-engines bench-peers lock clean help
+.PHONY: run live page test lint types imports tests test-pythons test-gazebo test-targets random-missions bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -53,6 +53,9 @@ test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and R
 test-targets: .venv/dev  ## every target on every mission: cross compilers, QEMU, sanitizers, Firefox; installs them, as root
 	tools/test-packages --targets
 	TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -n 2 -m targets
+
+random-missions: .venv/dev  ## a thousand missions at random, each outcome confirmed by a judge; into docs/validation.md
+	$(BIN)/python tools/random_missions.py --write
 
 bench: .venv/dev ## speed of everything, printed
 	$(BIN)/python benchmarks/bench.py

@@ -10,10 +10,8 @@ from machine import describe, heading, number, table
 
 import tandemlift as tl
 from tandemlift.engines.gazebo import REAL_TIME
-from tandemlift.engines.registry import engine_named
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.stepping import Stepper
-from tandemlift.vehicle import Vehicle
+from tandemlift.simulation.stepping import Stepper, body_of
 
 ROUNDS, ENGINES = 3, ("gazebo", "gazebo-ros")
 
@@ -28,11 +26,10 @@ def lock_step(name: str, engine: str) -> float:
 def real_time(engine: str, seconds: float = 10.0) -> tuple[float, float]:
     """Steps a second of `hover` kept to real time, and the longest time between two [s]."""
     mission = tl.load_mission("hover", {"mission.duration": seconds + 2.0})
-    p = FlightPlan(mission)
+    p = FlightPlan(mission, engine)
     p.kernels.parts(leaves_body=True)  # compiled before the clock runs
     os.environ[REAL_TIME] = "1"
-    plant = p.model.plant
-    body = engine_named(engine).start(mission, Vehicle.from_settings(mission.vehicle), plant.floor, plant.walls)
+    body = body_of(p)
     stepper = Stepper(p, body)
     times = []
     for k in range(round((seconds + 1.0) / p.dt)):

@@ -18,8 +18,9 @@
 //            moment, likewise
 //   Told     time [s], step [s], mass [kg]; State after the step; what was felt at its start: specific force at the
 //            payload's origin (3), force x, y, z and torque x, y, z of every quadrotor on the payload at its joint
-//            (6 N, body), force of contacts (3, world); force [N, world] and moment [N m, body] about the centre of
-//            mass of all pushes over the step
+//            (6 N, body), force of contacts (3, world); Touches (contacts.hh); force [N, world] and moment [N m, body]
+//            about the centre of mass of all pushes over the step. A wrench of Gazebo's own tools is a push, too: its
+//            force is what else has changed the momentum; its moment is not known, and NaN
 //   Rotors   of all 4 N: x [m], then y [m] from the quadrotor's centre of mass, then torque over thrust [m] (signed)
 
 #pragma once
@@ -38,6 +39,7 @@
 #include <gazebo/msgs/msgs.hh>
 #include <gazebo/transport/transport.hh>
 
+#include "contacts.hh"
 #include "push.hh"
 #include "vehicle.hh"
 
@@ -47,6 +49,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double LONGEST_WAIT = 60.0;  // s, for the first pilot
 constexpr int GLANCE = 50;             // ms, between looks at whether the server is to end
+constexpr double LEAST_WRENCH = 1e-3;  // N, of Gazebo's own tools, and in each newton of contact; below is rounding
 
 // Where a pilot's messages come from, and the answers go; called in the physics thread alone.
 class Front {
@@ -70,6 +73,7 @@ class Body {
         hold_ = settings->Get<double>("hold", 0.1).first;
         stay_ = settings->Get<bool>("stay", true).first;
         vehicle_.Load(model);
+        contacts_.Load(model, Count());
     }
 
     // Be led by what comes from a front from now on.
@@ -79,7 +83,9 @@ class Body {
         heard_ = Clock::now();
         node_ = gazebo::transport::NodePtr(new gazebo::transport::Node());
         node_->Init(world_->Name());
-        pushing_ = node_->Subscribe("~/tandemlift/push", &Body::OnPush, this);
+        heard_topics_.push_back(node_->Subscribe("~/tandemlift/push", &Body::OnPush, this));
+        for (const auto& link : vehicle_.Links())
+            heard_topics_.push_back(node_->Subscribe("~/tandemlift/" + link->GetName() + "/wrench", &Body::OnWrench, this));
         using gazebo::event::Events;
         begin_ = Events::ConnectWorldUpdateBegin([this](const auto&) { Begin(); });
         end_ = Events::ConnectWorldUpdateEnd([this] { front_->Tell(); });
@@ -141,18 +147,24 @@ class Body {
     }
 
     // What there is to tell: Told, of the step just taken.
-    void Tell(std::vector<double>& told) const {
-        told.assign({world_->SimTime().Double(), StepSize(), vehicle_.Mass()});
-        vehicle_.Tell(told, StepSize());
-        vehicle_.Feel(told, StepSize(), world_->Gravity());
-        Put(told, pushed_force_);
-        Put(told, pushed_moment_);
+    void Tell(std::vector<double>& told) {
+        TellMotion(told);
+        Vector3d contact;
+        const auto touches = contacts_.Read(contact);
+        const Vector3d wrench = vehicle_.Unexplained(StepSize(), world_->Gravity()) - contact;
+        Put(told, contact);
+        told.insert(told.end(), touches.begin(), touches.end());
+        const bool foreign = wrench.Length() > LEAST_WRENCH * (1.0 + contact.Length());
+        const bool heard = wrench_heard_.exchange(false);
+        Put(told, foreign ? pushed_force_ + wrench : pushed_force_);
+        Put(told, foreign || heard ? Vector3d(NAN, NAN, NAN) : pushed_moment_);
     }
 
-    // The same where it stands, before a step.
+    // The same where it stands, before a step: nothing touches or pushes it yet.
     void TellStanding(std::vector<double>& told) {
         BeginStep();
-        Tell(told);
+        TellMotion(told);
+        told.resize(told.size() + 3 + contacts_.Count() + 6);
     }
 
   private:
@@ -174,6 +186,12 @@ class Body {
         if (mode_ == Mode::HOLDING && (held_ += StepSize()) > hold_) Rest();
         if (mode_ != Mode::ALONE) Act();
         ApplyPushes();
+    }
+
+    void TellMotion(std::vector<double>& told) const {
+        told.assign({world_->SimTime().Double(), StepSize(), vehicle_.Mass()});
+        vehicle_.Tell(told, StepSize());
+        vehicle_.Feel(told, StepSize(), world_->Gravity());
     }
 
     void BeginStep() {
@@ -254,8 +272,12 @@ class Body {
         }
     }
 
+    // A wrench of Gazebo's own tools on a link, in such a thread.
+    void OnWrench(ConstWrenchPtr&) { wrench_heard_ = true; }
+
     gazebo::physics::WorldPtr world_;
     Vehicle vehicle_;
+    Contacts contacts_;
     Front* front_ = nullptr;
     bool waiting_ = false, stay_ = true;
     const pid_t parent_ = getppid();
@@ -268,9 +290,9 @@ class Body {
     std::mutex pushes_mutex_;
     std::vector<Push> pushes_;
     Push held_push_{};
-    std::atomic<bool> ending_{false};
+    std::atomic<bool> ending_{false}, wrench_heard_{false};
     gazebo::transport::NodePtr node_;
-    gazebo::transport::SubscriberPtr pushing_;
+    std::vector<gazebo::transport::SubscriberPtr> heard_topics_;
     gazebo::event::ConnectionPtr begin_, end_, stop_, interrupt_;
 };
 

@@ -72,9 +72,10 @@ class Topics {
         state_.wrench[1] = WrenchOf(Three(told, SPECIFIC_FORCE));
         for (std::size_t i = 0; i < N; ++i)
             state_.wrench[2 + i] = WrenchOf(Three(told, JOINTS + i, N), Three(told, JOINTS + 3 * N + i, N));
-        const std::size_t contact = JOINTS + 6 * N;
+        const std::size_t push = told.size() - 6, contact = JOINTS + 6 * N;
         state_.wrench[2 + N] = WrenchOf(Three(told, contact));
-        state_.wrench[3 + N] = WrenchOf(Three(told, contact + 3), Three(told, contact + 6));
+        state_.wrench[3 + N] = WrenchOf(Three(told, push), Three(told, push + 3));
+        TellTouches(told, contact + 3);
         state_topic_.publish(state_);
     }
 
@@ -116,11 +117,39 @@ class Topics {
     }
 
   private:
+    // Name the parts that touch something, after all else.
+    void TellTouches(const std::vector<double>& told, std::size_t at) {
+        const std::size_t always = 4 + joints_.size();
+        Resize(always);
+        for (std::size_t row = 0; row < touches_.size(); ++row) {
+            const std::size_t from = at + 4 * row;
+            if (told[from] <= 0.0) continue;
+            Resize(state_.joint_names.size() + 1);
+            state_.joint_names.back() = touches_[row];
+            state_.transforms.back().translation = Ros<geometry_msgs::Vector3>(Three(told, from + 1));
+            state_.wrench.back() = WrenchOf({told[from], 0.0, 0.0});
+        }
+    }
+
+    void Resize(std::size_t joints) {
+        state_.joint_names.resize(joints);
+        state_.transforms.resize(joints);
+        state_.transforms.back().rotation.w = 1.0;
+        state_.twist.resize(joints);
+        state_.wrench.resize(joints);
+    }
+
     void Lay(std::size_t count) {
         state_.header.frame_id = "world";
         state_.joint_names = {"base_link", "imu"};
         for (std::size_t i = 1; i <= count; ++i) state_.joint_names.push_back("joint_" + std::to_string(i));
         state_.joint_names.insert(state_.joint_names.end(), {"contact", "push"});
+        for (const std::string surface : {"floor/", "wall/"}) {
+            for (std::size_t j = 0; j < 4 * count; ++j)
+                touches_.push_back(surface + "rotor_" + std::to_string(j / 4 + 1) + "_" + std::to_string(j % 4 + 1));
+            for (std::size_t i = 1; i <= count; ++i) touches_.push_back(surface + "guard_" + std::to_string(i));
+            touches_.push_back(surface + "beam");
+        }
         state_.transforms.resize(state_.joint_names.size());
         for (auto& transform : state_.transforms) transform.rotation.w = 1.0;
         state_.twist.resize(state_.joint_names.size());
@@ -141,6 +170,7 @@ class Topics {
     MultiDOFJointState state_;
     ros::Publisher state_topic_, odometry_, imu_, contact_, push_, clock_;
     std::vector<ros::Publisher> joints_;
+    std::vector<std::string> touches_;  // names of the rows of Touches
 };
 
 }  // namespace tandemlift

@@ -29,7 +29,7 @@ namespace tandemlift {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "messages are little-endian");
 
 constexpr std::uint32_t MAGIC = 0x5a474c54;  // "TLGZ"
-constexpr std::uint16_t VERSION = 1;
+constexpr std::uint16_t VERSION = 2;
 constexpr int DEFAULT_PORT = 19110;
 
 enum Kind : std::uint16_t { HELLO = 1, WELCOME, STEP, STATE, BYE, REFUSE };

@@ -17,6 +17,8 @@
 //                           joint_I    wrench of quadrotor I on the payload [body]
 //                           contact    wrench: force [world]
 //                           push       wrench: of all pushes, force [world] and moment [body]
+//                           then of what touches, such as floor/rotor_1_4, wall/guard_2, floor/beam: transform: where
+//                           [world]; wrench: force x, the normal force
 //   rotors           in   sensor_msgs/JointState: effort of every rotor_Q_R [N], of which a step is made
 //   command          in   sensor_msgs/MultiDOFJointState: either wrenches (all of rotor_Q_R: force z; any of base_link,
 //                         payload, quadrotor_Q: loads as in a Command), of which a step is made; or transform and twist

@@ -25,8 +25,6 @@ namespace tandemlift {
 using ignition::math::Pose3d;
 using ignition::math::Quaterniond;
 
-constexpr double NO_CONTACT = 1e-7;  // N, below which the force of contacts is rounding
-
 inline bool Finite(const std::vector<double>& values) {
     for (double value : values)
         if (!std::isfinite(value)) return false;
@@ -75,6 +73,7 @@ class Vehicle {
     std::size_t Count() const { return quadrotors_.size(); }
     double Mass() const { return mass_; }
     const Vector3d& Center() const { return center_; }  // of mass, in the payload's frame [m]
+    const std::vector<gazebo::physics::LinkPtr>& Links() const { return links_; }
 
     // Put the vehicle into a State, as one rigid body, where a step takes some seconds.
     void Place(const std::vector<double>& values, std::size_t at, double step) {
@@ -158,9 +157,11 @@ class Vehicle {
                 out[at + (3 + axis) * N + i] = torque[axis];
             }
         }
-        // what else changes the momentum is contact (or a wrench that someone applies in the client)
-        const Vector3d contact = mass_ * (Change() / step - gravity) - applied_;
-        Put(out, contact.Length() < NO_CONTACT ? Vector3d::Zero : contact);
+    }
+
+    // The mean force over a step of some seconds that changed the momentum beside gravity and what was applied here.
+    Vector3d Unexplained(double step, const Vector3d& gravity) const {
+        return mass_ * (Change() / step - gravity) - applied_;
     }
 
   private:

@@ -15,13 +15,14 @@ if TYPE_CHECKING:
     from tandemlift.common.errors import FlightWarning, InputError
     from tandemlift.controllers.user_controller import load_controller
     from tandemlift.flight.record import Flight
+    from tandemlift.interactive.simulation import Simulation
     from tandemlift.linearization.linear_model import LinearModel
     from tandemlift.linearization.linearize import linearize
+    from tandemlift.linearization.mission_check import check
     from tandemlift.missions import load_mission
     from tandemlift.settings import Mission
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
-    from tandemlift.simulation.simulation import Simulation
     from tandemlift.targets.compiling import compile_mission
     from tandemlift.vehicle import Vehicle
 
@@ -34,8 +35,9 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "LinearModel": "linearization.linear_model",
     "Mission": "settings",
     "Pilot": "simulation.pilot_api",
-    "Simulation": "simulation.simulation",
+    "Simulation": "interactive.simulation",
     "Vehicle": "vehicle",
+    "check": "linearization.mission_check",
     "compile_mission": "targets.compiling",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
@@ -53,6 +55,7 @@ __all__ = [
     "Pilot",
     "Simulation",
     "Vehicle",
+    "check",
     "compile_mission",
     "fly",
     "fly_many",

@@ -35,8 +35,9 @@ METRICS = [
     "wall_s",
     "events",
     "outcome",
+    "findings",
 ]
-OURS = {"mission.toml", "flight.npz", "metrics.json", "figures", "report.html"}
+OURS = {"mission.toml", "flight.npz", "metrics.json", "findings.json", "figures", "report.html"}
 ALWAYS = ("reference", "path", "tracking", "inputs", "interaction", "joints")
 DRAWN = {f"{name}.{kind}" for name in ALWAYS for kind in ("png", "pdf")}
 SHORT = ("--no-figures", "--set", "mission.duration=0.5")

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from patience import COMPILING, PATIENCE, completed
 
-OURS = {"mission.toml", "flight.npz", "metrics.json", "report.html"}
+OURS = {"mission.toml", "flight.npz", "metrics.json", "findings.json", "report.html"}
 SHORT = ("--no-figures", "--set", "mission.duration=0.5")
 
 

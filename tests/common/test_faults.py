@@ -97,7 +97,7 @@ assert scene_of(mission, "compiled")["alarms"][10 * NEXT] == "battery low"
 none = ActiveFaults(*[0.0] * len(faults.FAULTS))
 assert strongest_reaction(none._replace(battery=1.0), none._replace(battery=3.0)) == (3.0, 10.0 * NEXT)
 from tandemlift.simulation.results import describe_event
-assert describe_event((3, 10 * NEXT, 0), (2, 0, 0)) == "battery low -> land"
+assert describe_event((3, 10 * NEXT, 0, 0), (2, 0, 0, 0)) == "battery low -> land"
 try:
     tl.fly(mission)
 except TypeError as error:

@@ -71,6 +71,33 @@ def test_a_flight_by_hand_yields_to_the_topic_and_is_kept(tmp_path):
     assert np.abs(flight["push_estimate"][:, 0]).max() == pytest.approx(2.0, abs=0.3)  # N
     assert 0.5 < flight["position"][-1, 0] < 6.0  # m
     assert abs(flight["position"][-1, 1]) < 0.1
+    metrics, along = flight.metrics(), flight["push_force"][:, 0]
+    work = (along * flight["velocity"][:, 0]).sum() * flight.mission["mission"]["log_interval"]
+    np.testing.assert_allclose(metrics["human_impulse_n_s"], [4.0, 0.0, 0.0], atol=1e-9)  # N s, what was pushed
+    assert metrics["human_work_j"] == pytest.approx(work, rel=0.05)
+    assert metrics["human_work_j"] > 1.0  # J
+    assert metrics["human_time_s"] == pytest.approx(2.0)
+    assert metrics["human_force_mean_n"] == pytest.approx(2.0)
+
+
+def test_a_crash_is_ended_said_and_flown_on_as_in_the_compiled_engine(tmp_path):
+    falling = {"initial.position": "[0, 0, 2.2]", "initial.euler": "[0.7, 0.9, 0]", "ground.height": "0.0"}
+    settings = [f"{key}={value}" for key, value in (falling | {"phases.lift_start": "5.0"}).items()]
+    options = [word for setting in settings for word in ("--set", setting)]
+    for engine, command in {
+        "gazebo": [*TANDEMLIFT, "iris", "--fast", "--no-window"],
+        "compiled": [*TANDEMLIFT[:-1], "run", "iris"],
+    }.items():
+        folder = tmp_path / engine
+        words = [*command, "--after-crash", "8", "--no-figures", "--out", str(folder), *options]
+        done = completed(words, capture_output=True, text=True, check=False)
+        assert done.returncode == 3
+        assert re.search(r"iris: crashed at 0\.5\d* s: impulse of contact \[N s\] = .*, must stay below", done.stderr)
+        assert "iris: crashed; " in done.stdout
+        metrics = json.loads((folder / "metrics.json").read_text("utf-8"))
+        assert metrics["outcome"] == "crashed"
+        assert 0.0 < metrics["final_position_m"][2] < 0.3  # m: it lies on the floor
+        assert tl.Flight.load(folder / "flight.npz").ending.time < 0.6 < metrics["steps"] * 1e-3  # s
 
 
 def test_the_window_opens_and_closes_with_the_flight(tmp_path, program):

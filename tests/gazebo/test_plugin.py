@@ -36,9 +36,9 @@ while True:
 """
 
 
-def pushed(gazebo, wire, text, steps=600):
+def pushed(gazebo, wire, text, steps=600, topic=PUSH):
     """A flight of at least that many steps after Gazebo's own tool has said this, and of those meanwhile."""
-    script = ["topic", "-p", PUSH, "-m", f'data: "{text}"']
+    script = ["topic", "-p", topic, "-m", f'data: "{text}"' if topic == PUSH else text]
     told = []
     with ThreadPoolExecutor(1) as pool:
         tool = pool.submit(gazebo.gz, *script)
@@ -149,3 +149,26 @@ def test_a_push_that_cannot_be_read_is_refused_with_its_form(gazebo):
     wire = gazebo.wire()
     assert not pushed(gazebo, wire, "force 1 0", steps=200)[:, -6:].any()
     assert "say: force FX FY FZ [point X Y Z] [duration S]" in gazebo.server.last_output()
+
+
+WRENCH = "/gazebo/default/tandemlift/quadrotor_2/wrench"
+NONE = "x: 0 y: 0 z: 0"
+
+
+def test_a_wrench_of_gazebo_s_own_is_a_push_of_known_force_and_unknown_moment(gazebo):
+    wire = gazebo.wire()
+    fly(wire, 10, amplitude=0.0)
+    told = pushed(gazebo, wire, f"force {{x: 8.0 y: 0 z: 0}} torque {{{NONE}}}", topic=WRENCH)
+    force = told[:, -6:-3]
+    assert np.count_nonzero(np.abs(force[:, 0]) > 1.0) == 1  # it acts for one step
+    np.testing.assert_allclose(force.sum(axis=0), [8.0, 0.0, 0.0], atol=1e-6)
+    assert np.isnan(told[:, -3:]).all(axis=1).sum() in (1, 2)  # of that step, and of that in which it was heard of
+    assert not told[:, -9:-6].any()  # and is no contact
+    step = int(np.argmax(force[:, 0]))
+    assert told[step, 3] - told[step - 1, 3] == pytest.approx(8.0 * gazebo.dt / gazebo.vehicle.mass, rel=1e-6)  # m/s
+
+
+def test_a_torque_of_gazebo_s_own_leaves_the_moment_unknown(gazebo):
+    told = pushed(gazebo, gazebo.wire(), f"force {{{NONE}}} torque {{x: 0 y: 0 z: 3.0}}", topic=WRENCH)
+    assert np.isnan(told[:, -3:]).any()
+    assert told[-1, 12] > 5e-4  # rad/s

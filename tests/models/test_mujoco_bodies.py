@@ -10,12 +10,12 @@ import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
-from tandemlift.laws.mechanics.contact import floor, sole_positions, standing_height, start_foot_grip
+from tandemlift.laws.contact.floor import floor, sole_positions, standing_height, start_foot_grip
+from tandemlift.laws.contact.walls import walls
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PerfectReadings, resultant
 from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.walls import walls
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle
 
@@ -294,6 +294,7 @@ def test_felt_has_the_layout_of_the_law():
 
 def test_without_mujoco_one_sentence_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    monkeypatch.delitem(sys.modules, "tandemlift.models.mujoco_bodies")
+    for name in ("bodies", "contact", "import"):
+        monkeypatch.delitem(sys.modules, f"tandemlift.models.mujoco_{name}")
     with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs the package mujoco: pip install 'tandemlift\["):
         importlib.import_module("tandemlift.models.mujoco_bodies")

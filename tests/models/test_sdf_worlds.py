@@ -9,6 +9,8 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.export.write import export
+from tandemlift.laws.contact.hull import HALF_THICKNESS
+from tandemlift.laws.contact.spheres import SPARED
 from tandemlift.models.surroundings import floor_from
 
 
@@ -116,24 +118,39 @@ def test_what_touches_is_the_shape_of_the_contact_laws(world):
     found = world("unlike")
     for i, q in enumerate(found.vehicle.quadrotors, 1):
         shapes = shapes_of(found.lines, f"quadrotor_{i}")
-        assert shapes.pop("guard")[0] == ("sphere", q.guard_radius)
-        places = np.array([place - [0.0, 0.0, size[1]] for size, place, _ in shapes.values()])
+        assert shapes["guard"][0] == ("sphere", q.guard_radius)
+        assert shapes["guard_ring"][0] == ("cylinder", q.guard_radius, 2.0 * HALF_THICKNESS)
+        feet = [(size, place) for name, (size, place, _) in shapes.items() if name.startswith("foot")]
         spread = q.feet_spread * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
-        np.testing.assert_allclose(places, np.column_stack([spread, np.full(4, -q.feet_depth)]), atol=1e-12)
-    beam = found.vehicle.payload
-    (rod, _, turned), *ends = shapes_of(found.lines, "payload").values()
+        soles = np.array([place - [0.0, 0.0, size[1]] for size, place in feet])
+        np.testing.assert_allclose(soles, np.column_stack([spread, np.full(4, -q.feet_depth)]), atol=1e-12)
+        discs = [shapes[f"rotor_{j}"] for j in range(1, 5)]
+        assert {size for size, _, _ in discs} == {("cylinder", q.rotor_radius, 2.0 * HALF_THICKNESS)}
+        hubs = np.column_stack([q.rotors, np.full(4, q.rotor_height)])
+        np.testing.assert_allclose([place for _, place, _ in discs], hubs, atol=1e-12)
+        for j, (x, y) in enumerate(q.rotors, 1):  # spheres of those that stand out
+            stands_out = np.hypot(x, y) + q.rotor_radius > q.guard_radius + SPARED
+            assert (f"rotor_{j}_sphere" in shapes) == stands_out
+    beam, shapes = found.vehicle.payload, shapes_of(found.lines, "payload")
+    rod, _, turned = shapes.pop("beam")
     assert rod == ("cylinder", beam.radius, beam.length)
     np.testing.assert_allclose(np.abs(turned.apply([0.0, 0.0, 1.0])), [0.0, 1.0, 0.0], atol=1e-15)
-    assert [size for size, _, _ in ends] == [("sphere", beam.radius)] * 2
-    assert sorted(place[1] for _, place, _ in ends) == [-beam.length / 2.0, beam.length / 2.0]
+    for name in ("beam_end", "beam_tip"):
+        ends = [shapes.pop(f"{name}_{k}") for k in (1, 2)]
+        assert [size for size, _, _ in ends] == [("sphere", beam.radius)] * 2
+        np.testing.assert_allclose(
+            [place for _, place, _ in ends], np.outer([-0.5, 0.5], [0, beam.length, 0]), atol=1e-12
+        )
+    assert not shapes
 
 
-def test_feet_touch_the_floor_alone_and_guards_and_beam_the_walls(world):
+def test_every_shape_touches_either_the_floor_or_walls(world):
     masks = {}
     for collision in ElementTree.parse(world("zigzag").path).iter("collision"):
-        kind = collision.get("name").split("_")[0]
+        kind = collision.get("name").rstrip("_0123456789")
         masks.setdefault(kind, set()).add(int(collision.find(".//collide_bitmask").text))
-    assert masks == {"floor": {1}, "foot": {1}, "wall": {2}, "guard": {2}, "beam": {2}}
+    on_floor, on_walls = ("floor", "foot", "rotor", "guard_ring", "beam_tip"), ("wall", "guard", "beam", "beam_end")
+    assert masks == {kind: {1} for kind in on_floor} | {kind: {2} for kind in on_walls}
 
 
 def test_a_world_shows_every_rotor_where_it_is_and_needs_no_file_of_its_own(world):

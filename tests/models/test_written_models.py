@@ -48,7 +48,7 @@ def test_endings_and_ports_that_do_not_fit_are_refused(tmp_path):
 
 def test_without_mujoco_its_model_is_refused_and_a_world_is_not(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    for name in ("tandemlift.models.mujoco_bodies", "tandemlift.models.mjcf"):
+    for name in [f"tandemlift.models.{part}" for part in ("mjcf", "mujoco_bodies", "mujoco_contact", "mujoco_import")]:
         monkeypatch.delitem(sys.modules, name, raising=False)
     mission = tl.load_mission("paper")
     assert "pip install 'tandemlift[mujoco]'" in check_refused(mission, tmp_path / "paper.xml")

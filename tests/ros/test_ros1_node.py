@@ -42,7 +42,7 @@ def surroundings(tmp_path_factory, program):
 
 
 class Tried(NamedTuple):
-    """What the client saw, the bag, what `rosbag` knows of it, its odometry, the folder saved, the parameters left."""
+    """What the client saw, the bag, what `rosbag` knows of it, its odometry, the folder saved, what is left, logs."""
 
     told: dict
     bag: Path
@@ -50,6 +50,7 @@ class Tried(NamedTuple):
     odometry: list
     saved: Path
     left: list
+    log: str
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +75,7 @@ def tried(surroundings, program):
     info = output(program("rosbag"), "info", "-y", str(bag))
     with ServerProxy(environment["ROS_MASTER_URI"]) as master:
         _, _, left = master.getParamNames("/test")
-    return Tried(json.loads(told.splitlines()[-1]), bag, info, odometry, saved, left)
+    return Tried(json.loads(told.splitlines()[-1]), bag, info, odometry, saved, left, log.read_text("utf-8"))
 
 
 def test_a_push_by_a_message_moves_the_beam_and_bad_ones_are_refused(tried):
@@ -88,6 +89,9 @@ def test_services_answer_and_parameters_are_heeded_or_set_back(tried):
     asked = tried.told["asked"]
     assert asked["land"] == [True, "land"]
     assert asked["lift"][0] is False
+    assert asked["lift"][1].startswith("Lift is refused: ")
+    assert asked["lift"][1] in tried.told["events"]
+    assert asked["lift"][1] in tried.log
     assert "reads no sensor" in asked["tare"][1]
     assert tried.told["phases"][-1] == "idle"
     assert tomllib.loads(tried.told["mission"])["admittance"]["mass"] == [4.0, 4.0, 4.0]

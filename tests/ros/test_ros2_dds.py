@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from exported import flight_of
-from patience import completed, ended
+from patience import completed, ended, until
 from repository import SUPPORT
 from ros_processes import node
 from rosbags.typesys import Stores, get_typestore
@@ -20,7 +20,7 @@ pytest.importorskip("cyclonedds", reason="cyclonedds is not installed")
 from tandemlift.export.messages import MessageTypes, message_maker, modern
 from tandemlift.export.topics import topics_from
 from tandemlift.ros.dds_types import DdsTypes
-from tandemlift.ros.ros2 import _domain, _value
+from tandemlift.ros.ros2 import LOG, ROSOUT, WARN, Ros2, _domain, _qos, _value
 from tandemlift.vehicle import Vehicle
 
 pytestmark = pytest.mark.ros
@@ -28,6 +28,7 @@ COUNT = 300
 KINDS = [
     *("nav_msgs/Odometry", "nav_msgs/Path", "geometry_msgs/WrenchStamped", "sensor_msgs/JointState", "sensor_msgs/Imu"),
     *("tf2_msgs/TFMessage", "diagnostic_msgs/DiagnosticArray", "visualization_msgs/MarkerArray", "std_msgs/String"),
+    "rcl_interfaces/Log",
 ]
 
 
@@ -105,6 +106,21 @@ def test_the_domain_is_ros_s_own(monkeypatch):
         _domain()
 
 
+def test_an_event_is_in_ros_s_log(types):
+    from cyclonedds.domain import DomainParticipant
+    from cyclonedds.sub import DataReader
+    from cyclonedds.topic import Topic
+
+    ros, other = Ros2(domain=97), DomainParticipant(97)
+    reader = DataReader(other, Topic(other, f"rt{ROSOUT}", types[LOG]), _qos(True, 1))
+    words, found = "Lift is refused: the vehicle is in the air already.", []
+    ros.log(words)
+    until(lambda: found.extend(reader.take(1)) or found, "the log's message")
+    ros.shutdown()
+    assert (found[0].name, found[0].msg, found[0].level) == ("tandemlift", words, WARN)
+    assert found[0].stamp.sec > 0
+
+
 # beside Fast DDS
 
 
@@ -167,7 +183,7 @@ def test_a_push_by_fast_dds_moves_the_beam(tried):
 
 def test_requests_are_answered_and_settings_are_heeded(tried):
     (lift,), (dance,), (land,) = seen(tried, "request")
-    assert lift.startswith("refused: lift: not while the phase is ")
+    assert lift.startswith("refused: Lift is refused: the vehicle is in the air already.")
     assert dance == "refused: unknown request 'dance'; there are lift, land, stop, tare."
     assert land == "done: land"
     assert "mass = [4.0, 4.0, 4.0]" in " ".join(seen(tried, "mission")[0])

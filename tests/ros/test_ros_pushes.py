@@ -1,5 +1,6 @@
 """Pushes by messages: where they act, how long, and what is refused."""
 
+import re
 import time
 from types import SimpleNamespace
 
@@ -146,3 +147,20 @@ def test_pushes_are_refused_while_sensors_are_tared(up):
     assert not any(up.session.flight.hand.force)
     up.session.flight.now = mission
     assert any("hands off until 1002 s" in said for said in up.said())
+
+
+def test_a_push_that_is_not_followed_is_reported_with_the_reason_and_with_what_to_do(up):
+    for _ in range(5):
+        up.heed(wrench("world", (0.1, 0.0, 0.0)))  # N, below the threshold
+        up.fly(0.2)
+    reports = [words for words in up.said() if words.startswith("The push is not followed: ")]
+    (report,) = reports
+    assert re.fullmatch(r".*: it is below the threshold \(0\.\d+ N, limit 0\.3 N\)\. Push harder\.", report)
+    assert report in up.middleware.logged
+    up.heed(wrench("world"))
+    up.fly(0.2)
+    up.sent("/diagnostics").clear()
+    for _ in range(5):
+        up.heed(wrench("world", (2.0, 0.0, 0.0)))
+        up.fly(0.2)
+    assert not [words for words in up.said() if "not followed" in words]

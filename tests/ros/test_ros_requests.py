@@ -1,6 +1,7 @@
 """Services and parameters: what is asked of the pilot, and what is set, while it flies."""
 
 import math
+import re
 import tomllib
 
 import pytest
@@ -15,7 +16,7 @@ from tandemlift.ros.requests import REQUESTS, RequestServices
 @pytest.fixture
 def asked(trial):
     """Services whose waiting is flying."""
-    requests = RequestServices(trial.session, nap=trial.fly)
+    requests = RequestServices(trial.session, trial.front.diagnostics.add, nap=trial.fly)
     trial.fly(UP)
     return requests.answer
 
@@ -38,10 +39,37 @@ def test_it_lands_lifts_and_stops_when_it_is_asked_to(trial, asked):
 
 
 def test_what_makes_no_sense_now_is_answered_with_the_phase(trial, asked):
-    assert asked("lift") == (False, f"lift: not while the phase is {trial.session.status()['phase']}")
+    flying = "Lift is refused: the vehicle is in the air already. Push it to where it should go, or land it."
+    assert asked("lift") == (False, flying)
+    assert flying in trial.said()
     asked("stop")
-    assert asked("land") == (False, "land: not while the phase is stopped")
-    assert asked("lift") == (False, "lift: not while the phase is stopped")
+    for what, opening in (("land", "Landing"), ("lift", "Lift")):
+        done, words = asked(what)
+        assert not done
+        assert words == f"{opening} is refused: the rotors were stopped, which is final. Begin the flight again."
+        assert words in trial.said()
+        assert words in trial.middleware.logged
+    reported = [status for array in trial.sent("/diagnostics") for status in array.status if status.values]
+    shown = {value.key: value.value for value in reported[-1].values}
+    assert shown["lift refused"].startswith("Lift is refused: ")
+
+
+def test_a_check_that_fails_is_named_with_its_numbers_and_with_what_to_do(tmp_path):
+    weak = GUIDED | {
+        "supervision.model": "watch",
+        "phases.lift_start": 1e6,
+        "phases.land_start": 2e6,
+        "supervision.checks.thrust_fraction": 0.2,
+    }
+    one = Trial(tl.load_mission("hover", weak), tmp_path)
+    one.fly(0.5)
+    done, words = RequestServices(one.session, one.front.diagnostics.add, nap=one.fly).answer("lift")
+    one.front.stop()
+    assert not done
+    assert re.fullmatch(
+        r"Lift is refused: hover needs 6\d\.\d % of the thrust, limit 20 %\. Take load off, or .*\.", words
+    )
+    assert words in one.said()
 
 
 def test_a_pilot_that_reads_the_true_push_has_nothing_to_tare(trial, asked):

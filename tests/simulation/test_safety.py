@@ -28,6 +28,7 @@ FLOWN = {
     "pushes": [{"force": [2.0, 0.0, 0.0], "time": 7.0, "sigma": 0.4}],
     "requests": [{"time": 1000.0, "action": "land"}],
     "supervision.model": "watch",
+    "contact.model": "watch",
     "sensor_faults": QUIET,
 }
 
@@ -72,6 +73,7 @@ def test_every_fault_has_the_reaction_of_the_table_and_ends_safely(row, fly):
     assert {int(a) // 10 for a in flight["alarm"]} - {0} == {int(number)}
     assert flight.ending is None
     assert PHASE_NAMES[int(flight["phase"][-1])] == ("stopped" if reaction == "stop" else "idle"), events
+    assert not flight["contact_part"].any()
     assert flight["rotor_thrusts"][-1].max() < 1e-6
     assert flight["position"][-1, 2] == pytest.approx(STANDS, abs=0.02)
     assert np.abs(flight["euler"][-1, :2]).max() < 0.02

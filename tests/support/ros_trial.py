@@ -35,7 +35,7 @@ class Middleware:
     def __init__(self):
         self.types = MessageTypes(message_class, numbered=False)
         self.channels, self.kinds, self.latched = defaultdict(Channel), {}, set()
-        self.heeding, self.services, self.set, self.kept, self.over = {}, {}, {}, {}, False
+        self.heeding, self.services, self.set, self.kept, self.over, self.logged = {}, {}, {}, {}, False, []
 
     def advertise(self, topic, kind, *, latched=False, depth=1):
         self.kinds[topic] = kind
@@ -54,6 +54,9 @@ class Middleware:
 
     def keep(self, values):
         self.kept = dict(values)
+
+    def log(self, what):
+        self.logged.append(what)
 
     def shutdown(self):
         self.over = True

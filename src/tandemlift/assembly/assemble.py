@@ -6,6 +6,7 @@ step by step by a counter-based generator with the seed's key.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,9 +29,11 @@ from tandemlift.assembly.watchdogs import with_faults, with_watchdogs
 from tandemlift.common.outcomes import FLIES
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.kernels.external_inputs import InputTables
-from tandemlift.laws.mechanics.clearance import clearance
-from tandemlift.laws.mechanics.contact import start_foot_grip
+from tandemlift.laws.contact.clearance import clearance
+from tandemlift.laws.contact.floor import start_foot_grip
+from tandemlift.laws.contact.touches import start_touches
 from tandemlift.laws.mechanics.push import PushSamples
+from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.readings import by_name, readings_of, start_sensing
 from tandemlift.laws.signals.random_numbers import key_from_seed
 from tandemlift.loop.delays import Delayed, DelayLines
@@ -89,6 +92,34 @@ def start_metrics(far: Any, person: Any) -> RunningMetrics:
     return EMPTY._replace(clearance=far, effort=person if isinstance(person, Nothing) else NO_EFFORT)
 
 
+class StartedPerception(NamedTuple):
+    """Sensors with their memory, noise and first readings, and estimators with theirs; each may be `Nothing`."""
+
+    devices: Any
+    sensing: Any
+    noise: Any
+    readings: Any
+    estimators: Any
+    known: Any
+
+
+def start_perception(
+    mission: Mission, vehicle: Vehicle, state: State, chance: np.random.Generator, at_rest: Callable[[], Any]
+) -> StartedPerception:
+    """Sensors and estimators before the first step; `at_rest` gives the perfect readings at the start."""
+    devices, noise = sensors_from(mission, vehicle, chance)
+    sensing: Any = Nothing()
+    readings: Any = Nothing()
+    if not isinstance(devices, Nothing):
+        sensing = start_sensing(devices, state, at_rest(), state.attitude)
+        readings = readings_of(sensing)
+    estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
+    devices, sensing = with_faults(mission, devices, sensing)
+    return StartedPerception(
+        devices=devices, sensing=sensing, noise=noise, readings=readings, estimators=estimators, known=known
+    )
+
+
 def assemble(mission: Mission) -> AssembledFlight:
     """Assemble the flight of a mission at t = 0.
 
@@ -99,21 +130,14 @@ def assemble(mission: Mission) -> AssembledFlight:
     chance = np.random.default_rng(mission.mission.seed)
     pilot, memory = start_pilot(mission, vehicle)
     state, plant = start_state(mission), plant_from(mission, vehicle)
-    floor, walls = plant.floor, plant.walls
-    grip = Nothing() if isinstance(floor, Nothing) else start_foot_grip(floor, state)
+    grip = Nothing() if isinstance(plant.floor, Nothing) else start_foot_grip(plant.floor, state)
     delays = delays_from(mission)
-    rotors, spinning, thrusts = start_rotors(mission, vehicle, floor, delayed=bool(delays[2]))
+    rotors, spinning, thrusts = start_rotors(mission, vehicle, plant.floor, delayed=bool(delays[2]))
     wind, wind_state = start_weather(mission, vehicle, chance)
     push = push_kind(mission)
-    near, hand = near_walls_from(walls), PushSamples(push, push, push)
-    devices, sensor_noise = sensors_from(mission, vehicle, chance)
-    sensing: Any = Nothing()
-    if not isinstance(devices, Nothing):
-        initial = readings_at_rest(plant, state, grip, near, thrusts, hand)
-        sensing = start_sensing(devices, state, initial, state.attitude)
-    readings = Nothing() if isinstance(devices, Nothing) else readings_of(sensing)
-    estimators, known = with_watchdogs(mission, *start_estimators(mission, vehicle, state, readings), readings)
-    devices, sensing = with_faults(mission, devices, sensing)
+    near, hand = near_walls_from(plant.walls), PushSamples(push, push, push)
+    at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
+    senses = start_perception(mission, vehicle, state, chance, at_rest)
     person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
     limits = crash_limits_from(mission, vehicle)
     flight_state = FlightState(
@@ -122,34 +146,33 @@ def assemble(mission: Mission) -> AssembledFlight:
         wind=wind_state,
         grip=grip,
         near=near,
-        sensing=sensing,
-        estimator=known,
+        touches=start_touches(plant.floor, plant.walls, vehicle.rotor_count),
+        sensing=senses.sensing,
+        estimator=senses.known,
         rotors=spinning,
-        readings=readings,
+        readings=senses.readings,
         person=memory_of_person,
-        metrics=start_metrics(clearance(walls, near, plant.frame, state), memory_of_person),
+        metrics=start_metrics(clearance(plant.walls, near, plant.frame, state), memory_of_person),
         impulse=Nothing() if isinstance(limits.strike, Nothing) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,
         detectors=start_detectors(mission),
     )
-    sources = PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map])
-    late = delay_lines_from(mission, delays)
     model = FlightModel(
         flight_state=flight_state,
         pilot=pilot,
         plant=plant,
         rotors=rotors,
         wind=wind,
-        sensors=devices,
-        estimator=estimators,
-        sources=sources,
+        sensors=senses.devices,
+        estimator=senses.estimators,
+        sources=PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map]),
         person=person,
-        delays=late,
+        delays=delay_lines_from(mission, delays),
         limits=limits,
         finding_limits=finding_limits_from(mission, vehicle),
     )
-    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), sensor_noise, tremor_noise), memory_of_person)
+    given = StepInputs(hand, ZERO, StepNoise(wind_noise_from(wind), senses.noise, tremor_noise), memory_of_person)
     return AssembledFlight(
         model,
         given,

@@ -6,7 +6,8 @@ from typing import Any
 
 from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import Nothing, each, spread, vec3
-from tandemlift.laws.estimation.contact_detection import ContactDetector, start_contact
+from tandemlift.laws.estimation.contact_detection import start_contact
+from tandemlift.laws.estimation.contact_evidence import ContactDetector
 from tandemlift.laws.estimation.contact_map import TouchGeometry
 from tandemlift.laws.signals.low_pass import low_pass
 from tandemlift.settings import Mission

@@ -13,7 +13,15 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import DEFAULT
-from tandemlift.cli.run import FAILED, load, print_report_path, print_summary, set_option
+from tandemlift.cli.run import (
+    FAILED,
+    after_crash_option,
+    load,
+    print_report_path,
+    print_summary,
+    set_option,
+    with_after_crash,
+)
 from tandemlift.cli.terminal.console import echo, progress_bar
 from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
@@ -37,6 +45,7 @@ Photographs = list[tuple[str, bytes]]
 )
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/gazebo/NAME]")
 @set_option
+@after_crash_option
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
 @strict_option
 def gazebo(
@@ -47,6 +56,7 @@ def gazebo(
     pictures: bool,
     out: str | None,
     settings: tuple[str, ...],
+    after_crash: float | None,
     no_figures: bool,
     strict: bool,
 ) -> None:
@@ -75,7 +85,7 @@ def gazebo(
         )
     from tandemlift.engines.gazebo_server import root
 
-    loaded = load(mission, settings)
+    loaded = load(mission, with_after_crash(settings, after_crash))
     root()  # raises if there is no Gazebo, before anything is compiled
     with results_folder(out, Path("out/gazebo") / loaded.mission.name) as folder:
         began = time.perf_counter()
@@ -126,8 +136,8 @@ def _fly_to_end(mission: Mission, window: bool, real_time: bool, pictures: bool)
 def _fly_by_hand(mission: Mission, window: bool) -> tuple[Flight, Photographs]:
     """Fly a mission without its own pushes until Ctrl-C; pushes come by Gazebo's topic."""
     from tandemlift.gazebo_app.flying import running_gazebo
+    from tandemlift.interactive.recorded_flight import RecordedFlight
     from tandemlift.live.session.interactive_mission import interactive_mission
-    from tandemlift.simulation.recorded_flight import RecordedFlight
 
     mission = interactive_mission(mission)
     with running_gazebo(mission, window=window, real_time=True) as gazebo, _stop_signals() as stopped:

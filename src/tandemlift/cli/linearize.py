@@ -1,15 +1,20 @@
-"""`tandemlift linearize`: the closed step of a mission as a linear model, printed, drawn and saved."""
+"""`tandemlift linearize` and `check`: the closed step of a mission as a linear model; its checks before a flight."""
 
 from __future__ import annotations
 
+import json
+import sys
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.run import chosen_controller, load, set_option
+from tandemlift.cli.run import FAILED, chosen_controller, load, set_option
+from tandemlift.cli.terminal.check_table import print_checks
 from tandemlift.cli.terminal.console import echo
-from tandemlift.common.errors import InputError
+from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.common.files import atomic_write
 
 if TYPE_CHECKING:
     from tandemlift.linearization.analysis import Mode, Modes
@@ -137,3 +142,44 @@ def _draw(connected: LinearModel, path: Path) -> None:
     if len(connected.states) > MOST_STATES:
         raise InputError(f"--figure {path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
     save(draw(connected, _modes(connected), *DRAWN[connected.of]), path)
+
+
+@click.command()
+@click.argument("mission")
+@set_option
+@click.option("--controller", metavar="NAME|FILE", help="Controller to check: a registered one, or your own .py file.")
+@click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
+@click.option("--json", "file", metavar="FILE", help="Write the results to FILE as well.")
+def check(mission: str, settings: tuple[str, ...], controller: str | None, strict: bool, file: str | None) -> None:
+    """Check MISSION before its flight: each number with its limit and margin, and the margins of its control loops.
+
+    What fails by a closed form is warned of whenever the mission is loaded. The loops are those of a calm hover, by a
+    linear model: phase and gain margins of each axis, and the delay and the lag of the rotors at which they oscillate.
+
+    \b
+    Examples:
+      tandemlift check iris
+      tandemlift check iris --set actuators.delay=0.1 --strict
+      tandemlift check mine.toml --json checks.json
+
+    \b
+    Exit code:
+      0   the mission was checked
+      2   bad input: one message, nothing is written
+      3   with --strict: a check fails
+    """
+    from tandemlift.linearization.mission_check import check as checked
+
+    chosen = None if controller is None else chosen_controller(controller)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)  # the table says the same
+        loaded = load(mission, settings, chosen)
+    results = checked(loaded)
+    print_checks(results)
+    if file:
+        rows = [{**result._asdict(), "margin": result.margin} for result in results]
+        with atomic_write(Path(file)) as partial:
+            partial.write_text(json.dumps(rows, indent=1, ensure_ascii=False), "utf-8")
+        echo(f"checks: {file}")
+    if strict and any(result.verdict == "fails" for result in results):
+        sys.exit(FAILED)

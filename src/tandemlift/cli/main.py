@@ -15,7 +15,7 @@ from tandemlift.cli.compile import compile
 from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
-from tandemlift.cli.linearize import linearize
+from tandemlift.cli.linearize import check, linearize
 from tandemlift.cli.live import live
 from tandemlift.cli.pages import page, replay
 from tandemlift.cli.render import render
@@ -72,6 +72,7 @@ cli.add_command(gazebo)
 cli.add_command(ros)
 cli.add_command(validate)
 cli.add_command(linearize)
+cli.add_command(check)
 cli.add_command(export)
 cli.add_command(compile)
 cli.add_command(report)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tandemlift.missions import Mission
 
 FAILED = 3
+NOT_KNOWN = "   not known"
 WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
 
 
@@ -38,6 +39,12 @@ set_option = click.option(
     metavar="KEY=VALUE",
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
 )
+after_crash_option = click.option(
+    "--after-crash",
+    type=click.FloatRange(min=0.0),
+    metavar="SECONDS",
+    help="Fly on after a crash, rotors stopped, at most until the vehicle lies still: the key crash.fly_on.",
+)
 
 
 @click.command()
@@ -53,12 +60,7 @@ set_option = click.option(
     metavar="NAME|FILE",
     help="Controller to fly: a registered one, or your own .py file.",
 )
-@click.option(
-    "--after-crash",
-    type=click.FloatRange(min=0.0),
-    metavar="SECONDS",
-    help="Fly on after a crash, rotors stopped, at most until the vehicle lies still: the key crash.fly_on.",
-)
+@after_crash_option
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
 @strict_option
 def run(
@@ -105,9 +107,7 @@ def run(
     if engine is not None:
         engine_named(engine)
     chosen = None if controller is None else chosen_controller(controller)
-    if after_crash is not None:
-        settings = (*settings, f"crash.fly_on={after_crash!r}")
-    loaded = load(mission, settings, chosen)
+    loaded = load(mission, with_after_crash(settings, after_crash), chosen)
     with results_folder(out, Path("out") / loaded.mission.name) as folder:
         flight = _fly(loaded, engine, chosen)
         print_summary(flight)
@@ -119,6 +119,11 @@ def run(
         click.echo(f"{flight.name}: {flight.failure}", err=True)
         sys.exit(FAILED)
     exit_if_found(count, strict=strict)
+
+
+def with_after_crash(settings: tuple[str, ...], seconds: float | None) -> tuple[str, ...]:
+    """Settings of a mission with how long to fly on after a crash [s], if that is given."""
+    return settings if seconds is None else (*settings, f"crash.fly_on={seconds!r}")
 
 
 def chosen_controller(given: str) -> Controller:
@@ -198,12 +203,12 @@ def print_summary(flight: Flight) -> None:
         (f"largest position error, {when}", _list(m[f"position_max_error{late}_m"], 2, 1e3), "mm"),
         ("attitude RMSE", _list(m["attitude_rmse_rad"], 2, 57.29577951308232), "deg"),
         ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (min, max)"),
-        ("human work", _list([m["human_work_j"]], 2), "J"),
+        ("human work", *((NOT_KNOWN, "") if m["human_work_j"] is None else (_list([m["human_work_j"]], 2), "J"))),
     ]
     echo(f"{flight.name}: {flight.outcome}; {m['steps']} steps, flown in {m['wall_s'] * 1e3:.1f} ms")
     for label, value, unit in rows:
         if value:
-            echo(f"  {label:36}{value} {unit}")
+            echo(f"  {label:36}{value} {unit}".rstrip())
     for at, what in m["events"]:
         echo(f"  {at:.2f} s: {what}")
 

@@ -54,7 +54,7 @@ KINDS = (
     ),
     FindingKind(
         "saturated",
-        "a rotor that still works was at its limit for long at a stretch, or for a large part of the flight",
+        "a rotor that still works was at its limit for long at a stretch, or for a large fraction of the flight",
         "use stronger rotors or a lighter payload, or lower the controller's gains",
         ("findings.saturated_time", "findings.saturated_fraction"),
     ),
@@ -161,3 +161,7 @@ def finding_kinds_markdown() -> str:
     lines = ["| kind | what it means | what to do | keys |", "|---|---|---|---|"]
     lines += [f"| {k.name} | {k.meaning} | {k.remedy} | {', '.join(f'`{key}`' for key in k.keys)} |" for k in KINDS]
     return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(finding_kinds_markdown())

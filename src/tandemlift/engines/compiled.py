@@ -19,6 +19,7 @@ from tandemlift.engines.compiled_contact import (
     CompiledPlant,
     floor_loads,
     grip_after,
+    hull_loads_in,
     load_about_center,
     quadrotor_loads,
     wall_loads,
@@ -39,11 +40,15 @@ from tandemlift.vehicle import Vehicle
 
 
 class BodyStep(NamedTuple):
-    """Result of a step of the body: the state after it, the readings at its start, the feet's grip after it."""
+    """Result of a step of the body: the state after it, the readings at its start, grip of the feet and touches after.
+
+    `touches`: a `Touches`, or `Nothing` without floor.
+    """
 
     state: State
     readings: PerfectReadings
     grip: Any
+    touches: Any
 
 
 @motion.register(BodySurroundings)
@@ -52,22 +57,24 @@ def surrounded_motion(b: BodySurroundings, s: State, u: Any, push: Any) -> State
     plant, q = b.plant, s.attitude
     free = with_load(b.air, plant.body, rigid_body_motion(plant.body, s, u, push))
     standing = with_load(load_about_center(floor_loads(plant.floor, b, s), plant.frame, q), plant.body, free)
-    return with_load(load_about_center(wall_loads(plant.walls, b, s), plant.frame, q), plant.body, standing)
+    lying = with_load(load_about_center(hull_loads_in(b, s), plant.frame, q), plant.body, standing)
+    return with_load(load_about_center(wall_loads(plant.walls, b, s), plant.frame, q), plant.body, lying)
 
 
 @law
 def readings_in(b: BodySurroundings, s: State, k1: State, air: Any, thrusts: Any) -> PerfectReadings:
     """Perfect readings in state `s`, whose motion is `k1`, under thrusts [N] and loads of the air on the parts."""
     frame, q = b.plant.frame, s.attitude
-    floor, walls = floor_loads(b.plant.floor, b, s), wall_loads(b.plant.walls, b, s)
+    floor, hull, walls = floor_loads(b.plant.floor, b, s), hull_loads_in(b, s), wall_loads(b.plant.walls, b, s)
     readings = readings_with_load(
         quadrotor_loads(air), frame, q, perfect_readings(frame, s, Acceleration(k1.velocity, k1.rates), thrusts)
     )
     readings = readings_with_load(quadrotor_loads(floor), frame, q, readings)
+    readings = readings_with_load(quadrotor_loads(hull), frame, q, readings)
     readings = readings_with_load(quadrotor_loads(walls), frame, q, readings)
-    return with_contact_force(
-        load_about_center(walls, frame, q), with_contact_force(load_about_center(floor, frame, q), readings)
-    )
+    for loads in (floor, hull, walls):
+        readings = with_contact_force(load_about_center(loads, frame, q), readings)
+    return readings
 
 
 @law
@@ -83,14 +90,17 @@ def first_motion(
 def advance(
     plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, air: Any, hand: PushSamples, dt: Any
 ) -> BodyStep:
-    """One step of dt [s] with rotor thrusts [N] and the air's loads held, and the push continuous."""
+    """One step of dt [s] with rotor thrusts [N] and the air's loads held, and the push continuous.
+
+    Its touches are left out; `compiled_touches.touches_in` gives them.
+    """
     b, u = (
         BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near),
         wrench(plant.effect, thrusts),
     )
     k1 = motion(b, s, u, hand.start)
     after = rk4(b, s, k1, u, hand, dt)
-    return BodyStep(after, readings_in(b, s, k1, air, thrusts), grip_after(plant.floor, grip, after))
+    return BodyStep(after, readings_in(b, s, k1, air, thrusts), grip_after(plant.floor, grip, after), Nothing())
 
 
 def readings_at_rest(

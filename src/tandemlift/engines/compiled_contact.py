@@ -8,9 +8,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.algebra.law import choice
+from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import ZERO, Nothing
-from tandemlift.laws.mechanics.contact import Floor, feet_load, grips_after_step
+from tandemlift.laws.contact.floor import Floor, feet_load, grips_after_step
+from tandemlift.laws.contact.hull import Hull, HullContact, hull_contact, hull_loads
+from tandemlift.laws.contact.walls import Walls, near_wall_loads
 from tandemlift.laws.mechanics.inertia import apply_inertia
 from tandemlift.laws.mechanics.loads import (
     PartLoad,
@@ -23,7 +25,7 @@ from tandemlift.laws.mechanics.loads import (
     without_negative_zero,
 )
 from tandemlift.laws.mechanics.rigid_body import RigidBody, State
-from tandemlift.laws.mechanics.walls import Walls, near_wall_loads
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.rotors.allocation import Mixer
 
 NO_LOAD = PartLoad(ZERO, ZERO)
@@ -54,6 +56,12 @@ class DistantFloor(NamedTuple):
     floor: Floor
 
 
+class DistantHull(NamedTuple):
+    """Rotors, guards and beam out of the floor's reach for a step: the same numbers, without force."""
+
+    hull: Any
+
+
 class DistantWalls(NamedTuple):
     """Walls out of reach for a step: the same numbers, without force."""
 
@@ -69,6 +77,15 @@ def without_contact(plant: CompiledPlant) -> CompiledPlant:
     floor, walls = plant.floor, plant.walls
     return plant._replace(
         floor=floor if isinstance(floor, Nothing) else DistantFloor(floor),
+        walls=walls if isinstance(walls, Nothing) else DistantWalls(walls),
+    )
+
+
+def on_feet_only(plant: CompiledPlant) -> CompiledPlant:
+    """The same body, with nothing but its feet within reach of the floor, and walls out of reach."""
+    floor, walls = plant.floor, plant.walls
+    return plant._replace(
+        floor=floor if isinstance(floor, Nothing) else floor._replace(hull=DistantHull(floor.hull)),
         walls=walls if isinstance(walls, Nothing) else DistantWalls(walls),
     )
 
@@ -101,6 +118,52 @@ def _walls_out_of_reach(walls: DistantWalls, b: BodySurroundings, s: State) -> Z
 @wall_loads.register(Walls)
 def _walls(walls: Walls, b: BodySurroundings, s: State) -> Any:
     return near_wall_loads(walls, b.near, b.plant.frame, s)
+
+
+@choice(absent="floor")
+def hull_contact_with(floor: Any, s: State) -> Any:
+    """Contact of rotors, guards and beam with the floor; `Nothing` where it is out of reach."""
+
+
+@hull_contact_with.register(DistantFloor)
+def _hull_out_of_reach(floor: DistantFloor, s: State) -> Nothing:
+    return Nothing()
+
+
+@hull_contact_with.register(Floor)
+def _hull(floor: Floor, s: State) -> Any:
+    return contact_of_hull(floor.hull, floor, s)
+
+
+@choice(absent="hull")
+def contact_of_hull(hull: Any, floor: Floor, s: State) -> Any:
+    """`hull_contact`, or `Nothing` without a hull."""
+
+
+@contact_of_hull.register(Hull)
+def _with_floor(hull: Hull, floor: Floor, s: State) -> HullContact:
+    return hull_contact(hull, floor.friction, floor.height, s, rotation_from_quaternion(s.attitude))
+
+
+@contact_of_hull.register(DistantHull)
+def _distant_hull(hull: DistantHull, floor: Floor, s: State) -> Nothing:
+    return Nothing()
+
+
+@choice(absent="contact")
+def loads_of_hull(contact: Any, frame: PartsLayout, s: State) -> Any:
+    """Loads of a `HullContact` on all parts, or `Nothing`."""
+
+
+@loads_of_hull.register(HullContact)
+def _of_hull(contact: HullContact, frame: PartsLayout, s: State) -> PartLoads:
+    return hull_loads(contact, frame, rotation_from_quaternion(s.attitude))
+
+
+@law
+def hull_loads_in(b: BodySurroundings, s: State) -> Any:
+    """Loads of the floor on rotors, guards and beam, or `Nothing` where it is out of reach."""
+    return loads_of_hull(hull_contact_with(b.plant.floor, s), b.plant.frame, s)
 
 
 @choice(absent="load")

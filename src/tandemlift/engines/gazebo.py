@@ -24,6 +24,7 @@ import numpy as np
 from tandemlift.algebra.vector import Nothing, vec3
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
+from tandemlift.engines.contact_log import KINDS, SURFACES, ContactLog
 from tandemlift.engines.gazebo_server import GazeboServer, free_port
 from tandemlift.engines.gazebo_wire import STATE, PluginAnswer, Wire
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
@@ -74,13 +75,13 @@ class GazeboBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance`, `ground` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `laws.mechanics.contact.Floor` to stand on, or `Nothing`.
-        walls: a `laws.mechanics.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        floor: a `laws.contact.floor.Floor` to stand on, or `Nothing`.
+        walls: a `laws.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
         connect: finds or starts a server, and connects to its plugin.
 
     Attributes:
-        pushed: (6,) force [N, world axes] and moment about the centre of mass [N·m, body axes] of pushes by Gazebo's
-            topic over the last step.
+        pushed: (6,) as `registry.PushedBody.pushed`: of pushes by topic and of Gazebo's own wrench tools. The moment of
+            the latter is not known: it is nan.
         server: the server that was started; None if one was joined.
 
     Raises:
@@ -110,6 +111,8 @@ class GazeboBody:
         self.readings.fill(0.0)
         self._velocity, self._rates, self._contact = answer.state[3:6], answer.state[10:], answer.readings[-3:]
         self._touching = not (isinstance(floor, Nothing) and isinstance(walls, Nothing))
+        self._log = ContactLog(floor, walls, vehicle.count, mission.mission.step)
+        self.touches, self._normals, self._parts = self._log.numbers, answer.touches[..., 0], _parts(vehicle.count)
         self._force, self._moment = wire.wrench[:3], wire.wrench[3:]
         self._disturbing_force = np.array(mission.disturbance.force)
         self._disturbing_moment = np.array(mission.disturbance.moment)
@@ -150,8 +153,19 @@ class GazeboBody:
         if len(loads):
             wire.loads[:] = loads
         wire.advance()
-        if not self._touching:
+        if self._touching:
+            self._log_contacts()
+        else:
             self._contact.fill(0.0)
+
+    def _log_contacts(self) -> None:
+        """Enter the contacts of this step, but those of feet, into the record."""
+        if self._normals.any():
+            for surface, row in np.argwhere(self._normals):
+                normal, *place = self._wire.answer.touches[surface, row].tolist()
+                kind, index = self._parts[row]
+                self._log.add(SURFACES[surface], kind, index, normal, place)
+        self._log.end_step()
 
     def rest(self) -> None:
         """Keep the session alive without a step; see `registry.WaitingBody`."""
@@ -163,6 +177,12 @@ class GazeboBody:
     def close(self) -> None:
         """End the session, and the server if it was started for it; garbage collection does this too."""
         self._closing()
+
+
+def _parts(count: int) -> list[tuple[str, int]]:
+    """Kind and index (`contact_log`) of the rows of `PluginAnswer.touches`."""
+    numbers = zip(KINDS, (4 * count, count, 1), strict=True)
+    return [(kind, index) for kind, number in numbers for index in range(number)]
 
 
 def _close(wire: PluginLink, server: GazeboServer | None) -> None:

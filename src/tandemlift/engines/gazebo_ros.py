@@ -52,6 +52,13 @@ def _connect(mission: Mission, vehicle: Vehicle) -> tuple[GazeboServer | None, R
     return server, RosWire(vehicle.count, STEPPING, server.check, place)
 
 
+def touch_names(count: int) -> list[str]:
+    """The names of the rows of `PluginAnswer.touches` in a state."""
+    rotors = [f"rotor_{q}_{r}" for q in range(1, count + 1) for r in range(1, 5)]
+    parts = [*rotors, *(f"guard_{q}" for q in range(1, count + 1)), "beam"]
+    return [f"{surface}/{part}" for surface in ("floor", "wall") for part in parts]
+
+
 class RosWire:
     """The pilot's end of the connection; as `gazebo_wire.Wire`.
 
@@ -73,6 +80,7 @@ class RosWire:
         self._at: Stamp = (0, 0)  # of the last state
         self._states: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._step, self._values = self._wrenches()
+        self._touches = dict(zip(touch_names(count), self.answer.touches.reshape(-1, 4), strict=True))
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # rospy warns that messages are sent at once, not by a thread
             self._commands = self._rospy.Publisher(f"{place}/command", message_type(MOVED), tcp_nodelay=True)
@@ -185,6 +193,10 @@ class RosWire:
         rows = np.array([[f.x, f.y, f.z, m.x, m.y, m.z] for f, m in ((w.force, w.torque) for w in state.wrench[1:])])
         answer.readings[:3], answer.readings[-3:], answer.pushed[:] = rows[0, :3], rows[N + 1, :3], rows[N + 2]
         answer.readings[3:-3] = rows[1 : N + 1].T.ravel()
+        answer.touches.fill(0.0)
+        for k, name in enumerate(state.joint_names[N + 4 :], N + 4):
+            place = state.transforms[k].translation
+            self._touches[name][:] = state.wrench[k].force.x, place.x, place.y, place.z
 
     def _lead(self) -> Stamp:
         """Become the pilot; the stamp of the state in which the world waits from then on."""

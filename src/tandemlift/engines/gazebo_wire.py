@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.common.errors import InputError
 
-MAGIC, VERSION = 0x5A474C54, 1
+MAGIC, VERSION = 0x5A474C54, 2
 HEADER = struct.Struct("<IHHIIQ")
 SEQUENCE = struct.Struct("<Q")
 AT_SEQUENCE, AT_KIND = 16, 6  # bytes
@@ -66,12 +66,16 @@ class PluginAnswer:
         clock: (3,) time [s] and step [s] of the world, mass of its vehicle [kg].
         state: (13,) as `registry.EngineBody.state`.
         readings: (6 + 6N,) as `registry.EngineBody.readings`.
-        pushed: (6,) force [N, world axes] and moment about the centre of mass [N·m, body axes] of pushes by topic.
+        touches: (2, 5N + 1, 4) of the floor, then of walls: of every rotor, every guard and the beam the normal force
+            [N] over the last step, and the place of the strongest contact [m, world axes]; zeros without contact.
+        pushed: (6,) as `registry.PushedBody.pushed`.
     """
 
     def __init__(self, count: int) -> None:
         self.numbers = np.zeros(answer_size(count))
-        self.clock, self.state, self.readings, self.pushed = np.split(self.numbers, [3, 3 + STATE, -6])
+        ends = [3, 3 + STATE, 3 + STATE + 6 + 6 * count, -6]
+        self.clock, self.state, self.readings, touches, self.pushed = np.split(self.numbers, ends)
+        self.touches = touches.reshape(2, 5 * count + 1, 4)
 
 
 def hello_size(count: int) -> int:
@@ -86,7 +90,7 @@ def step_size(count: int) -> int:
 
 def answer_size(count: int) -> int:
     """Numbers of a WELCOME or STATE of N quadrotors."""
-    return 3 + STATE + 6 + 6 * count + 6
+    return 3 + STATE + 6 + 6 * count + 8 * (5 * count + 1) + 6
 
 
 class Wire:

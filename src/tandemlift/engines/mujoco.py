@@ -12,8 +12,11 @@ import numpy as np
 
 from tandemlift.algebra.vector import Nothing, vec3
 from tandemlift.common.types import Array
+from tandemlift.engines.contact_log import ContactLog
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
-from tandemlift.models.mujoco_bodies import model_of, mujoco
+from tandemlift.models.mujoco_bodies import model_of
+from tandemlift.models.mujoco_contact import touching_parts
+from tandemlift.models.mujoco_import import mujoco
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
@@ -27,8 +30,8 @@ class MuJoCoBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `laws.mechanics.contact.Floor` to stand on, or `Nothing`.
-        walls: a `laws.mechanics.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        floor: a `laws.contact.floor.Floor` to stand on, or `Nothing`.
+        walls: a `laws.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
     """
 
     def __init__(self, mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:
@@ -41,6 +44,8 @@ class MuJoCoBody:
         self._payload, self._R = skew(-vehicle.center_of_mass), np.empty((3, 3))
         self._turned = np.empty((3, N))
         self._made, self._of_rotors = rotor_loads_at_joints(vehicle), np.empty(6 * N)
+        self._log, self._parts = ContactLog(floor, walls, N, mission.mission.step), touching_parts(self.model)
+        self.touches, self._contact_load = self._log.numbers, np.zeros(6)
         self._view_memory(N, touching=self.model.npair > 0)
         self._set_start(mission)
 
@@ -110,6 +115,18 @@ class MuJoCoBody:
         mujoco.mj_step(self.model, self.data)
         self._read_state()
         self._read_sensors()
+        self._log_contacts()
+
+    def _log_contacts(self) -> None:
+        """Enter the contacts at the end of the step, but those of feet, into the record."""
+        if self.data.ncon:
+            found = self.data.contact
+            for c, (one, other) in enumerate(found.geom.tolist()):
+                part = self._parts.get((min(one, other), max(one, other)))
+                if part is not None:
+                    mujoco.mj_contactForce(self.model, self.data, c, self._contact_load)
+                    self._log.add(*part, self._contact_load[0], found.pos[c])
+        self._log.end_step()
 
 
 def skew(a: Array) -> Array:

@@ -42,11 +42,34 @@ class EngineBody(Protocol):
 
 
 @runtime_checkable
+class TouchingBody(Protocol):
+    """A body that keeps the record of touches; without it nothing is ever touched, and no rotor stops.
+
+    Attributes:
+        touches: the numbers of a `laws.contact.touches.Touches` after the last step (`contact_log`).
+    """
+
+    touches: Array
+
+
+@runtime_checkable
 class WaitingBody(Protocol):
     """A body in another process, which ends the session if it hears nothing for some time."""
 
     def rest(self) -> None:
         """Keep the session alive without a step; to be called ten times a second."""
+
+
+@runtime_checkable
+class PushedBody(Protocol):
+    """A body that its simulator lets others push, beside the flight's loop.
+
+    Attributes:
+        pushed: (6,) force [N, world axes] and moment about the centre of mass [N m, body axes] of these pushes over
+            the last step.
+    """
+
+    pushed: Array
 
 
 Make = Callable[[Mission, Vehicle, Any, Any], EngineBody]
@@ -71,11 +94,19 @@ def _gazebo_over_ros() -> Make:
 
 
 class Engine(NamedTuple):
-    """An entry of the registry; `load` imports the class of the body; None for the compiled engine."""
+    """An entry of the registry.
+
+    Attributes:
+        name: of the engine.
+        summary: of it.
+        load: imports the class of its body; None for the compiled engine.
+        pushable: whether the body may be pushed outside of the flight's loop, and is a `PushedBody`.
+    """
 
     name: str
     summary: str
     load: Callable[[], Make] | None = None
+    pushable: bool = False
 
     def start(self, mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> EngineBody:
         """The body of a mission at t = 0; `floor`: a `Floor`, `walls`: a `Walls` (laws.mechanics), or `Nothing`.
@@ -100,8 +131,14 @@ ENGINES = {
             "gazebo",
             "Separate bodies on fixed joints in Gazebo 11 (ODE), driven over UDP (docs/gazebo.md).",
             _gazebo,
+            pushable=True,
         ),
-        Engine("gazebo-ros", "The same, driven over topics of ROS 1 (docs/gazebo.md#over-ros).", _gazebo_over_ros),
+        Engine(
+            "gazebo-ros",
+            "The same, driven over topics of ROS 1 (docs/gazebo.md#over-ros).",
+            _gazebo_over_ros,
+            pushable=True,
+        ),
     ]
 }
 

@@ -65,6 +65,7 @@ class LoopWriter(StepWriter):
             "gust": lambda i: Place("%work", self.gust + i),
             "answer": lambda i: Place("%work", self.answer + i),
             "external": lambda i: Place("%work", self.external + i),
+            "outside": lambda i: Place("%work", self.outside + i),
             "moved": lambda i: Place("%work", self.moved + i),
             "solved": lambda i: Place("%work", self.solved + i),
         }
@@ -83,17 +84,32 @@ class LoopWriter(StepWriter):
             else:
                 f.read["moved"] = lambda i: f.value(self.traced.body_in_contact[i])  # computed where it is read
             return
-        touches = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
-        for value in f.values(self.traced.may_touch_walls):
-            touches = f.op(f"or i1 {touches}, {f.any(value)}")
-        near, clear, done = f.fresh("near"), f.fresh("clear"), f.fresh("done")
-        f.do(f"br i1 {touches}, label %{near}, label %{clear}")
-        for name, values in ((near, self.traced.body_in_contact), (clear, self.traced.body_in_free_air)):
+        x, near, feet, clear, done = self.traced, *[f.fresh(name) for name in ("near", "feet", "clear", "done")]
+        self._choose_body(f, near, feet, clear)
+        bodies = {near: x.body_in_contact, feet: x.body_on_feet, clear: x.body_in_free_air}
+        for name, values in bodies.items():
             f.lines.append(f"{name}:")
+            f.store(double(float(name == near)), "%work", self.near * self.lanes, "double")
             with f.scope():
-                self.store_values(f, self.moved, values)
+                self.store_values(f, self.moved, values if name == near else values[: self.moved_touches])
             f.do(f"br label %{done}")
         f.lines.append(f"{done}:")
+
+    def _choose_body(self, f: Function, near: str, feet: str, clear: str) -> None:
+        """Branch to the body near walls or with all its parts near the floor, on its feet, or in free air."""
+        low = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
+        walls, lower, tipped = "false", f.fresh("lower"), f.fresh("tipped")
+        for value in f.values(self.traced.may_touch_walls):
+            walls = f.op(f"or i1 {walls}, {f.any(value)}")
+        f.do(f"br i1 {walls}, label %{near}, label %{lower}")
+        f.lines.append(f"{lower}:")
+        f.do(f"br i1 {low}, label %{tipped}, label %{clear}")
+        f.lines.append(f"{tipped}:")
+        with f.scope():
+            hull = "false"
+            for value in f.values(self.traced.may_touch_hull):
+                hull = f.op(f"or i1 {hull}, {f.any(value)}")
+            f.do(f"br i1 {hull}, label %{near}, label %{feet}")
 
     # loops
 
@@ -238,6 +254,7 @@ class LoopWriter(StepWriter):
             if self.draws and self.lanes == 1:
                 self.call(f, "draw_noise", f"i64 {k}")
             f.store(double(float(self.templates.has_floor)), "%work", self.low * self.lanes, "double")
+            f.put("%work", self.moved + self.moved_touches, self.traced.touches_before)
             kept.store(f, [n for n in nodes if not f.is_uniform(n)])
         kept.bind(f)
         return kept

@@ -44,13 +44,22 @@ def _write_samples_of_lanes(step: StepWriter, f: Function, row: str, logged: str
 
 
 def write_next_state(step: StepWriter, f: Function, k: str) -> None:
-    """Write the state of the flight after step k, and exchange delayed values with the delay lines."""
-    detectors, state = leaf_offset(step.templates.model, "flight_state", "detectors"), step.traced.next_state
-    if step.graph.rolls_from:
-        f.put("%flight", 0, state, "fly")
-    else:
+    """Write the state of the flight after step k, and exchange delayed values with the delay lines.
+
+    The record of touches is written in steps near floor or walls only; in others it stays.
+    """
+    after, detectors = list(step.traced.next_state), leaf_offset(step.templates.model, "flight_state", "detectors")
+    if not step.graph.rolls_from:
         _write_detectors(step, f, detectors)
-        f.put("%flight", 0, state[: detectors.at], "fly")
+        after = after[: detectors.at]
+    if step.keeps_touches:
+        at, size = step.touches
+        touches, after[at : at + size] = after[at : at + size], step.traced.touches_before
+    f.put("%flight", 0, after, "fly")
+    if step.keeps_touches:
+        near = f.load("%work", step.near * step.lanes, "double")
+        with f.when(f.op(f"fcmp one double {near}, 0.0")):
+            f.put("%flight", at, touches)
     if step.templates.has_delays:
         _write_delays(step, f, k)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from tandemlift.algebra.layout import leaves
 from tandemlift.kernels.context import AT, MEMORY, POINTERS, ScratchLayout
 from tandemlift.kernels.external_inputs import HALVES, SPAN
-from tandemlift.kernels.offsets import delayed_spans
+from tandemlift.kernels.offsets import delayed_spans, leaf_offset
 from tandemlift.kernels.traced_step import Symbols, TracedStep
 from tandemlift.trace import Function, Module, Place
 
@@ -29,6 +29,8 @@ class StepWriter:
         self.width, self.draws = leaves(self.templates.given.hand.start), 0
         self.state_size = leaves(self.templates.model.flight_state)
         self.delayed = delayed_spans(self.templates.model)
+        self.touches = leaf_offset(self.templates.model, "flight_state", "touches")
+        self.moved_touches = leaf_offset(self.templates.moved, "touches").at
         g, roots = self.graph, [s.node for s in self.all_roots]
         self.has_gusts = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
         self._lay_out_scratch()
@@ -56,11 +58,12 @@ class StepWriter:
         self.asked, self.answer = take("asked", len(self.traced.asked)), take("answer", 4 + 3)
         self.acting = take("acting", len(self.traced.body.acting))
         self.external = take("external", leaves(x.given.external))
+        self.outside = take("outside", leaves(x.given.outside))
         self.push, self.moved = take("push", 6), take("moved", leaves(x.moved))
         needs = self.traced.limits
         self.solving = take("solving", len(needs.problem) + len(needs.search) if needs else 0)
         self.sample = take("sample", leaves(x.sample) if self.lanes > 1 else 0)
-        self.low = take("low", 1)
+        self.low, self.near = take("low", 1), take("near", 1)
 
     def function(self, name: str, more: str = "", result: str = "void") -> Function:
         """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""
@@ -105,9 +108,16 @@ class StepWriter:
         """Write values to scratch memory."""
         f.put("%work", at, values)
 
+    @property
+    def keeps_touches(self) -> bool:
+        """Whether the record of touches stays in its place except in steps near floor or walls."""
+        return bool(self.touches.size and self.traced.body_in_free_air)
+
     def body_roots(self) -> Symbols:
-        """The values of the body after the step, and what decides whether it can touch walls."""
-        return [*self.traced.body_in_contact, *self.traced.body_in_free_air, *self.traced.may_touch_walls]
+        """The values of the body after the step in all its forms, and what decides among them."""
+        x = self.traced
+        bodies = [*x.body_in_contact, *x.body_on_feet, *x.body_in_free_air]
+        return [*bodies, *x.may_touch_walls, *x.may_touch_hull]
 
     def limit_roots(self) -> Symbols:
         """The values that the limit solver needs; none where thrusts have no limits."""

@@ -11,7 +11,7 @@ from tandemlift.laws.mechanics.rigid_body import State, Wrench
 from tandemlift.laws.person.person import Person
 from tandemlift.laws.rotors.allocation import ConstrainedAllocation
 from tandemlift.laws.signals.trajectories import Trajectory
-from tandemlift.loop.step import FlightModel, StepInputs, actuate, advance, finish_sample, run_pilot, with_person
+from tandemlift.loop.step import FlightModel, StepInputs, actuate, finish_sample, run_pilot, step_body, with_person
 
 COMMAND = Command(Wrench(0.0, ZERO), ZERO)
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
@@ -89,8 +89,7 @@ def templates_from(model: FlightModel, given: StepInputs) -> Templates:
     given = with_person(model, given, 0.0, 0.001)
     output = run_pilot(model, given.hand.start, 0.0, 0.001)
     acting = actuate(model, output.decision.thrusts, given, 0.0)
-    air = acting.wind.loads
-    moved = advance(model.plant, before.state, before.grip, before.near, acting.thrusts, air, given.hand, 0.001)
+    moved = step_body(model.plant, before, acting, given.hand, 0.0, 0.001)
     _, sample = finish_sample(model, output, acting, moved, given, 0.0, 0.0)
     layouts = [zeroed(x) for x in (model, outer, output, acting, moved, sample)]
     return Templates._make([*layouts, before.near])

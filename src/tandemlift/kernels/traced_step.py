@@ -1,7 +1,8 @@
 """A traced step of a flight: each number that the step computes, as a symbol of the step's inputs.
 
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
-`solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step.
+`solved`, the limit solver's result; `external`, what the caller of a step adds; `moved`, the body after the step, and
+`outside`, the push that it was given outside of the loop.
 Inputs of values computed before the step: `push` and `gusts` (a row of a table), `wall`, `when`, `number`, `key`.
 """
 
@@ -15,15 +16,16 @@ from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import ZERO, layout, total
 from tandemlift.controllers import control
 from tandemlift.engines.compiled import first_motion
-from tandemlift.engines.compiled_contact import without_contact
+from tandemlift.engines.compiled_contact import on_feet_only, without_contact
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, SPAN, draw_count, is_active
 from tandemlift.kernels.templates import COMMAND, Templates
+from tandemlift.laws.contact.clearance import clearance, may_touch_wall
+from tandemlift.laws.contact.floor import may_touch
+from tandemlift.laws.contact.hull import hull_may_touch
+from tandemlift.laws.contact.wall_geometry import WALL
+from tandemlift.laws.contact.walls import nearest_with
 from tandemlift.laws.estimation.rotor_loss_detection import left_of, with_trials
-from tandemlift.laws.mechanics.clearance import clearance, may_touch_wall
-from tandemlift.laws.mechanics.contact import may_touch
 from tandemlift.laws.mechanics.push import push_at, push_moment
-from tandemlift.laws.mechanics.wall_geometry import WALL
-from tandemlift.laws.mechanics.walls import nearest_with
 from tandemlift.laws.mechanics.wind import gust_velocity
 from tandemlift.laws.rotors.allocation import AllocationState, limits_at, outside_limits, rotor_commands
 from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
@@ -142,6 +144,7 @@ class TracedStep:
             self.input_of("noise", templates.given.noise),
             self.model.flight_state.person,
             self.input_of("external", templates.given.external),
+            self.input_of("outside", templates.given.outside),
         )
         self.given = self.trace(with_person)(self.model, outer, self.t, self.dt)
         self.asked: Symbols = []
@@ -156,17 +159,22 @@ class TracedStep:
         output = self.trace(with_caller_thrusts)(output, self.given.external)
         acting = self.trace(actuate)(self.model, output.decision.thrusts, self.given, self.t)
         self.body = BodyInputs(self.numbers(acting), self._mean_push())
-        self.body_in_contact, self.body_in_free_air = (
-            self.numbers(self._stepped_body(self.model.plant, acting)),
-            list[Symbol](),
-        )
+        plant = self.model.plant
+        self.body_in_contact = self.numbers(self._stepped_body(plant, acting))
+        self.body_on_feet, self.body_in_free_air = list[Symbol](), list[Symbol]()
         if templates.has_floor or templates.has_walls:
-            self.body_in_free_air = self.numbers(self._stepped_body(without_contact(self.model.plant), acting))
+            self.body_on_feet = self.numbers(self._stepped_body(on_feet_only(plant), acting))
+            self.body_in_free_air = self.numbers(self._stepped_body(without_contact(plant), acting))
         self.may_touch_walls = [self._may_touch_walls(acting)] if templates.has_walls else []
         moved = self.input_of("moved", templates.moved)
         after, sample = self.trace(finish_sample)(self.model, output, acting, moved, self.given, self.t, self.dt)
         check_layout(self.model.pilot.controller, templates.model.flight_state, written_out(after))
         self.next_state, self.sample = self.numbers(after), self.numbers(sample)
+
+    @property
+    def touches_before(self) -> Symbols:
+        """The record of touches at the start of the step."""
+        return self.numbers(self.model.flight_state.touches)
 
     def input_of(self, kind: str, like: Any) -> Any:
         """A nested value whose numbers are inputs of a kind."""
@@ -193,7 +201,15 @@ class TracedStep:
         return output._replace(decision=decision, memory=memory)
 
     def _stepped_body(self, plant: Any, acting: Any) -> Any:
-        return self.trace(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.dt)
+        return self.trace(step_body)(plant, self.model.flight_state, acting, self.given.hand, self.t, self.dt)
+
+    @cached_property
+    def may_touch_hull(self) -> Symbols:
+        """Whether anything but feet may touch the floor in this step; none without a floor."""
+        floor, state = self.model.plant.floor, self.model.flight_state.state
+        if not self.templates.has_floor:
+            return []
+        return [self.trace(hull_may_touch)(floor.hull, floor.height, state, self.dt)]
 
     def _may_touch_walls(self, acting: Any) -> Symbol:
         """Whether anything may touch a wall in this step."""

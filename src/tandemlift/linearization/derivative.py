@@ -160,6 +160,11 @@ class Derivative:
         self.compute([node])
         self.rows[node] = row
 
+    def add_row(self, node: int, row: Any) -> None:
+        """Add to the derivative of a node, as if an input were added to its value."""
+        self.compute([node])
+        self.rows[node] = _sum(self.rows[node], row)
+
     def compute(self, nodes: Iterable[int]) -> None:
         """Compute nodes and all that they depend on."""
         g, values, rows, sides = self.graph, self.values, self.rows, self.sides.of

@@ -12,6 +12,7 @@ from tandemlift.algebra.layout import flat, unflat
 from tandemlift.algebra.vector import Nothing
 from tandemlift.common.errors import InputError, unknown
 from tandemlift.common.types import Array
+from tandemlift.interactive.simulation import Simulation
 from tandemlift.laws.mechanics.push import push_moment
 from tandemlift.linearization.delay_lines import delayed_numbers
 from tandemlift.linearization.kinks import kinks_near, law_name
@@ -23,7 +24,6 @@ from tandemlift.linearization.step_graph import step_graph
 from tandemlift.linearization.variables import Outputs, outputs_from, state_variable
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
-from tandemlift.simulation.simulation import Simulation
 
 PARTS = ("loop", "body")
 LOOP_OUTPUTS = (
@@ -55,7 +55,8 @@ def linearize(
         of: "loop" for pilot and body together; "body" for the body alone, whose inputs are the rotor thrusts.
         inputs: names of inputs: `push_force` [N, world axes, at the centre of mass], `push_moment` [N m, body axes],
             `disturbance_force` [N, world axes], `disturbance_moment` [N m, body axes], `wind_velocity` [m/s, world
-            axes] with wind, `rotor_thrusts` [N] of the body alone. By default all.
+            axes] with wind, `rotor_thrusts` [N] of the body alone. By default all. Only on request: `thrust_offsets`
+            [N] of the loop, what is added to the thrust of each rotor that is real.
         outputs: names of channels; by default those of the motion, the references, thrusts and joint loads.
         steps: steps of one period; by default the common period of all sensors, 1 without sensors.
         kink_tolerance: the largest distance of the point from a kink that is reported, in the unit of a state or input.

@@ -21,6 +21,7 @@ from tandemlift.simulation.plan import FlightPlan
 
 LOOP = ("push_force", "push_moment", "disturbance_force", "disturbance_moment", "wind_velocity")
 BODY = ("rotor_thrusts", *LOOP)
+ON_REQUEST = ("thrust_offsets",)  # inputs of the loop that are not taken by default
 UNITS = {"push_moment": "N m", "disturbance_moment": "N m", "wind_velocity": "m/s"}  # the others: N
 SPREAD, HAND = 3, 12  # of a `PointPush`: where Σ F rᵀ begins, and its numbers
 
@@ -45,21 +46,26 @@ def input_columns(p: FlightPlan, chosen: Sequence[str] | None, of: str, attitude
         InputError: there is no such input, or the mission has none.
     """
     known = BODY if of == "body" else LOOP
+    allowed = known if of == "body" else (*known, *ON_REQUEST)
     windless = isinstance(p.model.wind, Nothing)
     for name in chosen or ():
-        if name not in known:
-            raise unknown(f"input of the {of}", name, known)
+        if name not in allowed:
+            raise unknown(f"input of the {of}", name, allowed)
         if name == "wind_velocity" and windless:
             raise InputError('input wind_velocity: the mission has no wind; wind.model = "air" gives it one')
+        if name == "thrust_offsets" and p.mission.actuators.model != "rotors":
+            raise InputError(
+                'input thrust_offsets: actuators.model must be "rotors", whose thrusts are not the commands'
+            )
     names = [name for name in known if not (windless and name == "wind_velocity")] if chosen is None else chosen
     return [column for name in names for column in _columns(p, name, attitude)]
 
 
 def _columns(p: FlightPlan, name: str, attitude: Quat) -> list[InputColumn]:
     unit = UNITS.get(name, "N")
-    if name == "rotor_thrusts":
-        rotors = 4 * len(p.mission.vehicle.quadrotors)
-        return [InputColumn(Variable(f"{name}_rotor_{i + 1}", unit), (("thrust", i, 1.0),)) for i in range(rotors)]
+    if name in ("rotor_thrusts", *ON_REQUEST):
+        rotors, kind = 4 * len(p.mission.vehicle.quadrotors), "thrust" if name == "rotor_thrusts" else "offset"
+        return [InputColumn(Variable(f"{name}_rotor_{i + 1}", unit), ((kind, i, 1.0),)) for i in range(rotors)]
     return [
         InputColumn(Variable(f"{name}_{axis}", unit), tuple(_seeds(p, name, i, attitude)))
         for i, axis in enumerate("xyz")
@@ -115,8 +121,8 @@ def operating_values(
         kind, index, _ = column.seeds[0]
         if column.variable.name.startswith("push_moment"):
             found.append(axes[column.variable.name[-1]])
-        elif kind == "thrust":
-            found.append(float("nan"))
+        elif kind in ("thrust", "offset"):
+            found.append(float("nan") if kind == "thrust" else 0.0)
         else:
             found.append(flight[index] if kind == "fly" else given[kind][index])
     return found

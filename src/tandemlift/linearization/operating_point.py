@@ -9,11 +9,11 @@ import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
+from tandemlift.interactive.simulation import Simulation
 from tandemlift.laws.mechanics.push import SUPPORT
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.simulation import Simulation
 from tandemlift.simulation.stepping import Stepper
 
 

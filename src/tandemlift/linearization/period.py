@@ -99,15 +99,17 @@ def step_inputs(r: LinearizationPlan, numbers: Array, step: int) -> StepSeeds:
     rows: dict[str, list[Any]] = {"fly": [None] * len(numbers), "hand": [None] * len(given["hand"]), "gust": [None] * 3}
     for seed, index in zip(eye, kept, strict=False):
         rows["fly"][index] = seed
-    fixed = {}
+    fixed, added = {}, {}
     for seed, column in zip(eye[len(kept) :], r.inputs, strict=True):
         for kind, index, weight in column.seeds:
             if kind == "thrust":
                 fixed[r.graph.thrusts[index]] = seed
+            elif kind == "offset":
+                added[r.graph.thrusts[index]] = seed
             else:
                 before = rows[kind][index]
                 rows[kind][index] = seed * weight if before is None else before + seed * weight
-    return StepSeeds(numbers.tolist(), given, rows, fixed)
+    return StepSeeds(numbers.tolist(), given, rows, fixed, added)
 
 
 def differentiate(r: LinearizationPlan) -> PeriodDerivative:

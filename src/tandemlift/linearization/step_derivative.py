@@ -26,12 +26,14 @@ class StepSeeds(NamedTuple):
         given: values of the other inputs, by kind.
         rows: derivatives by the seeds, by kind; None for an input without.
         fixed: derivatives of nodes that are inputs of the model.
+        added: derivatives that are added to those of nodes, for inputs that add to them.
     """
 
     flight: Sequence[float]
     given: Mapping[str, Sequence[float]]
     rows: Mapping[str, Sequence[Any]]
     fixed: Mapping[int, Any]
+    added: Mapping[int, Any]
 
 
 class SolverMargin(NamedTuple):
@@ -78,6 +80,8 @@ class StepDerivative:
             self._limit_thrusts(traced.limits)
         for node, row in x.fixed.items():
             d.fix_row(node, row)
+        for node, row in x.added.items():
+            d.add_row(node, row)
         d.compute(graph.contact_tests)
         self.may_touch = any(d.values[n] for n in graph.contact_tests)
         in_air = traced.body_in_free_air and not self.may_touch

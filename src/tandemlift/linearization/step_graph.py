@@ -100,7 +100,7 @@ class StepGraph:
         if not self.traced.body_in_free_air:
             return []
         floor = [self.traced.may_touch_floor] if self.traced.templates.has_floor else []
-        return [s.node for s in [*floor, *self.traced.may_touch_walls]]
+        return [s.node for s in [*floor, *self.traced.may_touch_walls, *self.traced.may_touch_hull]]
 
     def reached(self, roots: Iterable[int], cut: Iterable[int] = (), *, every: bool = False) -> tuple[set[int], set]:
         """(Nodes, inputs) that roots depend on, by derivatives, or by anything if `every`; not beyond `cut`."""

@@ -16,8 +16,8 @@ from tandemlift.algebra.ops import absolute, clip, maximum, sqrt, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Vec3, dot, total
+from tandemlift.laws.compliance.admittance import soft
 from tandemlift.laws.estimation.rotor_loss_detection import left_of
-from tandemlift.laws.guidance.admittance import soft
 from tandemlift.laws.guidance.guidance import thrust_fraction
 from tandemlift.laws.mechanics.rotation import body_z_axis, wrap_angle
 from tandemlift.laws.rotors.allocation import ConstrainedAllocation, Mixer, limits_at
@@ -243,7 +243,7 @@ def detect(model: Any, output: Any, x: Sample, t: Any, dt: Any) -> Detectors:
         distance=exceed(m.distance, where(w.distance > k.distance, settled, 0.0), w.distance, place, t, dt),
         heading=exceed(m.heading, where(w.heading > k.heading, settled, 0.0), w.heading, place, t, dt),
         tilt=exceed(m.tilt, where(w.upright < k.upright, settled, 0.0), 1.0 - w.upright, place, t, dt),
-        saturation=exceed(m.saturation, where(w.limited > 0.0, settled, 0.0), w.limited, place, t, dt),
-        reach=exceed(m.reach, where(w.needed > k.thrust, settled, 0.0), w.needed, place, t, dt),
+        saturation=exceed(m.saturation, where(w.limited > 0.0, flying, 0.0), w.limited, place, t, dt),
+        reach=exceed(m.reach, where(w.needed > k.thrust, flying, 0.0), w.needed, place, t, dt),
         push=push_step(k.push, m.push, w.push, x, settled, t, dt),
     )

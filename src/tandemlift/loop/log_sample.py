@@ -13,16 +13,17 @@ from tandemlift.algebra.ops import clip, greatest, minimum, where
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
 from tandemlift.engines.compiled_contact import DistantFloor
+from tandemlift.laws.contact.clearance import clearance
+from tandemlift.laws.contact.floor import Floor
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
 from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
 from tandemlift.laws.guidance.guidance import thrust_fraction
 from tandemlift.laws.guidance.hand_guidance import HandGuidanceChannels
-from tandemlift.laws.mechanics.clearance import clearance
-from tandemlift.laws.mechanics.contact import Floor
 from tandemlift.laws.mechanics.loads import PartLoads, PerfectReadings, sum_over_set
-from tandemlift.laws.mechanics.push import PushSamples, push_moment
+from tandemlift.laws.mechanics.push import push_moment
 from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.mechanics.rotation import euler_from_quaternion, wrap_angle
+from tandemlift.laws.person.outside_push import held_by_anyone, total_force, total_moment
 from tandemlift.laws.person.person import PersonState
 from tandemlift.laws.person.virtual_hand import VirtualHandState
 from tandemlift.laws.rotors.allocation import achieved_fraction, wrench
@@ -194,11 +195,11 @@ def _contact(floor: Any, readings: PerfectReadings) -> ContactChannels:
 
 
 @law
-def log_sample(model: Any, output: Any, acting: Any, moved: Any, hand: PushSamples) -> Sample:
+def log_sample(model: Any, output: Any, acting: Any, moved: Any, inputs: Any) -> Sample:
     """The channels of a step, at its start."""
     state, readings, decision = model.flight_state.state, moved.readings, output.decision
     guidance, command = decision.guidance, decision.command
-    target = guidance.reference.trajectory
+    target, push = guidance.reference.trajectory, inputs.hand.start
     return Sample(
         position=state.position,
         velocity=state.velocity,
@@ -213,8 +214,8 @@ def log_sample(model: Any, output: Any, acting: Any, moved: Any, hand: PushSampl
         admittance_velocity=guidance.admittance.velocity,
         admittance_acceleration=guidance.admittance.acceleration,
         admittance_force=guidance.force,
-        push_force=hand.start.force,
-        push_moment=push_moment(hand.start, state.attitude),
+        push_force=total_force(inputs.outside, push.force),
+        push_moment=total_moment(inputs.outside, push_moment(push, state.attitude)),
         thrust=command.wrench.thrust,
         moment=command.wrench.moment,
         rotor_thrusts=acting.thrusts,
@@ -232,14 +233,15 @@ def log_sample(model: Any, output: Any, acting: Any, moved: Any, hand: PushSampl
 
 
 @choice(absent="person")
-def effort(person: Any, x: Sample) -> Any:
-    """The effort of the person who guides the vehicle, over a step."""
+def effort(person: Any, x: Sample, outside: Any) -> Any:
+    """The effort over a step of the person who guides the vehicle; `outside`: their push outside of the loop."""
 
 
 @effort.register(PersonState)
 @effort.register(VirtualHandState)
-def _effort(person: Any, x: Sample) -> PersonEffort:
-    return effort_of(where(person.grasp.value > 0.5, 1.0, 0.0), x.push_force, x.velocity)
+def _effort(person: Any, x: Sample, outside: Any) -> PersonEffort:
+    held = held_by_anyone(outside, where(person.grasp.value > 0.5, 1.0, 0.0))
+    return effort_of(held, x.push_force, x.velocity)
 
 
 @choice(absent=0.0)
@@ -253,8 +255,8 @@ def _push_active(channels: HandGuidanceChannels) -> Number:
 
 
 @law
-def errors_of(model: Any, output: Any, x: Sample) -> StepErrors:
-    """The contribution of a step to the running metrics."""
+def errors_of(model: Any, output: Any, x: Sample, outside: Any) -> StepErrors:
+    """The contribution of a step to the running metrics; `outside`: of its `StepInputs`."""
     decision = output.decision
     return StepErrors(
         position=x.reference_position - x.position,
@@ -267,7 +269,7 @@ def errors_of(model: Any, output: Any, x: Sample) -> StepErrors:
         power=dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
         saturated=saturated(model.rotors, decision.thrusts) * thrust_fraction(decision.guidance.running),
         clearance=clearance(model.plant.walls, model.flight_state.near, model.plant.frame, model.flight_state.state),
-        effort=effort(model.flight_state.person, x),
+        effort=effort(model.flight_state.person, x, outside),
         push_active=push_active(decision.guidance.channels),
         height=x.position.z,
     )

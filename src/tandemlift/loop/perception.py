@@ -9,11 +9,10 @@ from tandemlift.algebra.vector import Nothing, Quat, Vec3, apply_transposed, cro
 from tandemlift.common.phases import LAND
 from tandemlift.laws.estimation.contact_detection import (
     Around,
-    ContactDetector,
-    PushReading,
     contact_step,
     explained_push,
 )
+from tandemlift.laws.estimation.contact_evidence import ContactDetector, PushReading
 from tandemlift.laws.estimation.navigation import Navigator, navigate
 from tandemlift.laws.estimation.push_estimate import PushEstimate, PushEstimator, estimate
 from tandemlift.laws.guidance.contact_hold import contact_of
@@ -22,7 +21,6 @@ from tandemlift.laws.mechanics.push import push_moment
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.laws.sensors.readings import Readings, Sensors, sense
-
 
 NOTHING_AROUND = Around(Nothing(), 0.0, 0.0, 0.0)
 

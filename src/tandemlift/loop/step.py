@@ -15,6 +15,8 @@ from tandemlift.algebra.ops import where
 from tandemlift.algebra.vector import Nothing, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
+from tandemlift.engines.compiled_touches import touches_in
+from tandemlift.laws.contact.touches import of_turning_rotors
 from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
@@ -47,6 +49,7 @@ class FlightState(NamedTuple):
     wind: Any
     grip: Any
     near: Any
+    touches: Any
     sensing: Any
     estimator: Any
     rotors: Any
@@ -90,7 +93,8 @@ class StepNoise(NamedTuple):
 class StepInputs(NamedTuple):
     """The inputs of a step: the push, gusts [m/s], standard normals, and the person's memory once they have pushed.
 
-    `external` is what a caller adds who steps the flight, else `Nothing`.
+    `external` is what a caller adds who steps the flight, else `Nothing`. `outside` is the push that the body's own
+    simulator applied; it is known once the body has moved, and is `Nothing` where there is no such push.
     """
 
     hand: PushSamples
@@ -98,6 +102,7 @@ class StepInputs(NamedTuple):
     noise: Any
     person: Any
     external: Any = Nothing()
+    outside: Any = Nothing()
 
 
 class PilotOutput(NamedTuple):
@@ -169,6 +174,7 @@ def actuate(model: FlightModel, thrusts: Any, inputs: StepInputs, t: Any) -> Act
     before = model.flight_state
     commanded = unless_crashed(before.crash, thrusts)
     driven, rotors = rotors_step(model.rotors, before.rotors, commanded, before.state, t)
+    driven = of_turning_rotors(before.touches, driven)
     wind = wind_loads(model.wind, before.wind, model.plant.frame, before.state, inputs.gust, inputs.noise.wind)
     return Actuation(driven, rotors, wind)
 
@@ -183,22 +189,24 @@ def finish_sample(
     """
     before, noise = model.flight_state, inputs.noise.sensors
     readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
-    sample = log_sample(model, output, acting, moved, inputs.hand)
+    sample = log_sample(model, output, acting, moved, inputs)
     impulse = impulse_after(model.limits.strike, before.impulse, moved.readings.contact_force, dt)
     number = ending_number(model.limits, moved.state, impulse)
     crash, ended = with_aftermath(model.limits.aftermath, before.crash, number, moved.state, impulse, t, dt)
+    metrics = count(before.metrics, errors_of(model, output, sample, inputs.outside))
     after = FlightState(
         state=moved.state,
         memory=output.memory,
         wind=acting.wind.memory,
         grip=moved.grip,
         near=before.near,
+        touches=moved.touches,
         sensing=sensing,
         estimator=output.estimator,
         rotors=acting.rotors,
         readings=readings,
         person=inputs.person,
-        metrics=until_crash(before.crash, before.metrics, count(before.metrics, errors_of(model, output, sample))),
+        metrics=until_crash(before.crash, before.metrics, metrics),
         impulse=impulse,
         crash=crash,
         ended=where(before.ended > 0.0, before.ended, ended),
@@ -208,10 +216,13 @@ def finish_sample(
 
 
 @law
-def step_body(plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, dt: Any) -> BodyStep:
+def step_body(
+    plant: CompiledPlant, before: FlightState, acting: Actuation, hand: PushSamples, t: Any, dt: Any
+) -> BodyStep:
     """The body's part of a step."""
     loads = acting.wind.loads
-    return advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
+    moved = advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
+    return moved._replace(touches=touches_in(before.touches, plant, before.near, before.state, t, dt))
 
 
 @law
@@ -219,7 +230,7 @@ def finish_step(model: FlightModel, output: PilotOutput, inputs: StepInputs, t: 
     """The rest of a step once the pilot has decided: (`FlightState` after it, `Sample` at its start)."""
     output = with_caller_thrusts(output, inputs.external)
     acting = actuate(model, output.decision.thrusts, inputs, t)
-    moved = step_body(model.plant, model.flight_state, acting, inputs.hand, dt)
+    moved = step_body(model.plant, model.flight_state, acting, inputs.hand, t, dt)
     return finish_sample(model, output, acting, moved, inputs, t, dt)
 
 

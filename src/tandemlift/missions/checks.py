@@ -10,6 +10,8 @@ import numpy as np
 
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.sensors import ADDITIONAL
+from tandemlift.missions.flight_checks.schedule import check_heights
+from tandemlift.missions.flight_checks.table import flight_warnings
 from tandemlift.missions.hardware_checks import check_hardware, hardware_warnings
 from tandemlift.missions.person_checks import check_person, person_warnings
 from tandemlift.missions.supervision_checks import check_supervision
@@ -39,6 +41,7 @@ def check_flyable(m: Mission) -> None:
     check_supervision(m)
     check_person(m)
     _check_outcomes(m)
+    check_heights(m)
 
 
 def sample_size(m: Mission) -> int:
@@ -117,6 +120,9 @@ def _check_outcomes(m: Mission) -> None:
     if promise.rms_promised(m.pilot.guidance) > promise.distance:
         given = f"promise.rms_distance = {promise.rms_distance}"
         raise InputError(f"{given}: must not be above promise.distance = {promise.distance}, the largest distance")
+    if promise.tilt >= m.crash.tilt:
+        given = f"promise.tilt = {promise.tilt}"
+        raise InputError(f"{given}: must be below crash.tilt = {m.crash.tilt}, where the flight ends")
     if f.reach_distance <= promise.distance:
         given = f"findings.reach_distance = {f.reach_distance}"
         raise InputError(f"{given}: must be above promise.distance = {promise.distance}, which is no finding yet")
@@ -156,13 +162,13 @@ def _phase_warnings(m: Mission) -> Iterator[str]:
         yield f"phases.land_start = {p.land_start} is before the lift ends at {lifted:g} s: it is cut short"
 
 
+def setting_warnings(m: Mission) -> Iterator[str]:
+    """What may fly badly by settings that do not fit each other."""
+    yield from (*_phase_warnings(m), *_promise_warnings(m), *hardware_warnings(m))
+    yield from (*surroundings_warnings(m), *person_warnings(m))
+
+
 def warn(m: Mission, source: str) -> None:
     """Warn of what may fly badly, with the numbers."""
-    for message in (
-        *_phase_warnings(m),
-        *_promise_warnings(m),
-        *hardware_warnings(m),
-        *surroundings_warnings(m),
-        *person_warnings(m),
-    ):
+    for message in (*setting_warnings(m), *flight_warnings(m)):
         warnings.warn(f"{source}: {message}", FlightWarning, stacklevel=5)

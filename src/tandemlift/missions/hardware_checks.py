@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.common.errors import InputError, suggestion
 from tandemlift.common.sensors import ADDITIONAL
+from tandemlift.missions.flight_checks.weight import lift_of, weight_of
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
@@ -33,18 +34,6 @@ def check_hardware(m: Mission) -> None:
     _check_windage(m)
     _check_observer(m)
     _check_detection(m)
-
-
-def weight_of(m: Mission) -> float:
-    """What the vehicle really weighs [N]."""
-    return Vehicle.from_settings(m.vehicle).weight * m.plant.mass_scale
-
-
-def lift_of(m: Mission, *, faulty: bool = False) -> float:
-    """What all rotors together lift at most [N]; if `faulty`, once all faults are there."""
-    fleet = m.vehicle.quadrotors
-    lost = sum(fleet[f.quadrotor - 1].max_thrust * (1.0 - f.efficiency) for f in m.faults) if faulty else 0.0
-    return Vehicle.from_settings(m.vehicle).max_thrust - lost
 
 
 def _check_faults(m: Mission) -> None:

@@ -40,7 +40,9 @@ def _check_contact(m: Mission) -> None:
     if m.pilot.guidance != "hand":
         raise InputError('contact.model = "watch": must be "none" where pilot.guidance is "clock"')
     if m.sensors.model == "none" or m.pilot.push == "truth":
-        raise InputError('contact.model = "watch": must be "none" where the pilot reads no joints (pilot.push = "truth")')
+        raise InputError(
+            'contact.model = "watch": must be "none" where the pilot reads no joints (pilot.push = "truth")'
+        )
 
 
 def _check_limits(m: Mission) -> None:

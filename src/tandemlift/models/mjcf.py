@@ -18,7 +18,9 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler
 from tandemlift.models.links import Link, links_of
-from tandemlift.models.mujoco_bodies import mujoco, set_contact_stiffness, specification
+from tandemlift.models.mujoco_bodies import specification
+from tandemlift.models.mujoco_contact import set_contact_stiffness
+from tandemlift.models.mujoco_import import mujoco
 from tandemlift.models.surroundings import floor_from, walls_from
 from tandemlift.models.visuals import VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.light import SUN

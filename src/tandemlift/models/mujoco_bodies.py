@@ -4,11 +4,6 @@ The payload's body frame has its origin at the system's centre of mass, and its 
 MuJoCo's free joint then equals ours: position [m] and velocity [m/s] of the centre of mass in world axes, a quaternion
 w, x, y, z, and rates [rad/s] in body axes. Applied forces are in world axes [N], applied moments in body axes about
 the centre of mass [N·m].
-
-With a small impedance d, MuJoCo's contact constraint (Computation: Parameters) is a spring and damper:
-f = (−b v − k r − a)/R with R = (1 − d)/d Â. Its inertia 1/R is a ten-thousandth of the vehicle's effective inertia at
-the contact, so a foot of stiffness K sinks by exactly f/K. Friction is MuJoCo's own: a sticking foot creeps by
-micrometres per second.
 """
 
 from __future__ import annotations
@@ -21,34 +16,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.algebra.constants import GRAVITY
-from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.contact import Floor
-from tandemlift.laws.mechanics.walls import Beam, Walls
-from tandemlift.settings import Mission, Quadrotor, WallTable
+from tandemlift.laws.contact.floor import Floor
+from tandemlift.laws.contact.walls import Walls
+from tandemlift.models.mujoco_contact import add_floor, add_vehicle_shapes, add_walls, set_contact_stiffness
+from tandemlift.models.mujoco_import import mujoco
+from tandemlift.settings import Mission, Quadrotor
 from tandemlift.vehicle import Vehicle
-
-try:
-    import mujoco
-except ModuleNotFoundError as error:
-    if error.name != "mujoco":
-        raise
-    raise InputError("engine 'mujoco' needs the package mujoco: pip install 'tandemlift[mujoco]'") from None
-if int(mujoco.__version__.split(".")[0]) < 4:
-    raise InputError(
-        f"engine 'mujoco' needs mujoco 4.0 or newer, whose Runge-Kutta step is of order four for attitudes too; "
-        f"{mujoco.__version__} is installed: pip install --upgrade 'tandemlift[mujoco]'"
-    )
 
 Weight = tuple[float, ArrayLike]  # kg; kg m², principal moments
 
-SOFT = 1e-4  # impedance d of contacts, MuJoCo's smallest: almost a pure spring and damper
 FRICTION_IMPEDANCE = 1e7  # MuJoCo's impratio: the inertia of friction is a thousand times the vehicle's
-STICKING = 0.2  # fraction of a foot's sliding speed that friction below its limit removes in one step
-POINT = 1e-4  # m, radius of the sphere that represents a foot's ball joint
-THIN = 1e-4  # m, thickness of a wall
 NET_FORCE = 3  # MuJoCo's contact sensor: all contacts reduced to one wrench, in world axes
-DEEP = 1e3  # m, height of the walls, which reach below any floor
 
 
 def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
@@ -61,8 +40,8 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     Args:
         mission: gives step, `plant` and walls.
         vehicle: the nominal vehicle.
-        floor: a `laws.mechanics.contact.Floor`, or `Nothing`.
-        walls: a `laws.mechanics.walls.Walls`, or `Nothing` for a mission without walls.
+        floor: a `laws.contact.floor.Floor`, or `Nothing`.
+        walls: a `laws.contact.walls.Walls`, or `Nothing` for a mission without walls.
 
     Raises:
         TypeError: the mission has walls, but `walls` is not a `Walls`.
@@ -85,16 +64,17 @@ def specification(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) ->
     """
     spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
     if mission.all_walls and not walled:
-        raise TypeError("a mission with walls needs a laws.mechanics.walls.Walls with their contact parameters")
+        raise TypeError("a mission with walls needs a laws.contact.walls.Walls with their contact parameters")
     _set_options(spec, mission.mission.step, touching=standing or walled)
     _add_payload(spec, vehicle)
     for i, (quadrotor, center) in enumerate(zip(vehicle.quadrotors, vehicle.lever_arms, strict=True), 1):
         _add_quadrotor(spec, f"quadrotor{i}", quadrotor, center)
     _add_sensors(spec, vehicle.count, touching=standing or walled)
+    shapes = add_vehicle_shapes(spec, floor, walls, vehicle)
     if standing:
-        _add_floor(spec, floor, vehicle)
+        add_floor(spec, floor, shapes)
     if walled:
-        _add_walls(spec, walls, mission.all_walls, vehicle)
+        add_walls(spec, walls, mission.all_walls, shapes)
     return spec
 
 
@@ -176,69 +156,3 @@ def _add_sensors(spec: Any, count: int, *, touching: bool) -> None:
             refname="payload",
             intprm=[1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), NET_FORCE, 1],
         )
-
-
-def _add_shape(body: Any, name: str, kind: Any, **attributes: Any) -> None:
-    """Add a massless shape that collides only with the shapes that it is paired with."""
-    body.add_geom(name=name, type=kind, mass=0.0, contype=0, conaffinity=0, **attributes)
-
-
-def _add_contact_pair(spec: Any, one: str, other: str, friction: float) -> None:
-    """Let two shapes collide, with friction unless its coefficient is zero."""
-    flat = [friction, friction, 1.0, 1.0, 1.0]
-    spec.add_pair(
-        name=f"{one} {other}",
-        geomname1=one,
-        geomname2=other,
-        condim=3 if friction else 1,
-        friction=flat,
-        solimp=[SOFT, SOFT, 1.0, 0.5, 1.0],
-    )
-
-
-def _add_floor(spec: Any, floor: Floor, vehicle: Vehicle) -> None:
-    """Add the floor, and a small sphere at the ball joint of every foot; the pads' radius is left out of both."""
-    shape, height = mujoco.mjtGeom, floor.height + floor.radius - POINT
-    _add_shape(spec.worldbody, "floor", shape.mjGEOM_PLANE, size=[0.0, 0.0, 1.0], pos=[0.0, 0.0, height])
-    centers = np.array(floor.feet).transpose(2, 0, 1)  # (N, 4, 3)
-    for i, (feet, center) in enumerate(zip(centers, vehicle.lever_arms, strict=True), 1):
-        for j, place in enumerate(feet - center, 1):
-            foot = f"quadrotor{i} foot{j}"
-            _add_shape(spec.body(f"quadrotor{i}"), foot, shape.mjGEOM_SPHERE, size=[POINT, 0.0, 0.0], pos=place)
-            _add_contact_pair(spec, "floor", foot, floor.friction)
-
-
-def _add_walls(spec: Any, walls: Walls, upright: Sequence[WallTable], vehicle: Vehicle) -> None:
-    """Add walls as thin boxes, a sphere around each quadrotor, and a capsule along the payload."""
-    shape, touching = mujoco.mjtGeom, []
-    for i, radius in enumerate(walls.guards, 1):
-        touching.append(f"quadrotor{i} guard")
-        _add_shape(spec.body(f"quadrotor{i}"), touching[-1], shape.mjGEOM_SPHERE, size=[radius, 0.0, 0.0])
-    if isinstance(walls.beam, Beam):
-        touching.append("beam")
-        ends = np.array([[0.0, end, 0.0] for end in walls.beam.ends]) - vehicle.center_of_mass
-        size = [walls.beam.radius, 0.0, 0.0]
-        _add_shape(spec.body("payload"), "beam", shape.mjGEOM_CAPSULE, size=size, fromto=ends.ravel())
-    for k, wall in enumerate(upright, 1):
-        (x1, y1), (x2, y2), along = wall.start, wall.end, np.subtract(wall.end, wall.start)
-        turn = np.arctan2(along[1], along[0]) / 2.0
-        box: dict[str, Any] = {
-            "pos": [(x1 + x2) / 2.0, (y1 + y2) / 2.0, wall.top - DEEP / 2.0],
-            "size": [np.hypot(*along) / 2.0, THIN / 2.0, DEEP / 2.0],
-            "quat": [np.cos(turn), 0.0, 0.0, np.sin(turn)],
-        }
-        _add_shape(spec.worldbody, f"wall{k}", shape.mjGEOM_BOX, **box)
-        for part in touching:
-            _add_contact_pair(spec, f"wall{k}", part, walls.friction)
-
-
-def set_contact_stiffness(model: Any, floor: Any, walls: Any) -> None:
-    """Set stiffness [N/m] and damping [N·s/m] of every contact pair, from the contact parameters of floor and walls."""
-    ground = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, "floor")
-    for p in range(model.npair):
-        shapes = int(model.pair_geom1[p]), int(model.pair_geom2[p])
-        side = floor if ground in shapes else walls
-        part = max(shapes, key=lambda shape: model.geom_bodyid[shape])  # the other is fixed to the world
-        R_d = (1.0 - SOFT) * model.body_invweight0[model.geom_bodyid[part], 0]
-        model.pair_solref[p] = -np.array([side.stiffness, side.damping]) * R_d
-        model.pair_solreffriction[p] = [-1.0, -STICKING / model.opt.timestep * SOFT]

@@ -4,15 +4,13 @@ The model `tandemlift` has its frame at the centre of mass of the system and its
 links, `payload` and `quadrotor_1` …, each at its part's centre of mass. `joint_1` … are fixed joints from the payload
 (parent) to the quadrotors (child), at the quadrotors' joint positions.
 
-Contacts are those of the contact laws: feet with the floor, guards and beam with walls. The vehicle has the stiffness
-and damping of the laws; floor and walls are hard (`HARD`), and Gazebo combines the two in series. Friction is Gazebo's
-own, with the same coefficient.
+Contacts are those of the contact laws (`sdf_collisions`). The vehicle has the stiffness and damping of the laws; floor
+and walls are hard, and Gazebo combines the two in series. Friction is Gazebo's own, with the same coefficient.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -21,13 +19,21 @@ from numpy.typing import ArrayLike
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.contact import Floor
+from tandemlift.laws.contact.floor import Floor
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
-from tandemlift.laws.mechanics.walls import Beam, Walls
 from tandemlift.models.links import Link, links_of
+from tandemlift.models.sdf_collisions import (
+    FASTEST,
+    FLOOR_BIT,
+    WALL_BIT,
+    CollisionSurface,
+    VehicleCollisions,
+    add_collision,
+    add_surface,
+)
 from tandemlift.models.sdf_elements import Element, add, fill, geometry, numbers, pose, rgba
-from tandemlift.models.surroundings import feet_and_floor_from, floor_from, wall_contact_from
-from tandemlift.models.visuals import ALONG_Y, LEVEL, VisualShape, payload_shapes, quadrotor_shapes
+from tandemlift.models.surroundings import floor_from
+from tandemlift.models.visuals import LEVEL, VisualShape, payload_shapes, quadrotor_shapes
 from tandemlift.rendering.camera import CAMERAS
 from tandemlift.rendering.light import SUN
 from tandemlift.rendering.stage import GLASS, WALL
@@ -36,11 +42,7 @@ from tandemlift.vehicle import Vehicle
 
 MODEL = "tandemlift"
 PLUGIN, OVER_ROS = "libtandemlift_gazebo.so", "libtandemlift_gazebo_ros.so"
-FLOOR_BIT, WALL_BIT = 1, 2  # of collide_bitmask: shapes without a common bit do not touch
-HARD = 1e15  # N/m, of floor and walls: large compared with the vehicle's stiffness
-CREEP = 1e-7  # (m/s)/N, slip of friction: without it ODE's exact solver fails on redundant feet
 CORRECTED = 0.8  # fraction of a joint's error that is corrected in a step
-FASTEST = 100.0  # m/s, limit of contact correction; Gazebo's default of 0.01 m/s would limit the springs
 THIN, SHOWN = 1e-4, 0.02  # m, thickness of a wall's collision shape and of its visual
 MESH, BROAD, RAISED = 1.0, 0.015, 5e-4  # m, spacing, width and height of the lines on the floor
 BURIED = 0.1  # m, depth of the walls below the floor
@@ -117,20 +119,6 @@ def _set_color(visual: Element, color: str) -> None:
     fill(visual, {"material": {"ambient": rgba(color), "diffuse": rgba(color), "specular": rgba("#1a1a1a")}})
 
 
-def _add_collision(link: Element, shape: VisualShape, surface: dict[str, Any]) -> None:
-    collision = add(link, "collision", name=shape.name)
-    pose(collision, shape.position, shape.axes)
-    geometry(collision, shape.kind, shape.size)
-    fill(collision, {"surface": surface})
-
-
-def _surface(bit: int, friction: float, stiffness: float = HARD, damping: float = 0.0) -> dict[str, Any]:
-    """The surface of a shape with stiffness [N/m] and damping [N·s/m], for contacts of one bit."""
-    spring = {"kp": stiffness, "kd": damping, "max_vel": FASTEST, "min_depth": 0.0}
-    slip = {"mu": friction, "mu2": friction, "slip1": CREEP, "slip2": CREEP}
-    return {"contact": {"collide_bitmask": bit, "ode": spring}, "friction": {"ode": slip}}
-
-
 def _add_static_link(top: Element, name: str, position: ArrayLike) -> Element:
     """Add a static model; its link."""
     model = add(top, "model", name=name)
@@ -150,7 +138,7 @@ def _add_floor(top: Element, floor: Floor, mission: Mission) -> None:
         part = add(link, kind, name="floor")
         fill(part, {"geometry": {"plane": {"normal": [0.0, 0.0, 1.0], "size": high - low}}})
         if kind == "collision":
-            fill(part, {"surface": _surface(FLOOR_BIT, floor.friction)})
+            add_surface(part, CollisionSurface(FLOOR_BIT, floor.friction))
         else:
             _set_color(part, GROUND)
     for line in _grid_lines(high - low):
@@ -168,10 +156,10 @@ def _grid_lines(size: Array) -> Iterator[VisualShape]:
 
 def _add_walls(top: Element, mission: Mission, floor: Floor) -> None:
     """Add each wall: a thin box for contact and a thicker one as visual."""
-    link, surface = _add_static_link(top, "walls", np.zeros(3)), _surface(WALL_BIT, mission.ground.friction)
+    link, surface = _add_static_link(top, "walls", np.zeros(3)), CollisionSurface(WALL_BIT, mission.ground.friction)
     for k, wall in enumerate(mission.all_walls, 1):
         shape = _wall(f"wall_{k}", wall, floor.height)
-        _add_collision(link, shape, surface)
+        add_collision(link, shape, surface)
         _add_visual(link, shape._replace(size=(shape.size[0], SHOWN, shape.size[2])))
 
 
@@ -193,13 +181,11 @@ def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int |
     pose(model, mission.initial.position, R)
     fill(model, {"allow_auto_disable": "false", "self_collide": "false"})
     payload, *quadrotors = links_of(mission, vehicle)
-    pads, pressing = feet_and_floor_from(mission, vehicle), wall_contact_from(mission, vehicle)
-    fleet, depth = vehicle.quadrotors, vehicle.payload.radius or 0.0
-    _add_link(model, payload, payload_shapes(vehicle.payload, tuple(fleet)), _beam(pressing), pressing, WALL_BIT)
+    collisions, fleet, depth = VehicleCollisions(mission, vehicle), vehicle.quadrotors, vehicle.payload.radius or 0.0
+    element = _add_link(model, payload, payload_shapes(vehicle.payload, tuple(fleet)))
+    collisions.add_to_payload(element, payload)
     for i, (link, q) in enumerate(zip(quadrotors, fleet, strict=True)):
-        element = _add_link(model, link, quadrotor_shapes(q, depth), [_guard(pressing, i)], pressing, WALL_BIT)
-        for foot in _feet(pads, i, link):
-            _add_collision(element, foot, _surface(FLOOR_BIT, pads.friction, pads.stiffness, pads.damping))
+        collisions.add_to_quadrotor(_add_link(model, link, quadrotor_shapes(q, depth)), link, i)
     for i, q in enumerate(fleet, 1):
         joint = add(model, "joint", name=f"joint_{i}", type="fixed")
         pose(joint, np.subtract(q.joint_position, q.position))
@@ -210,15 +196,8 @@ def _add_vehicle(top: Element, mission: Mission, vehicle: Vehicle, plugin: int |
         fill(add(model, "plugin", name="tandemlift", filename=PLUGIN), {"port": plugin})
 
 
-def _add_link(
-    model: Element,
-    link: Link,
-    visuals: Iterable[VisualShape],
-    collisions: Iterable[VisualShape],
-    contact: Any,
-    bit: int,
-) -> Element:
-    """Add a body with inertia, visuals, and collision shapes with the contact parameters `contact`."""
+def _add_link(model: Element, link: Link, visuals: Iterable[VisualShape]) -> Element:
+    """Add a body with inertia and visuals."""
     element = add(model, "link", name=link.name)
     pose(element, link.position)
     inertial, J = add(element, "inertial"), link.inertia
@@ -226,33 +205,9 @@ def _add_link(
     pose(inertial, link.center)
     parts = {f"i{a}{b}": J["xyz".index(a), "xyz".index(b)] for a, b in ("xx", "xy", "xz", "yy", "yz", "zz")}
     fill(inertial, {"inertia": parts})
-    for shape in collisions:
-        _add_collision(element, shape, _surface(bit, contact.friction, contact.stiffness, contact.damping))
     for shape in visuals:
         _add_visual(element, shape)
     return element
-
-
-def _guard(walls: Walls, i: int) -> VisualShape:
-    return VisualShape("guard", "sphere", (walls.guards[i],), np.zeros(3))
-
-
-def _beam(walls: Walls) -> list[VisualShape]:
-    """The capsule of a beam along y: a cylinder and a sphere at each end; none without a beam."""
-    if not isinstance(walls.beam, Beam):
-        return []
-    ends, radius = sorted(walls.beam.ends), walls.beam.radius
-    middle = VisualShape("beam", "cylinder", (radius, ends[1] - ends[0]), np.zeros(3), ALONG_Y)
-    spheres = [
-        VisualShape(f"beam_end_{k}", "sphere", (radius,), np.array([0.0, y, 0.0])) for k, y in enumerate(ends, 1)
-    ]
-    return [middle, *spheres]
-
-
-def _feet(floor: Floor, i: int, link: Link) -> list[VisualShape]:
-    """The balls of a quadrotor's four feet."""
-    places = [np.array([foot.x[i], foot.y[i], foot.z[i]]) - link.position for foot in floor.feet]
-    return [VisualShape(f"foot_{j}", "sphere", (floor.radius,), place) for j, place in enumerate(places, 1)]
 
 
 def rotors_of(vehicle: Vehicle) -> Array:

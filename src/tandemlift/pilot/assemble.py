@@ -10,7 +10,7 @@ from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.common.caching import kept
 from tandemlift.controllers import controller
-from tandemlift.laws.guidance.admittance import Admittance, AdmittanceState, HardGate, SoftGate
+from tandemlift.laws.compliance.admittance import Admittance, AdmittanceState, HardGate, SoftGate
 from tandemlift.laws.guidance.guidance import AlwaysRunning, RunningInFlight
 from tandemlift.laws.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.laws.mechanics.rigid_body import Wrench

@@ -8,14 +8,14 @@ from tandemlift.algebra.ops import minimum, tan
 from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, vec3
 from tandemlift.common.phases import IDLE
-from tandemlift.laws.guidance.admittance import Admittance
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
+from tandemlift.laws.compliance.above_ground import GroundClearance
+from tandemlift.laws.compliance.admittance import Admittance
+from tandemlift.laws.compliance.available import AvailableForce
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, DeadBand, DeadBandState, MotionLimits
+from tandemlift.laws.compliance.energy_tank import EnergyTank, EnergyTankState
+from tandemlift.laws.compliance.following import AT_REST, FollowingLimits
 from tandemlift.laws.guidance.contact_hold import ContactReaction, start_reaction
 from tandemlift.laws.guidance.hand_guidance import HandGuidance, HandGuidanceState
-from tandemlift.laws.guidance.limits.above_ground import GroundClearance
-from tandemlift.laws.guidance.limits.available import AvailableForce
-from tandemlift.laws.guidance.limits.energy_tank import EnergyTank, EnergyTankState
-from tandemlift.laws.guidance.limits.following import AT_REST, FollowingLimits
 from tandemlift.laws.guidance.phases import SETTLING_TIME, PhaseSettings, PhaseState
 from tandemlift.laws.guidance.yaw_compliance import FixedHeading, YawCompliance, YawState
 from tandemlift.laws.signals.low_pass import LowPassState, low_pass

@@ -16,7 +16,7 @@ from tandemlift.algebra.vector import dot, total
 from tandemlift.common.faults import FAULTS
 from tandemlift.common.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
 from tandemlift.common.refusals import NUMBER_OF, REQUESTS, Refusals, refusal_of
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState
 from tandemlift.laws.guidance.contact_hold import ContactReaction, ContactReactionState
 from tandemlift.laws.guidance.fault_reactions import HOLDS
 from tandemlift.laws.guidance.hand_guidance import HandGuidance, HandGuidanceState

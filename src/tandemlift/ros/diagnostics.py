@@ -1,4 +1,4 @@
-"""Events, and once a second the state of the flight, as messages of `/diagnostics`."""
+"""Events, also in ROS's log, and once a second the state of the flight, as messages of `/diagnostics`."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from tandemlift.export.messages import MessageTypes, event_maker, status_maker
+from tandemlift.common.phases import CONTACT
+from tandemlift.export.messages import event_maker, status_maker
 from tandemlift.flight.record import Flight
-from tandemlift.ros.middleware import TopicPublisher
+from tandemlift.ros.middleware import Middleware
+from tandemlift.simulation.contact_texts import contact_codes
 from tandemlift.simulation.results import describe_event
 
 AGAIN = 1.0  # s, before the same words are said again
@@ -23,15 +25,15 @@ class FlightDiagnostics:
     """The events and the state of a flight, as messages.
 
     Args:
-        channel: of the topic.
-        types: of its messages.
+        middleware: what publishes them.
     """
 
-    def __init__(self, channel: TopicPublisher, types: MessageTypes) -> None:
-        self._channel, self._event, self._status = channel, event_maker(types), status_maker(types)
+    def __init__(self, middleware: Middleware) -> None:
+        self._middleware, self._channel = middleware, middleware.advertise(TOPIC, KIND, depth=MOST)
+        self._event, self._status = event_maker(middleware.types), status_maker(middleware.types)
         self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
         self._said: dict[str, float] = {}
-        self._now = (-1, 0, 0)  # phase, alarm, failed check
+        self._now = (-1, 0, 0, 0)  # phase, alarm, failed check, contact
 
     def add(self, what: str) -> None:
         """Queue an event, from any thread and without waiting; the same words once a second at most."""
@@ -45,17 +47,19 @@ class FlightDiagnostics:
         while self._waiting:
             at, what = self._waiting.popleft()
             self._channel.publish(self._event(at, what))
+            self._middleware.log(what)
         if len(self._said) > MOST:
             self._said.clear()
 
     def follow(self, flight: Flight, stamps: list[int]) -> None:
-        """Queue phases, alarms and failed checks as they change in samples."""
+        """Queue phases, alarms, failed checks and contacts as they change in samples."""
         if "phase" not in flight:
             return
         none = np.zeros(len(stamps))
         seen = np.column_stack([flight.channels.get(n, none) for n in ("phase", "alarm", "failed_check")])
-        for stamp, (phase, alarm, refused) in zip(stamps, seen.astype(int).tolist(), strict=True):
-            now = (phase, alarm, refused)
+        codes = contact_codes(flight) or [0] * len(stamps)
+        for stamp, (phase, alarm, refused), code in zip(stamps, seen.astype(int).tolist(), codes, strict=True):
+            now = (phase, alarm, refused, code or (self._now[3] if phase == CONTACT else 0))
             if now != self._now:
                 self._waiting.append((stamp, describe_event(now, self._now)))
                 self._now = now

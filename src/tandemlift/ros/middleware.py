@@ -56,5 +56,8 @@ class Middleware(Protocol):
     def keep(self, values: Mapping[str, Any]) -> None:
         """Set the values of the parameters."""
 
+    def log(self, what: str) -> None:
+        """Write an event to ROS's log."""
+
     def shutdown(self) -> None:
         """Disconnect; nothing is sent or received any more."""

@@ -12,7 +12,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.live.session.session import Session
 from tandemlift.live.wire.quantities import ENDS
 from tandemlift.missions import tables_of
-from tandemlift.ros.diagnostics import KIND, TOPIC, FlightDiagnostics
+from tandemlift.ros.diagnostics import FlightDiagnostics
 from tandemlift.ros.middleware import Middleware
 from tandemlift.ros.parameters import Parameters
 from tandemlift.ros.pushes import Pushes
@@ -46,7 +46,7 @@ class FlightNode:
         self._tables = tables_of(self._flight.now)
         self._clock = Clock(session)
         self._queue = SampleQueue(steps_between_samples(rate, self._flight.dt), lambda step: self._clock.stamp(step))
-        self.diagnostics = FlightDiagnostics(middleware.advertise(TOPIC, KIND, depth=100), middleware.types)
+        self.diagnostics = FlightDiagnostics(middleware)
         self._pushes = Pushes(session, self.diagnostics.add)
         self._parameters = Parameters(session, middleware, self.diagnostics.add)
         self._samples, self._markers = (
@@ -71,7 +71,7 @@ class FlightNode:
         self._once.publish_vehicle(self._session.scene, self._vehicle, time.time_ns())
         self._publish_mission()
         self._middleware.subscribe(PUSH, WRENCH, self._pushes.handle)
-        requests = RequestServices(self._session)
+        requests = RequestServices(self._session, self.diagnostics.add)
         for what in REQUESTS:
             self._middleware.serve(f"{ROOT}/{what}", partial(requests.answer, what))
         self._clock = Clock(self._session)
@@ -134,6 +134,7 @@ class FlightNode:
             "behind the clock, at most [ms]": f"{status['behind_ms']:.1f}",
             "late for good [s]": f"{self._clock.late:.3f}",
             "alarm": status["alarm"],
+            **{f"{what} refused": str(refusal or "") for what, refusal in self._session.refusals._asdict().items()},
             "flown [s]": f"{status['recorded_s']:.1f}",
         }
         self.diagnostics.report(stamp, status["phase"], not status["alarm"], more)

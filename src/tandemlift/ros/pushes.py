@@ -1,5 +1,7 @@
 """Pushes that come as messages: a wrench in a frame becomes a force at a point of the vehicle, until the next one.
 
+A push that the pilot does not follow is reported with the reason and with what to do.
+
 A dead-man's switch lets go 0.5 s of the flight after the last message. It is in the flight's own thread: it works
 whatever becomes of the middleware.
 """
@@ -15,13 +17,14 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.export.coordinate_frames import ALIGNED, BASE, WORLD, fixed, to_body, to_world
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.live.session.session import Session
 from tandemlift.live.wire.page_messages import ForceMessage
 from tandemlift.ros.diagnostics import Notify
-from tandemlift.simulation.recorded_flight import RecordedFlight
 from tandemlift.vehicle import Vehicle
 
 HELD = 0.5  # s of the flight, for which a push acts without another message
+FELT, AGAIN = 0.4, 1.0  # s of the flight, from the begin of a push to a look at whether it is followed, and to the next
 LEAST = 1e-6  # N, below which there is no push
 SLIP = 1e-6  # fraction of a torque that may be about the force's own direction
 ABSURD = 1e6  # N, N m
@@ -36,7 +39,8 @@ class Pushes:
     """
 
     def __init__(self, session: Session, notify: Notify) -> None:
-        self._session, self._notify, self._until = session, notify, math.inf
+        self._session, self._notify = session, notify
+        self._until = self._look = math.inf  # steps at which it ends, and at which it is looked at
         self._turn = threading.Lock()  # of several who push; the flight's thread never takes it
         vehicle = Vehicle.from_settings(session.flight.now.vehicle)
         self._origins = {WORLD: np.zeros(3), ALIGNED: np.zeros(3), BASE: np.zeros(3), **dict(fixed(vehicle))}
@@ -49,20 +53,29 @@ class Pushes:
             try:
                 force, point = self._read(message)
                 self._push(force, point)
-                self._until = self._session.flight.step + HELD / self._session.flight.dt if any(force) else math.inf
+                now, dt = self._session.flight.step, self._session.flight.dt
+                self._until = now + HELD / dt if any(force) else math.inf
+                if not any(force):
+                    self._look = math.inf
+                elif self._look == math.inf:
+                    self._look = now + FELT / dt
             except InputError as error:
                 self.let_go()
                 self._notify(f"push refused: {error}")
 
     def watch(self, flight: RecordedFlight) -> None:
-        """After every step: end the push if no message has come for too long."""
+        """After every step: end the push if no message has come for too long; report it if it is not followed."""
         if flight.step >= self._until:
             self.let_go()
             self._notify(f"push over: no message for {HELD:g} s")
+        if flight.step >= self._look:
+            self._look = flight.step + AGAIN / flight.dt
+            if flight.refusals.push:
+                self._notify(str(flight.refusals.push))
 
     def let_go(self) -> None:
         """End the push."""
-        self._until = math.inf
+        self._until = self._look = math.inf
         self._push(np.zeros(3), np.zeros(3))
 
     def _push(self, force: Array, point: Array) -> None:

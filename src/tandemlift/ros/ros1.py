@@ -82,6 +82,10 @@ class Ros1:
             self._own = set(values) - set(self._seen)
         self._kept = {**self._seen, **values}
 
+    def log(self, what: str) -> None:
+        """Write an event to the log of ROS, which is `/rosout` too: as a warning, if it gives a reason."""
+        (self._rospy.logwarn if ": " in what else self._rospy.loginfo)("%s", what)
+
     def shutdown(self) -> None:
         """Unregister from the master, and take away what the next flight would take for its parameters."""
         if not self.over:

@@ -23,6 +23,8 @@ from tandemlift.ros.middleware import Answer, TopicPublisher
 
 REQUEST, ANSWER, TEXT = f"{ROOT}/request", f"{ROOT}/answer", "std_msgs/String"
 PARAMETER, PAIR = f"{ROOT}/parameter", "diagnostic_msgs/KeyValue"
+ROSOUT, LOG, TIME, NAME = "/rosout", "rcl_interfaces/Log", "builtin_interfaces/Time", "tandemlift"
+INFO, WARN = 20, 30  # levels of the log
 DEPTH = 10  # length of the message queue, the default of ROS 2
 NAP = 0.1  # s, timeout of a read, after which the loop checks whether to continue
 AGAIN = 0.2  # s, interval between checks for subscribers
@@ -53,6 +55,7 @@ class Ros2:
         self._set: dict[str, Any] = {}
         self._some, self._worker = WaitSet(self._participant), ThreadPoolExecutor(1, "requests")
         self._answer = self.advertise(ANSWER, TEXT, depth=DEPTH)
+        self._rosout = self.advertise(ROSOUT, LOG, latched=True)  # as ROS 2 does
         self.subscribe(REQUEST, TEXT, lambda message: self._worker.submit(self._serve, message.data.strip()))
         self.subscribe(PARAMETER, PAIR, lambda message: self._set.update({message.key: _value(message.value)}))
         self._listener = threading.Thread(target=self._listen, name="dds", daemon=True)
@@ -85,6 +88,12 @@ class Ros2:
 
     def keep(self, values: Mapping[str, Any]) -> None:
         """Nothing: the latched mission has the settings."""
+
+    def log(self, what: str) -> None:
+        """Write an event to `/rosout`, the log of ROS 2: as a warning, if it gives a reason."""
+        seconds, rest = divmod(time.time_ns(), 10**9)
+        stamp = self.types[TIME](seconds, rest)
+        self._rosout.publish(self.types[LOG](stamp, WARN if ": " in what else INFO, NAME, what, "", "", 0))
 
     def shutdown(self) -> None:
         """Leave the domain."""

@@ -17,8 +17,8 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.export.messages import SECOND
 from tandemlift.flight.record import Flight
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.live.session.session import Session
-from tandemlift.simulation.recorded_flight import RecordedFlight
 from tandemlift.simulation.results import channels_of
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first

@@ -178,7 +178,7 @@ class FindingsTable(Table):
     saturated_fraction: Fraction = key(
         0.1,
         "1",
-        "largest fraction of the time in flight with a rotor at its limit",
+        "largest fraction of the flight with a rotor at its limit",
         source="chosen: built-in missions keep 0.02",
     )
     push_time: Positive = key(

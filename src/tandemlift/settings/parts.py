@@ -146,7 +146,18 @@ class Quadrotor(Table):
     torque_per_thrust: Positive = key(..., "m", "reaction torque of a rotor over its thrust", example=0.06)
     lag_up: NonNegative = key(..., "s", "time constant of a rotor that speeds up", example=0.0125)
     lag_down: NonNegative = key(..., "s", "time constant of a rotor that slows down", example=0.025)
-    rotor_radius: Length = key(0.128, "m", "radius of a rotor, for the ground effect", source="PX4's Gazebo model iris")
+    rotor_radius: Length = key(
+        0.128,
+        "m",
+        "radius of a rotor, for the ground effect and for contact with floor and walls",
+        source="PX4's Gazebo model iris",
+    )
+    rotor_height: Metre = key(
+        0.05,
+        "m",
+        "height of the rotors' hubs above the quadrotor's centre of mass, for contact with floor and walls",
+        source="chosen: a fifth of an arm of 0.25 m, as the pictures show it",
+    )
     joint: Joint | None = key(
         None,
         "m",
@@ -157,7 +168,7 @@ class Quadrotor(Table):
     guard_radius: Length = key(
         0.375,
         "m",
-        "radius of the sphere about the quadrotor that touches walls",
+        "radius of the guard about the quadrotor: of a ring to the floor, of a sphere to walls",
         source="chosen: arm and rotor",
     )
     feet_spread: Length = key(

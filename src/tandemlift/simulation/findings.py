@@ -10,7 +10,7 @@ from tandemlift.algebra.vector import Nothing, dot, total
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
 from tandemlift.common.findings import Finding, FindingName
 from tandemlift.common.phases import IDLE, LAND, LIFT, REASONS, STOPPED
-from tandemlift.laws.guidance.limits.following import FollowingState
+from tandemlift.laws.compliance.following import FollowingState
 from tandemlift.laws.guidance.supervision import ALARM, PHASE, SupervisionState
 from tandemlift.loop.excess import Excess
 from tandemlift.loop.oscillation import HalfPeriods
@@ -29,12 +29,13 @@ SIGNALS = {  # of `loop.oscillation.Swings`: name, unit
 }
 
 
-def findings_of(p: FlightPlan, flight_state: FlightState, outcome: str) -> tuple[Finding, ...]:
+def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: str) -> tuple[Finding, ...]:
     """The findings of a flight, in the order of time, without the kinds that its mission ignores.
 
     Args:
         p: the plan of the flight.
         flight_state: the last state.
+        steps: that were flown.
         outcome: of the flight.
     """
     mission, d = p.mission, flight_state.detectors
@@ -42,7 +43,7 @@ def findings_of(p: FlightPlan, flight_state: FlightState, outcome: str) -> tuple
     found: list[Finding] = [
         *_oscillations(d.oscillation.swings, mission),
         *_deviations(d, promise, mission, p.dt),
-        *_saturations(d, mission, p.dt),
+        *_saturations(d.saturation, steps, mission, p.dt),
         *_out_of_reach(d.reach, p),
         *_unanswered(d.push.unanswered, p.dt),
         *_cannot_follow(flight_state, mission),
@@ -160,14 +161,14 @@ def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.3g}°"
 
 
-def _saturations(d: Any, mission: Mission, dt: float) -> Iterator[Finding]:
-    m, f = d.saturation, mission.findings
-    if isinstance(m, Nothing) or not d.steps:
+def _saturations(m: Any, steps: int, mission: Mission, dt: float) -> Iterator[Finding]:
+    f = mission.findings
+    if isinstance(m, Nothing) or not steps:
         return
-    fraction, long = m.steps / d.steps, m.stretch > f.saturated_time
+    fraction, long = m.steps / steps, m.stretch > f.saturated_time
     if not long and fraction <= f.saturated_fraction:
         return
-    text = f"a rotor is at its limit for {m.stretch:.3g} s at a stretch, {100.0 * fraction:.3g} % of the time in flight"
+    text = f"a rotor is at its limit for {m.stretch:.3g} s at a stretch, {100.0 * fraction:.3g} % of the flight"
     yield finding(
         "saturated",
         text,

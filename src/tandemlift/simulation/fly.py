@@ -13,7 +13,6 @@ from typing import Any, Literal
 from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
-from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import LANES, FlightMemory
 from tandemlift.loop.running_metrics import EMPTY
@@ -23,7 +22,7 @@ from tandemlift.settings import Mission
 from tandemlift.simulation.parameter_changes import changes_in_flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
-from tandemlift.simulation.stepping import body_in, fly_stepwise
+from tandemlift.simulation.stepping import body_of, fly_stepwise
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
 FIRST_STRETCH = 5_000  # steps of the first stretch
@@ -120,9 +119,8 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
         InputError: the engine is unknown, or the mission cannot be built.
     """
     engine = engine_of(mission) if engine is None else engine
-    engine_named(engine)
-    p = FlightPlan(mission)
-    rows, body = p.steps // p.every + 1, body_in(engine, p)
+    p = FlightPlan(mission, engine)
+    rows, body = p.steps // p.every + 1, body_of(p)
     if body is not None:
         return flight_of(p, fly_stepwise(p, rows, p.every, progress, body), engine)
     (flown,) = _fly_together([p], rows, p.every, progress)

@@ -47,7 +47,7 @@ def scheduled_change(before: FlightPlan, mission: Mission, key: str, first: int,
     Raises:
         InputError: the key cannot be changed in flight.
     """
-    after = FlightPlan(mission, interactive=before.interactive)
+    after = FlightPlan(mission, before.engine, interactive=before.interactive)
     _check(before, after, key)
     return ScheduledChange(first, max(1, round(duration / before.dt)), after)
 

@@ -12,9 +12,11 @@ from tandemlift.algebra.layout import flat
 from tandemlift.algebra.vector import ZERO, each, layout
 from tandemlift.assembly.traced_assembly import assembled_flight
 from tandemlift.controllers import NoMemory, control
+from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import LATE
 from tandemlift.kernels import FlightStart, Kernels, PythonController, TimeGrid
 from tandemlift.laws.person.caller_inputs import CallerInput
+from tandemlift.laws.person.outside_push import OutsidePush
 from tandemlift.settings import Mission
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
@@ -27,11 +29,15 @@ class FlightPlan:
 
     Args:
         mission: from `load_mission`.
+        engine: name of the body's engine.
         interactive: whether the caller of a step may add a push and replace thrusts (`laws.person.caller_inputs`).
+
+    Raises:
+        InputError: the engine is unknown, or the mission cannot be built.
     """
 
-    def __init__(self, mission: Mission, *, interactive: bool = False) -> None:
-        self.mission, self.interactive = mission, interactive
+    def __init__(self, mission: Mission, engine: str = "compiled", *, interactive: bool = False) -> None:
+        self.mission, self.engine, self.interactive = mission, engine, interactive
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
         self.dt = mission.mission.step
@@ -40,6 +46,8 @@ class FlightPlan:
             rotors = each(4 * len(mission.vehicle.quadrotors))
             nothing = CallerInput(ZERO, ZERO, rotors(*[0.0] * len(rotors._fields)), 0.0)
             self.given = self.given._replace(external=nothing)
+        if engine_named(engine).pushable:
+            self.given = self.given._replace(outside=OutsidePush(ZERO, ZERO))
         self.interpreted: tuple[Any, Any] | None = None
         if type(self.model.pilot.controller) in control.interpreted:
             self._detach_python_controller()

@@ -19,18 +19,15 @@ from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import leaf_offset
-from tandemlift.laws.guidance.contact_hold import BEAM, DIRECTIONS, PLACES
 from tandemlift.laws.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
 from tandemlift.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.loop.step import FlightModel, FlightState
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
+from tandemlift.simulation.contact_texts import describe_contact
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
-
-
-SIDES = ("−", "", "+")
 
 
 @dataclass
@@ -88,7 +85,9 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
     highest = max(early.highest, late.highest)
     formed["outcome"] = outcome_of(p, flown.flight_state, last, highest)
-    formed["findings"] = [[f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, formed["outcome"])]
+    formed["findings"] = [
+        [f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, flown.step, formed["outcome"])
+    ]
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
@@ -107,16 +106,6 @@ def events_of(flight_state: FlightState) -> list[list[Any]]:
 
 
 EventCode = tuple[int, int, int, int]
-
-
-def describe_contact(code: int) -> str:
-    """The part that touches, its place, and the direction of the wall in world axes, from `contact_hold.code_of`."""
-    rest, place = divmod(code, int(PLACES))
-    part, direction = divmod(rest, int(DIRECTIONS))
-    signs = [f"{sign}{axis}" for sign, axis in zip((SIDES[direction // 3], SIDES[direction % 3]), "xy", strict=True) if sign]
-    along = (place - 4096) / 100.0
-    where = f"beam, {abs(along):.2f} m from its centre" if part == int(BEAM) else f"guard of quadrotor {part}"
-    return f"{where}, towards {' '.join(signs) or 'no side'}"
 
 
 def describe_event(now: EventCode, before: EventCode) -> str:
@@ -177,5 +166,5 @@ def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flig
         results=metrics,
         ending=ending_of(p, flown.flight_state, flown.step),
         version={**versions(engine), "engine": engine},
-        findings=findings_of(p, flown.flight_state, metrics["outcome"]),
+        findings=findings_of(p, flown.flight_state, flown.step, metrics["outcome"]),
     )

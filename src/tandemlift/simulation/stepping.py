@@ -17,7 +17,7 @@ from tandemlift.algebra.vector import layout
 from tandemlift.common.refusals import Refusals
 from tandemlift.common.types import Array, Progress
 from tandemlift.controllers import control
-from tandemlift.engines.registry import EngineBody, WaitingBody, engine_named
+from tandemlift.engines.registry import EngineBody, PushedBody, TouchingBody, WaitingBody, engine_named
 from tandemlift.kernels import GIVEN, FlightMemory, leaf_offset
 from tandemlift.loop.running_metrics import EMPTY
 from tandemlift.machine_code.compile_events import Stopped, always
@@ -29,17 +29,18 @@ from tandemlift.vehicle import Vehicle
 
 PROGRESS_EVERY = 1000  # steps
 STATE = 13  # numbers of a state
+NO_TOUCHES: Array = np.zeros(0)
 NEVER = -1  # the number of no step
 GUIDANCE_MEMORY = ("flight_state", "memory", "guidance")
 
 
-def body_in(engine: str, p: FlightPlan) -> EngineBody | None:
-    """The body of a mission at t = 0 in an engine; None for the compiled one.
+def body_of(p: FlightPlan) -> EngineBody | None:
+    """The body of a plan at t = 0 in its engine; None for the compiled one.
 
     Raises:
-        InputError: the engine is unknown, not installed, or cannot fly the mission.
+        InputError: the engine is not installed, or cannot fly the mission.
     """
-    chosen, plant = engine_named(engine), p.model.plant
+    chosen, plant = engine_named(p.engine), p.model.plant
     if chosen.load is None:
         return None
     return chosen.start(p.mission, Vehicle.from_settings(p.mission.vehicle), plant.floor, plant.walls)
@@ -59,6 +60,7 @@ class Stepper:
 
     def __init__(self, p: FlightPlan, body: EngineBody | None = None) -> None:
         self.body, self.changing = body, ParameterChanges(p)
+        self._pushed = body.pushed if isinstance(body, PushedBody) else None
         self._lay_out(p)
 
     def _lay_out(self, p: FlightPlan, before: FlightMemory | None = None) -> None:
@@ -79,14 +81,16 @@ class Stepper:
         """Bind views of the memory that the parts of a step exchange with Python or another engine."""
         view = {
             name: self.memory.work[self.memory.span(name)]
-            for name in ("asked", "answer", "external", "acting", "push", "moved")
+            for name in ("asked", "answer", "external", "acting", "push", "moved", "outside")
         }
         acting = self.p.kernels.templates.acting
         thrusts, air = leaf_offset(acting, "thrusts"), leaf_offset(acting, "wind", "loads")
         self.x, self.y, self.v, self.push = view["asked"], view["answer"], view["moved"], view["push"]
-        self.external = view["external"]
+        self.external, self.outside = view["external"], view["outside"]
         if self.body is not None:
-            self.v[:] = flat(self.p.kernels.templates.moved)
+            moved = self.p.kernels.templates.moved
+            self.touches = self.body.touches if isinstance(self.body, TouchingBody) else NO_TOUCHES
+            self.v[:] = flat(moved._replace(touches=self.p.model.flight_state.touches))
         self.thrusts = view["acting"][thrusts.at : thrusts.at + thrusts.size]
         self.loads = view["acting"][air.at : air.at + air.size]
 
@@ -165,6 +169,10 @@ class Stepper:
         body.advance(self.thrusts, self.loads, self.push[:3], self.push[3:])
         self.v[:STATE] = body.state
         self.v[STATE : STATE + body.readings.size] = body.readings
+        if self.touches.size:
+            self.v[self.v.size - self.touches.size :] = self.touches
+        if self._pushed is not None:
+            self.outside[:] = self._pushed
 
     def rest(self) -> None:
         """Keep a waiting flight alive; call it at least ten times a second while no step is taken."""

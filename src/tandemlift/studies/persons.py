@@ -15,7 +15,7 @@ import numpy as np
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.missions import Mission, load_mission
 from tandemlift.studies.rows import Row
-from tandemlift.studies.scenarios import Bench
+from tandemlift.studies.scenarios import Bench, Changes
 
 SCALED = (
     *("stiffness", "damping", "lag", "gain", "speed"),
@@ -26,8 +26,8 @@ NEAR, STANDS = 1.2, 0.02  # m, tolerance of the path's end and of the final heig
 LEAST = {"zigzag": 0.0, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m, smallest clearance
 
 
-def random_persons(name: str, count: int, seed: int = 1) -> list[Mission]:
-    """A mission with `count` random persons."""
+def random_persons(name: str, count: int, seed: int = 1, changes: Changes | None = None) -> list[Mission]:
+    """A mission with `count` random persons, with further changes of it."""
     mission, rng = load_mission(name), np.random.default_rng(seed)
     drawn = []
     for i in range(count):
@@ -42,7 +42,7 @@ def random_persons(name: str, count: int, seed: int = 1) -> list[Mission]:
         }
         if mission.person.model == "steer":
             own["person.grip"] = grip
-        drawn.append(load_mission(name, own))
+        drawn.append(load_mission(name, {**own, **(changes or {})}))
     return drawn
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.simulation.fly import fly, fly_many
+from tandemlift.studies.census import Census
 
 Changes = dict[str, Any]
 
@@ -43,25 +44,34 @@ FEW = 64  # flights at once, limited by the memory of their logs
 
 
 class Bench(NamedTuple):
-    """The engine of the validation, and the number of random draws."""
+    """The engine of the validation, the number of random draws, and who counts how flights end, if anyone does."""
 
     engine: str = "compiled"
     draws: int = 200
+    census: Census | None = None
+
+    def _counted(self, flown: list[dict[str, Any]]) -> list[dict[str, Any]]:
+        if self.census is not None:
+            self.census.add(flown)
+        return flown
 
     def fly(self, missions: Iterable[Mission]) -> list[Flight]:
         """The flights of missions, in order."""
         missions = list(missions)
         if self.engine == "compiled" and len(missions) > 1:
             parts = (missions[i : i + FEW] for i in range(0, len(missions), FEW))
-            return [flight for part in parts for flight in fly_many(part)]
-        return [fly(mission, self.engine) for mission in missions]
+            flights = [flight for part in parts for flight in fly_many(part)]
+        else:
+            flights = [fly(mission, self.engine) for mission in missions]
+        self._counted([flight.metrics() for flight in flights])
+        return flights
 
     def metrics(self, missions: Iterable[Mission]) -> list[dict[str, Any]]:
         """The metrics of flights, in order."""
         missions = list(missions)
         if self.engine == "compiled" and len(missions) > 1:
-            return fly_many(missions, keep="metrics")
-        return [fly(mission, self.engine).metrics() for mission in missions]
+            return self._counted(fly_many(missions, keep="metrics"))
+        return self._counted([fly(mission, self.engine).metrics() for mission in missions])
 
 
 def quadrotors(**changes: Any) -> list[dict[str, Any]]:

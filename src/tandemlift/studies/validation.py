@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from tandemlift.common.errors import InputError, unknown
-from tandemlift.studies import compliance, persons, rotor_losses, tracking, triggers
+from tandemlift.studies import compliance, contacts, persons, rotor_losses, tracking, triggers
 from tandemlift.studies.rows import Row
 from tandemlift.studies.scenarios import Bench
 
@@ -33,6 +33,7 @@ CHAPTERS: dict[str, Chapter] = {
     "triggers": Chapter("push detection in wind", triggers.triggers),
     "persons": Chapter("corridors with a person; random persons", persons.persons),
     "yaw": Chapter("compliance in yaw", compliance.yaw),
+    "contacts": Chapter("touches of walls told from hands and from broken sensors", contacts.contacts),
 }
 
 

@@ -19,6 +19,7 @@ from tandemlift.algebra.vector import Vec3, vec3
 from tandemlift.laws.estimation.push_estimate import (
     PushEstimator,
     estimate,
+    inertial_force,
     moment_on_payload,
     point_of_application,
     push_estimator,
@@ -267,6 +268,24 @@ def test_a_slower_unit_gives_the_same_push_in_steps(period):
     assert np.all(held.reshape(-1, period, 3) == held[::period, None, :])
     assert held[::period] == pytest.approx(flight.pushes[::period], abs=1e-9)
     assert np.abs(push.point[1500:2500] - 0.6).max() < 0.01
+
+
+@given(seeds, st.floats(0.0, 2.0))
+def test_a_mass_beyond_the_nominal_at_the_system_s_centre_turns_without_looking_like_a_push(seed, extra):
+    rng = np.random.default_rng(seed)
+    p = random_parts(rng, 2)
+    R, w, x = moment(rng, 2)
+    mass = p.mass + extra
+    shift = extra / mass * p.centre  # of the payload's centre of mass, with the extra mass in it
+    arms = p.mass * (shift @ shift * np.eye(3) - np.outer(shift, shift))
+    rest = p.centre - shift
+    arms += extra * (rest @ rest * np.eye(3) - np.outer(rest, rest))
+    real = p._replace(mass=mass, inertia=p.inertia + arms, joints=p.joints - shift, quadrotors=p.quadrotors - shift)
+    answer = solved(real, R, w, x._replace(at=x.at - shift))
+    k, said = estimator(p, system=p.centre), unit(R, w, answer)
+    at_nominal = array(said.specific_force) - np.cross(answer.angular, shift) - np.cross(w, np.cross(w, shift))
+    force = inertial_force(k, vec3(at_nominal), vec3(w), vec3(answer.angular), mass)
+    assert array(force) - answer.force.sum(axis=0) == pytest.approx(R.inv().apply(x.push), abs=1e-9)
 
 
 def test_a_tare_that_is_begun_anew_forgets_the_one_before():

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
 from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.laws.guidance.admittance import (
+from tandemlift.laws.compliance.admittance import (
     Admittance,
     AdmittanceState,
     HardGate,

@@ -5,10 +5,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.algebra.vector import ZERO, Vec3, vec3
+from tandemlift.algebra.vector import ZERO, Nothing, Vec3, vec3
 from tandemlift.common.phases import GUIDED
-from tandemlift.laws.guidance.compliance import DeadBand, DeadBandState, compliance_step, dead_band
-from tandemlift.laws.guidance.limits.energy_tank import EnergyTank, EnergyTankState, passivity_damping
+from tandemlift.laws.compliance.compliance import DeadBand, DeadBandState, compliance_step, dead_band
+from tandemlift.laws.compliance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.laws.guidance.phases import PhaseOutput
 from tandemlift.laws.guidance.yaw_compliance import yaw_step
 from tandemlift.laws.rotors.rotor_faults import NoFaults
@@ -46,7 +46,7 @@ def motion(push, seconds, changes=None, across=100.0):
     g, m = guided(changes)
     k, m, out = g.compliance, m.compliance, []
     for i in range(round(seconds / H)):
-        m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, H)
+        m = compliance_step(k, m, vec3(push(i * H)), 1.0, 0.0, across, Nothing(), H)
         out.append([*m.position, *m.velocity, *m.acceleration, *m.jerk])
     return np.array(out).reshape(-1, 4, 3).swapaxes(0, 1)
 

@@ -53,6 +53,17 @@ def names(story):
     return [name for _, name in story]
 
 
+def test_at_a_wall_it_listens_on_in_a_phase_of_its_own_until_it_may_land():
+    def touched(t):
+        return FREE._replace(contact=float(5.0 <= t < 7.0 or t >= 9.0), land=float(t >= 10.0))
+
+    story, _, _ = flown(9.5, bounds=touched)
+    assert story[2:] == [(5.0, "contact"), (7.0, "guided"), (9.0, "contact")]
+    assert flown(6.0, bounds=touched)[2].responding == 1.0
+    assert flown(6.0, bounds=lambda t: touched(t)._replace(hold=float(t > 5.5)))[0][-1] == (5.55, "hold")
+    assert names(flown(15.0, bounds=touched)[0])[-2:] == ["land", "idle"]
+
+
 def test_by_the_clock_it_lifts_listens_lands_and_stays_down():
     story, _, orders = flown(20.0, PHASING._replace(land_start=8.0))
     assert story == [(1.0, "lift"), (3.3, "guided"), (8.0, "land"), (10.0, "idle")]

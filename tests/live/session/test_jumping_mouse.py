@@ -8,9 +8,9 @@ import pytest
 import tandemlift as tl
 from tandemlift.algebra.layout import unflat
 from tandemlift.algebra.vector import Vec3
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.live.session.interactive_mission import interactive_mission
-from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RATE = 60  # targets a second
 GRABBED = {"hover": 7.0, "iris": 14.0, "zigzag": 14.0}  # s, when the vehicle hovers and its sensors are tared

@@ -7,10 +7,10 @@ from click.testing import CliRunner
 import tandemlift as tl
 from tandemlift.algebra.vector import Vec3
 from tandemlift.cli.main import cli
+from tandemlift.interactive.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.live.session.interactive_mission import interactive_mission
 from tandemlift.live.session.saving import save_in_process
-from tandemlift.simulation.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
 
 GUIDED = {
     "pilot.guidance": "hand",

@@ -11,11 +11,11 @@ from tandemlift.algebra.ops import maximum, sqrt, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, apply, dot, total
+from tandemlift.laws.contact.wall_geometry import Wall, offset
+from tandemlift.laws.contact.walls import BeamAxis, NearBeam, NearWalls, beam_axis, beam_point, point_by_edge
 from tandemlift.laws.mechanics.loads import translated
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.wall_geometry import Wall, offset
-from tandemlift.laws.mechanics.walls import BeamAxis, NearBeam, NearWalls, beam_axis, beam_point, point_by_edge
 
 LEAST_COSINE = 0.6  # between a force and the way out of a wall: friction of 0.8 turns it by 39°, and noise by more
 TINY = 1e-12  # m² N², m²

@@ -208,11 +208,15 @@ def concluded(
     )
 
 
-def _check_tare(start: float | None, duration: float, identify_mass: bool, interval: float) -> None:
-    if identify_mass and start is None:
-        raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
-    if start is not None and duration < interval:
+def _tare_fields(start: float | None, duration: float, identify_mass: bool, interval: float) -> dict[str, Any]:
+    """The fields of an estimator's tare; the end of none is before every time."""
+    if start is None:
+        if identify_mass:
+            raise ValueError("the payload's mass is identified during the tare: give its start, or do not identify")
+        return {"tare_start": 0.0, "tare_end": -math.inf, "identify": 0.0}
+    if duration < interval:
         raise ValueError(f"a tare of {duration:g} s holds no sample: they come every {interval:g} s")
+    return {"tare_start": number(start), "tare_end": start + duration, "identify": float(identify_mass)}
 
 
 def push_estimator(
@@ -245,7 +249,7 @@ def push_estimator(
         imu_period: of the IMU, in steps.
         length: of the beam along body y [m]; no point of application lies beyond its ends.
         bandwidth: of the low-pass [rad/s].
-        min_force: across the beam [N], below which no point of application is given.
+        min_force: across the beam [N], below which there is no point of application.
         tare_start: of the tare in hover [s]; None for no tare.
         tare_duration: [s].
         identify_mass: whether to identify the payload's mass during the tare.
@@ -256,7 +260,7 @@ def push_estimator(
     Raises:
         ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
     """
-    _check_tare(tare_start, tare_duration, identify_mass, step * imu_period)
+    tare = _tare_fields(tare_start, tare_duration, identify_mass, step * imu_period)
     J, N = array(inertia), len(joints)
     return PushEstimator(
         mass=number(mass),
@@ -269,9 +273,7 @@ def push_estimator(
         per_interval=1.0 / (step * imu_period),
         low_pass=low_pass(bandwidth, step),
         least=min_force**2,
-        tare_start=0.0 if tare_start is None else number(tare_start),
-        tare_end=-math.inf if tare_start is None else tare_start + tare_duration,
-        identify=1.0 if identify_mass else 0.0,
+        **tare,
         limit=number(disagreement_limit),
         share=1.0 / N,
         alone=N / (N - 1) if N > 1 else 0.0,

@@ -14,8 +14,8 @@ from tandemlift.algebra.law import Nothing, choice, law
 from tandemlift.algebra.ops import maximum, minimum, sqrt, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Vec3, apply_transposed, cross, dot
+from tandemlift.laws.compliance.compliance import ComplianceState, moved_towards, within
 from tandemlift.laws.estimation.contact_detection import NO_CONTACT, ContactEstimate
-from tandemlift.laws.guidance.compliance import ComplianceState, moved_towards, within
 from tandemlift.laws.guidance.guidance import LoadOfWall, PilotInput
 from tandemlift.laws.guidance.phases import PhaseBounds
 from tandemlift.laws.mechanics.rigid_body import State
@@ -26,7 +26,7 @@ LEAD = 0.25  # m, by which the reference may be ahead of the vehicle along a wal
 SAME_WALL = 0.7  # least cosine between the ways out of two touches of one wall
 BEAM = 65.0  # number of the beam in the code of a contact: after that of the last possible quadrotor
 DIAGONAL = 0.38268  # sin 22.5°: from there on, a direction has a component along an axis
-DIRECTIONS, PLACES = 9.0, 8192.0  # in the code of a contact
+DIRECTIONS, PLACES, HALF_PLACES = 9.0, 8192.0, 4096.0  # in the code of a contact
 HAND_RATE = 40.0  # N/s and N m/s: the fastest change of a push while a contact is near
 TINY = 1e-12  # m²
 ROUND = 6755399441055744.0  # 1.5 · 2^52: added and taken off, it leaves a whole number
@@ -48,10 +48,11 @@ class HandWrench(NamedTuple):
 
 
 class ContactReactionState(NamedTuple):
-    """Memory: 1 while the boundary holds; its normal, its place along that [m], and its lever; part; times; code;
-    the push as used at the last sample.
+    """Memory: 1 while the boundary holds; the part that touched; the contact's code; the push as used at last.
 
-    `lever` [m]: by how much the part that touched leaves the wall per yaw angle. `free_time` [s]: since the last touch. `held_time` [s]: in contact, less the time without.
+    The boundary's `normal`, its place along that (`level` [m]), and its `lever` [m]: by how much the part that touched
+    leaves the wall per yaw angle. `free_time` [s]: since the last touch. `held_time` [s]: in contact, less the time
+    without.
     """
 
     holding: Any
@@ -68,8 +69,9 @@ class ContactReactionState(NamedTuple):
 class Boundary(NamedTuple):
     """What a contact asks of the guidance.
 
-    `push`: the person's, as far as it is no wall's; `on`: 1 while the boundary holds; its `normal`, its place along that and the least one of the reference [m]; its
-    `lever` (see `ContactReactionState`); the vehicle's position [m]; the load of the `wall`; 1 to land; the code of the contact, for events; 1 while the beam touches.
+    `push`: the person's, as far as it is no wall's; `on`: 1 while the boundary holds. Its `normal`, its place along
+    that (`level`) and the least one of the reference [m], its `lever` (see `ContactReactionState`); the vehicle's
+    `position` [m]; the load of the `wall`; 1 to `land`; the contact's `code`, for events; 1 while the beam touches.
     """
 
     push: HandWrench
@@ -103,10 +105,10 @@ def side_of(x: Any) -> Any:
 
 @law
 def code_of(c: ContactEstimate) -> Any:
-    """Part, direction of the wall and place on the beam [cm] in one whole number; `read_code` takes it apart."""
+    """Part, direction of the wall and place on the beam [cm] in a whole number; `simulation.contact_texts` reads it."""
     part = where(c.part < 0.0, BEAM, c.part)
     direction = side_of(-c.normal.x) * 3.0 + side_of(-c.normal.y)
-    place = maximum(minimum(c.along * 100.0, 4000.0), -4000.0) + 4096.0
+    place = maximum(minimum(c.along * 100.0, 4000.0), -4000.0) + HALF_PLACES
     return (part * DIRECTIONS + direction) * PLACES + ((place + ROUND) - ROUND)
 
 

@@ -6,8 +6,23 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import maximum, where
 from tandemlift.algebra.vector import Vec3, apply, dot
 from tandemlift.common.phases import CONTACT, IDLE, LAND, LIFT
+from tandemlift.laws.compliance.above_ground import above_ground, has_floor
+from tandemlift.laws.compliance.available import (
+    AvailableForce,
+    available_acceleration,
+    needed_force,
+    usable_thrust,
+)
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
+from tandemlift.laws.compliance.energy_tank import passivity_damping
+from tandemlift.laws.compliance.following import (
+    Following,
+    FollowingLimits,
+    FollowingState,
+    must_land,
+    update_following,
+)
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
 from tandemlift.laws.guidance.contact_hold import (
     bounded_by,
     contact_code,
@@ -17,27 +32,12 @@ from tandemlift.laws.guidance.contact_hold import (
     turning_out,
     without_wall,
 )
-from tandemlift.laws.guidance.limits.energy_tank import passivity_damping
 from tandemlift.laws.guidance.guidance import (
     Guidance,
     PilotInput,
     ThrustFraction,
     checked_input,
     guide,
-)
-from tandemlift.laws.guidance.limits.above_ground import above_ground
-from tandemlift.laws.guidance.limits.available import (
-    AvailableForce,
-    available_acceleration,
-    needed_force,
-    usable_thrust,
-)
-from tandemlift.laws.guidance.limits.following import (
-    Following,
-    FollowingLimits,
-    FollowingState,
-    must_land,
-    update_following,
 )
 from tandemlift.laws.guidance.phases import (
     PhaseOutput,
@@ -149,12 +149,12 @@ def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) ->
 
 
 @law
-def presses_on_ground(m: PhaseState, height: Any) -> Any:
+def presses_on_ground(m: PhaseState, height: Any, floor: Any) -> Any:
     """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0.
 
-    Also after the landing, with rotors that keep running: what the ground gives is no disturbance.
+    On a `floor` (1) also after the landing, with rotors that keep running: what the floor gives is no disturbance.
     """
-    return (is_in(m, LAND) + is_in(m, IDLE)) * where(height < m.ground, 1.0, 0.0)
+    return (is_in(m, LAND) + is_in(m, IDLE) * floor) * where(height < m.ground, 1.0, 0.0)
 
 
 @law
@@ -254,7 +254,7 @@ def _by_hand(
         moment=(moment.value + moment.rate * g.moment_lead) * allowed.compensating,
         running=ThrustFraction(allowed.running),
         flying=allowed.flying * (1.0 - blind),
-        learning=1.0 - presses_on_ground(phase, target.position.z),
+        learning=1.0 - presses_on_ground(phase, target.position.z, has_floor(g.clearance)),
         channels=channels_from(allowed, after, damping, heading, following.reason, shown),
         wall=load_of_wall(boundary),
     )

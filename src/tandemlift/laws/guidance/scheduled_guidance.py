@@ -4,8 +4,14 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import Nothing
 from tandemlift.algebra.vector import ZERO
+from tandemlift.laws.compliance.admittance import (
+    Admittance,
+    AdmittanceState,
+    admittance_response,
+    admittance_step,
+    gate,
+)
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.laws.guidance.admittance import Admittance, AdmittanceState, admittance_response, admittance_step, gate
 from tandemlift.laws.guidance.guidance import (
     Guidance,
     PilotInput,

@@ -6,7 +6,7 @@ from tandemlift.algebra.law import Nothing, choice, elementwise
 from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.selection import chosen
 from tandemlift.algebra.vector import ZERO, Vec3
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, with_speed
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, with_speed
 from tandemlift.laws.guidance.requests import VehicleStatus
 from tandemlift.laws.guidance.supervision import Supervision, SupervisionState
 from tandemlift.laws.mechanics.rigid_body import State

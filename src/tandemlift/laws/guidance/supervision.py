@@ -194,7 +194,7 @@ def filled_slot(old: Any, slot: Any, count: Any, new: Any, value: Any) -> Any:
 
 @law
 def with_event(k: Supervision, m: EventLog, now: Any, failed_check: Any, t: Any) -> EventLog:
-    """The log, with one more event if phase, alarm or contact (`now`, the code) have changed, or another check fails."""
+    """The log, with one more event if phase, alarm or contact (the code `now`) have changed, or another check fails."""
     changed = where(now == m.last - m.failed_check, 0.0, 1.0)
     other = where(failed_check > 0.0, where(failed_check == m.failed_check, 0.0, 1.0), 0.0)
     new = maximum(changed, other)

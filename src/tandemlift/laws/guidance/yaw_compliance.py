@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.ops import clip, where
-from tandemlift.laws.guidance.compliance import DeadBand, DeadBandState, dead_band
+from tandemlift.laws.compliance.compliance import DeadBand, DeadBandState, dead_band
 from tandemlift.laws.guidance.phases import PhaseOutput
 from tandemlift.laws.mechanics.rotation import wrap_angle
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step

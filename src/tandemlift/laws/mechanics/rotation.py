@@ -80,6 +80,12 @@ def body_z_axis(q: Quat) -> Vec3:
 
 
 @law
+def world_z_in_body(q: Quat) -> Vec3:
+    """The world's z axis in body axes: Rᵀ (0, 0, 1), the third row of R."""
+    return Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
+
+
+@law
 def euler_from_quaternion(q: Quat) -> Euler:
     """Z-X-Y Euler angles of a unit quaternion, φ in [−90°, 90°]. Inverse of R_equ."""
     R12 = 2.0 * (q.x * q.y - q.w * q.z)

@@ -13,6 +13,7 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.outcomes import DIVERGED, ENDING_OF, ENDINGS
 from tandemlift.common.refusals import REQUESTS, refusals_for, sentences_for
 from tandemlift.flight.record import ENDING_TEXT
+from tandemlift.interactive.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
 from tandemlift.kernels import leaf_offset
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED
@@ -40,7 +41,6 @@ from tandemlift.missions import Mission, changed, tables_of
 from tandemlift.simulation.outcome import NOT_FINITE, limit_of
 from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, MISSION
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 
 ENGINE = "compiled"

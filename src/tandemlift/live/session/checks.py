@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.ops import sqrt, where
 from tandemlift.algebra.vector import ZERO, Vec3, dot
 from tandemlift.common.errors import InputError
-from tandemlift.common.phases import GUIDED, HOLD, PHASE_NAMES
+from tandemlift.common.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.live.session import refusal_texts as texts
 from tandemlift.live.wire.scene import SceneVehicle
 from tandemlift.missions import Mission
-from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
 HOVER_TIME = ("memory", "guidance", "phase", "hover_time")  # of a flight's state
@@ -110,7 +110,7 @@ def check_may_tare(flight: RecordedFlight, vehicle: SceneVehicle, phase: str) ->
     """
     if flight.now.estimator.tare == "clock":
         check_touch(flight, vehicle, ZERO)
-    if phase not in (PHASE_NAMES[int(GUIDED)], PHASE_NAMES[int(HOLD)]):
+    if phase not in [PHASE_NAMES[int(number)] for number in (GUIDED, HOLD, CONTACT)]:
         raise InputError(f"tare: only in the air, hovering; the phase is {phase}")
     if flight.hand.held or any(flight.hand.force):
         raise InputError("tare: hands off first")

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tandemlift.common.types import Array
+from tandemlift.interactive.recorded_flight import FlightSetup
 from tandemlift.live.session.frame_values import Components, channel_columns, field_values, phase_times
 from tandemlift.live.session.scene_builder import scene_of
 from tandemlift.live.wire.frames import layout_for, pack_frames
 from tandemlift.missions import Mission, tables_of
-from tandemlift.simulation.recorded_flight import FlightSetup
 from tandemlift.vehicle import Vehicle
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, apply
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
 from tandemlift.live.session.checks import check_touch
 from tandemlift.live.wire.page_messages import AskMessage, ForceMessage, GrabMessage, MoveMessage
 from tandemlift.live.wire.scene import SceneVehicle
-from tandemlift.simulation.recorded_flight import RecordedFlight
 
 REQUEST_TIME = 0.2  # s, for which a request to lift or to land is held
 

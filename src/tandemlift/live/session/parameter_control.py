@@ -9,6 +9,7 @@ import threading
 from typing import Any
 
 from tandemlift.common.errors import InputError
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.live.session import refusal_texts as texts
 from tandemlift.live.session.checks import TARE, check_in_time, tare_start_for
 from tandemlift.live.session.interactive_mission import NEVER
@@ -16,7 +17,6 @@ from tandemlift.live.session.tunable_parameters import BY_KEY, CHOICES, CONTROLL
 from tandemlift.live.wire.server_messages import Answer, ChangedMessage, RefusedMessage
 from tandemlift.missions import Mission, tables_of
 from tandemlift.missions.values import MISSING, shown
-from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RAMP = 0.5  # s, within which a parameter goes to its new value
 

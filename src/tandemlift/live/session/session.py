@@ -16,6 +16,7 @@ from typing import Any
 from tandemlift.algebra.vector import Quat
 from tandemlift.common.errors import InputError
 from tandemlift.common.refusals import Refusals
+from tandemlift.interactive.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.laws.person.virtual_hand import HAND_RELEASED
 from tandemlift.live.session.checks import check_may_tare, check_takes_requests
 from tandemlift.live.session.frame_builder import FrameBuilder
@@ -31,7 +32,6 @@ from tandemlift.live.wire import page_messages as page
 from tandemlift.live.wire.scene import FlightScene, SceneSpring
 from tandemlift.live.wire.server_messages import Answer, DoneMessage, FlightStatus, RefusedMessage, SceneMessage
 from tandemlift.missions import Mission
-from tandemlift.simulation.recorded_flight import FlightSetup, RecordedFlight, setup_flight
 from tandemlift.simulation.results import channels_of
 
 log = logging.getLogger(__name__)

@@ -11,11 +11,11 @@ from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.common.refusals import Refusals, refusals_for
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Ending
+from tandemlift.interactive.recorded_flight import RecordedFlight
 from tandemlift.live.session.checks import failed_rotors
 from tandemlift.live.session.pacing import Pacer
 from tandemlift.live.wire.scene import SceneEnding
 from tandemlift.live.wire.server_messages import FlightStatus, StatusFinding, StatusRefusals
-from tandemlift.simulation.recorded_flight import RecordedFlight
 
 FINDINGS_EVERY = 1.0  # s
 NO_REFUSALS = StatusRefusals(lift="", land="", push="")

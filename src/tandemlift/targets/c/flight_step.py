@@ -6,7 +6,7 @@ from typing import Any
 
 from tandemlift.algebra.layout import leaves, rebuilt
 from tandemlift.algebra.vector import ZERO
-from tandemlift.kernels.traced_step import TracedStep
+from tandemlift.kernels.traced_step import Symbols, TracedStep
 from tandemlift.targets.c.language.function_text import FunctionHead, function
 from tandemlift.targets.c.language.law_functions import law_function
 from tandemlift.targets.c.language.statements import Statements
@@ -29,7 +29,8 @@ class FlightStep:
     def __init__(self, file: SourceFile, traced: TracedStep) -> None:
         self.file, self.traced = file, traced
         g, x = traced.graph, traced
-        symbols = [*x.next_state, *x.sample, *x.body_in_contact, *x.body_in_free_air, *x.may_touch_walls]
+        symbols = [*x.next_state, *x.sample, *x.body_in_contact, *x.body_on_feet, *x.body_in_free_air]
+        symbols += [*x.may_touch_walls, *x.may_touch_hull]
         if x.limits:
             symbols += [x.limits.beyond, *x.limits.problem, *x.limits.plain, *x.limits.search]
         self.roots = [s.node for s in symbols]
@@ -84,20 +85,24 @@ class FlightStep:
         return function(head, body.made, "\n".join(last))
 
     def _move_body(self, body: Statements) -> None:
-        """The body's part of the step: near a floor or a wall, or in free air."""
+        """The body's part of the step: near walls or with all parts near the floor, on its feet, or in free air."""
         x = self.traced
         like = x.templates.moved
-        contact: Any = rebuilt(iter(x.body_in_contact), like)
         moved = body.variable(body.graph.inputs("moved", like), "moved")
+
+        def move(numbers: Symbols) -> None:
+            value: Any = rebuilt(iter(numbers), like)
+            body.compute([s.node for s in numbers])
+            body.line(f"{moved} = {body.value(value)};")
+
         if not self.branches:
-            body.compute([s.node for s in x.body_in_contact])
-            body.line(f"{moved} = {body.value(contact)};")
+            move(x.body_in_contact)
             return
-        body.compute([s.node for s in x.may_touch_walls])
-        touches = " || ".join(["low", *[f"{body.number(s.node).text} != 0" for s in x.may_touch_walls]])
-        with body.branch(f"if ({touches}) {{", last=False):
-            body.compute([s.node for s in x.body_in_contact])
-            body.line(f"{moved} = {body.value(contact)};")
+        body.compute([s.node for s in [*x.may_touch_walls, *x.may_touch_hull]])
+        walls, hull = ([f"{body.number(s.node).text} != 0" for s in t] for t in (x.may_touch_walls, x.may_touch_hull))
+        with body.branch(f"if ({' || '.join([*walls, *[f'(low && {test})' for test in hull]])}) {{", last=False):
+            move(x.body_in_contact)
+        with body.branch("} else if (low) {", last=False):
+            move(x.body_on_feet)
         with body.branch("} else {", last=True):
-            body.compute([s.node for s in x.body_in_free_air])
-            body.line(f"{moved} = {body.value(rebuilt(iter(x.body_in_free_air), like))};")
+            move(x.body_in_free_air)

@@ -35,7 +35,7 @@ from tandemlift.simulation.outcome import ending_of, place_of
 from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
-from tandemlift.simulation.stepping import Stepper, body_in
+from tandemlift.simulation.stepping import Stepper, body_of
 
 FLYING = "flying"  # the outcome of a flight that goes on
 MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, "flight.npz"
@@ -113,8 +113,8 @@ def setup_flight(mission: Mission, engine: str = "compiled") -> FlightSetup:
     Raises:
         InputError: the engine is not known, or the mission cannot be built.
     """
-    plan = FlightPlan(mission)
-    return FlightSetup(plan, body_in(engine, plan))
+    plan = FlightPlan(mission, engine)
+    return FlightSetup(plan, body_of(plan))
 
 
 class RecordedFlight:
@@ -185,7 +185,7 @@ class RecordedFlight:
 
     def findings(self, numbers: Array) -> tuple[Finding, ...]:
         """What went badly until it had these numbers, which may be formed while the flight goes on."""
-        return findings_of(self._p, unflat(numbers, self._like), FLYING)
+        return findings_of(self._p, unflat(numbers, self._like), self.step, FLYING)
 
     @property
     def ending_place(self) -> Vec3:

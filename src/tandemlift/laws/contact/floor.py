@@ -13,35 +13,33 @@ that has just landed stores no energy. Below μ N the anchor does not move: a ve
 A step evaluates `feet_load` at every stage with the anchors held, then `grips_after_step`. Only feet touch the floor.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tandemlift.algebra.arrays import array, eigenvectors, has_symbols, inverse, largest, largest_eigenvalue, lengths
+from tandemlift.algebra.arrays import array, largest, lengths
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, greatest, maximum, minimum, sqrt, where
 from tandemlift.algebra.types import Condition, Number, PerQuadrotor, number
-from tandemlift.algebra.vector import Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
+from tandemlift.algebra.vector import Mat3, Nothing, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
+from tandemlift.laws.contact.hull import MAX_ACCELERATION, MAX_ANGULAR_ACCELERATION, Ellipsoids, Hull
+from tandemlift.laws.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, add_to_each
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
+from tandemlift.laws.mechanics.rotation import rotation_from_quaternion, world_z_in_body
 
-MAX_ANGULAR_ACCELERATION = 1000.0  # rad/s², more than rotors give
-
-TINY = 1e-300  # N²: keeps 0/0 out of the friction of a foot in the air
-OSCILLATION = 0.5  # rad a step: the fastest oscillation on springs that a Runge-Kutta step resolves well
-DECAY = 2.0  # time constants a step: the fastest decay; Runge-Kutta of order four is stable to 2.78
+NO_HULL = Nothing()
 
 
 class Floor(NamedTuple):
-    """A level floor, and the feet that stand on it.
+    """A level floor, and what of the vehicle meets it: its feet, and its `hull`, a `pads.Hull` or `Nothing`.
 
     `height` z of the floor [m]; of one foot `stiffness` k [N/m] and `damping` c [N·s/m], `tangential_stiffness` k_t and
     `tangential_damping` c_t; `friction` μ; `radius` ρ [m]; `feet`: centre of foot j of every quadrotor from the
-    system's centre of mass [m, body axes], vectors of sets. From there [m], `extent`: how
-    far feet are along each body axis; `reach`: how far any pad can be.
+    system's centre of mass [m, body axes], vectors of sets. From there [m], `extent`: how far feet and hull are along
+    each body axis; `reach`: how far any point of them can be.
     """
 
     height: Number
@@ -54,6 +52,7 @@ class Floor(NamedTuple):
     feet: Quarters
     extent: Vec3
     reach: Number
+    hull: Any
 
 
 class FootGrip(NamedTuple):
@@ -76,18 +75,6 @@ class Foot(NamedTuple):
     velocity_x: PerQuadrotor
     velocity_y: PerQuadrotor
     normal: PerQuadrotor
-
-
-@elementwise
-def spring_damper(depth: Number, rate: Number, stiffness: Number, damping: Number) -> Number:
-    """Normal force [N] at a penetration [m] that grows at a rate [m/s]; it never pulls and is passive."""
-    return where(depth > 0.0, maximum(stiffness * depth + damping * rate, 0.0), 0.0)
-
-
-@elementwise
-def friction_factor(square: Number, longest: Number) -> Number:
-    """The factor, at most 1, that shortens a vector of squared length `square` to the length `longest`."""
-    return longest / sqrt(maximum(maximum(square, longest * longest), TINY))
 
 
 @elementwise
@@ -171,51 +158,11 @@ def grips_after_step(floor: Floor, grip: Quarters, s: State) -> Quarters:
 
 @law
 def may_touch(floor: Floor, s: State, time: Number) -> Condition:
-    """Whether a foot may touch the floor within `time` [s] of state `s`."""
-    q, size = s.attitude, floor.extent
-    tilt = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
-    hangs = dot(absolute(tilt), size) + floor.radius
+    """Whether a foot or any other part may touch the floor within `time` [s] of state `s`."""
+    hangs = dot(absolute(world_z_in_body(s.attitude)), floor.extent) + floor.radius
     swings = floor.reach * (sqrt(dot(s.rates, s.rates)) + MAX_ANGULAR_ACCELERATION * time) * time
-    fall = (minimum(s.velocity.z, 0.0) - 2.0 * GRAVITY * time) * time  # four g, as thrust may add to weight
+    fall = (minimum(s.velocity.z, 0.0) - 0.5 * MAX_ACCELERATION * time) * time
     return s.position.z + fall - minimum(hangs + swings, floor.reach) < floor.height
-
-
-def mobility(points: NDArray[np.float64], mass: float, inertia: NDArray[np.float64]) -> float:
-    """Mobility of a free body at some of its points [1/kg]: ω² of its fastest oscillation on springs of 1 N/m.
-
-    Args:
-        points: n × 3, from its centre of mass [m]; each is sprung in all three directions, so no attitude is faster.
-        mass: of the body [kg].
-        inertia: 3 × 3 about its centre of mass [kg·m²].
-    """
-    turns = [array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]) for x, y, z in points]  # motion of each, by rates
-    if len(turns) == 1 and has_symbols(inertia):  # the same eigenvalue, but of a smaller matrix
-        at_point = np.diag(array([1.0 / mass] * 3)) + turns[0] @ inverse(inertia) @ turns[0].T
-        return greatest(tuple(eigenvectors(at_point, vectors=False)[0]))
-    zero = np.zeros((3, 3))
-    inertias = np.block([[np.diag(array([mass] * 3)), zero], [zero, inertia]])
-    stiffness = np.zeros((6, 6))
-    for turn in turns:
-        G = np.hstack([np.eye(3), turn])
-        stiffness = stiffness + G.T @ G
-    return largest_eigenvalue(inertias, stiffness)
-
-
-def surface_mobility(center: NDArray[np.float64], radius: float, mass: float, inertia: NDArray[np.float64]) -> float:
-    """The largest `mobility` [1/kg] of the points where the principal axes leave a sphere."""
-    axes = eigenvectors(inertia)[1].T * radius
-    return greatest([mobility(center + side[None], mass, inertia) for side in (*axes, *-axes)])
-
-
-def softened_for_step(stiffness: float, damping: float, body_mobility: float, step: float) -> tuple[float, float]:
-    """Stiffness [N/m] and damping [N·s/m] of springs, reduced, if need be, to what a step [s] can resolve.
-
-    The damping ratio stays. `body_mobility` [1/kg]: the `mobility` of the body that stands on such springs.
-    """
-    frequency, rate = sqrt(stiffness * body_mobility), 0.5 * damping * body_mobility
-    decay = rate + sqrt(maximum(rate**2 - frequency**2, 0.0))
-    factor = 1.0 / greatest([1.0, frequency * step / OSCILLATION, decay * step / DECAY])
-    return number(stiffness * factor**2), number(damping * factor)
 
 
 def sole_positions(centers: ArrayLike, span: ArrayLike, depth: ArrayLike) -> NDArray[np.float64]:
@@ -242,6 +189,7 @@ def floor(
     radius: float = 0.01,
     sinkage: float = 5e-4,
     damping_ratio: float = 1.0,
+    hull: Any = NO_HULL,
 ) -> Floor:
     """A floor for a vehicle: feet so stiff that it sinks by `sinkage` at rest, softer if the step demands it.
 
@@ -255,6 +203,7 @@ def floor(
         radius: ρ, of the ball joint above the sole [m].
         sinkage: of the vehicle at rest on all its feet [m]; `sinkage_of` gives the actual one after softening.
         damping_ratio: of the heave oscillation on all its feet.
+        hull: a `Hull` that meets the floor, too, or `Nothing`.
     """
     places = np.add(soles, [0.0, 0.0, radius])
     points = places.reshape(-1, 3)
@@ -265,20 +214,27 @@ def floor(
     reach = number(greatest(lengths(points))) + radius
     feet = Quarters(*[spread(places[:, j]) for j in range(4)])
     extent = vec3(largest(np.abs(points), axis=0))
-    return Floor(number(height), k, c, number(friction), k, c, float(radius), feet, extent, reach)
+    if isinstance(hull, Hull):
+        extent, reach = maximum(extent, absolute(hull.middle) + hull.half), maximum(reach, hull.reach)
+    return Floor(number(height), k, c, number(friction), k, c, float(radius), feet, extent, reach, hull)
 
 
 def standing_height(floor: Floor, weight: float) -> float:
-    """Height of the level vehicle's centre of mass above the floor where its feet bear its weight [N], in m."""
-    touching = [floor.radius - z for foot in floor.feet for z in foot.z]
-    return greatest([_height_on(touching, lowest, weight / floor.stiffness) for lowest in touching])
+    """Height of the level vehicle's centre of mass above the floor where feet and beam bear its weight [N], in m."""
+    springs = [(floor.radius - z, 1.0) for foot in floor.feet for z in foot.z]
+    if isinstance(floor.hull, Hull) and isinstance(floor.hull.beam, Ellipsoids):
+        ends, ratio = floor.hull.beam, floor.hull.stiffness / floor.stiffness
+        springs += [(radius - z, ratio) for z, radius in zip(ends.center.z, ends.radius, strict=True)]
+    return greatest([_height_on(springs, lowest, weight / floor.stiffness) for lowest, _ in springs])
 
 
-def _height_on(touching: list[Number], lowest: Number, load: Number) -> Number:
-    """Height [m] at which the soles that touch no later than one of them bear a load over their stiffness [m]."""
-    bears = [touch >= lowest for touch in touching]
-    share = [where(down, touch, 0.0) for down, touch in zip(bears, touching, strict=True)]
-    return (sum(share) - load) / sum(where(down, 1.0, 0.0) for down in bears)
+def _height_on(springs: list[tuple[Number, Number]], lowest: Number, load: Number) -> Number:
+    """Height [m] at which the springs that touch no later than one of them bear a load over a foot's stiffness [m].
+
+    A spring is the height at which it touches [m], and its stiffness over that of a foot.
+    """
+    bears = [where(touch >= lowest, ratio, 0.0) for touch, ratio in springs]
+    return (sum(share * touch for share, (touch, _) in zip(bears, springs, strict=True)) - load) / sum(bears)
 
 
 def sinkage_of(floor: Floor, weight: float) -> float:

@@ -8,15 +8,25 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.ops import clip, where
-from tandemlift.laws.guidance.compliance import Compliance, ComplianceState, with_speed
+from tandemlift.laws.compliance.compliance import Compliance, ComplianceState, with_speed
 
 APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left
 
 
 class GroundClearance(NamedTuple):
-    """Height above the ground [m] below which a push does not move the reference further down."""
+    """Where there is a floor: height above it [m] below which a push does not move the reference further down."""
 
     height: Any
+
+
+@choice(absent=0.0)
+def has_floor(k: Any) -> Any:
+    """1 where there is a floor, else 0."""
+
+
+@has_floor.register(GroundClearance)
+def _floor(k: GroundClearance) -> Any:
+    return 1.0
 
 
 @choice(absent="compliance")

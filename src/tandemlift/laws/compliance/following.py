@@ -47,8 +47,8 @@ class Following(NamedTuple):
 class FollowingState(NamedTuple):
     """Memory: for how long each limit has been exceeded, and none of them [s]; the number of the reason, or 0.
 
-    For findings: the time `first` of a reason [s]; for how long there was one in all [s], `lasted`; the most urgent one;
-    and for how long the heading was lost at a stretch [s].
+    For findings: the time `first` of a reason [s]; for how long there was one in all [s], `lasted`; the most urgent
+    one; and for how long the heading was lost at a stretch [s].
     """
 
     thrust: Any

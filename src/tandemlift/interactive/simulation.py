@@ -25,7 +25,7 @@ from tandemlift.simulation.caller_values import numbers, with_seed
 from tandemlift.simulation.outcome import ending_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, channels_of, flight_of, take_metrics
-from tandemlift.simulation.stepping import Stepper, body_in
+from tandemlift.simulation.stepping import Stepper, body_of
 
 FORCE, POINT, THRUSTS = (
     slice(0, 3),
@@ -64,7 +64,7 @@ class Simulation:
         self._begin()
 
     def _prepare(self) -> None:
-        p = self._p = FlightPlan(self.mission, interactive=True)
+        p = self._p = FlightPlan(self.mission, self.engine, interactive=True)
         self.dt = p.dt
         row = np.arange(leaves(p.sample), dtype=np.float64)[None, :]
         self._places: dict[str, Any] = {name: at[0].astype(np.intp) for name, at in channels_of(p.sample, row)}
@@ -74,7 +74,7 @@ class Simulation:
 
     def _begin(self) -> None:
         vars(self).pop("_stepper", None)  # first release an engine that only one pilot can drive
-        self._stepper = Stepper(self._p, body_in(self.engine, self._p))
+        self._stepper = Stepper(self._p, body_of(self._p))
         self.k, self._early, self._rows, self._end = 0, EMPTY, list[Array](), None
         self._wall = self._reported = 0.0
 

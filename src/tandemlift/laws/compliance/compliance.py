@@ -7,7 +7,7 @@ so the rate of the acceleration is known too, and the reference can lead by the 
 acceleration and jerk are bounded, also by the thrust that is left; every start and stop is smooth. While nobody pushes,
 a slow mean of the measured push becomes its bias.
 
-Passivity: `laws.guidance.limits.energy_tank`. Yaw: `laws.guidance.yaw_compliance`.
+Passivity: `laws.compliance.energy_tank`. Yaw: `laws.guidance.yaw_compliance`.
 """
 
 from typing import Any, NamedTuple
@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, clip, maximum, minimum, sqrt, where
 from tandemlift.algebra.vector import Vec3
-from tandemlift.laws.guidance.admittance import Admittance, anchored, soft
+from tandemlift.laws.compliance.admittance import Admittance, anchored, soft
 from tandemlift.laws.signals.low_pass import LowPass, LowPassState, low_pass_step
 
 QUIET_TIME = 2.0  # s without a push, after which the bias is estimated

@@ -1,4 +1,4 @@
-"""Clearance of the vehicle from walls: of the guards around its quadrotors, and of its beam.
+"""Clearance of the vehicle from walls: of the guards around its quadrotors, of rotors out of them, and of its beam.
 
 It is exact in every state: the walls near each part are known, and the distance to these is measured. The point of a
 straight beam nearest to an upright wall is one of its ends, or lies at one of the wall's edges, or at its top.
@@ -8,31 +8,34 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import least, minimum, sqrt
-from tandemlift.algebra.types import Condition, Number, PerQuadrotor
+from tandemlift.algebra.types import Condition, Number, PerQuadrotor, PerRotor
 from tandemlift.algebra.vector import Nothing, Vec3, apply, dot
+from tandemlift.laws.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
+from tandemlift.laws.contact.spheres import NearRotors, RotorSpheres
+from tandemlift.laws.contact.wall_geometry import offset, offset_from_top
+from tandemlift.laws.contact.walls import Beam, NearBeam, NearWalls, Walls
 from tandemlift.laws.mechanics.loads import PartsLayout, translated
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.wall_geometry import offset, offset_from_top
-from tandemlift.laws.mechanics.walls import (
-    Beam,
-    NearBeam,
-    NearWalls,
-    Walls,
-    beam_axis,
-    beam_point,
-    point_by_edge,
-    point_by_top,
-)
 
 FAR = 1000.0  # m
 
 
 class Clearance(NamedTuple):
-    """The smallest distance from walls [m], negative in contact: of every guard (a set), and of the beam."""
+    """The smallest distance from walls [m], negative in contact: of every guard (a set), of rotors, of the beam.
+
+    `rotors`: a `RotorClearance`, or `Nothing` if all rotors are in their guard.
+    """
 
     guards: PerQuadrotor
+    rotors: Any
     beam: "BeamClearance | Nothing"
+
+
+class RotorClearance(NamedTuple):
+    """The smallest distance of every rotor [m], a set; that of a rotor in its guard is its hub's."""
+
+    rims: PerRotor
 
 
 class BeamClearance(NamedTuple):
@@ -52,6 +55,18 @@ def surface_distance(square: Number, radius: Number) -> Number:
 def gap(o: Vec3, radius: Number) -> Number:
     """Distance of a surface [m] whose centre is at the offset o, which may be of sets."""
     return surface_distance(dot(o, o), radius)
+
+
+@choice(absent="rotors")
+def rotor_clearance(rotors: RotorSpheres | Nothing, near: NearRotors | Nothing, s: State) -> Any:
+    """Clearance of the rotors from the walls near them."""
+
+
+@rotor_clearance.register(RotorSpheres)
+def _spheres(rotors: RotorSpheres, near: NearRotors, s: State) -> RotorClearance:
+    p = translated(s.position, apply(rotation_from_quaternion(s.attitude), rotors.hub))
+    first, second = gap(offset(near.first, p), rotors.radius), gap(offset(near.second, p), rotors.radius)
+    return RotorClearance(minimum(first, second))
 
 
 @choice(absent="beam")
@@ -78,12 +93,18 @@ def clearance(w: Walls | Nothing, near: NearWalls | Nothing, frame: PartsLayout,
 def _walls(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> Clearance:
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
     guards = minimum(gap(offset(near.first, p), w.guards), gap(offset(near.second, p), w.guards))
-    return Clearance(guards, beam_clearance(w.beam, w, near.beam, frame, s))
+    rotors = rotor_clearance(w.rotors, near.rotors, s)
+    return Clearance(guards, rotors, beam_clearance(w.beam, w, near.beam, frame, s))
 
 
 @choice(absent=FAR)
-def least_clearance(c: Clearance | BeamClearance | Nothing) -> Number:
+def least_clearance(c: Clearance | RotorClearance | BeamClearance | Nothing) -> Number:
     """The smallest distance of a clearance [m]."""
+
+
+@least_clearance.register(RotorClearance)
+def _rotor_clearance(c: RotorClearance) -> Number:
+    return least(c.rims)
 
 
 @least_clearance.register(BeamClearance)
@@ -93,7 +114,7 @@ def _beam_clearance(c: BeamClearance) -> Number:
 
 @least_clearance.register(Clearance)
 def _vehicle_clearance(c: Clearance) -> Number:
-    return minimum(least(c.guards), least_clearance(c.beam))
+    return minimum(minimum(least(c.guards), least_clearance(c.rotors)), least_clearance(c.beam))
 
 
 @law
@@ -118,6 +139,11 @@ def smaller_clearance(a: Any, b: Any) -> Any:
     """The smaller of two clearances, part by part."""
 
 
+@smaller_clearance.register(RotorClearance)
+def _smaller_of_rotors(a: RotorClearance, b: RotorClearance) -> RotorClearance:
+    return RotorClearance(minimum(a.rims, b.rims))
+
+
 @smaller_clearance.register(BeamClearance)
 def _smaller_of_beams(a: BeamClearance, b: BeamClearance) -> BeamClearance:
     return BeamClearance(minimum(a.ends, b.ends), minimum(a.length, b.length))
@@ -125,4 +151,6 @@ def _smaller_of_beams(a: BeamClearance, b: BeamClearance) -> BeamClearance:
 
 @smaller_clearance.register(Clearance)
 def _smaller_of_vehicles(a: Clearance, b: Clearance) -> Clearance:
-    return Clearance(minimum(a.guards, b.guards), smaller_clearance(a.beam, b.beam))
+    return Clearance(
+        minimum(a.guards, b.guards), smaller_clearance(a.rotors, b.rotors), smaller_clearance(a.beam, b.beam)
+    )

@@ -1,0 +1,61 @@
+"""Touches of the compiled body: which parts touch floor and walls at the start of a step."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tandemlift.algebra.law import choice
+from tandemlift.algebra.vector import Nothing
+from tandemlift.engines.compiled_contact import CompiledPlant, DistantWalls, hull_contact_with
+from tandemlift.laws.contact.hull import HullContact
+from tandemlift.laws.contact.touches import (
+    SurfaceContacts,
+    Touches,
+    floor_contacts,
+    touches_after,
+    wall_contacts,
+)
+from tandemlift.laws.contact.walls import NearWallContact, Walls, near_wall_contact
+from tandemlift.laws.mechanics.loads import PartsLayout
+from tandemlift.laws.mechanics.rigid_body import State
+
+
+@choice(absent="walls")
+def wall_contact_with(walls: Any, near: Any, frame: PartsLayout, s: State) -> Any:
+    """Contact with the near walls; `Nothing` where they are out of reach."""
+
+
+@wall_contact_with.register(DistantWalls)
+def _untouched_walls(walls: DistantWalls, near: Any, frame: PartsLayout, s: State) -> Nothing:
+    return Nothing()
+
+
+@wall_contact_with.register(Walls)
+def _near_walls(walls: Walls, near: Any, frame: PartsLayout, s: State) -> NearWallContact:
+    return near_wall_contact(walls, near, frame, s)
+
+
+@choice(absent="contact")
+def parts_touched(contact: Any, s: State) -> Any:
+    """The `SurfaceContacts` of a contact with floor or walls in state `s`, or `Nothing`."""
+
+
+@parts_touched.register(HullContact)
+def _on_floor(contact: HullContact, s: State) -> SurfaceContacts:
+    return floor_contacts(contact, s)
+
+
+@parts_touched.register(NearWallContact)
+def _on_walls(contact: NearWallContact, s: State) -> SurfaceContacts:
+    return wall_contacts(contact)
+
+
+@choice(absent="touches")
+def touches_in(touches: Any, plant: CompiledPlant, near: Any, s: State, t: Any, dt: Any) -> Any:
+    """The touches after a step of dt [s] that began at time t [s] in state `s`."""
+
+
+@touches_in.register(Touches)
+def _touches(touches: Touches, plant: CompiledPlant, near: Any, s: State, t: Any, dt: Any) -> Touches:
+    floor, walls = hull_contact_with(plant.floor, s), wall_contact_with(plant.walls, near, plant.frame, s)
+    return touches_after(touches, parts_touched(floor, s), parts_touched(walls, s), t, dt)

@@ -1,0 +1,77 @@
+"""The record of touches for a body in another engine, from the contacts that this engine finds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tandemlift.algebra.layout import flat
+from tandemlift.algebra.vector import Nothing, Vec3, set_of
+from tandemlift.common.types import Array
+from tandemlift.laws.contact.touches import PartContacts, SurfaceContacts, start_touches, touches_after
+
+SURFACES, KINDS = ("floor", "wall"), ("rotor", "guard", "beam")
+
+
+class ContactLog:
+    """Touches of a body, step by step.
+
+    Args:
+        floor: a `laws.contact.floor.Floor`, or `Nothing`.
+        walls: a `laws.contact.walls.Walls`, or `Nothing`.
+        quadrotors: how many.
+        step: [s].
+
+    Attributes:
+        numbers: of a `laws.contact.touches.Touches`; empty if there is nothing to touch.
+    """
+
+    def __init__(self, floor: Any, walls: Any, quadrotors: int, step: float) -> None:
+        self._touches = start_touches(floor, walls, 4 * quadrotors)
+        self.numbers: Array = np.array(flat(self._touches))
+        self._counts = {"rotor": 4 * quadrotors, "guard": quadrotors, "beam": 1}
+        self._found: dict[tuple[str, str], tuple[Array, Array, Array]] = {}
+        self._step, self._k = step, 0
+
+    def add(self, surface: str, kind: str, index: int, normal: float, place: ArrayLike) -> None:
+        """Note a contact of this step.
+
+        Args:
+            surface: "floor" or "wall".
+            kind: "rotor", "guard" or "beam".
+            index: of the part, from 0; of rotor j of quadrotor i, 4 i + j.
+            normal: force [N].
+            place: [m, world axes] (3).
+        """
+        if not normal > 0.0:
+            return
+        count = self._counts[kind]
+        fresh = np.zeros(count), np.zeros(count), np.zeros((3, count))
+        sums, hardest, places = self._found.setdefault((surface, kind), fresh)
+        sums[index] += normal
+        if normal > hardest[index]:
+            hardest[index], places[:, index] = normal, place
+
+    def end_step(self) -> None:
+        """Enter the contacts of a step into the record."""
+        if self._found and not isinstance(self._touches, Nothing):
+            floor, walls = (self._surface(surface) for surface in SURFACES)
+            t = self._k * self._step
+            self._touches = touches_after(self._touches, floor, walls, t, self._step)
+            self.numbers[:] = flat(self._touches)
+            self._found.clear()
+        self._k += 1
+
+    def _surface(self, surface: str) -> Any:
+        """The contacts with a surface, or `Nothing`."""
+        parts = [self._contacts(surface, kind) for kind in KINDS]
+        return Nothing() if all(isinstance(part, Nothing) for part in parts) else SurfaceContacts(*parts)
+
+    def _contacts(self, surface: str, kind: str) -> Any:
+        found = self._found.get((surface, kind))
+        if found is None:
+            return Nothing()
+        sums, _, (x, y, z) = found
+        return PartContacts(set_of(sums.tolist()), Vec3(*[set_of(axis.tolist()) for axis in (x, y, z)]))

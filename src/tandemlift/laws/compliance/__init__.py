@@ -1,0 +1,1 @@
+"""How a reference answers a push: admittance, limits, passivity, and what the vehicle can follow."""

@@ -1,0 +1,86 @@
+"""The linear response of a controller about hover, by differences of its own law: any registered controller's.
+
+Positions along x, y, z are changed at once, and so are the other vectors: near hover, the vertical, roll (with y),
+pitch (with x) and yaw do not mix, so each output tells its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tandemlift.algebra.layout import flat, unflat
+from tandemlift.algebra.vector import ZERO, Vec3
+from tandemlift.common.caching import kept
+from tandemlift.common.types import Array
+from tandemlift.controllers import CONTROLLERS, control
+from tandemlift.controllers.interface import NO_DISTURBANCE, Measured
+from tandemlift.laws.mechanics.rigid_body import State
+from tandemlift.laws.mechanics.rotation import quaternion_from_euler
+from tandemlift.laws.signals.trajectories import Reference, Trajectory
+from tandemlift.settings import ControllerTable, Mission, VehicleTable
+from tandemlift.vehicle import Vehicle
+
+INPUTS = 5  # position, velocity, angles, rates, push
+CHANGE = 1e-6  # of an input or a memory, in its unit
+STILL = Reference(Trajectory(ZERO, ZERO, ZERO), 0.0)
+
+
+class ControllerResponse(NamedTuple):
+    """A controller about hover, m₊ = A m + B y, u = C m + D y, for samples every step.
+
+    Attributes:
+        A: (n, n), of its memory.
+        B: (n, 5), by position [m], velocity [m/s], angles [rad], rates [rad/s] and push [N], of all three axes at once.
+        C: (4, n): thrust [N], roll, pitch, yaw [N m].
+        D: (4, 5).
+    """
+
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+
+    def at(self, z: Any) -> Any:
+        """The response (w, 4, 5) at points z (w,) of the discrete plane."""
+        if not len(self.A):
+            return np.broadcast_to(self.D, (len(z), *self.D.shape))
+        eye = np.eye(len(self.A))
+        return self.D + self.C @ np.linalg.solve(
+            z[:, None, None] * eye - self.A, np.broadcast_to(self.B, (len(z), *self.B.shape))
+        )
+
+
+def controller_response(m: Mission) -> ControllerResponse | None:
+    """The response of a mission's controller; None where its law does not answer with numbers at hover."""
+    return _response(m.controller, CONTROLLERS[m.controller.name].start, m.vehicle, m.mission.step)
+
+
+@kept
+def _response(
+    settings: ControllerTable, start: Callable[..., Any], table: VehicleTable, step: float
+) -> ControllerResponse | None:
+    try:
+        gains, memory = start(settings, Vehicle.from_settings(table), step)
+        here = np.array(flat(memory), dtype=float)
+        rows = [_answer(gains, memory, np.zeros(INPUTS), here)]
+        for i in range(INPUTS + len(here)):
+            change = CHANGE * np.eye(INPUTS + len(here))[i]
+            rows.append((_answer(gains, memory, change[:INPUTS], here + change[INPUTS:]) - rows[0]) / CHANGE)
+    except (ArithmeticError, TypeError, ValueError, AttributeError):
+        return None  # a law in plain Python may keep anything in its memory
+    J = np.array(rows[1:]).T
+    if not np.isfinite(J).all():
+        return None
+    return ControllerResponse(J[4:, INPUTS:], J[4:, :INPUTS], J[:4, INPUTS:], J[:4, :INPUTS])
+
+
+def _answer(gains: Any, memory: Any, y: Array, numbers: Array) -> Array:
+    """(Thrust, moments, memory after) for a small motion and push of all axes."""
+    position, velocity, angles, rates, push = (Vec3(v, v, v) for v in y.tolist())
+    state = State(position, velocity, quaternion_from_euler(angles), rates)
+    measured = Measured(state, push, NO_DISTURBANCE)
+    command, after = control(gains, unflat(numbers.tolist(), memory), measured, STILL)
+    return np.array([command.wrench.thrust, *command.wrench.moment, *flat(after)], dtype=float)

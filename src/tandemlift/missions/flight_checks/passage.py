@@ -1,0 +1,134 @@
+"""The room between walls against what the vehicle needs in the way that a person leads it.
+
+The vehicle is taken to follow exactly. Its quadrotors' guards must stay clear of all walls on the way: with the heading
+kept where one hand steers the centre of mass, with the headings of the way where two hands turn it, and trailing behind
+the hand where one end is pulled: the centre then moves along the line to the grip (a tractrix).
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.common.types import Array
+from tandemlift.missions.flight_checks.result import CheckResult, judged
+from tandemlift.settings import Mission
+from tandemlift.vehicle import Vehicle
+
+APART = 0.1  # m, between places on the way
+MOST = 4000  # places
+NEAR = 0.4  # of the room
+TURNING = 0.7  # rad/s, at which two hands turn the vehicle
+
+
+class Places(NamedTuple):
+    """Places on the way: the centre of mass [m] (n, 2), and the heading [rad] (n)."""
+
+    centres: Array
+    headings: Array
+
+
+def passage_checks(m: Mission) -> Iterator[CheckResult]:
+    """The distance to the walls that is needed, against what there is on the way."""
+    places = places_of(m) if m.all_walls else None
+    if places is None:
+        return
+    room, at = least_room(m, places)
+    guard = max(q.guard_radius for q in m.vehicle.quadrotors)
+    x, y = places.centres[at]
+    how = {"pull": "trailing behind its end", "two-hands": "turned by two hands"}.get(
+        m.person.model, "with its heading kept"
+    )
+    text = (
+        f"led {how}, near x = {x:.3g} m, y = {y:.3g} m a quadrotor of radius {guard:g} m comes to {room:.3g} m from a "
+        f"wall and touches it: widen corridor.width or the gap by {2.0 * max(guard - room, 0.0):.2g} m or more, or "
+        'lead it end on (person.model = "pull" or "two-hands")'
+    )
+    yield judged("passage", guard, room, "m", text, near=NEAR)
+
+
+def way_of(m: Mission) -> tuple[Array, list[float]]:
+    """The steered point's way (n, 2) [m] from the start, and the heading of each leg [rad]."""
+    p = m.person
+    points = [w.point for w in p.path] or list(m.corridor.centreline)
+    yaw = m.initial.euler[2]
+    grip = p.grip if p.model in ("pull", "hold") else 0.0
+    start = (m.initial.position[0] - grip * math.sin(yaw), m.initial.position[1] + grip * math.cos(yaw))
+    headings, now = list[float](), yaw
+    for w in p.path:
+        now = now if w.heading is None else w.heading
+        headings.append(now)
+    return np.array([start, *points]), headings or [yaw] * len(points)
+
+
+def places_of(m: Mission) -> Places | None:
+    """The way as places of the vehicle; None for a person whose way is not known before."""
+    p = m.person
+    if p.model not in ("pull", "steer", "two-hands") or (p.model == "steer" and p.grip != 0.0):
+        return None
+    way, headings = way_of(m)
+    legs = list(itertools.pairwise(way))
+    lengths = [float(np.linalg.norm(b - a)) for a, b in legs]
+    if not legs or sum(lengths) > MOST * APART:
+        return None
+    points, turned = [way[:1]], [np.array([m.initial.euler[2]])]
+    for (a, b), length, heading in zip(legs, lengths, headings, strict=True):
+        n = max(math.ceil(length / APART), 1)
+        share = np.arange(1, n + 1)[:, None] / n
+        points.append(a + share * (b - a))
+        turned.append(np.full(n, heading))
+    if p.model == "pull":
+        return trailing(np.vstack(points), p.grip, m.initial.euler[2])
+    return Places(np.vstack(points), turning(np.concatenate(turned), p.speed))
+
+
+def turning(headings: Array, speed: float) -> Array:
+    """Headings that follow those of the way at most at `TURNING`, at a speed [m/s]."""
+    most, now, found = TURNING * APART / speed, headings[0], []
+    for heading in headings:
+        off = (heading - now + math.pi) % (2.0 * math.pi) - math.pi
+        now += min(max(off, -most), most)
+        found.append(now)
+    return np.array(found)
+
+
+def trailing(grips: Array, grip: float, yaw: float) -> Places | None:
+    """The vehicle behind a grip that is led along a way; None where the grip is the centre."""
+    if grip == 0.0:
+        return None
+    behind = grips[0] - abs(grip) * math.copysign(1.0, grip) * np.array([-math.sin(yaw), math.cos(yaw)])
+    centres, headings = [], []
+    for at in grips:
+        off = at - behind
+        distance = float(np.linalg.norm(off))
+        behind = at - off * (abs(grip) / distance) if distance > 0.0 else behind
+        along = (at - behind) * math.copysign(1.0, grip)
+        centres.append(behind)
+        headings.append(math.atan2(-along[0], along[1]))
+    return Places(np.array(centres), np.array(headings))
+
+
+def quadrotors_at(m: Mission, places: Places) -> Array:
+    """The quadrotors' centres (n, N, 2) [m] at places."""
+    arms = Vehicle.from_settings(m.vehicle).lever_arms[:, :2]
+    c, s = np.cos(places.headings), np.sin(places.headings)
+    R = np.stack([np.stack([c, -s], axis=-1), np.stack([s, c], axis=-1)], axis=-2)
+    return places.centres[:, None, :] + np.einsum("nij,kj->nki", R, arms)
+
+
+def least_room(m: Mission, places: Places) -> tuple[float, int]:
+    """(The smallest distance of a quadrotor's centre from a wall, less by how much its guard is smaller; the place)."""
+    walls = m.all_walls
+    starts, ends = np.array([w.start for w in walls]), np.array([w.end for w in walls])
+    along = ends - starts
+    p = quadrotors_at(m, places)[:, :, None, :] - starts
+    share = np.clip(np.sum(p * along, axis=-1) / np.maximum(np.sum(along * along, axis=-1), 1e-12), 0.0, 1.0)
+    distance = np.linalg.norm(p - share[..., None] * along, axis=-1).min(axis=2)
+    guards = np.array([q.guard_radius for q in m.vehicle.quadrotors])
+    room = (distance + (guards.max() - guards)).min(axis=1)
+    at = int(room.argmin())
+    return float(room[at]), at

@@ -1,0 +1,146 @@
+"""Heights and times of a mission that cannot be, or do not fit each other: lift, landing, pushes, a person's way."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+
+from tandemlift.common.errors import InputError
+from tandemlift.missions.flight_checks.result import CLOSE, CheckResult, judged, noted
+from tandemlift.settings import Mission
+from tandemlift.settings.world import PushTable
+
+STEEPEST = 1.875  # of the quintic smooth step: its largest slope
+
+
+def check_heights(m: Mission) -> None:
+    """Refuse a lift that leads down into a floor.
+
+    Raises:
+        InputError: with the key, its value and what is allowed.
+    """
+    if m.ground.model == "floor" and m.phases.height < 0.0:
+        raise InputError(
+            f"phases.height = {m.phases.height}: must be 0 or above over a floor, or the reference leads into it"
+        )
+
+
+def schedule_checks(m: Mission) -> Iterator[CheckResult]:
+    """What of the schedule is not reached, or leads into the floor."""
+    yield from lift_checks(m)
+    yield from push_time_checks(m)
+    yield from descent_checks(m)
+    yield from landing_checks(m)
+    yield from way_checks(m)
+
+
+def lifted(m: Mission) -> float:
+    """The time at which the lift ends [s]."""
+    return m.phases.lift_start + m.phases.lift_duration
+
+
+def lift_checks(m: Mission) -> Iterator[CheckResult]:
+    """A lift after the flight's end is noted."""
+    p, end = m.phases, m.mission.duration
+    if p.height and lifted(m) > end:
+        when = f"phases.lift_start = {p.lift_start:g} s and phases.lift_duration = {p.lift_duration:g} s"
+        yield noted(
+            "schedule", f"{when} end the lift after mission.duration = {end:g} s", verdict=CLOSE, subject="lift"
+        )
+
+
+def push_time_checks(m: Mission) -> Iterator[CheckResult]:
+    """Pushes that a guidance by hand does not follow, before lift and tare are over; those after the end are noted."""
+    by_hand, e = m.pilot.guidance == "hand", m.estimator
+    tared = 0.0 if e.tare_start is None or m.pilot.push == "truth" else e.tare_start + e.tare_duration
+    ready = max(lifted(m) if m.phases.height else 0.0, tared)
+    for i, push in enumerate(m.pushes):
+        name = f"pushes.{i}"
+        if push.time > m.mission.duration:
+            text = f"{name}.time = {push.time:g} s is after mission.duration = {m.mission.duration:g} s"
+            yield noted("schedule", text, verdict=CLOSE, subject=name)
+        elif by_hand and push.time < ready <= m.mission.duration:
+            since = "the lift" if ready > tared else "the tare"
+            text = (
+                f"{name} has its peak at {push.time:g} s, before {since} ends at {ready:g} s: it is not followed; set "
+                f"{name}.time to {ready:g} s or later"
+            )
+            yield judged("schedule", ready, push.time, "s", text, subject=name, near=0.0)
+
+
+def shift_of(m: Mission, push: PushTable) -> float:
+    """By how much a push moves the reference up [m]: what exceeds the threshold, over the damping, within its speed."""
+    a, force = m.admittance, push.force[2]
+    threshold, damping = a.threshold[2], a.damping[2]
+    if abs(force) <= threshold or damping == 0.0 or a.stiffness[2] > 0.0:
+        return 0.0
+    half = push.sigma * math.sqrt(2.0 * math.log(abs(force) / threshold)) if threshold > 0.0 else 8.0 * push.sigma
+    impulse = abs(force) * push.sigma * math.sqrt(2.0 * math.pi) * math.erf(half / (push.sigma * math.sqrt(2.0)))
+    if a.gate == "soft" or m.pilot.guidance == "hand":
+        impulse -= 2.0 * half * threshold
+    most = 2.0 * half * m.compliance.max_speed[2] if m.pilot.guidance == "hand" else math.inf
+    return math.copysign(min(impulse / damping, most), force)
+
+
+def heights_of(m: Mission) -> list[tuple[int, float]]:
+    """(Number of the push, height of the reference after it [m]), in the order of time, while the vehicle is lifted."""
+    p = m.phases
+    until = min(m.mission.duration, math.inf if p.land_start is None else p.land_start)
+    after = sorted(((push.time, i) for i, push in enumerate(m.pushes) if lifted(m) <= push.time <= until))
+    shifts = [shift_of(m, m.pushes[i]) for _, i in after]
+    return [(i, p.height + total) for (_, i), total in zip(after, itertools.accumulate(shifts), strict=True)]
+
+
+def descent_checks(m: Mission) -> Iterator[CheckResult]:
+    """Pushes that move the reference down into the floor."""
+    if m.ground.model != "floor" or not m.phases.height:
+        return
+    for i, height in heights_of(m):
+        if m.pushes[i].force[2] < 0.0:
+            text = (
+                f"pushes.{i} moves the reference down to {height:.3g} m, below where the vehicle stands: it is pressed "
+                f"on the floor; lower pushes.{i}.force or sigma, or raise phases.height = {m.phases.height:g} m"
+            )
+            yield judged("descent", m.phases.height - height, m.phases.height, "m", text, subject=f"pushes.{i}")
+
+
+def landing_duration(m: Mission) -> float:
+    """The duration of the landing [s]: a guidance by hand keeps to its largest speed of descent."""
+    p, heights = m.phases, heights_of(m)
+    if m.pilot.guidance != "hand":
+        return p.land_duration
+    height = (heights[-1][1] if heights else p.height) + m.compliance.touchdown_depth
+    return max(p.land_duration, STEEPEST * height / m.compliance.max_descent_speed)
+
+
+def landing_checks(m: Mission) -> Iterator[CheckResult]:
+    """A landing that begins and does not end before the mission does."""
+    p, end = m.phases, m.mission.duration
+    if not p.height or p.land_start is None or p.land_start >= end:
+        return
+    over = p.land_start + landing_duration(m)
+    text = (
+        f"the landing from phases.land_start = {p.land_start:g} s takes until {over:.4g} s, and mission.duration is "
+        f"{end:g} s: the flight ends in the air; set mission.duration to {math.ceil(over)} s or more, or land earlier"
+    )
+    yield judged("schedule", over, end, "s", text, subject="landing", near=0.0)
+
+
+def way_checks(m: Mission) -> Iterator[CheckResult]:
+    """A person's way that is too long for the time there is, at the speed that the person aims at."""
+    p = m.person
+    points = [w.point for w in p.path] or list(m.corridor.centreline)
+    if p.model not in ("pull", "steer", "two-hands") or not points:
+        return
+    start = (m.initial.position[0], m.initial.position[1])
+    length = sum(itertools.starmap(math.dist, itertools.pairwise([start, *points])))
+    length = max(length - abs(p.grip) - p.arrival_radius, 0.0)
+    begins = max(p.start_time, m.phases.lift_start + p.height_fraction * m.phases.lift_duration * 0.5)
+    least = begins + length / p.speed + sum(w.dwell for w in p.path) + landing_duration(m)
+    end = m.mission.duration
+    text = (
+        f"the person's way of {length:.3g} m at person.speed = {p.speed:g} m/s and the landing take until "
+        f"{least:.4g} s at the soonest, and mission.duration = {end:g} s: set it to more than {math.ceil(least)} s"
+    )
+    yield judged("schedule", least, end, "s", text, subject="person", near=0.1)

@@ -1,0 +1,150 @@
+"""The table of checks, and all of them of a mission."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.missions.flight_checks.authority import authority_checks
+from tandemlift.missions.flight_checks.loops import loop_checks
+from tandemlift.missions.flight_checks.passage import passage_checks
+from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, noted
+from tandemlift.missions.flight_checks.schedule import schedule_checks
+from tandemlift.missions.flight_checks.sensing import sensing_checks
+from tandemlift.settings import Mission
+
+
+class FlightCheck(NamedTuple):
+    """A check: its name, what is compared with what, in which unit, when it applies, and the keys that change it."""
+
+    name: str
+    value: str
+    limit: str
+    unit: str
+    applies: str
+    keys: str
+
+
+ROTORS = '`actuators.model = "rotors"`'
+CHECKS = (
+    FlightCheck(
+        "thrust",
+        "weight and the largest load downwards, with pushes and wind",
+        "the part of the rotors' thrust, with their faults, that may be used: `compliance.thrust_fraction`, or 95 % by "
+        "the clock",
+        "N",
+        ROTORS,
+        "`plant.mass_scale`, `compliance.thrust_fraction`, `vehicle.quadrotors`, `disturbance.force`, `pushes`",
+    ),
+    FlightCheck(
+        "supervised lift",
+        "weight that the pilot knows",
+        "`supervision.checks.thrust_fraction` of the thrust",
+        "N",
+        '`supervision.model = "watch"`',
+        "`supervision.checks.thrust_fraction`",
+    ),
+    FlightCheck(
+        "tilt",
+        "horizontal force of disturbance, wind with 2 σ of turbulence, and pushes, at the worst time",
+        "what `controller.max_tilt`, and the thrust beside the weight, can counter",
+        "N",
+        ROTORS,
+        "`controller.max_tilt`, `wind`, `disturbance.force`, `pushes`",
+    ),
+    FlightCheck(
+        "moment",
+        "moment of disturbance, wind and pushes about each axis",
+        "85 % of what the rotors can give in hover before the first one is at a limit",
+        "N m",
+        ROTORS,
+        "`disturbance.moment`, `pushes.*.point`, `allocation.weights`",
+    ),
+    FlightCheck(
+        "delay",
+        "delay of rotors, step and readings",
+        "the delay that the loop of z, roll, pitch or yaw bears beside the rotors' lag until it oscillates",
+        "ms",
+        ROTORS,
+        "`actuators.delay`, `sensors.delay`, `vehicle.quadrotors.*.lag_up`, the controller's gains",
+    ),
+    FlightCheck(
+        "wind on the payload",
+        "2 σ of the turbulent wind's force on the payload",
+        "`admittance.threshold`",
+        "N",
+        "turbulence, and a push that is measured",
+        "`admittance.threshold`, `wind.turbulence`, `estimator.wind_compensation`",
+    ),
+    FlightCheck(
+        "noise",
+        "4 σ of the measured push's noise behind its low-pass",
+        "the smallest `admittance.threshold`",
+        "N",
+        "a push that is measured",
+        "`admittance.threshold`, `sensors.joints.force_noise`, `compliance.input_bandwidth`",
+    ),
+    FlightCheck(
+        "descent",
+        "how far pushes move the reference down",
+        "the height of the lift",
+        "m",
+        "a floor",
+        "`pushes`, `phases.height`",
+    ),
+    FlightCheck(
+        "schedule",
+        "end of the landing, of a person's way, of lift and tare before a push",
+        "the end of the mission; the time of the push",
+        "s",
+        "",
+        "`mission.duration`, `phases`, `pushes.*.time`, `person.speed`",
+    ),
+    FlightCheck(
+        "passage",
+        "radius of a quadrotor's guard",
+        "its distance from the nearest wall on the person's way, with the heading kept, turned or trailing",
+        "m",
+        "walls, and a person",
+        "`corridor.width`, `person.model`, `person.path`",
+    ),
+)
+
+PARTS: tuple[Callable[[Mission], Iterator[CheckResult]], ...] = (
+    authority_checks,
+    loop_checks,
+    sensing_checks,
+    schedule_checks,
+    passage_checks,
+)
+
+
+def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
+    """The results of all checks of a mission, by closed forms."""
+    with np.errstate(all="ignore"):
+        return tuple(result for part in PARTS for result in _results(part, m))
+
+
+def _results(part: Callable[[Mission], Iterator[CheckResult]], m: Mission) -> Iterator[CheckResult]:
+    """The results of a part, until numbers are too large or too small to compute with."""
+    try:
+        yield from part(m)
+    except (ArithmeticError, np.linalg.LinAlgError):
+        name = part.__name__.replace("_", " ")
+        yield noted(name, f"the {name} end here: the mission's numbers are too extreme for them", verdict=CLOSE)
+
+
+def flight_warnings(m: Mission) -> Iterator[str]:
+    """The sentence of the worst failure of each check."""
+    failed = [result for result in flight_checks(m) if result.verdict == FAILS]
+    for name in dict.fromkeys(result.check for result in failed):
+        yield max((r for r in failed if r.check == name), key=_excess).text
+
+
+def _excess(result: CheckResult) -> float:
+    """By how much of its limit a result exceeds it."""
+    if result.value is None or result.limit is None or result.limit <= 0.0:
+        return float("inf")
+    return result.value / result.limit

@@ -1,0 +1,1 @@
+"""Missions at random, over all keys."""

@@ -1,0 +1,23 @@
+"""docs/outcomes.md and the settings name every kind of finding, and every key that a kind names exists."""
+
+from repository import ROOT
+
+from tandemlift.common.findings import FINDING_NAMES, KINDS, finding_kinds_markdown
+from tandemlift.missions.key_reference.sections import sections
+
+
+def test_the_table_of_kinds_is_that_of_the_code():
+    assert finding_kinds_markdown() in (ROOT / "docs" / "outcomes.md").read_text("utf-8")
+
+
+def test_each_name_has_a_kind_of_its_own():
+    assert tuple(kind.name for kind in KINDS) == FINDING_NAMES
+    assert len({kind.meaning for kind in KINDS}) == len({kind.remedy for kind in KINDS}) == len(KINDS)
+
+
+def test_the_keys_of_thresholds_exist_and_each_serves_a_kind():
+    known = {key.name for section in sections() for key in section.keys}
+    used = [key for kind in KINDS for key in kind.keys]
+    assert set(used) <= known
+    ours = {name for name in known if name.startswith(("promise.", "findings."))} - {"findings.ignore"}
+    assert sorted(used) == sorted(ours)

@@ -1,0 +1,172 @@
+"""Each kind of finding in a flight that has it and in one that has not, against NumPy and SciPy on all of its steps."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.fft import rfft, rfftfreq
+from scipy.signal import find_peaks
+
+import tandemlift as tl
+
+ROTORS = {"actuators.model": "rotors", "mission.duration": 14.0, "mission.log_interval": 0.001}
+CLOCK = {  # on top of mission hover with rotors, in one compiled loop
+    "calm": {},
+    "slow rotors": {"initial.euler": [0.1, 0.1, 0.0], "actuators.delay": 0.06},
+    "steep lift": {"phases.lift_start": 11.0, "phases.lift_duration": 0.5},
+    "weight": {"disturbance.force": [0.0, 0.0, -21.5]},
+    "held up": {"phases.land_start": 6.0, "phases.land_duration": 4.0, "disturbance.force": [0.0, 0.0, 34.5]},
+    "sideways": {
+        "disturbance.force": [3.0, 0.0, 0.0],
+        "promise.distance": 0.3,
+        "promise.settling_time": 2.0,
+        "promise.tilt": 0.05,
+    },
+    "turned": {"disturbance.moment": [0.0, 0.0, 0.1], "promise.heading": 0.01},
+}
+HAND = {  # on top of mission iris
+    "answered": {},
+    "unanswered": {"compliance.thrust_fraction": 0.5},
+}
+
+
+@pytest.fixture(scope="module")
+def flights():
+    """Flights by name, as a block where they are of one variant."""
+    delay = {"actuators.delay": 0.001}  # so that all have a delay line
+    clock = [tl.load_mission("hover", {**ROTORS, **delay, **changes}) for changes in CLOCK.values()]
+    hand = {"mission.duration": 26.0, "mission.log_interval": 0.001}
+    iris = [tl.load_mission("iris", {**hand, **changes}) for changes in HAND.values()]
+    return dict(zip([*CLOCK, *HAND], tl.fly_many([*clock, *iris]), strict=True))
+
+
+def of_kind(flight, kind, quantity=""):
+    return [f for f in flight.findings if f.kind == kind and f.quantity.startswith(quantity)]
+
+
+def only(flight, kind, quantity=""):
+    (found,) = of_kind(flight, kind, quantity)
+    return found
+
+
+def distance(flight):
+    return np.linalg.norm(flight["position_error"], axis=1)
+
+
+def stretches(over):
+    """Starts and lengths, in samples, of all stretches of a mask."""
+    ends = np.flatnonzero(np.diff(np.concatenate(([0], over.astype(int), [0]))))
+    return ends[::2], ends[1::2] - ends[::2]
+
+
+@pytest.mark.parametrize("name", ["calm", "answered"])
+def test_a_flight_that_goes_well_has_no_findings(flights, name):
+    assert flights[name].findings == ()
+    assert flights[name].metrics()["findings"] == []
+
+
+def test_an_oscillation_has_the_frequency_and_amplitude_of_its_channel(flights):
+    flight = flights["slow rotors"]
+    found = only(flight, "oscillating", "pitch rate")
+    part = (flight.time >= found.time) & (flight.time < found.time + found.duration)
+    rate = flight["rates"][part, 1]
+    spectrum = np.abs(rfft(rate * np.hanning(len(rate))))
+    frequency = rfftfreq(len(rate), 0.001)[spectrum.argmax()]
+    assert float(found.quantity.split()[-2]) == pytest.approx(frequency, abs=1.0 / found.duration)
+    peaks = np.abs(rate[find_peaks(np.abs(rate), distance=round(300 / frequency))[0]])
+    assert found.value == pytest.approx(np.median(peaks[-8:]), rel=0.15)
+    assert found.limit == 0.3
+
+
+def test_the_distance_and_its_root_mean_square_are_those_of_the_channels(flights):
+    flight = flights["sideways"]
+    d, t = distance(flight)[:-1], flight.time[:-1]  # the last sample has no step
+    found, late = only(flight, "off-track", "distance"), t >= 2.0
+    assert found.value == pytest.approx(d[late].max(), rel=1e-12)
+    starts, lengths = stretches(late & (d > 0.3))
+    assert found.duration == pytest.approx(lengths.sum() * 1e-3)
+    assert found.time == pytest.approx(t[starts[lengths.argmax()]])
+    assert found.place == pytest.approx(flight["position"][np.where(late, d, 0.0).argmax()])
+    rms = only(flight, "off-track", "RMS")
+    assert rms.value == pytest.approx(math.sqrt(np.mean(d[late] ** 2)), rel=1e-12)
+
+
+def test_heading_and_tilt_are_those_of_the_channels(flights):
+    flight = flights["turned"]
+    late = (flight.time >= 10.0) & (flight.time < 14.0)
+    assert only(flight, "off-track", "difference").value == pytest.approx(
+        np.abs(flight["attitude_error"][late, 2]).max(), rel=1e-9
+    )
+    leaning = flights["sideways"]
+    _, x, y, _ = leaning["attitude"][(leaning.time >= 2.0) & (leaning.time < 14.0)].T
+    assert only(leaning, "off-track", "tilt").value == pytest.approx(np.arccos(1.0 - 2.0 * (x * x + y * y)).max())
+    assert not of_kind(flight, "off-track", "tilt")
+
+
+def test_saturation_is_that_of_the_commands(flights):
+    flight = flights["weight"]
+    commands, most = flight["rotor_commands"][:-1], 5.84e-6 * 1100.0**2
+    _, lengths = stretches(((commands <= 0.0) | (commands >= most)).any(axis=1))
+    found = only(flight, "saturated")
+    assert found.value == pytest.approx(lengths.max() * 1e-3, abs=1e-9)
+    assert found.duration == pytest.approx(lengths.sum() * 1e-3, abs=1e-9)
+    assert not of_kind(flights["steep lift"], "oscillating")
+
+
+def test_a_reference_out_of_reach_asks_for_more_thrust_than_there_is(flights):
+    flight = flights["steep lift"]
+    found = only(flight, "out-of-reach", "thrust")
+    needed = 3.5 * np.linalg.norm(flight["reference_acceleration"] + [0.0, 0.0, 9.81], axis=1)
+    most = 8 * 5.84e-6 * 1100.0**2
+    assert found.limit == pytest.approx(most)
+    assert found.value == pytest.approx(needed.max(), rel=1e-3)
+    assert found.duration == pytest.approx((needed > most).sum() * 1e-3, abs=0.002)
+    left = only(flights["held up"], "out-of-reach", "distance")
+    assert left.value == pytest.approx(distance(flights["held up"])[:-1].max(), rel=1e-12)
+
+
+def test_a_push_that_moves_nothing_is_found(flights):
+    flight = flights["unanswered"]
+    found = of_kind(flight, "push-unanswered")
+    assert found
+    force = np.linalg.norm(flight["admittance_force"], axis=1)
+    part = (flight.time >= found[0].time) & (flight.time <= found[0].time + found[0].duration)
+    assert found[0].value == pytest.approx(force[part].max(), rel=0.02)
+    assert np.abs(flight["velocity"][part][:, :2]).max() < 0.1  # 1 N would lead to 0.6 m/s
+    assert np.linalg.norm(flights["answered"]["velocity"][part], axis=1).max() > 0.5
+
+
+def test_a_vehicle_that_stays_in_the_air_has_not_landed(flights):
+    found = only(flights["held up"], "not-landed")
+    assert found.time == 14.0
+    assert found.value == pytest.approx(flights["held up"]["position"][-1, 2])
+    assert flights["held up"].outcome == "flying"
+    assert not of_kind(flights["calm"], "not-landed")
+
+
+@pytest.mark.parametrize("name", ["slow rotors", "sideways", "unanswered"])
+def test_a_flight_alone_has_the_findings_of_one_in_a_block(flights, name):
+    base, changes = ("iris", HAND[name]) if name in HAND else ("hover", {"actuators.delay": 0.001, **CLOCK[name]})
+    ours = {**ROTORS, "mission.duration": flights[name].mission["mission"]["duration"]}
+    mission = tl.load_mission(base, {**(ours if base == "hover" else {k: ours[k] for k in list(ours)[1:]}), **changes})
+    assert tl.fly(mission).findings == flights[name].findings
+    (metrics,) = tl.fly_many([mission], keep="metrics")
+    assert metrics["findings"] == [[f.time, f.kind, f.text] for f in flights[name].findings]
+
+
+def test_a_flight_step_by_step_has_the_same_findings(flights):
+    sim = tl.Simulation(tl.load_mission("hover", {**ROTORS, "actuators.delay": 0.001, **CLOCK["sideways"]}))
+    while not sim.over:
+        sim.step()
+    assert sim.flight().findings == flights["sideways"].findings
+
+
+def test_findings_are_saved_and_loaded(flights, tmp_path):
+    flight = flights["slow rotors"]
+    assert flight.findings
+    assert tl.Flight.load(flight.save(tmp_path / "flight.npz")) == flight
+
+
+def test_ignored_kinds_are_left_out(flights):
+    changes = {**ROTORS, "actuators.delay": 0.001, **CLOCK["sideways"], "findings.ignore": ["off-track"]}
+    assert tl.fly(tl.load_mission("hover", changes)).findings == ()

@@ -1,0 +1,141 @@
+"""Missions at random, and the judge of their outcomes, who must be able to say no."""
+
+import ast
+import sys
+from pathlib import Path
+
+import judge
+import numpy as np
+import pytest
+from judge.model import GRAVITY, body_of, corridor_walls
+from judge.verdict import judge as judged_record
+from mission_schema import SCHEMA
+from random_missions import Judged, judged_family, report, table
+
+import tandemlift as tl
+from tandemlift.missions import tables_of
+from tandemlift.settings import CorridorTable
+from tandemlift.studies.random_missions.generate import (
+    FIXED,
+    LISTS,
+    drawable_keys,
+    random_family,
+    random_missions,
+    shortened,
+)
+from tandemlift.vehicle import Vehicle
+
+FAMILIES = range(10)  # five missions each
+
+
+@pytest.fixture(scope="module")
+def pushed():
+    """A flight with a sample for every step."""
+    return tl.fly(tl.load_mission("one-push", {**shortened("one-push", 8.0), "mission.log_interval": 0.001}))
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_fifty_missions_at_random_end_as_the_judge_says(family):
+    rows = judged_family((16, family, 5))
+    assert len(rows) == 5
+    wrong = [f"{r.family}/{r.member} {r.base}: {r.verdict} {r.changes}" for r in rows if not r.confirmed]
+    assert wrong == []
+
+
+def test_the_judge_shares_no_code_with_the_package():
+    imported = set()
+    for file in Path(judge.__file__).parent.glob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+            if isinstance(node, ast.Import):
+                imported |= {alias.name.partition(".")[0] for alias in node.names}
+            if isinstance(node, ast.ImportFrom):
+                imported.add(node.module.partition(".")[0])
+    assert imported - set(sys.stdlib_module_names) == {"judge", "mujoco", "numpy"}
+
+
+@pytest.mark.parametrize("name", ["paper", "iris", "four"])
+def test_the_judge_weighs_the_vehicle_as_the_package_does(name):
+    mission = tl.load_mission(name, {"plant.mass_scale": 1.2, "plant.inertia_scale": [1.1, 0.9, 1.3]})
+    body, vehicle = body_of(tables_of(mission)), Vehicle.from_settings(mission.vehicle)
+    scale = np.sqrt([1.1, 0.9, 1.3])
+    assert body.mass == pytest.approx(1.2 * vehicle.mass, rel=1e-12)
+    np.testing.assert_allclose(body.inertia, vehicle.inertia * np.outer(scale, scale), rtol=1e-12, atol=1e-15)
+
+
+def test_the_judge_builds_the_corridors_walls_where_the_package_does():
+    corridor = tl.load_mission("zigzag", {"corridor.ends": "closed"}).corridor
+    ours = [[*w.start, *w.end, w.top] for w in CorridorTable.model_validate(corridor).walls]
+    its = [[*w["start"], *w["end"], w["top"]] for w in corridor_walls(corridor.model_dump(mode="json"))]
+    np.testing.assert_allclose(sorted(its), sorted(ours), atol=1e-12)
+
+
+def test_mujoco_flies_a_flight_again_to_a_micrometre_for_its_whole_length(pushed):
+    verdict = judged_record(pushed.mission, pushed.time, pushed.channels)
+    apart = verdict.followed.position[:-1] - pushed["position"]
+    assert verdict.outcome == pushed.outcome == "flying"
+    assert verdict.followed.restarts == []
+    assert np.abs(apart).max() < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("channel", "factor"), [("rotor_thrusts", 1.002), ("push_force", 1.05)], ids=["thrusts", "push"]
+)
+def test_the_judge_does_not_follow_a_record_whose_commands_are_false(pushed, channel, factor):
+    channels = {**pushed.channels, channel: pushed[channel] * factor}
+    assert judged_record(pushed.mission, pushed.time, channels).unexplained
+
+
+def test_the_judge_does_not_follow_a_body_of_another_mass(pushed):
+    mission = {**pushed.mission, "plant": {"mass_scale": 1.003, "inertia_scale": [1.0, 1.0, 1.0]}}
+    assert judged_record(mission, pushed.time, pushed.channels).unexplained
+
+
+def test_the_judge_sees_energy_that_contact_adds():
+    mission, time = tables_of(tl.load_mission("iris", shortened("iris"))), np.arange(2000) * 0.001
+    body = body_of(mission)
+    height, speed = np.full(2000, 1.0), np.zeros(2000)
+    speed[1000:] = 1.0 - GRAVITY * (time[1000:] - time[1000])  # thrown up by nothing
+    height[:1000] -= 0.5 * GRAVITY * (time[:1000] - time[1000]) ** 2 - 0.0
+    speed[:1000] = -GRAVITY * (time[:1000] - time[1000])
+    height[1000:] += np.cumsum(speed[1000:]) * 0.001
+    zero, still = np.zeros((2000, 3)), np.tile([1.0, 0.0, 0.0, 0.0], (2000, 1))
+    channels = {
+        "position": np.column_stack([zero[:, :2], height]),
+        "velocity": np.column_stack([zero[:, :2], speed]),
+        "attitude": still,
+        "rates": zero,
+        "rotor_thrusts": np.zeros((2000, 8)),
+        "push_force": zero,
+        "push_moment": zero,
+    }
+    verdict = judged_record(mission, time, channels)
+    assert verdict.gained == pytest.approx(0.5 * body.mass, rel=0.03)
+
+
+def test_the_same_seed_draws_the_same_missions():
+    one, other = (list(random_missions(3, 2, 2)) for _ in range(2))
+    assert one == other
+    assert one != list(random_missions(4, 2, 2))
+
+
+def test_missions_at_random_are_short_and_differ_in_one_to_twelve_keys():
+    for drawn in random_family(5, 3, 4):
+        before = shortened(drawn.base)
+        assert sum(before.get(key) != value for key, value in drawn.changes.items()) >= 1
+        assert 8.0 <= drawn.mission.mission.duration <= 20.0
+
+
+def test_every_key_of_the_schema_may_be_drawn():
+    everything = {
+        name.replace(".0", "") for base in ("gusts", "doorway", "rotor-loss", "zigzag") for name in drawable_keys(base)
+    }
+    inside = {key for key in SCHEMA if not key.replace(".0", "").startswith((*FIXED, *LISTS))}
+    assert {key.replace(".0", "") for key in inside} - everything == set()
+
+
+def test_the_table_counts_silent_failures_and_names_disagreements():
+    good = Judged(0, 0, "iris", {}, "landed", "", "landed", "agreed", [], False, [], 0, 1.0)
+    bad = good._replace(outcome="crashed", ending="struck", judged="flying", verdict="crashed struck, judged flying")
+    text = report([good, bad], "test")
+    assert "1 disagreements outside the bands" in text
+    assert "| crashed |  | 1 |  |  |  | 0 | 0 | 1 |" in table([good, bad])
