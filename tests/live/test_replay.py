@@ -367,7 +367,7 @@ def test_the_page_that_ships_can_stand_alone(flight):
 
 
 def test_a_flight_that_crashed_carries_its_ending():
-    tender = {"crash.tilt": 0.02, "mission.duration": 20.0}
+    tender = {"crash.tilt": 0.02, "promise.tilt": 0.01, "mission.duration": 20.0}
     flight = tl.fly(tl.load_mission("one-push", tender))
     assert flight.ending is not None
     scene, _ = scene_and_frames(flight)

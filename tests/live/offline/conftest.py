@@ -8,7 +8,7 @@ from tandemlift.live.offline.page_modules import packed_flight, packed_mission, 
 from tandemlift.live.session.session import Session
 
 BY_HAND = GUIDED | {"supervision.model": "watch", "supervision.limits.tilt_time": 100.0}
-TENDER = {"supervision.limits.tilt": 0.11, "crash.tilt": 0.12}  # a hard push is a crash
+TENDER = {"supervision.limits.tilt": 0.11, "crash.tilt": 0.12, "promise.tilt": 0.1}  # a hard push is a crash
 
 
 @pytest.fixture(scope="session")

@@ -14,7 +14,7 @@ SHORT = {"supervision.model": "watch", "supervision.limits.tilt_time": 100.0, "s
 @pytest.fixture
 def tender(tmp_path):
     """A session of a vehicle for which a hard push is a crash."""
-    one = Session(tl.load_mission("hover", GUIDED | SHORT | {"crash.tilt": 0.12}), out=tmp_path)
+    one = Session(tl.load_mission("hover", GUIDED | SHORT | {"crash.tilt": 0.12, "promise.tilt": 0.1}), out=tmp_path)
     one.prepare()
     yield one
     one.stop()

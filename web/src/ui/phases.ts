@@ -22,7 +22,6 @@ const LOOKS: Record<Phase, PhaseLook> = {
   failed: { text: "failed: press Reset", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
   limited: { text: "cannot follow", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
   stopped: { text: "stopped", kind: "fault", tint: "rgba(213, 40, 27, 0.12)" },
-  contact: { text: "at a wall", kind: "calm", tint: "rgba(47, 111, 176, 0.12)" },
 };
 
 export function phaseTint(phase: Phase): string {
