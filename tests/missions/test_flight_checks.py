@@ -52,7 +52,6 @@ TOLD = {  # of iris, and what its warnings must say: quantity, limit, key
     "wind along -x": (wind(-4.0, 0.0), [HEARD]),
     "wind along y": (wind(0.0, 4.0), [HEARD]),
     "wind along -y": (wind(0.0, -4.0), [HEARD, "estimator.wind_compensation"]),
-    "a heavier vehicle": ({"plant.mass_scale": 1.25}, ["loop oscillates", "0.875 kg", "estimator.identify_mass"]),
     "weak rotors": (rotors(thrust_constant=0.65), ["34.3 N", "compliance.thrust_fraction = 0.9", "33.1 N"]),
     "30 N downwards": ({"disturbance.force": [0.0, 0.0, -30.0]}, ["64.3 N", "56.5 N", "cannot fly"]),
     "a push of 30 N downwards": (push(force=[0.0, 0.0, -30.0]), ["in pushes.0, hover needs 64.3 N", "on the floor"]),
@@ -88,6 +87,13 @@ def test_what_ends_badly_is_warned_of(changes, pieces):
 
 def test_gains_of_the_paper_on_real_rotors_are_warned_of():
     assert "the pitch loop oscillates with the rotors' lag of 18.8 ms" in told("paper", {"actuators.model": "rotors"})
+
+
+def test_a_start_that_asks_for_more_than_the_rotors_have_is_warned_of():
+    real = {"actuators.model": "rotors"}
+    assert told("flight-ready", real) == ""
+    assert "rad of tilt along x" in told("flight-ready", {**real, "initial.velocity": [-2.9, 0.0, 0.0]})
+    assert "N m in yaw; the rotors give" in told("flight-ready", {**real, "initial.rates": [0.0, 0.0, -1.8]})
 
 
 def test_a_corridor_is_held_against_the_way_the_vehicle_is_led():

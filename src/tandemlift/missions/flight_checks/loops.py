@@ -107,8 +107,10 @@ def loop_delays(m: Mission) -> Iterator[LoopDelay]:
     late, readings = reading_delays(m)
     delay = round(m.actuators.delay / h) * h + 0.5 * h + late
     K = response.at(np.exp(1j * w * h)) * np.exp(-1j * w[:, None, None] * readings)
+    lags = np.array([0.5 * (q.lag_up + q.lag_down) for q in m.vehicle.quadrotors])
+    lagging = np.mean(1.0 / (1.0 + 1j * w[:, None] * lags), axis=1)
     for i, axis in enumerate(LOOPS):
-        L = open_loop(m, w, K[:, i], i) / (1.0 + 1j * w * lag_of(m))
+        L = open_loop(m, w, K[:, i], i) * lagging
         bears, crossover = delay_borne(w, L)
         yield LoopDelay(axis, delay, bears, crossover)
 

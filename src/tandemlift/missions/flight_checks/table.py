@@ -13,6 +13,7 @@ from tandemlift.missions.flight_checks.passage import passage_checks
 from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, noted
 from tandemlift.missions.flight_checks.schedule import schedule_checks
 from tandemlift.missions.flight_checks.sensing import sensing_checks
+from tandemlift.missions.flight_checks.start import start_checks
 from tandemlift.settings import Mission
 
 
@@ -61,6 +62,14 @@ CHECKS = (
         "N m",
         ROTORS,
         "`disturbance.moment`, `pushes.*.point`, `allocation.weights`",
+    ),
+    FlightCheck(
+        "start",
+        "moment, and tilt, that the controller asks for at the start",
+        "4 times what the rotors can give in hover; 0.4 rad",
+        "N m, rad",
+        f'{ROTORS}, `allocation.method = "pseudo-inverse"`',
+        "`initial`, the controller's gains, `allocation.method`",
     ),
     FlightCheck(
         "delay",
@@ -114,6 +123,7 @@ CHECKS = (
 
 PARTS: tuple[Callable[[Mission], Iterator[CheckResult]], ...] = (
     authority_checks,
+    start_checks,
     loop_checks,
     sensing_checks,
     schedule_checks,

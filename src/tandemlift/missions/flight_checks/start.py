@@ -1,0 +1,48 @@
+"""What the controller asks for at a start that is not at rest at its reference, against what the rotors can give.
+
+The controller is taken as linear: a moment for an angle and a rate of the start, and, once its filters have settled, an
+angle for a position and a velocity. An allocation by the pseudo-inverse loses thrust and the other moments where one is
+beyond the rotors' limits; the constrained one keeps to its priorities, so it is not checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from tandemlift.missions.flight_checks.authority import AXES, authority_of
+from tandemlift.missions.flight_checks.controller_response import controller_response
+from tandemlift.missions.flight_checks.result import CheckResult, judged
+from tandemlift.settings import Mission
+
+BEYOND = 4.0  # times the rotors' moment, up to which flights recover; found by flights of mission flight-ready
+TILTED = 0.4  # rad, of the attitude that is asked for; likewise
+SETTLED = np.array([1.0 + 1e-9])  # in the discrete plane
+
+
+def start_checks(m: Mission) -> Iterator[CheckResult]:
+    """Moments and tilt that are asked for at the start of real rotors that run, allocated by the pseudo-inverse."""
+    free = m.actuators.model == "rotors" and m.allocation.method == "pseudo-inverse" and m.phases.rotors == "always"
+    response = controller_response(m) if free else None
+    if response is None:
+        return
+    asked, i = response.at(SETTLED)[0].real, m.initial
+    authority = authority_of(m)
+    for axis, name in enumerate(AXES):
+        value = abs(asked[axis + 1, 2] * i.euler[axis] + asked[axis + 1, 3] * i.rates[axis])
+        text = (
+            f"at the start the controller asks for {value:.3g} N m in {name}; the rotors give {authority[axis]:.3g} "
+            f"in hover, and flights recover up to {BEYOND:g} times that: start nearer to rest (initial.euler, "
+            'initial.rates), lower the gains, or take allocation.method = "constrained"'
+        )
+        yield judged("start", value, BEYOND * float(authority[axis]), "N m", text, subject=name)
+    for axis, along in ((0, 1), (1, 0)):
+        turning = asked[axis + 1]
+        tilt = abs(turning[0] * i.position[along] + turning[1] * i.velocity[along]) / max(abs(turning[2]), 1e-12)
+        text = (
+            f"at the start the controller asks for {tilt:.3g} rad of tilt along {'xy'[along]}, and {TILTED:g} rad is "
+            "what flights recover from: start nearer to the reference (initial.position, initial.velocity), or set "
+            "controller.max_tilt"
+        )
+        yield judged("start", tilt, TILTED, "rad", text, subject=f"tilt along {'xy'[along]}")
