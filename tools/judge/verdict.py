@@ -174,6 +174,8 @@ def contact_of(mission: dict[str, Any], channels: dict[str, np.ndarray], flown: 
     height = channels["position"][:, 2]
     kinetic = 0.5 * body.mass * (v**2).sum(axis=1) + 0.5 * np.einsum("ti,ij,tj->t", w, body.inertia, w)
     touching = np.linalg.norm(contact, axis=1) > TOUCHING * body.mass * GRAVITY
+    if "contact_force" in channels:  # a foot that bears less than that, yet turns the vehicle
+        touching |= channels["contact_force"][:-1].any(axis=1)
     near = touching | np.append(touching[1:], False) | np.append(False, touching[:-1])
     energy = np.cumsum(np.where(near, np.diff(kinetic + body.mass * GRAVITY * height) - power * step, 0.0))
     between = energy[~near]
