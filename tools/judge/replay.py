@@ -14,7 +14,7 @@ import numpy as np
 from judge.model import GRAVITY, Model, model_of
 
 LOST = 1e5  # m/s, rad/s, beyond which the flight has diverged and is not followed
-EVERY = 10  # steps between comparisons of the replay with the record
+EVERY = 0.01  # s between comparisons of the replay with the record
 APART = (0.005, 0.02, 0.005, 0.1)  # m, m/s, rad, rad/s: distance between replay and record at which it starts again
 
 
@@ -107,9 +107,9 @@ def _fly(mission: dict[str, Any], model: Model, data: Any, loads: Loads, states:
     count, step, compiled = len(states), mission["mission"]["step"], model.mujoco
     out, restarts = np.full((count + 1, 14), np.nan), list[tuple[int, str, bool]]()
     state, applied, pushed = out[:, :13], data.qfrc_applied, loads.pushes.mean_levers.any(axis=(1, 2))
-    touched = _start(compiled, data, states[0])
+    touched, every = _start(compiled, data, states[0]), max(1, round(EVERY / step))
     for k in range(count):
-        if k and k % EVERY == 0:
+        if k and k % every == 0:
             apart = _apart(data, states[k])
             if apart:
                 restarts.append((k, apart, touched))

@@ -15,7 +15,7 @@ from judge.replay import Replay, drag_of, replay, rotations
 
 GRAVITY, FAR = 9.81, 1000.0
 FADING = 0.1  # s, in which an impulse of contact fades
-BEARS, LATELY = 0.5, 0.05  # of the weight, by the floor; s, over which what it bears is averaged
+BEARS, LATELY = 0.5, 0.05  # of the weight, by the floor; s, within which what it bears may not cross that
 TOUCHING = 0.01  # of the weight: contact forces below this are rounding
 
 BANDS = {  # width of the band on either side of each threshold, within which a disagreement does not count
@@ -133,7 +133,8 @@ def _end(mission: dict[str, Any], flown: Replay, ground: Ground) -> tuple[str, d
     slow = (limits["landed_speed"] - speed) / BANDS["speed"]
     if mission["ground"]["model"] == "floor":
         weight = flown.model.body.mass * GRAVITY
-        lands = (ground.force[last, 2].mean() / weight - BEARS) / BANDS["borne"]
+        borne = (ground.force[last, 2] / weight - BEARS) / BANDS["borne"]
+        lands = float(np.clip(borne[-1], -1.0, 1.0) if borne.min() < 0.0 < borne.max() else borne[-1])
     else:
         land = phases.get("land_start")
         if land is None or land + phases["land_duration"] > mission["mission"]["duration"]:
@@ -174,6 +175,8 @@ def contact_of(mission: dict[str, Any], channels: dict[str, np.ndarray], flown: 
     height = channels["position"][:, 2]
     kinetic = 0.5 * body.mass * (v**2).sum(axis=1) + 0.5 * np.einsum("ti,ij,tj->t", w, body.inertia, w)
     touching = np.linalg.norm(contact, axis=1) > TOUCHING * body.mass * GRAVITY
+    if "contact_force" in channels:  # a foot that bears less than that, yet turns the vehicle
+        touching |= channels["contact_force"][:-1].any(axis=1)
     near = touching | np.append(touching[1:], False) | np.append(False, touching[:-1])
     energy = np.cumsum(np.where(near, np.diff(kinetic + body.mass * GRAVITY * height) - power * step, 0.0))
     between = energy[~near]
