@@ -39,7 +39,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     commands = [shlex.split(line, comments=True) for line in lines if line.startswith("tandemlift")]
     elsewhere = ("live", "ros", "gazebo")  # which go on until they are stopped, or need Gazebo
     commands = [c for c in commands if c[1] not in elsewhere]
-    assert len(commands) == 16
+    assert len(commands) == 15
     for _, *arguments in commands:
         target = None
         if ">" in arguments:
