@@ -133,7 +133,7 @@ class Vehicle:
 
     @property
     def hull_shapes(self) -> dict[str, Any]:
-        """The shapes that meet a floor, as arguments of `laws.mechanics.collision.hull.hull`."""
+        """The shapes that meet a floor, as arguments of `laws.contact.hull.hull`."""
         return {
             "quadrotors": self.lever_arms,
             "rotors": self.rotor_hubs,

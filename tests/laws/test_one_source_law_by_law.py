@@ -25,14 +25,15 @@ from tandemlift.algebra.vector import (
     outer,
 )
 from tandemlift.controllers import equations_of_motion, sliding_surface
+from tandemlift.laws.contact import feet as contact
+from tandemlift.laws.contact import hull, spheres, touches, walls
+from tandemlift.laws.contact.wall_geometry import Wall
 from tandemlift.laws.estimation import rotor_loss_decision, rotor_loss_detection, wind_compensation
 from tandemlift.laws.guidance import admittance, guidance
-from tandemlift.laws.mechanics import contact, loads, parts, rotation, tilt, walls
-from tandemlift.laws.mechanics.collision import hull, spheres, touches
+from tandemlift.laws.mechanics import loads, parts, rotation, tilt
 from tandemlift.laws.mechanics.inertia import gyroscopic
 from tandemlift.laws.mechanics.push import PointPush
 from tandemlift.laws.mechanics.rigid_body import RigidBody, State, Wrench, motion
-from tandemlift.laws.mechanics.wall_geometry import Wall
 from tandemlift.laws.rotors import allocation, ground_effect, rotor_faults, rotor_lag, rotors
 from tandemlift.laws.signals import low_pass, trajectories
 

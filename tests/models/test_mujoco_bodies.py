@@ -10,12 +10,12 @@ import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
-from tandemlift.laws.mechanics.contact import floor, sole_positions, standing_height, start_foot_grip
+from tandemlift.laws.contact.feet import floor, sole_positions, standing_height, start_foot_grip
+from tandemlift.laws.contact.walls import walls
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PerfectReadings, resultant
 from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.walls import walls
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle
 

@@ -11,9 +11,9 @@ from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.algebra.vector import ZERO
 from tandemlift.assembly.assemble import assemble
 from tandemlift.kernels import GAUSSIAN, GUST, SPAN
+from tandemlift.laws.contact.wall_geometry import WALL
+from tandemlift.laws.contact.walls import nearest_with
 from tandemlift.laws.mechanics.push import PushSamples, push_at
-from tandemlift.laws.mechanics.wall_geometry import WALL
-from tandemlift.laws.mechanics.walls import nearest_with
 from tandemlift.laws.mechanics.wind import gust_velocity
 from tandemlift.laws.rotors.allocation import AllocationState
 from tandemlift.laws.sensors.readings import Readings

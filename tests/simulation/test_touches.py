@@ -10,7 +10,7 @@ from ten_crashes import HELD, THROWN, crash_mission, crashed_in
 
 import tandemlift as tl
 from tandemlift.algebra.vector import Nothing, Vec3, each
-from tandemlift.laws.mechanics.collision.touches import (
+from tandemlift.laws.contact.touches import (
     UNTOUCHED,
     PartContacts,
     SurfaceContacts,

@@ -9,10 +9,10 @@ import pytest
 from law_values import BEAM, paper_vehicle, quadrotor
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.laws.contact.wall_geometry import Wall, wall
+from tandemlift.laws.contact.walls import Walls, near_wall_loads, nearest_with, no_walls_near, walls
 from tandemlift.laws.mechanics.loads import PartLoads, PartsLayout
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.wall_geometry import Wall, wall
-from tandemlift.laws.mechanics.walls import Walls, near_wall_loads, nearest_with, no_walls_near, walls
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle
 

@@ -16,11 +16,11 @@ from tandemlift.algebra.vector import ZERO, Nothing, Quat, each, total, vec3
 from tandemlift.engines.compiled import advance, plant_from
 from tandemlift.engines.compiled_contact import CompiledPlant, hull_contact_with
 from tandemlift.engines.compiled_touches import wall_contact_with
-from tandemlift.laws.mechanics.contact import start_foot_grip
+from tandemlift.laws.contact.feet import start_foot_grip
+from tandemlift.laws.contact.wall_geometry import wall
+from tandemlift.laws.contact.walls import nearest_with, no_walls_near
 from tandemlift.laws.mechanics.push import CentralPush, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.wall_geometry import wall
-from tandemlift.laws.mechanics.walls import nearest_with, no_walls_near
 from tandemlift.machine_code.machine import QUICK
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle

@@ -27,9 +27,9 @@ from tandemlift.assembly.watchdogs import with_faults, with_watchdogs
 from tandemlift.common.outcomes import FLIES
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.kernels.external_inputs import InputTables
-from tandemlift.laws.mechanics.clearance import clearance
-from tandemlift.laws.mechanics.collision.touches import start_touches
-from tandemlift.laws.mechanics.contact import start_foot_grip
+from tandemlift.laws.contact.clearance import clearance
+from tandemlift.laws.contact.feet import start_foot_grip
+from tandemlift.laws.contact.touches import start_touches
 from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.sensors.readings import by_name, readings_of, start_sensing
 from tandemlift.laws.signals.random_numbers import key_from_seed

@@ -13,11 +13,11 @@ from tandemlift.algebra.layout import leaves, numbers_of
 from tandemlift.algebra.ops import maximum
 from tandemlift.algebra.vector import ZERO, Nothing, mat3, spread, vec3
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
+from tandemlift.laws.contact.wall_geometry import WALL, wall
+from tandemlift.laws.contact.walls import no_walls_near
 from tandemlift.laws.mechanics.air_drag import AirDrag
 from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush
 from tandemlift.laws.mechanics.turbulence import WindNoise, dryden, start_turbulence
-from tandemlift.laws.mechanics.wall_geometry import WALL, wall
-from tandemlift.laws.mechanics.walls import no_walls_near
 from tandemlift.laws.mechanics.wind import Gust, Wind
 from tandemlift.laws.person.person import PATH_LEG, PathLeg
 from tandemlift.loop.wind_loads import WindModel

@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import ZERO, Nothing
-from tandemlift.laws.mechanics.collision.hull import Hull, HullContact, hull_contact, hull_loads
-from tandemlift.laws.mechanics.contact import Floor, feet_load, grips_after_step
+from tandemlift.laws.contact.feet import Floor, feet_load, grips_after_step
+from tandemlift.laws.contact.hull import Hull, HullContact, hull_contact, hull_loads
+from tandemlift.laws.contact.walls import Walls, near_wall_loads
 from tandemlift.laws.mechanics.inertia import apply_inertia
 from tandemlift.laws.mechanics.loads import (
     PartLoad,
@@ -25,7 +26,6 @@ from tandemlift.laws.mechanics.loads import (
 )
 from tandemlift.laws.mechanics.rigid_body import RigidBody, State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.walls import Walls, near_wall_loads
 from tandemlift.laws.rotors.allocation import Mixer
 
 NO_LOAD = PartLoad(ZERO, ZERO)

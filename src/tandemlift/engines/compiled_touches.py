@@ -7,17 +7,17 @@ from typing import Any
 from tandemlift.algebra.law import choice
 from tandemlift.algebra.vector import Nothing
 from tandemlift.engines.compiled_contact import CompiledPlant, DistantWalls, hull_contact_with
-from tandemlift.laws.mechanics.collision.hull import HullContact
-from tandemlift.laws.mechanics.collision.touches import (
+from tandemlift.laws.contact.hull import HullContact
+from tandemlift.laws.contact.touches import (
     SurfaceContacts,
     Touches,
     floor_contacts,
     touches_after,
     wall_contacts,
 )
+from tandemlift.laws.contact.walls import NearWallContact, Walls, near_wall_contact
 from tandemlift.laws.mechanics.loads import PartsLayout
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.walls import NearWallContact, Walls, near_wall_contact
 
 
 @choice(absent="walls")

@@ -30,8 +30,8 @@ class MuJoCoBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `laws.mechanics.contact.Floor` to stand on, or `Nothing`.
-        walls: a `laws.mechanics.walls.Walls` that says how the mission's walls press, or `Nothing`.
+        floor: a `laws.contact.feet.Floor` to stand on, or `Nothing`.
+        walls: a `laws.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
     """
 
     def __init__(self, mission: Mission, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:

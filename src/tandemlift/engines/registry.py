@@ -46,7 +46,7 @@ class TouchingBody(Protocol):
     """A body that keeps the record of touches; without it nothing is ever touched, and no rotor stops.
 
     Attributes:
-        touches: the numbers of a `laws.mechanics.collision.touches.Touches` after the last step (`contact_log`).
+        touches: the numbers of a `laws.contact.touches.Touches` after the last step (`contact_log`).
     """
 
     touches: Array

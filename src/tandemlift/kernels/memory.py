@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tandemlift.algebra.layout import flat
 from tandemlift.kernels.context import AT, WORDS, aligned
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
-from tandemlift.laws.mechanics.wall_geometry import WALL
+from tandemlift.laws.contact.wall_geometry import WALL
 from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.machine_code.code import Code
 

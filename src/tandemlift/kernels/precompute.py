@@ -8,7 +8,7 @@ from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, HALVES, SPAN
 from tandemlift.kernels.offsets import leaf_offset
 from tandemlift.kernels.step_writer import StepWriter
 from tandemlift.kernels.traced_step import Symbols
-from tandemlift.laws.mechanics.wall_geometry import WALL
+from tandemlift.laws.contact.wall_geometry import WALL
 from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.trace import Function, Place, double
 

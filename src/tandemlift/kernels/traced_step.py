@@ -18,13 +18,13 @@ from tandemlift.engines.compiled import first_motion
 from tandemlift.engines.compiled_contact import on_feet_only, without_contact
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, SPAN, draw_count, is_active
 from tandemlift.kernels.templates import COMMAND, Templates
+from tandemlift.laws.contact.clearance import clearance, may_touch_wall
+from tandemlift.laws.contact.feet import may_touch
+from tandemlift.laws.contact.hull import hull_may_touch
+from tandemlift.laws.contact.wall_geometry import WALL
+from tandemlift.laws.contact.walls import nearest_with
 from tandemlift.laws.estimation.rotor_loss_detection import left_of, with_trials
-from tandemlift.laws.mechanics.clearance import clearance, may_touch_wall
-from tandemlift.laws.mechanics.collision.hull import hull_may_touch
-from tandemlift.laws.mechanics.contact import may_touch
 from tandemlift.laws.mechanics.push import push_at, push_moment
-from tandemlift.laws.mechanics.wall_geometry import WALL
-from tandemlift.laws.mechanics.walls import nearest_with
 from tandemlift.laws.mechanics.wind import gust_velocity
 from tandemlift.laws.rotors.allocation import AllocationState, limits_at, outside_limits, rotor_commands
 from tandemlift.laws.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search

@@ -13,12 +13,12 @@ from tandemlift.algebra.ops import clip, greatest, minimum, where
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
 from tandemlift.engines.compiled_contact import DistantFloor
+from tandemlift.laws.contact.clearance import clearance
+from tandemlift.laws.contact.feet import Floor
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
 from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
 from tandemlift.laws.guidance.guidance import thrust_fraction
 from tandemlift.laws.guidance.hand_guidance import HandGuidanceChannels
-from tandemlift.laws.mechanics.clearance import clearance
-from tandemlift.laws.mechanics.contact import Floor
 from tandemlift.laws.mechanics.loads import PartLoads, PerfectReadings, sum_over_set
 from tandemlift.laws.mechanics.push import PushSamples, push_moment
 from tandemlift.laws.mechanics.rigid_body import Wrench

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import absolute, maximum, minimum, sqrt
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, dot
-from tandemlift.laws.mechanics.clearance import smaller_clearance
+from tandemlift.laws.contact.clearance import smaller_clearance
 
 
 class StepErrors(NamedTuple):

@@ -16,8 +16,8 @@ from tandemlift.algebra.vector import Nothing, Quat
 from tandemlift.engines.compiled import BodyStep, advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.engines.compiled_touches import touches_in
+from tandemlift.laws.contact.touches import of_turning_rotors
 from tandemlift.laws.guidance.requests import UNKNOWN_STATUS, operator_request
-from tandemlift.laws.mechanics.collision.touches import of_turning_rotors
 from tandemlift.laws.mechanics.push import Push, PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.person.caller_inputs import commanded_thrusts, with_caller_push

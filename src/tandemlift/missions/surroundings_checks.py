@@ -11,11 +11,11 @@ import numpy as np
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
 from tandemlift.common.errors import InputError
-from tandemlift.laws.mechanics.collision.hull import hull, lowest_of_hull
-from tandemlift.laws.mechanics.contact import Floor, floor, sinkage_of, sole_positions, standing_height
+from tandemlift.laws.contact.feet import Floor, floor, sinkage_of, sole_positions, standing_height
+from tandemlift.laws.contact.hull import hull, lowest_of_hull
+from tandemlift.laws.contact.wall_geometry import offset, wall
 from tandemlift.laws.mechanics.rotation import rotation_from_euler
 from tandemlift.laws.mechanics.turbulence import FOOT, HIGHEST, LOWEST
-from tandemlift.laws.mechanics.wall_geometry import offset, wall
 from tandemlift.missions.values import shown
 from tandemlift.settings import Mission
 from tandemlift.settings.corridor import SHORTEST

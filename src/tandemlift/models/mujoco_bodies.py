@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.contact import Floor
-from tandemlift.laws.mechanics.walls import Walls
+from tandemlift.laws.contact.feet import Floor
+from tandemlift.laws.contact.walls import Walls
 from tandemlift.models.mujoco_contact import add_floor, add_vehicle_shapes, add_walls, set_contact_stiffness
 from tandemlift.models.mujoco_import import mujoco
 from tandemlift.settings import Mission, Quadrotor
@@ -40,8 +40,8 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     Args:
         mission: gives step, `plant` and walls.
         vehicle: the nominal vehicle.
-        floor: a `laws.mechanics.contact.Floor`, or `Nothing`.
-        walls: a `laws.mechanics.walls.Walls`, or `Nothing` for a mission without walls.
+        floor: a `laws.contact.feet.Floor`, or `Nothing`.
+        walls: a `laws.contact.walls.Walls`, or `Nothing` for a mission without walls.
 
     Raises:
         TypeError: the mission has walls, but `walls` is not a `Walls`.
@@ -64,7 +64,7 @@ def specification(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) ->
     """
     spec, standing, walled = mujoco.MjSpec(), isinstance(floor, Floor), isinstance(walls, Walls)
     if mission.all_walls and not walled:
-        raise TypeError("a mission with walls needs a laws.mechanics.walls.Walls with their contact parameters")
+        raise TypeError("a mission with walls needs a laws.contact.walls.Walls with their contact parameters")
     _set_options(spec, mission.mission.step, touching=standing or walled)
     _add_payload(spec, vehicle)
     for i, (quadrotor, center) in enumerate(zip(vehicle.quadrotors, vehicle.lever_arms, strict=True), 1):

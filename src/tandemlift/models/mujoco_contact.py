@@ -17,10 +17,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.collision.hull import Ellipsoids, Hull
-from tandemlift.laws.mechanics.collision.spheres import RotorSpheres
-from tandemlift.laws.mechanics.contact import Floor
-from tandemlift.laws.mechanics.walls import Beam, Walls
+from tandemlift.laws.contact.feet import Floor
+from tandemlift.laws.contact.hull import Ellipsoids, Hull
+from tandemlift.laws.contact.spheres import RotorSpheres
+from tandemlift.laws.contact.walls import Beam, Walls
 from tandemlift.models.mujoco_import import mujoco
 from tandemlift.settings import WallTable
 from tandemlift.vehicle import Vehicle
@@ -65,8 +65,8 @@ def add_vehicle_shapes(spec: Any, floor: Any, walls: Any, vehicle: Vehicle) -> V
 
     Args:
         spec: the `mujoco.MjSpec`.
-        floor: a `laws.mechanics.contact.Floor`, or `Nothing`.
-        walls: a `laws.mechanics.walls.Walls`, or `Nothing`.
+        floor: a `laws.contact.feet.Floor`, or `Nothing`.
+        walls: a `laws.contact.walls.Walls`, or `Nothing`.
         vehicle: the vehicle.
     """
     shapes = VehicleShapes([], [], [])

@@ -21,9 +21,9 @@ from numpy.typing import ArrayLike
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
 from tandemlift.common.types import Array
-from tandemlift.laws.mechanics.contact import Floor
+from tandemlift.laws.contact.feet import Floor
+from tandemlift.laws.contact.walls import Beam, Walls
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
-from tandemlift.laws.mechanics.walls import Beam, Walls
 from tandemlift.models.links import Link, links_of
 from tandemlift.models.sdf_elements import Element, add, fill, geometry, numbers, pose, rgba
 from tandemlift.models.surroundings import feet_and_floor_from, floor_from, wall_contact_from

@@ -6,10 +6,10 @@ from typing import Any
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Nothing
-from tandemlift.laws.mechanics.collision.hull import hull
-from tandemlift.laws.mechanics.collision.spheres import rotor_spheres
-from tandemlift.laws.mechanics.contact import Floor, floor, sole_positions, standing_height
-from tandemlift.laws.mechanics.walls import Walls, walls
+from tandemlift.laws.contact.feet import Floor, floor, sole_positions, standing_height
+from tandemlift.laws.contact.hull import hull
+from tandemlift.laws.contact.spheres import rotor_spheres
+from tandemlift.laws.contact.walls import Walls, walls
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 

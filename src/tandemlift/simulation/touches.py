@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.laws.mechanics.collision.touches import SurfaceTouches, Touches, TouchRecord
+from tandemlift.laws.contact.touches import SurfaceTouches, Touches, TouchRecord
 from tandemlift.loop.step import FlightState
 
 

@@ -10,9 +10,9 @@ from tandemlift.algebra.vector import Quat, Vec3, vec3
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.flight.record import Flight
-from tandemlift.laws.mechanics.collision.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
+from tandemlift.laws.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
+from tandemlift.laws.contact.wall_geometry import edges_of, offset, offset_from_top, wall
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.wall_geometry import edges_of, offset, offset_from_top, wall
 from tandemlift.settings import wall_tables
 from tandemlift.vehicle import Vehicle
 

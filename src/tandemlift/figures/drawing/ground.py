@@ -7,8 +7,8 @@ from tandemlift.common.types import Array
 from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.vehicle import true_mass
 from tandemlift.flight.record import Flight
-from tandemlift.laws.mechanics.collision.hull import hull
-from tandemlift.laws.mechanics.contact import floor, sole_positions, standing_height
+from tandemlift.laws.contact.feet import floor, sole_positions, standing_height
+from tandemlift.laws.contact.hull import hull
 from tandemlift.settings.surroundings import GroundTable
 from tandemlift.vehicle import Vehicle
 

@@ -13,7 +13,7 @@ from tandemlift.kernels.offsets import delayed_spans
 from tandemlift.kernels.step_output import COMMAND_LINE
 from tandemlift.kernels.templates import templates_from
 from tandemlift.kernels.traced_step import TracedStep
-from tandemlift.laws.mechanics.wall_geometry import WALL
+from tandemlift.laws.contact.wall_geometry import WALL
 from tandemlift.laws.person.person import PATH_LEG
 from tandemlift.targets.c import outside
 from tandemlift.targets.c.flight_step import FlightStep

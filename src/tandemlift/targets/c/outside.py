@@ -7,10 +7,10 @@ from typing import Any
 
 from tandemlift.algebra.layout import is_value
 from tandemlift.kernels.external_inputs import SPAN, is_active
-from tandemlift.laws.mechanics.contact import may_touch
+from tandemlift.laws.contact.feet import may_touch
+from tandemlift.laws.contact.wall_geometry import Wall
+from tandemlift.laws.contact.walls import nearest_with
 from tandemlift.laws.mechanics.push import GaussianPush, push_at
-from tandemlift.laws.mechanics.wall_geometry import Wall
-from tandemlift.laws.mechanics.walls import nearest_with
 from tandemlift.laws.mechanics.wind import Gust, gust_velocity
 from tandemlift.laws.signals.random_numbers import Normals, normals
 from tandemlift.loop.step import FlightModel

@@ -15,12 +15,12 @@ from scipy.spatial.transform import Rotation
 from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import sqrt, where
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
-from tandemlift.laws.mechanics.clearance import clearance, may_touch_wall
+from tandemlift.laws.contact.clearance import clearance, may_touch_wall
+from tandemlift.laws.contact.wall_geometry import WALL, wall
+from tandemlift.laws.contact.walls import Walls, near_wall_loads, nearest_with, no_walls_near
 from tandemlift.laws.mechanics.loads import PartsLayout, resultant
 from tandemlift.laws.mechanics.push import CentralPush
 from tandemlift.laws.mechanics.rigid_body import RigidBody, State, Wrench, rigid_body_motion
-from tandemlift.laws.mechanics.wall_geometry import WALL, wall
-from tandemlift.laws.mechanics.walls import Walls, near_wall_loads, nearest_with, no_walls_near
 from tandemlift.models.parts_layout import parts_layout_from
 
 

@@ -1,7 +1,7 @@
 """Contact of the quadrotors and of the beam with walls.
 
 A quadrotor's shape is a sphere about its centre of mass, its guard, and one about each rotor that stands out of it
-(`collision.spheres`). The beam is a capsule: its ends touch as spheres, its length touches a wall's edges and its top.
+(`spheres`). The beam is a capsule: its ends touch as spheres, its length touches a wall's edges and its top.
 Each contact acts at the nearest point, with its penetration δ there:
 
     N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −c_t v, shortened to the length μ N if it is longer,
@@ -23,14 +23,14 @@ from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.ops import greatest, minimum, sqrt
 from tandemlift.algebra.types import Number, PerQuadrotor, number
 from tandemlift.algebra.vector import ZERO, Mat3, Nothing, Vec3, apply, apply_transposed, cross, dot, each
-from tandemlift.laws.mechanics.collision.beam_axis import (
+from tandemlift.laws.contact.beam_axis import (
     BeamAxis,
     beam_axis,
     beam_point,
     point_by_edge,
     point_by_top,
 )
-from tandemlift.laws.mechanics.collision.spheres import (
+from tandemlift.laws.contact.spheres import (
     ContactPair,
     RotorSpheres,
     WallContact,
@@ -40,7 +40,17 @@ from tandemlift.laws.mechanics.collision.spheres import (
     sphere_contact,
     with_rotor_loads,
 )
-from tandemlift.laws.mechanics.collision.springs import mobility, softened_for_step, surface_mobility
+from tandemlift.laws.contact.springs import mobility, softened_for_step, surface_mobility
+from tandemlift.laws.contact.wall_geometry import (
+    WALL,
+    Wall,
+    edges_of,
+    nearer,
+    offset,
+    offset_from_top,
+    second_nearest,
+    selected_wall,
+)
 from tandemlift.laws.mechanics.loads import (
     PartLoad,
     PartLoads,
@@ -51,16 +61,6 @@ from tandemlift.laws.mechanics.loads import (
 )
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.wall_geometry import (
-    WALL,
-    Wall,
-    edges_of,
-    nearer,
-    offset,
-    offset_from_top,
-    second_nearest,
-    selected_wall,
-)
 
 IN_GUARDS = Nothing()
 

@@ -14,12 +14,12 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import greatest, maximum, sqrt, where
 from tandemlift.algebra.types import Number, number
 from tandemlift.algebra.vector import Mat3, Nothing, Vec3, apply, cross, dot, each, spread
-from tandemlift.laws.mechanics.collision.hull import rotor_sums
-from tandemlift.laws.mechanics.collision.springs import friction_factor, spring_damper
+from tandemlift.laws.contact.hull import rotor_sums
+from tandemlift.laws.contact.springs import friction_factor, spring_damper
+from tandemlift.laws.contact.wall_geometry import WALL, Wall, nearer, offset, second_nearest
 from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, scaled, translated
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.wall_geometry import WALL, Wall, nearer, offset, second_nearest
 
 SMALL = 1e-18  # m²: no direction is known at this distance
 SPARED = 0.02  # m, by which a guard gives under some 100 N

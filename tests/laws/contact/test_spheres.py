@@ -9,11 +9,11 @@ from thrown import arena, random_throw
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing, Quat, vec3
-from tandemlift.laws.mechanics.clearance import clearance
-from tandemlift.laws.mechanics.collision.spheres import RotorSpheres
+from tandemlift.laws.contact.clearance import clearance
+from tandemlift.laws.contact.spheres import RotorSpheres
+from tandemlift.laws.contact.wall_geometry import wall
+from tandemlift.laws.contact.walls import near_wall_loads, nearest_with, no_walls_near
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.wall_geometry import wall
-from tandemlift.laws.mechanics.walls import near_wall_loads, nearest_with, no_walls_near
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.models.surroundings import wall_contact_from
 from tandemlift.vehicle import Vehicle

@@ -6,11 +6,11 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.ops import clip, maximum, where
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Vec3, apply, cross, dot
-from tandemlift.laws.mechanics.collision.spheres import SMALL
+from tandemlift.laws.contact.spheres import SMALL
+from tandemlift.laws.contact.wall_geometry import Wall
 from tandemlift.laws.mechanics.loads import scaled, translated
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.wall_geometry import Wall
 
 PARALLEL = 1e-12  # sin² of the angle between lines that have no one nearest point
 

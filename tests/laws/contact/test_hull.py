@@ -15,8 +15,8 @@ from thrown import arena, random_throw
 import tandemlift as tl
 from tandemlift.algebra.layout import flat
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.laws.mechanics.collision.hull import hull_contact, hull_loads, hull_may_touch
-from tandemlift.laws.mechanics.contact import may_touch
+from tandemlift.laws.contact.feet import may_touch
+from tandemlift.laws.contact.hull import hull_contact, hull_loads, hull_may_touch
 from tandemlift.laws.mechanics.loads import resultant
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion

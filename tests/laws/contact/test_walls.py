@@ -15,10 +15,10 @@ from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
+from tandemlift.laws.contact.wall_geometry import Wall, offset, wall
+from tandemlift.laws.contact.walls import near_wall_loads, nearest_with
 from tandemlift.laws.mechanics.loads import PartLoads, resultant
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.wall_geometry import Wall, offset, wall
-from tandemlift.laws.mechanics.walls import near_wall_loads, nearest_with
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.vehicle import Vehicle
 

@@ -7,9 +7,9 @@ from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from tandemlift.algebra.vector import Nothing
-from tandemlift.laws.mechanics.clearance import clearance, smaller_clearance
-from tandemlift.laws.mechanics.wall_geometry import wall
-from tandemlift.laws.mechanics.walls import nearest_with, no_walls_near, walls
+from tandemlift.laws.contact.clearance import clearance, smaller_clearance
+from tandemlift.laws.contact.wall_geometry import wall
+from tandemlift.laws.contact.walls import nearest_with, no_walls_near, walls
 from tandemlift.models.parts_layout import parts_layout_from
 
 PAIR = paper_vehicle()

@@ -11,7 +11,7 @@ happens only for δ̇ < −k δ/c. In F, k_t e is a spring and the rest dissipat
 that has just landed stores no energy. Below μ N the anchor does not move: a vehicle at rest stays where it is.
 
 A step evaluates `feet_load` at every stage with the anchors held, then `grips_after_step`. Other parts meet the floor
-by their own law (`collision.hull`).
+by their own law (`hull`).
 """
 
 from typing import Any, NamedTuple
@@ -25,8 +25,8 @@ from tandemlift.algebra.law import elementwise, law
 from tandemlift.algebra.ops import absolute, greatest, maximum, minimum, sqrt, where
 from tandemlift.algebra.types import Condition, Number, PerQuadrotor, number
 from tandemlift.algebra.vector import Mat3, Nothing, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
-from tandemlift.laws.mechanics.collision.hull import MAX_ACCELERATION, MAX_ANGULAR_ACCELERATION, Ellipsoids, Hull
-from tandemlift.laws.mechanics.collision.springs import friction_factor, mobility, softened_for_step, spring_damper
+from tandemlift.laws.contact.hull import MAX_ACCELERATION, MAX_ANGULAR_ACCELERATION, Ellipsoids, Hull
+from tandemlift.laws.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.laws.mechanics.loads import PartLoad, PartsLayout, add_to_each
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion, world_z_in_body

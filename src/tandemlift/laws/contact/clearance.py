@@ -10,13 +10,13 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import least, minimum, sqrt
 from tandemlift.algebra.types import Condition, Number, PerQuadrotor, PerRotor
 from tandemlift.algebra.vector import Nothing, Vec3, apply, dot
-from tandemlift.laws.mechanics.collision.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
-from tandemlift.laws.mechanics.collision.spheres import NearRotors, RotorSpheres
+from tandemlift.laws.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
+from tandemlift.laws.contact.spheres import NearRotors, RotorSpheres
+from tandemlift.laws.contact.wall_geometry import offset, offset_from_top
+from tandemlift.laws.contact.walls import Beam, NearBeam, NearWalls, Walls
 from tandemlift.laws.mechanics.loads import PartsLayout, translated
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import rotation_from_quaternion
-from tandemlift.laws.mechanics.wall_geometry import offset, offset_from_top
-from tandemlift.laws.mechanics.walls import Beam, NearBeam, NearWalls, Walls
 
 FAR = 1000.0  # m
 

@@ -9,11 +9,11 @@ from tandemlift.algebra.law import choice, elementwise, law
 from tandemlift.algebra.ops import absolute, greatest, least, maximum, where
 from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import ZERO, Nothing, Vec3, each, set_of, total
-from tandemlift.laws.mechanics.collision.hull import FloorContact, Hull, HullContact
-from tandemlift.laws.mechanics.collision.spheres import ContactPair
+from tandemlift.laws.contact.hull import FloorContact, Hull, HullContact
+from tandemlift.laws.contact.spheres import ContactPair
+from tandemlift.laws.contact.walls import BeamContact, NearWallContact, Walls
 from tandemlift.laws.mechanics.loads import translated
 from tandemlift.laws.mechanics.rigid_body import State
-from tandemlift.laws.mechanics.walls import BeamContact, NearWallContact, Walls
 
 NEVER = 1e18  # s
 

@@ -35,7 +35,7 @@ from tandemlift.algebra.vector import (
     quarters,
     spread,
 )
-from tandemlift.laws.mechanics.collision.springs import friction_factor, mobility, softened_for_step, spring_damper
+from tandemlift.laws.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.mechanics.rotation import world_z_in_body
