@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from law_values import flat, rebuilt, record
 from machine_code import answers
-from tandemlift.laws.mechanics.collision import hull, spheres, touches
 
 from tandemlift.algebra.ops import power
 from tandemlift.algebra.vector import (
@@ -26,10 +25,13 @@ from tandemlift.algebra.vector import (
     outer,
 )
 from tandemlift.controllers import equations_of_motion, sliding_surface
+from tandemlift.laws.compliance import admittance
+from tandemlift.laws.contact import feet as contact
+from tandemlift.laws.contact import hull, spheres, touches, walls
 from tandemlift.laws.contact.wall_geometry import Wall
 from tandemlift.laws.estimation import rotor_loss_decision, rotor_loss_detection, wind_compensation
-from tandemlift.laws.guidance import admittance, guidance
-from tandemlift.laws.mechanics import contact, loads, parts, rotation, tilt, walls
+from tandemlift.laws.guidance import guidance
+from tandemlift.laws.mechanics import loads, parts, rotation, tilt
 from tandemlift.laws.mechanics.inertia import gyroscopic
 from tandemlift.laws.mechanics.push import PointPush
 from tandemlift.laws.mechanics.rigid_body import RigidBody, State, Wrench, motion

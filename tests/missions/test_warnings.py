@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
 from tandemlift.assembly.assemble import assemble
-from tandemlift.laws.contact.floor import sinkage_of, standing_height
+from tandemlift.laws.contact.feet import sinkage_of, standing_height
 from tandemlift.missions import built_in, load_mission
 from tandemlift.missions.checks import sample_size
 from tandemlift.missions.flight_checks.weight import lift_of, weight_of

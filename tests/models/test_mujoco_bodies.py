@@ -10,7 +10,7 @@ import tandemlift as tl
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, each, mat3, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_state
-from tandemlift.laws.contact.floor import floor, sole_positions, standing_height, start_foot_grip
+from tandemlift.laws.contact.feet import floor, sole_positions, standing_height, start_foot_grip
 from tandemlift.laws.contact.walls import walls
 from tandemlift.laws.mechanics.loads import PartLoad, PartLoads, PerfectReadings, resultant
 from tandemlift.laws.mechanics.push import CentralPush, PointPush, PushSamples

@@ -16,7 +16,7 @@ from tandemlift.algebra.vector import ZERO, Nothing, Quat, each, total, vec3
 from tandemlift.engines.compiled import advance, plant_from
 from tandemlift.engines.compiled_contact import CompiledPlant, hull_contact_with
 from tandemlift.engines.compiled_touches import wall_contact_with
-from tandemlift.laws.contact.floor import start_foot_grip
+from tandemlift.laws.contact.feet import start_foot_grip
 from tandemlift.laws.contact.wall_geometry import wall
 from tandemlift.laws.contact.walls import nearest_with, no_walls_near
 from tandemlift.laws.mechanics.push import CentralPush, PushSamples

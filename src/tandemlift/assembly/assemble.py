@@ -30,7 +30,7 @@ from tandemlift.common.outcomes import FLIES
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.contact.clearance import clearance
-from tandemlift.laws.contact.floor import start_foot_grip
+from tandemlift.laws.contact.feet import start_foot_grip
 from tandemlift.laws.contact.touches import start_touches
 from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.mechanics.rigid_body import State

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import ZERO, Nothing
-from tandemlift.laws.contact.floor import Floor, feet_load, grips_after_step
+from tandemlift.laws.contact.feet import Floor, feet_load, grips_after_step
 from tandemlift.laws.contact.hull import Hull, HullContact, hull_contact, hull_loads
 from tandemlift.laws.contact.walls import Walls, near_wall_loads
 from tandemlift.laws.mechanics.inertia import apply_inertia

@@ -19,7 +19,7 @@ class ContactLog:
     """Touches of a body, step by step.
 
     Args:
-        floor: a `laws.contact.floor.Floor`, or `Nothing`.
+        floor: a `laws.contact.feet.Floor`, or `Nothing`.
         walls: a `laws.contact.walls.Walls`, or `Nothing`.
         quadrotors: how many.
         step: [s].

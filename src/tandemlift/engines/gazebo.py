@@ -75,7 +75,7 @@ class GazeboBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance`, `ground` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `laws.contact.floor.Floor` to stand on, or `Nothing`.
+        floor: a `laws.contact.feet.Floor` to stand on, or `Nothing`.
         walls: a `laws.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
         connect: finds or starts a server, and connects to its plugin.
 

@@ -30,7 +30,7 @@ class MuJoCoBody:
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
         vehicle: the vehicle that the pilot knows.
-        floor: a `laws.contact.floor.Floor` to stand on, or `Nothing`.
+        floor: a `laws.contact.feet.Floor` to stand on, or `Nothing`.
         walls: a `laws.contact.walls.Walls` that says how the mission's walls press, or `Nothing`.
     """
 

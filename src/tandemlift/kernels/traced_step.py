@@ -20,7 +20,7 @@ from tandemlift.engines.compiled_contact import on_feet_only, without_contact
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, SPAN, draw_count, is_active
 from tandemlift.kernels.templates import COMMAND, Templates
 from tandemlift.laws.contact.clearance import clearance, may_touch_wall
-from tandemlift.laws.contact.floor import may_touch
+from tandemlift.laws.contact.feet import may_touch
 from tandemlift.laws.contact.hull import hull_may_touch
 from tandemlift.laws.contact.wall_geometry import WALL
 from tandemlift.laws.contact.walls import nearest_with

@@ -14,7 +14,7 @@ from tandemlift.algebra.types import Number, PerRotor
 from tandemlift.algebra.vector import Nothing, Quat, Vec3, dot, total
 from tandemlift.engines.compiled_contact import DistantFloor
 from tandemlift.laws.contact.clearance import clearance
-from tandemlift.laws.contact.floor import Floor
+from tandemlift.laws.contact.feet import Floor
 from tandemlift.laws.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
 from tandemlift.laws.estimation.rotor_loss_detection import RotorLossDetection
 from tandemlift.laws.guidance.guidance import thrust_fraction

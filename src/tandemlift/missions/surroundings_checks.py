@@ -12,7 +12,7 @@ from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
 from tandemlift.common.errors import InputError
 from tandemlift.common.outcomes import HARD
-from tandemlift.laws.contact.floor import Floor, floor, sinkage_of, sole_positions, standing_height
+from tandemlift.laws.contact.feet import Floor, floor, sinkage_of, sole_positions, standing_height
 from tandemlift.laws.contact.hull import hull, lowest_of_hull
 from tandemlift.laws.contact.wall_geometry import offset, wall
 from tandemlift.laws.mechanics.rotation import rotation_from_euler

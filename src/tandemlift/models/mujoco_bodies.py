@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.common.types import Array
-from tandemlift.laws.contact.floor import Floor
+from tandemlift.laws.contact.feet import Floor
 from tandemlift.laws.contact.walls import Walls
 from tandemlift.models.mujoco_contact import add_floor, add_vehicle_shapes, add_walls, set_contact_stiffness
 from tandemlift.models.mujoco_import import mujoco
@@ -40,7 +40,7 @@ def model_of(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> Any:
     Args:
         mission: gives step, `plant` and walls.
         vehicle: the nominal vehicle.
-        floor: a `laws.contact.floor.Floor`, or `Nothing`.
+        floor: a `laws.contact.feet.Floor`, or `Nothing`.
         walls: a `laws.contact.walls.Walls`, or `Nothing` for a mission without walls.
 
     Raises:

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.types import Array
-from tandemlift.laws.contact.floor import Floor
+from tandemlift.laws.contact.feet import Floor
 from tandemlift.laws.contact.hull import Ellipsoids, Hull
 from tandemlift.laws.contact.spheres import RotorSpheres
 from tandemlift.laws.contact.walls import Beam, Walls
@@ -65,7 +65,7 @@ def add_vehicle_shapes(spec: Any, floor: Any, walls: Any, vehicle: Vehicle) -> V
 
     Args:
         spec: the `mujoco.MjSpec`.
-        floor: a `laws.contact.floor.Floor`, or `Nothing`.
+        floor: a `laws.contact.feet.Floor`, or `Nothing`.
         walls: a `laws.contact.walls.Walls`, or `Nothing`.
         vehicle: the vehicle.
     """

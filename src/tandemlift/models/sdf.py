@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
 from tandemlift.common.types import Array
-from tandemlift.laws.contact.floor import Floor
+from tandemlift.laws.contact.feet import Floor
 from tandemlift.laws.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
 from tandemlift.models.links import Link, links_of
 from tandemlift.models.sdf_collisions import (

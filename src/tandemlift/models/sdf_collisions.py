@@ -2,7 +2,7 @@
 
 | shape | of | touches | in the laws |
 |---|---|---|---|
-| `foot_J` | a quadrotor | the floor | `laws.contact.floor`: the sole of a foot |
+| `foot_J` | a quadrotor | the floor | `laws.contact.feet`: the sole of a foot |
 | `rotor_J`, `guard_ring` | a quadrotor | the floor | `laws.contact.hull`: a flat disc |
 | `beam_tip_K` | the payload | the floor | the same: an end of the beam |
 | `guard`, `rotor_J_sphere` | a quadrotor | walls | `laws.contact.walls`: a sphere |
@@ -21,7 +21,7 @@ import numpy as np
 
 from tandemlift.algebra.vector import Nothing
 from tandemlift.common.types import Array
-from tandemlift.laws.contact.floor import Floor
+from tandemlift.laws.contact.feet import Floor
 from tandemlift.laws.contact.hull import Ellipsoids
 from tandemlift.laws.contact.walls import Beam, Walls
 from tandemlift.models.links import Link

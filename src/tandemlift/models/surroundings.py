@@ -6,7 +6,7 @@ from typing import Any
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Nothing
-from tandemlift.laws.contact.floor import Floor, floor, sole_positions, standing_height
+from tandemlift.laws.contact.feet import Floor, floor, sole_positions, standing_height
 from tandemlift.laws.contact.hull import hull
 from tandemlift.laws.contact.spheres import rotor_spheres
 from tandemlift.laws.contact.walls import Walls, walls

@@ -7,7 +7,7 @@ from tandemlift.common.types import Array
 from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.vehicle import true_mass
 from tandemlift.flight.record import Flight
-from tandemlift.laws.contact.floor import floor, sole_positions, standing_height
+from tandemlift.laws.contact.feet import floor, sole_positions, standing_height
 from tandemlift.laws.contact.hull import hull
 from tandemlift.settings.surroundings import GroundTable
 from tandemlift.vehicle import Vehicle

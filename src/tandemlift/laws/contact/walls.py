@@ -1,7 +1,7 @@
 """Contact of the quadrotors and of the beam with walls.
 
 A quadrotor's shape is a sphere about its centre of mass, its guard, and one about each rotor that stands out of it
-(`collision.spheres`). The beam is a capsule: its ends touch as spheres, its length touches a wall's edges and its top.
+(`spheres`). The beam is a capsule: its ends touch as spheres, its length touches a wall's edges and its top.
 Each contact acts at the nearest point, with its penetration δ there:
 
     N = max(0, k δ + c δ̇) if δ > 0, else 0         F = −c_t v, shortened to the length μ N if it is longer,

@@ -7,7 +7,7 @@ from typing import Any
 
 from tandemlift.algebra.layout import is_value
 from tandemlift.kernels.external_inputs import SPAN, is_active
-from tandemlift.laws.contact.floor import may_touch
+from tandemlift.laws.contact.feet import may_touch
 from tandemlift.laws.contact.wall_geometry import Wall
 from tandemlift.laws.contact.walls import nearest_with
 from tandemlift.laws.mechanics.push import GaussianPush, push_at

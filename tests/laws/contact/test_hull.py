@@ -15,7 +15,7 @@ from thrown import arena, random_throw
 import tandemlift as tl
 from tandemlift.algebra.layout import flat
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.laws.contact.floor import may_touch
+from tandemlift.laws.contact.feet import may_touch
 from tandemlift.laws.contact.hull import hull_contact, hull_loads, hull_may_touch
 from tandemlift.laws.mechanics.loads import resultant
 from tandemlift.laws.mechanics.rigid_body import State

@@ -11,7 +11,7 @@ happens only for δ̇ < −k δ/c. In F, k_t e is a spring and the rest dissipat
 that has just landed stores no energy. Below μ N the anchor does not move: a vehicle at rest stays where it is.
 
 A step evaluates `feet_load` at every stage with the anchors held, then `grips_after_step`. Other parts meet the floor
-by their own law (`collision.hull`).
+by their own law (`hull`).
 """
 
 from typing import Any, NamedTuple

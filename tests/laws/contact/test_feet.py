@@ -17,7 +17,7 @@ from tandemlift.algebra.law import law
 from tandemlift.algebra.layout import flat, unflat
 from tandemlift.algebra.ops import sqrt
 from tandemlift.algebra.vector import ZERO, Quat, Vec3, dot, vec3
-from tandemlift.laws.contact.floor import (
+from tandemlift.laws.contact.feet import (
     Floor,
     feet_load,
     floor,
