@@ -95,7 +95,7 @@ ADMITTANCE = "class Admittance(NamedTuple):"
 ANCHORED = "@elementwise\ndef anchored"
 CHOICE = '"hard": "'
 LAW: Edits = {
-    "laws/guidance/admittance.py": [(ADMITTANCE, GATE + ADMITTANCE), (ANCHORED, SMOOTH + ANCHORED)],
+    "laws/compliance/admittance.py": [(ADMITTANCE, GATE + ADMITTANCE), (ANCHORED, SMOOTH + ANCHORED)],
     "settings/pilot.py": [
         ('gate: Literal["hard", "soft"]', 'gate: Literal["hard", "soft", "smooth"]'),
         (CHOICE, '"smooth": "F³/(F² + threshold²)", ' + CHOICE),
