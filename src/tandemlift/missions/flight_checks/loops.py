@@ -161,7 +161,12 @@ def measured_push(m: Mission, s: Any, i: int) -> Any:
 
 
 def delay_borne(w: Array, L: Any) -> tuple[float, float]:
-    """(The delay that a loop without delay bears [s], 0 if it is unstable; the frequency of the crossing [rad/s])."""
+    """(The delay that a loop without delay bears [s], 0 if it is unstable; the frequency of the crossing [rad/s]).
+
+    A loop whose numbers are beyond what can be computed is not judged: no delay is too long for it.
+    """
+    if not np.isfinite(L).all() or not L[0]:
+        return math.inf, math.nan
     return delay_to_crossing(w, L) if _stable(w, L) else (0.0, math.nan)
 
 

@@ -62,7 +62,7 @@ def lines_of(key: Key) -> list[str]:
     if key.field.is_required():
         lines.append(f"{last}Required.")
     elif key.default is None:
-        lines.append(f"{last}If left out: {default_words(key)}.")
+        lines.append(f"{last}If left out: {default_words(key)}{source}.")
     else:
         lines.append(f"{last}Default: {default_words(key)}{source}.")
     return lines
