@@ -61,7 +61,7 @@ def common(whole, said):
 def test_the_paper_mission_leaves_out_only_what_it_has_no_part_of():
     rest = tables_of(load_mission("paper"))
     assert [rest[part]["model"] for part in ("actuators", "sensors", "wind", "ground")] == ["ideal", *["none"] * 3]
-    assert rest["pilot"] == {"guidance": "clock", "state": "truth", "push": "truth"}
+    assert rest["pilot"] == {"guidance": "clock", "state": "truth", "push": "truth", "map": "none"}
     assert rest["faults"] == rest["walls"] == []
     assert rest["phases"]["rotors"] == "always"
     assert rest["plant"] == {"mass_scale": 1.0, "inertia_scale": [1.0] * 3}
