@@ -11,7 +11,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from patience import PATIENCE, ended, said
-from plugin_peer import BadNetwork, Plugin, RigidBody
+from plugin_peer import WALL, BadNetwork, Plugin, RigidBody, Surface
+from scipy.spatial.transform import Rotation
+from ten_crashes import CRASHES, crashed_in
 
 import tandemlift as tl
 from tandemlift.engines.gazebo import GazeboBody, start_state_from, world_from
@@ -102,6 +104,46 @@ def test_a_mission_flies_over_the_wire_as_in_the_compiled_engine(mission, vehicl
         np.testing.assert_allclose(b[name], a[name], rtol=0.0, atol=0.02, err_msg=name)
 
 
+def test_a_push_that_the_plugin_reports_is_a_push_of_the_flight(mission, vehicle, joined):
+    alone = tl.fly(mission)
+    said = {101: "force 3 0 -1 point 0.1 0.9 0.2 duration 0.15", 201: "force 0 2 0 duration 60", 301: "off"}
+    with Plugin(RigidBody(vehicle), DT, said=said) as plugin:
+        pushed = joined(mission, plugin)
+    force = np.zeros((mission.mission.steps + 1, 3))
+    force[100:250] += [3.0, 0.0, -1.0]
+    force[200:300] += [0.0, 2.0, 0.0]
+    np.testing.assert_allclose(pushed["push_force"] - alone["push_force"], force, rtol=0.0, atol=1e-12)
+    more = np.subtract(pushed.metrics()["human_impulse_n_s"], alone.metrics()["human_impulse_n_s"])
+    np.testing.assert_allclose(more, [0.45, 0.2, -0.15], rtol=0.0, atol=1e-9)
+    first, arm = Rotation.from_quat(pushed["attitude"][100], scalar_first=True), [0.1, 0.9, 0.2]
+    moment = np.cross(arm, first.inv().apply(force[100]))
+    np.testing.assert_allclose((pushed["push_moment"] - alone["push_moment"])[100], moment, rtol=0.0, atol=1e-6)
+    gains = [np.diff(flight["velocity"][100:102], axis=0)[0] for flight in (pushed, alone)]
+    np.testing.assert_allclose(np.subtract(*gains), force[100] / vehicle.mass * DT, rtol=0.0, atol=1e-6)
+
+
+def test_touches_that_the_plugin_reports_are_recorded_and_stop_the_rotor(monkeypatch):
+    mission = tl.load_mission(
+        "iris", CRASHES["flown into a wall with one rotor"] | {"mission.duration": 0.5, "mission.log_interval": DT}
+    )
+    wall, vehicle = mission.walls[0], tl.Vehicle.from_settings(mission.vehicle)
+    (x, y), (to_x, to_y) = wall.start, wall.end
+    surface = Surface(WALL, [x, y, 0.0], [y - to_y, to_x - x, 0.0])
+    with Plugin(RigidBody(vehicle, surface), DT) as plugin:
+        monkeypatch.setenv("TANDEMLIFT_GAZEBO_PORT", str(plugin.port))
+        crash = crashed_in("gazebo", mission)
+    ours, theirs = crashed_in("compiled", mission).touches[0], crash.touches[0]
+    assert (theirs.part, theirs.surface) == (ours.part, ours.surface) == ("rotor 3 of quadrotor 1", "wall")
+    assert theirs.time == pytest.approx(ours.time, abs=0.02)
+    np.testing.assert_allclose(theirs.place, ours.place, rtol=0.0, atol=0.05)
+    force = np.linalg.norm(crash.flight["contact_force"], axis=1)
+    assert theirs.force == pytest.approx(force.max())
+    assert theirs.impulse == pytest.approx(force.sum() * DT)
+    thrust, time = crash.flight["rotor_thrusts"], crash.flight.time
+    assert (thrust[time > theirs.time + 2 * DT, 2] == 0.0).all()
+    assert (thrust[time < theirs.time] > 0.0).all()
+
+
 def test_what_is_lost_doubled_late_or_spoiled_on_the_way_changes_no_bit(vehicle, wire_to):
     with Plugin(RigidBody(vehicle), DT) as plugin:
         sound = fly_by(wire_to(plugin), 150)
@@ -173,7 +215,7 @@ def test_a_server_that_comes_late_is_waited_for(vehicle, wire_at):
 def test_an_older_plugin_is_refused_with_both_versions(vehicle, wire_to):
     with (
         Plugin(RigidBody(vehicle), DT, version=7) as plugin,
-        pytest.raises(tl.InputError, match=r"speaks version 7 of the protocol, this is version 1: build"),
+        pytest.raises(tl.InputError, match=r"speaks version 7 of the protocol, this is version 2: build"),
     ):
         wire_to(plugin)
 

@@ -13,7 +13,7 @@ from patience import ended, said
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.engines.gazebo import GazeboBody
-from tandemlift.engines.gazebo_wire import HEADER, Wire
+from tandemlift.engines.gazebo_wire import HEADER, MAGIC, VERSION, Wire
 from tandemlift.models.sdf import rotors_of
 
 from .conftest import SILENT, fly, rest_and_fly
@@ -118,7 +118,7 @@ def test_nonsense_on_the_port_is_survived(gazebo):
     chance = random.Random(3)
     for size in (0, 1, HEADER.size - 1, HEADER.size, 100, 1400):
         other._socket.send(chance.randbytes(size))
-        head = HEADER.pack(0x5A474C54, 1, chance.randrange(9), chance.getrandbits(32), 2, chance.getrandbits(63))
+        head = HEADER.pack(MAGIC, VERSION, chance.randrange(9), chance.getrandbits(32), 2, chance.getrandbits(63))
         other._socket.send(head + chance.randbytes(size))
     other.close()
     assert len(fly(wire, 50)) == 50

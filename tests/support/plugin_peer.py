@@ -1,5 +1,6 @@
 """A stand-in for Gazebo's plugin: a rigid body in NumPy and SciPy, commanded over UDP, on an unreliable network."""
 
+import re
 import socket
 import struct
 import threading
@@ -16,11 +17,49 @@ OTHER_COUNT, OVER = 2, 5
 DOWN = np.array([0.0, 0.0, -9.81])
 
 
-class RigidBody:
-    """The vehicle as one body; joint loads are those that move the quadrotors with it."""
+FLOOR, WALL = 0, 1  # the surfaces of touches
+STIFFNESS = 3e3  # N/m, of a surface that is touched
 
-    def __init__(self, vehicle):
-        self.vehicle, self.N = vehicle, vehicle.count
+
+class Push:
+    """A push as the plugin reads it from its topic, see `gazebo/push.hh`."""
+
+    def __init__(self, text):
+        said = {"point": "0 0 0", "duration": "1"}
+        said |= dict(re.findall(r"([a-z]+)((?: [-+.\de]*\d\.?)+)", text))
+        self.force, self.point, (self.left,) = (
+            np.array(said[word].split(), dtype=float) for word in ("force", "point", "duration")
+        )
+
+
+class Surface:
+    """A plane that the discs of rotors touch without friction: "floor" or "wall".
+
+    Args:
+        kind: FLOOR or WALL.
+        at: a point of it [m, world].
+        normal: out of it, of any length [world].
+    """
+
+    def __init__(self, kind, at, normal):
+        self.kind, self.at = kind, np.array(at, dtype=float)
+        self.normal = np.array(normal, dtype=float) / np.linalg.norm(normal)
+
+
+class RigidBody:
+    """The vehicle as one body; joint loads are those that move the quadrotors with it.
+
+    Args:
+        vehicle: the vehicle.
+        surface: what its rotors may touch; None for nothing.
+
+    Attributes:
+        touches: (2, 5N + 1, 4) of the last step, as `gazebo/contacts.hh` counts them.
+    """
+
+    def __init__(self, vehicle, surface=None):
+        self.vehicle, self.N, self.surface = vehicle, vehicle.count, surface
+        self.touches = np.zeros((2, 5 * self.N + 1, 4))
         self.x, self.v, self.w, self.turn = np.zeros(3), np.zeros(3), np.zeros(3), Rotation.identity()
 
     def place(self, state, rotors):
@@ -32,16 +71,18 @@ class RigidBody:
         x, y, z, w = self.turn.as_quat()
         return np.array([*self.x, *self.v, w, x, y, z, *self.w])
 
-    def step(self, numbers, dt):
-        """Advance by a step; the readings at its start."""
+    def step(self, numbers, dt, pushes=()):
+        """Advance by a step with pushes; the readings at its start."""
         N, vehicle = self.N, self.vehicle
         thrusts, central, on_payload, on_quadrotors = np.split(numbers, [4 * N, 4 * N + 6, 4 * N + 12])
-        thrusts, on_quadrotors = thrusts.reshape(N, 4), on_quadrotors.reshape(2, 3, N)
+        contact, touching = self._touch()
+        thrusts, on_quadrotors = thrusts.reshape(N, 4), on_quadrotors.reshape(2, 3, N) + touching
         x, y, torque = self.rotors
         couples = np.array([(y * thrusts).sum(1), -(x * thrusts).sum(1), (torque * thrusts).sum(1)]).T
         lifts = np.outer(thrusts.sum(1), [0.0, 0.0, 1.0])
         held = [(central, np.zeros(3)), (on_payload, -vehicle.center_of_mass)]
         held += [(on_quadrotors[:, :, i].ravel(), vehicle.lever_arms[i]) for i in range(N)]
+        held += [(np.append(push.force, np.zeros(3)), push.point) for push in pushes]
         J = vehicle.inertia
 
         def rates(turn, w):
@@ -52,7 +93,7 @@ class RigidBody:
             return force / vehicle.mass + DOWN, np.linalg.solve(J, moment - np.cross(w, J @ w))
 
         a, alpha = rates(self.turn, self.w)
-        felt = self._felt(a, alpha, lifts, couples, on_quadrotors)
+        felt = np.append(self._felt(a, alpha, lifts, couples, on_quadrotors), contact)
 
         def motion(_, s):  # attitude as a turn from the step's start, in body axes; it is small
             turned, w = s[6:9], s[9:]
@@ -75,17 +116,38 @@ class RigidBody:
             force = lifts[i] + self.turn.inv().apply(loads[0, :, i]) - q.mass * feels(self.vehicle.lever_arms[i])
             couple = couples[i] + loads[1, :, i] - J @ alpha - np.cross(self.w, J @ self.w)
             forces[:, i], torques[:, i] = force, couple - np.cross(joint, force)
-        return np.array([*feels(-self.vehicle.center_of_mass), *forces.ravel(), *torques.ravel(), 0.0, 0.0, 0.0])
+        return np.array([*feels(-self.vehicle.center_of_mass), *forces.ravel(), *torques.ravel()])
+
+    def _touch(self):
+        """Note the touches of a step; their force [N, world] and the loads (2, 3, N) that they put on quadrotors."""
+        self.touches[:], loads, total = 0.0, np.zeros((2, 3, self.N)), np.zeros(3)
+        if self.surface is None:
+            return total, loads
+        normal = self.turn.inv().apply(self.surface.normal)
+        flat = normal * [1.0, 1.0, 0.0]
+        reach = -flat / max(np.linalg.norm(flat), 1e-9)  # from a disc's centre to where it touches first
+        for i, q in enumerate(self.vehicle.quadrotors):
+            for j, (x, y) in enumerate(q.rotors):
+                arm = [x, y, 0.0] + q.rotor_radius * reach
+                place = self.x + self.turn.apply(self.vehicle.lever_arms[i] + arm)
+                force = STIFFNESS * max((self.surface.at - place) @ self.surface.normal, 0.0)
+                if force > 0.0:
+                    self.touches[self.surface.kind, 4 * i + j] = force, *place
+                    total += force * self.surface.normal
+                    loads[:, :, i] += force * self.surface.normal, np.cross(arm, force * normal)
+        return total, loads
 
 
 class Plugin:
     """Answers a pilot as the plugin does, in a thread, until it is closed.
 
-    `network(message)` returns the list of messages that arrive now, for incoming and outgoing ones.
+    `network(message)` returns the list of messages that arrive now, for incoming and outgoing ones. `said` is what its
+    topic of pushes says before a step, by the number of the step.
     """
 
-    def __init__(self, body, dt, *, version=1, network=lambda message: [message], mass=None, port=0):
+    def __init__(self, body, dt, *, version=2, network=lambda message: [message], mass=None, port=0, said=None):
         self.body, self.dt, self.version, self.network = body, dt, version, network
+        self.said, self.pushes = said or {}, []
         self.mass = body.vehicle.mass if mass is None else mass
         self.session, self.over, self.sequence, self.answer = None, set(), 0, b""
         self.taken, self.heard = [], []
@@ -140,8 +202,7 @@ class Plugin:
         if sequence == self.sequence + 1:
             self.sequence = sequence
             self.taken.append(sequence)
-            felt = self.body.step(numbers, self.dt)
-            self.answer = self._message(STATE, session, sequence, self._told(felt))
+            self.answer = self._message(STATE, session, sequence, self._step(numbers))
         return self.answer if sequence == self.sequence else b""
 
     def _hello(self, session, numbers):
@@ -151,13 +212,29 @@ class Plugin:
             return b""
         self.over.add(session)
         self.session, self.sequence = session, 0
-        state = numbers[2:15] if int(numbers[0]) & 1 else self.body.state()
-        self.body.place(state, numbers[15:])
-        self.answer = self._message(WELCOME, session, 0, self._told(np.zeros(6 * self.body.N + 6)))
+        place = int(numbers[0]) & 1
+        self.pushes = [] if place else self.pushes
+        self.body.place(numbers[2:15] if place else self.body.state(), numbers[15:])
+        self.body.touches[:] = 0.0
+        self.answer = self._message(WELCOME, session, 0, self._told(np.zeros(6 * self.body.N + 6), np.zeros(6)))
         return self.answer
 
-    def _told(self, felt):
-        return [len(self.taken) * self.dt, self.dt, self.mass, *self.body.state(), *felt, *np.zeros(6)]
+    def _step(self, numbers):
+        """Take a step; what is told of it. The moments of pushes are those at its start."""
+        text = self.said.get(self.sequence)
+        if text:
+            self.pushes = [] if text == "off" else [*self.pushes, Push(text)]
+        pushed, back = np.zeros(6), self.body.turn.inv()
+        for push in self.pushes:
+            pushed += [*push.force, *np.cross(push.point, back.apply(push.force))]
+            push.left -= self.dt
+        told = self._told(self.body.step(numbers, self.dt, self.pushes), pushed)
+        self.pushes = [push for push in self.pushes if push.left > 0.5 * self.dt]
+        return told
+
+    def _told(self, felt, pushed):
+        clock = [len(self.taken) * self.dt, self.dt, self.mass]
+        return [*clock, *self.body.state(), *felt, *self.body.touches.ravel(), *pushed]
 
     def _message(self, kind, session, sequence, numbers):
         head = HEADER.pack(MAGIC, self.version, kind, session, self.body.N, sequence)
