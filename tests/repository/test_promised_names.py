@@ -22,7 +22,7 @@ COMMANDS = {  # each with its arguments and options
     "controllers": set(),
     "engines": set(),
 }
-FILES = {"mission.toml", "flight.npz", "metrics.json", "report.html", "figures"}
+FILES = {"mission.toml", "flight.npz", "metrics.json", "findings.json", "report.html", "figures"}
 FIGURES = {"reference", "path", "tracking", "inputs", "interaction"}  # each as PNG and as PDF
 SHORT = ("--set", "mission.duration=0.5", "--set", "mission.log_interval=0.1")
 
