@@ -10,7 +10,7 @@ import tandemlift as tl
 from tandemlift.missions import tables_of
 
 MOST_ROTORS = {f"vehicle.quadrotors.{i}.max_speed": 862.0 for i in (0, 1)}  # rad/s, little more than hovering takes
-FOLLOWING = {"compliance.thrust_fraction": 1.0, "compliance.following.time": 5.0}  # pushes are followed although no thrust is left
+FOLLOWING = {"compliance.thrust_fraction": 1.0, "compliance.following.time": 5.0}  # although no thrust is left
 MOVING = {"initial.euler": [0.05, -0.04, 0.1], "initial.position": [0.3, -0.2, 0.0]}
 
 
