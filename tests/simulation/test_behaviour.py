@@ -101,7 +101,7 @@ def test_a_vehicle_that_rolls_over_stops_at_89_degrees():
     changes = {"initial.rates": [20.0, 0.0, 0.0], "controller.gains.xi": 0.1, "controller.gains.lambda_1": 0.0}
     changes |= {"controller.gains.lambda_2": 0.0, "pushes": []}
     flight = tl.fly(tl.load_mission("paper", changes))
-    assert flight.ending.quantity == "roll [deg]"
+    assert flight.ending.quantity == "tilt [deg]"
     assert 89.0 <= abs(flight.ending.value) <= 90.0
     assert np.degrees(np.abs(flight["euler"][:, 0])).max() < 89.0
 
