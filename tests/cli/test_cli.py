@@ -283,7 +283,7 @@ def test_a_flight_that_crashes_ends_there_and_after_it_on_request(run):
 
 def test_a_lift_that_never_happens_is_a_failure(run):
     code, out, err = run(
-        "run", "iris", "--set", "disturbance.force=[0,0,-30]", "--set", "mission.duration=8", "--no-figures"
+        "run", "iris", "--set", "disturbance.force=[0,0,-30]", "--set", "mission.duration=9", "--no-figures"
     )
     assert code == 3
     assert "iris: not-lifted" in out

@@ -29,6 +29,8 @@ FLOWN = {
     "requests": [{"time": 1000.0, "action": "land"}],
     "supervision.model": "watch",
     "contact.model": "watch",
+    "crash.impulse": 100.0,  # a fall is what a reaction may be
+    "crash.fence_margin": 10.0,  # the ground is outside of the fence that is tried
     "sensor_faults": QUIET,
 }
 

@@ -286,11 +286,11 @@ def test_a_flight_that_turns_over_is_over_and_its_record_says_why():
         sim.step(thrusts=[3.0] * 4 + [8.0] * 4)
     assert sim.lost
     assert sim.ending is not None
-    assert sim.ending.quantity == "roll [deg]"
+    assert sim.ending.quantity == "tilt [deg]"
     flight = sim.flight()
     assert flight.ending == sim.ending
     assert flight.metrics()["steps"] == sim.k
-    with pytest.raises(tl.InputError, match=r"diverged at .* s: roll .*; reset\(\) begins anew"):
+    with pytest.raises(tl.InputError, match=r"crashed at .* s: tilt .*; reset\(\) begins anew"):
         sim.step()
     sim.reset()
     assert not sim.lost

@@ -145,10 +145,10 @@ def _end(mission: dict[str, Any], flown: Replay, ground: Ground) -> tuple[str, d
 
 
 def asks_for_lift(mission: dict[str, Any]) -> bool:
-    """Whether the mission asks for a lift before its end: by its phases, or by a request."""
+    """Whether the mission asks for a lift that should be over by its end: by its phases, or by a request."""
     phases, end = mission["phases"], mission["mission"]["duration"]
     requests = [r["time"] for r in mission.get("requests", []) if r["action"] == "lift"]
-    return phases["height"] > 0.0 and min([phases["lift_start"], *requests]) < end
+    return phases["height"] > 0.0 and min([phases["lift_start"], *requests]) + phases["lift_duration"] < end
 
 
 def contact_of(mission: dict[str, Any], channels: dict[str, np.ndarray], flown: Replay) -> Ground:

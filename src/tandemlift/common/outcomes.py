@@ -39,7 +39,8 @@ OUTCOMES = (
     OutcomeKind("flying", "in the air at the end", False),
     OutcomeKind(
         "not-lifted",
-        "the mission asks for a lift, and the vehicle never rose by `outcome.lifted_height`, or half of a lower lift",
+        "the mission asks for a lift that should be over, and the vehicle never rose by `outcome.lifted_height`, or "
+        "half of a lower lift",
         True,
     ),
     OutcomeKind("crashed", "turned over, struck something, or left the fence; the flight is stopped there", True),

@@ -48,7 +48,7 @@ def limit_of(p: FlightPlan, number: float) -> str:
     return f"must stay below {FAR:g} m"
 
 
-def outcome_of(p: FlightPlan, s: FlightState, last: Any, highest: float) -> str:
+def outcome_of(p: FlightPlan, s: FlightState, last: Any, highest: float, end: float) -> str:
     """The name of the outcome of a flight that is over.
 
     Args:
@@ -56,22 +56,24 @@ def outcome_of(p: FlightPlan, s: FlightState, last: Any, highest: float) -> str:
         s: its last state.
         last: its last sample.
         highest: the greatest z of its centre of mass [m].
+        end: when it was over [s].
     """
     ending = ending_of(p, s, 0)
     if ending is not None:
         return ending.outcome
     mission, start = p.mission, p.model.flight_state.state.position.z
-    if asks_for_lift(mission) and highest - start < _lifted(mission):
+    if asks_for_lift(mission, end) and highest - start < _lifted(mission):
         return "not-lifted"
     return "landed" if _stands(p, s.state, last, start) else "flying"
 
 
-def asks_for_lift(mission: Mission) -> bool:
-    """Whether a mission asks its pilot to lift before its end."""
-    p, end = mission.phases, mission.mission.duration
+def asks_for_lift(mission: Mission, end: float) -> bool:
+    """Whether a mission asks its pilot for a lift that should be over by its end [s]."""
+    p = mission.phases
     if p.height <= 0.0:
         return False
-    return p.lift_start < end or any(r.action == "lift" and r.time < end for r in mission.requests)
+    asked = [p.lift_start, *(r.time for r in mission.requests if r.action == "lift")]
+    return min(asked) + p.lift_duration < end
 
 
 def _lifted(mission: Mission) -> float:

@@ -84,7 +84,7 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed |= _detection_metrics(p, flown)
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
     highest = max(early.highest, late.highest)
-    formed["outcome"] = outcome_of(p, flown.flight_state, last, highest)
+    formed["outcome"] = outcome_of(p, flown.flight_state, last, highest, flown.step * p.dt)
     formed["findings"] = [
         [f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, flown.step, formed["outcome"])
     ]

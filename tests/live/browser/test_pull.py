@@ -54,7 +54,7 @@ def test_one_holds_the_beam_at_a_time_and_a_page_that_is_closed_lets_go(page, li
     other.mouse.move(u + 30, v)
     other.mouse.down()
     other.mouse.move(u + 60, v)
-    until(lambda: "another page holds the beam" in other.locator("#notices").text_content(), "a refusal")
+    until(lambda: "another page holds the beam" in other.locator(".label.refusal").text_content(), "a refusal")
     assert np.allclose(live.look()["hand_point"], held, atol=1e-6)
     other.mouse.up()
     assert live.look()["held"] == 1.0
