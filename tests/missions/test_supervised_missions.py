@@ -33,6 +33,12 @@ FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}
         ({**BY_HAND, "supervision": {"model": "watch", "fence": {"low": 2.0, "high": 1.0}}}, "supervision.fence.low"),
         ({**WATCHED, "supervision.watchdog.stale_time": 0.004}, "supervision.watchdog.stale_time = 0.004"),
         ({**WATCHED, "supervision.checks.min_payload_ratio": 3.0}, "min_payload_ratio = 3.0"),
+        (
+            {**WATCHED, "crash.tilt": 0.9, "promise.tilt": 0.3},
+            "crash.tilt = 0.9: must be above supervision.limits.tilt",
+        ),
+        ({**WATCHED, "crash.fence_margin": 0.2}, "crash.fence_margin = 0.2: must be at least supervision.fence.margin"),
+        ({**WATCHED, "supervision.fence.low": [-9.0, -9.0, 1.5]}, "starts 1.47 m outside supervision.fence"),
     ],
 )
 def test_what_cannot_be_is_refused(changes, message):

@@ -30,7 +30,6 @@ FLOWN = {
     "supervision.model": "watch",
     "contact.model": "watch",
     "crash.impulse": 100.0,  # a fall is what a reaction may be
-    "crash.fence_margin": 10.0,  # the ground is outside of the fence that is tried
     "sensor_faults": QUIET,
 }
 

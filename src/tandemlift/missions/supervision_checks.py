@@ -75,6 +75,13 @@ def _check_crash(m: Mission) -> None:
         raise InputError(
             f"crash.fence_margin = {c.fence_margin}: must be at least supervision.fence.margin = {s.fence.margin}"
         )
+    sides = zip(s.fence.low, s.fence.high, m.initial.position, strict=True)
+    away = max(max(low - place, place - high) for low, high, place in sides)
+    if away > c.fence_margin:
+        raise InputError(
+            f"crash.fence_margin = {c.fence_margin}: the vehicle starts {away:.3g} m outside supervision.fence, which "
+            "is a crash; must be larger, or the fence must hold initial.position"
+        )
 
 
 def _check_sensor_faults(m: Mission) -> None:

@@ -50,7 +50,7 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         *_touches(flight_state),
         *_by_events(flight_state, mission),
         *_by_lost_rotor(p, flight_state),
-        *_not_landed(p, flight_state, outcome),
+        *_not_landed(p, flight_state, outcome, steps * p.dt),
     ]
     return tuple(sorted((f for f in found if f.kind not in mission.findings.ignore), key=lambda f: f.time))
 
@@ -271,20 +271,20 @@ def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding
     )
 
 
-def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str) -> Iterator[Finding]:
-    """A landing that the mission asks for by its clock, that should be over, and is not."""
+def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: float) -> Iterator[Finding]:
+    """A landing that the mission asks for by its clock, that should be over by the end [s], and is not."""
     mission, position = p.mission, flight_state.state.position
     height = position.z - p.model.flight_state.state.position.z
     asked = [r.time for r in mission.requests if r.action == "land"]
     land_start = mission.phases.land_start
     first = min([*asked, *([] if land_start is None else [land_start])], default=math.inf)
     over = first + landing_time(mission, height)
-    if outcome == "flying" and over <= mission.mission.duration:
+    if outcome == "flying" and over <= end:
         text = f"{height:.3g} m above its start at the end, with a landing asked for at {first:g} s"
         yield finding(
             "not-landed",
             text,
-            time=mission.mission.duration,
+            time=end,
             place=position,
             quantity="height above the start",
             value=height,

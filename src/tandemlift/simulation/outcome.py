@@ -64,7 +64,7 @@ def outcome_of(p: FlightPlan, s: FlightState, last: Any, highest: float, end: fl
     mission, start = p.mission, p.model.flight_state.state.position.z
     if asks_for_lift(mission, end) and highest - start < _lifted(mission):
         return "not-lifted"
-    return "landed" if _stands(p, s.state, last, start) else "flying"
+    return "landed" if _stands(p, s.state, last, start, end) else "flying"
 
 
 def asks_for_lift(mission: Mission, end: float) -> bool:
@@ -81,13 +81,13 @@ def _lifted(mission: Mission) -> float:
     return min(mission.outcome.lifted_height, 0.5 * mission.phases.height)
 
 
-def _stands(p: FlightPlan, state: State, last: Any, start: float) -> bool:
-    """Whether a vehicle stands at the end; without a floor, whether it is where a landing that is over leaves it."""
+def _stands(p: FlightPlan, state: State, last: Any, start: float, end: float) -> bool:
+    """Whether a vehicle stands at the end [s]; without a floor, whether it is where its landing leaves it."""
     mission, slow = p.mission, math.dist(state.velocity, ZERO) < p.mission.outcome.landed_speed
     if not isinstance(last.contact, Nothing):
         return slow and last.contact.contact_force.z > BORNE * p.model.limits.strike.weight
     land = mission.phases.land_start
-    if land is None or land + mission.phases.land_duration > mission.mission.duration:
+    if land is None or land + mission.phases.land_duration > end:
         return False
     return slow and abs(state.position.z - start) < mission.outcome.landed_height
 
