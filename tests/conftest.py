@@ -14,13 +14,22 @@ hypothesis.settings.register_profile("tandemlift", deadline=None, suppress_healt
 hypothesis.settings.load_profile("tandemlift")
 
 
-@pytest.fixture(autouse=True)
-def _controllers_are_forgotten():
-    """Forget the controllers that a test registers: the next test may run in the same process."""
+def forgetting_controllers():
+    """Forget afterwards the controllers that are registered meanwhile: what comes next may run in the same process."""
     before = dict(CONTROLLERS)
     yield
     CONTROLLERS.clear()
     CONTROLLERS.update(before)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _controllers_of_a_module():
+    yield from forgetting_controllers()
+
+
+@pytest.fixture(autouse=True)
+def _controllers_of_a_test():
+    yield from forgetting_controllers()
 
 
 @pytest.fixture(scope="session")

@@ -25,12 +25,12 @@ def folder(tmp_path_factory):
     return path
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def law(folder):
     return load_controller(folder / "my_pd.py")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def plain(folder):
     return load_controller(folder / "my_pd_plain.py")
 

@@ -37,7 +37,7 @@ def test_a_crash_is_marked_told_and_left_by_beginning_again(page, live):
     page.get_by_role("button", name="Stop").click()  # it falls from a metre
     until(lambda: "The vehicle has crashed" in told(page, "#ended"), "a crash")
     assert live.status["ending"]["text"] in told(page, "#ended")
-    assert "crashed here" in told(page, ".label.ending")
+    until(lambda: "crashed here" in told(page, ".label.ending"), "a mark where it crashed")
     assert told(page, "#mode") == "crashed"
     page.get_by_role("button", name="Lift").click()
     until(lambda: "Begin the flight again." in told(page, "#refusal"), "a reason")
