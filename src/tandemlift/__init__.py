@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from tandemlift.settings import Mission
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
+    from tandemlift.studies.tuning.tune import tune
     from tandemlift.targets.compiling import compile_mission
     from tandemlift.vehicle import Vehicle
 
@@ -44,6 +45,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "linearize": "linearization.linearize",
     "load_controller": "controllers.user_controller",
     "load_mission": "missions",
+    "tune": "studies.tuning.tune",
 }
 
 __all__ = [
@@ -62,6 +64,7 @@ __all__ = [
     "linearize",
     "load_controller",
     "load_mission",
+    "tune",
 ]
 
 

@@ -47,6 +47,7 @@ class Tuning(NamedTuple):
         new: the best values found.
         costs: of old and new, on the draws of the search.
         history: the cost of every candidate in the order of the search, the present values first.
+        apart: the same for each goal alone.
         ended: why the search ended.
         is_finished: whether it was not interrupted.
         evidence: what fresh draws say; None of a search that was interrupted.
@@ -63,6 +64,7 @@ class Tuning(NamedTuple):
     new: Values
     costs: tuple[Cost, Cost]
     history: tuple[Cost, ...]
+    apart: tuple[tuple[Cost, ...], ...]
     ended: str
     is_finished: bool
     evidence: Evidence | None = None

@@ -57,7 +57,8 @@ class Task(NamedTuple):
 
     def costs_apart(self, trial: Trial) -> list[Cost]:
         """The cost of a trial for each goal alone."""
-        return [cost_of(trial, [g], [s], self.aim) for g, s in zip(self.goals, self.scales, strict=True)]
+        parts = zip(self.goals, self.scales, trial.values, strict=True)
+        return [cost_of(trial._replace(values=(values,)), [g], [scale], self.aim) for g, scale, values in parts]
 
     def for_draws(self, draws: Sequence[Draw]) -> Task:
         """The same task on other draws: goals without a target of the draw's case keep their scales."""

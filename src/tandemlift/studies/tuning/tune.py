@@ -3,45 +3,48 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Literal
-
-import numpy as np
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from tandemlift.common.errors import InputError, unknown
-from tandemlift.studies.tuning.candidates import Aim, Cost, Source
+from tandemlift.settings import Mission
+from tandemlift.studies.tuning.candidates import Aim, Source
 from tandemlift.studies.tuning.draws import FRESH, SEARCH, Draw, default_draws
 from tandemlift.studies.tuning.evidence import evidence_of
 from tandemlift.studies.tuning.front import front_of
 from tandemlift.studies.tuning.goals import Goal, goals_from
+from tandemlift.studies.tuning.hunt import INTERRUPTED, Hunt, TuneProgress
 from tandemlift.studies.tuning.parameters import Parameter, Range, parameters_of
 from tandemlift.studies.tuning.result import Tuning, present_values
 from tandemlift.studies.tuning.searches import EvolutionSearch, Search
-from tandemlift.studies.tuning.task import Task, Values, started
+from tandemlift.studies.tuning.task import Task, started
 
-OPTIMISERS = ("cma", "optuna")
 FACTORS = {"cma": 1000.0, "optuna": 10.0}  # by which a number may differ: a search that moves can go far
 POPULATIONS = 60  # of the default budget
-Optimiser = Literal["cma", "optuna"]
-TuneProgress = Callable[[int, int, Cost], None]
-"""Called with (candidates tried, candidates in all, the lowest cost so far)."""
+MOST_DRAWS = 1_000_000
+
+
+class How(NamedTuple):
+    """How to search and to compare; see `tune`."""
+
+    over: Iterable[str] | Mapping[str, Range] = ()
+    draws: int | Sequence[Draw] = 8
+    fresh: int | Sequence[Draw] = 200
+    budget: int | None = None
+    optimiser: str | None = None
+    aim: Aim = "mean"
+    seed: int = 0
+    threads: int | None = None
 
 
 def tune(
     mission: str | os.PathLike[str],
     goals: str | Goal | Mapping[str, Any] | Iterable[str | Goal],
     *,
-    over: Iterable[str] | Mapping[str, Range] = (),
-    draws: int | Sequence[Draw] = 8,
-    fresh: int | Sequence[Draw] = 200,
-    budget: int | None = None,
-    optimiser: Optimiser | None = None,
-    aim: Aim = "mean",
-    seed: int = 0,
-    threads: int | None = None,
     changes: Mapping[str, Any] | None = None,
     controller: str | None = None,
     progress: TuneProgress | None = None,
+    **how: Any,
 ) -> Tuning:
     """Search values of a mission that make metrics small, and fly them on fresh draws against the present ones.
 
@@ -53,18 +56,20 @@ def tune(
         mission: name of a built-in mission, or path of a TOML file.
         goals: metrics to make small, by their names in metrics.json, of lists also one component, such as
             "position_rmse_m.2"; or a table of such names with their targets.
-        over: dotted keys, tables or patterns of what to search, with a range [low, high] or a list of words for each if
-            it is a table; by default the gains of the controller.
-        draws: flights on which candidates are compared, or how many of `default_draws`.
-        fresh: flights on which old and new are compared in the end, or how many.
-        budget: most candidates to try; by default 60 populations; with 0 only the present values fly.
-        optimiser: "cma", or "optuna" for choices and for the front of several goals; by default what suits.
-        aim: whether the mean over draws counts, or the worst.
-        seed: of search and draws.
-        threads: that fly; by default one for each processor.
         changes: changes of the mission by dotted key, before the search.
         controller: name of another controller than the mission's.
         progress: called after each population.
+        how: any of
+
+            over: dotted keys, tables or patterns of what to search, with a range [low, high] or a list of words for
+            each if it is a table; by default the gains of the controller.
+            draws: flights on which candidates are compared, or how many of `default_draws`; 8.
+            fresh: flights on which old and new are compared in the end, or how many; 200.
+            budget: most candidates to try; by default 60 populations; with 0 only the present values fly.
+            optimiser: "cma", or "optuna" for choices and for the front of several goals; by default what suits.
+            aim: whether the "mean" over draws counts, or the "worst"; the mean.
+            seed: of search and draws; 0.
+            threads: that fly; by default one for each processor.
 
     Returns:
         What was found, whether it is better or not.
@@ -72,108 +77,69 @@ def tune(
     Raises:
         InputError: bad input, a package is missing, or no draw can be flown.
     """
+    if strange := set(how) - set(How._fields):
+        raise unknown("argument of tune", min(strange), How._fields)
     source = Source(os.fspath(mission), dict(changes or {}), controller)
-    loaded, asked = source.load(), goals_from(goals)
-    ranges = over if isinstance(over, Mapping) else dict.fromkeys([over] if isinstance(over, str) else over)
-    kind, parameters = _optimiser(optimiser, asked), ()
-    parameters = parameters_of(loaded, ranges, FACTORS[kind])
-    if optimiser is None and any(p.choices for p in parameters):
-        kind = "optuna"
-        parameters = parameters_of(loaded, ranges, FACTORS[kind])
-    if aim not in ("mean", "worst"):
-        raise InputError(f"--aim {aim}: must be mean or worst")
-    compared = default_draws(loaded, _count("--draws", draws), seed, SEARCH) if isinstance(draws, int) else list(draws)
-    unseen = default_draws(loaded, _count("--fresh", fresh), seed, FRESH) if isinstance(fresh, int) else list(fresh)
-    _check_draws(compared, unseen, parameters)
-    search = _search(kind, parameters, seed, len(asked))
-    allowed = POPULATIONS * search.size if budget is None else budget
-    if 0 != allowed < search.size:
+    return _tuned(source, goals_from(goals), How(**how), progress)
+
+
+def _tuned(source: Source, goals: tuple[Goal, ...], how: How, progress: TuneProgress | None) -> Tuning:
+    if how.aim not in ("mean", "worst"):
+        raise unknown("aim", how.aim, ("mean", "worst"))
+    loaded = source.load()
+    kind, parameters = _parameters(loaded, goals, how)
+    compared, unseen = _draws(loaded, how, parameters)
+    search = _search(kind, parameters, how.seed, len(goals))
+    allowed = POPULATIONS * search.size if how.budget is None else how.budget
+    if allowed != 0 and allowed < search.size:
         raise InputError(f"--budget {allowed}: must be at least {search.size}, which are tried at a time, or 0")
-    blank = Task(source, loaded, parameters, asked, (), (), aim, threads)
-    task, present = started(blank, compared)
-    hunt = _Hunt(task, compared, allowed, progress)
-    hunt.run(search, task.cost(present))
+    task, trial = started(Task(source, loaded, parameters, goals, (), (), how.aim, how.threads), compared)
+    hunt = Hunt(task, compared, allowed, (present_values(task), trial), progress)
+    is_front = len(goals) > 1 and kind == "optuna"
+    hunt.run(search, is_front=is_front)
+    present = hunt.tried[0]
     found = Tuning(
         task=task,
         optimiser=kind,
-        seed=seed,
+        seed=how.seed,
         budget=allowed,
         draws=tuple(compared),
         fresh=tuple(unseen),
-        old=present_values(task),
-        new=hunt.best or present_values(task),
-        costs=(hunt.history[0], hunt.lowest),
-        history=tuple(hunt.history),
+        old=present.values,
+        new=hunt.best.values,
+        costs=(present.cost, hunt.best.cost),
+        history=tuple(t.cost for t in hunt.tried),
+        apart=tuple(t.apart for t in hunt.tried),
         ended=hunt.ended,
         is_finished=hunt.ended != INTERRUPTED,
-        front=front_of(hunt.tried) if len(asked) > 1 and kind == "optuna" else (),
+        front=front_of(hunt.tried) if is_front else (),
     )
-    return with_evidence(found) if found.is_finished else found
+    return _with_evidence(found) if found.is_finished else found
 
 
-INTERRUPTED = "interrupted"
-
-
-class _Hunt:
-    """A search in progress: all that was tried, and the best of it."""
-
-    def __init__(self, task: Task, draws: Sequence[Draw], budget: int, progress: TuneProgress | None) -> None:
-        self.task, self.draws, self.budget, self.progress = task, draws, budget, progress
-        self.tried: list[tuple[Values, tuple[Cost, ...]]] = []
-        self.history: list[Cost] = []
-        self.best: Values | None = None
-        self.lowest = Cost(0, 0.0)
-        self.ended = ""
-
-    def run(self, search: Search, present: Cost) -> None:
-        """Try candidates until the budget is spent, the search converges, or Ctrl-C."""
-        self.history, self.lowest = [present], present
-        try:
-            while not self.ended:
-                if len(self.history) - 1 + search.size > self.budget:
-                    self.ended = "budget spent"
-                elif search.ended:
-                    self.ended = search.ended
-                else:
-                    self._population(search)
-        except KeyboardInterrupt:
-            self.ended = INTERRUPTED
-
-    def _population(self, search: Search) -> None:
-        task, points = self.task, search.ask()
-        values = [
-            tuple(p.as_flown(x) for p, x in zip(task.parameters, point, strict=True)) for point in points
-        ]
-        trials = task.fly([task.changes(v) for v in values], self.draws)
-        costs = [task.cost(trial) for trial in trials]
-        apart = [task.costs_apart(trial) for trial in trials]
-        search.tell(points, np.array([[c.rank for c in row] for row in apart]) if self._is_front(search)
-                    else np.array([[c.rank] for c in costs]))
-        for v, cost, row in zip(values, costs, apart, strict=True):
-            self.history.append(cost)
-            self.tried.append((v, tuple(row)))
-            if cost.rank < self.lowest.rank:
-                self.best, self.lowest = v, cost
-        if self.progress:
-            self.progress(len(self.history) - 1, self.budget, self.lowest)
-
-    def _is_front(self, search: Search) -> bool:
-        return len(self.task.goals) > 1 and not isinstance(search, EvolutionSearch)
-
-
-def with_evidence(found: Tuning) -> Tuning:
-    """The result with what fresh draws say, of the new values and of the front."""
+def _with_evidence(found: Tuning) -> Tuning:
+    """The result with what fresh draws say of the new values and of the front; unfinished if Ctrl-C comes."""
     task = found.task.for_draws(found.fresh)
     front = [task.changes(point.values) for point in found.front]
-    old, new, *others = task.fly([{}, found.changes, *front], found.fresh)
+    try:
+        old, new, *others = task.fly([{}, found.changes, *front], found.fresh)
+    except KeyboardInterrupt:
+        return found._replace(ended=INTERRUPTED, is_finished=False)
     points = [p._replace(fresh=tuple(task.costs_apart(t))) for p, t in zip(found.front, others, strict=True)]
     return found._replace(evidence=evidence_of(old, new, task.goals, task.scales, task.aim), front=tuple(points))
 
 
-def _optimiser(given: str | None, goals: Sequence[Goal]) -> str:
-    if given is not None and given not in OPTIMISERS:
-        raise unknown("optimiser", given, OPTIMISERS)
-    return given or ("optuna" if len(goals) > 1 else "cma")
+def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str, tuple[Parameter, ...]]:
+    """The optimiser, and the parameters that it searches."""
+    if how.optimiser is not None and how.optimiser not in FACTORS:
+        raise unknown("optimiser", how.optimiser, FACTORS)
+    over = [how.over] if isinstance(how.over, str) else how.over
+    ranges = over if isinstance(over, Mapping) else dict.fromkeys(over)
+    kind = how.optimiser or ("optuna" if len(goals) > 1 else "cma")
+    found = parameters_of(mission, ranges, FACTORS[kind])
+    if how.optimiser is None and any(p.choices for p in found):
+        return "optuna", parameters_of(mission, ranges, FACTORS["optuna"])
+    return kind, found
 
 
 def _search(kind: str, parameters: Sequence[Parameter], seed: int, goals: int) -> Search:
@@ -184,20 +150,23 @@ def _search(kind: str, parameters: Sequence[Parameter], seed: int, goals: int) -
     return EstimatorSearch(parameters, seed, goals)
 
 
-def _count(option: str, given: int) -> int:
-    if not 1 <= given <= 1_000_000:
-        raise InputError(f"{option} {given}: must be from 1 to 1000000")
-    return given
+def _draws(mission: Mission, how: How, parameters: Sequence[Parameter]) -> tuple[list[Draw], list[Draw]]:
+    """The draws of the search, and fresh ones.
 
-
-def _check_draws(compared: Sequence[Draw], unseen: Sequence[Draw], parameters: Sequence[Parameter]) -> None:
-    """Refuse draws that change what is searched, and fresh draws that the search has seen."""
-    if not compared or not unseen:
-        raise InputError("--draws: needs at least one draw")
-    varied = {key for draw in (*compared, *unseen) for key in draw.changes}
-    for p in parameters:
-        for key in varied:
-            if p.key == key or p.key.startswith(f"{key}.") or key.startswith(f"{p.key}."):
+    Raises:
+        InputError: there are none, they change what is searched, or a fresh draw is one of the search.
+    """
+    given = (("draws", how.draws, SEARCH), ("fresh", how.fresh, FRESH))
+    found = []
+    for name, draws, stream in given:
+        count = draws if isinstance(draws, int) else len(draws)
+        if not 1 <= count <= MOST_DRAWS:
+            raise InputError(f"--{name} {count}: must be from 1 to {MOST_DRAWS}")
+        found.append(default_draws(mission, draws, how.seed, stream) if isinstance(draws, int) else list(draws))
+    for key in sorted({key for draw in (*found[0], *found[1]) for key in draw.changes}):
+        for p in parameters:
+            if f"{p.key}.".startswith(f"{key}.") or key.startswith(f"{p.key}."):
                 raise InputError(f"--over {p.key}: the draws change {key}; a key is either searched or drawn")
-    if any(draw in compared for draw in unseen):
+    if any(draw in found[0] for draw in found[1]):
         raise InputError("--fresh: a fresh draw is one of the draws of the search; give them another mission.seed")
+    return found[0], found[1]
