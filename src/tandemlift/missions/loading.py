@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +13,8 @@ from tandemlift.common.errors import InputError
 from tandemlift.controllers import CONTROLLERS, Controller
 from tandemlift.flight.old_names import check_said_once
 from tandemlift.missions.changes import changed_tables
-from tandemlift.missions.checking import check
-from tandemlift.missions.files import layers_of, overlay, path_of
+from tandemlift.missions.checking import as_checked, check
+from tandemlift.missions.files import Layer, layers_of, overlay, path_of
 from tandemlift.missions.values import Tables, value_at
 from tandemlift.settings import Mission
 
@@ -42,20 +43,78 @@ def load_mission(
     Raises:
         InputError: the mission does not exist, cannot be read or cannot be flown; the message says what is allowed.
     """
+    with _named(name):
+        layers, tables = _read(name, controller)
+        return check(_with_changes(tables, changes or {}, layers), layers[-1].source, layers)
+
+
+class MissionTemplate:
+    """Many missions of one name, each with a few changes; the file is read, and what they share checked, only once.
+
+    Args:
+        name: name of a built-in mission, or path of a TOML file.
+        changes: values by dotted key that all missions have.
+        controller: as for `load_mission`.
+        quiet: leave out the warnings of what may fly badly, for those who have seen them.
+
+    Raises:
+        InputError: the file does not exist or cannot be read, or a change has no place in it.
+    """
+
+    def __init__(
+        self,
+        name: str | os.PathLike[str],
+        changes: Mapping[str, Any] | None = None,
+        *,
+        controller: Controller | str | None = None,
+        quiet: bool = False,
+    ) -> None:
+        self.name, self.changes, self.quiet = name, dict(changes or {}), quiet
+        with _named(name):
+            self._layers, self._own = _read(name, controller)
+            self._common = _with_changes(self._own, self.changes, self._layers)
+            self._known = as_checked(self._common)
+
+    def mission(self, changes: Mapping[str, Any]) -> Mission:
+        """The mission that `load_mission` gives with the common changes and these.
+
+        Raises:
+            InputError: as by `load_mission`.
+        """
+        layers, again = self._layers, not self.changes.keys().isdisjoint(changes)
+        with _named(self.name):
+            check_said_once({**self.changes, **changes})
+            tables = self._own if again else self._common
+            tables = _with_changes(tables, {**self.changes, **changes} if again else changes, layers)
+            return check(tables, layers[-1].source, layers, known=self._known, quiet=self.quiet)
+
+
+@contextmanager
+def _named(name: str | os.PathLike[str]) -> Iterator[None]:
+    """Within it, a file that cannot be read or is nested too deeply is refused by its name."""
     try:
-        layers = list(layers_of(path_of(name, Path())))
-        folded = list(itertools.accumulate((layer.tables for layer in layers), overlay, initial=Tables()))
-        tables = folded[-1]
-        if controller is not None:
-            chosen = controller if isinstance(controller, str) else controller.name
-            if not isinstance(controller, str) and CONTROLLERS.get(chosen) is not controller:
-                raise InputError(f"controller {chosen!r} is not the one registered last by that name; load it again")
-            tables = {**tables, "controller": _last_said_of(chosen, folded)}
-        check_said_once(changes or ())
-        for key, value in (changes or {}).items():
-            tables = changed_tables(tables, key, value, layers[-1].source)
-        return check(tables, layers[-1].source, layers)
+        yield
     except RecursionError:
         raise InputError(f"{name} is not a mission: nested too deeply") from None
     except OSError as error:
         raise InputError(f"mission file {name}: {error.strerror or error}") from None
+
+
+def _read(name: str | os.PathLike[str], controller: Controller | str | None) -> tuple[list[Layer], Tables]:
+    """What the files of a mission say, and its tables with the controller that is to fly."""
+    layers = list(layers_of(path_of(name, Path())))
+    folded = list(itertools.accumulate((layer.tables for layer in layers), overlay, initial=Tables()))
+    if controller is None:
+        return layers, folded[-1]
+    chosen = controller if isinstance(controller, str) else controller.name
+    if not isinstance(controller, str) and CONTROLLERS.get(chosen) is not controller:
+        raise InputError(f"controller {chosen!r} is not the one registered last by that name; load it again")
+    return layers, {**folded[-1], "controller": _last_said_of(chosen, folded)}
+
+
+def _with_changes(tables: Tables, changes: Mapping[str, Any], layers: Sequence[Layer]) -> Tables:
+    """Tables with values by dotted key set, one after the other."""
+    check_said_once(changes)
+    for key, value in changes.items():
+        tables = changed_tables(tables, key, value, layers[-1].source)
+    return tables
