@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,9 +12,9 @@ from tandemlift.common.extras import extra
 if TYPE_CHECKING:
     import pyarrow
 
-CHANNEL = "flight."  # how the name of a kept channel's column begins
+CHANNEL = "flight."  # begins the name of a kept channel's column
 CODED = ("mission", "controller", "engine", "case", "outcome", "finding_kinds")  # few different texts in many rows
-MARK = b"PAR1"  # with which a whole Parquet file begins and ends
+MARK = b"PAR1"  # begins and ends a whole Parquet file
 
 
 class UnitFile(NamedTuple):
@@ -33,8 +33,8 @@ def check_whole(path: Path) -> None:
     """
     try:
         with path.open("rb") as file:
-            begin = file.read(len(MARK))
-            file.seek(-min(len(MARK), file.seek(0, 2)), 2)
+            begin, size = file.read(len(MARK)), file.seek(0, 2)
+            file.seek(max(size - len(MARK), 0))
             end = file.read()
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}") from None
@@ -46,15 +46,7 @@ def _damaged(path: Path, why: object) -> InputError:
     return InputError(f"{path} is damaged: {why}. Run the study again: it makes this file anew, and keeps the others")
 
 
-def schema_of(files: Sequence[UnitFile]) -> pyarrow.Schema:
-    """The columns of all files together; of the first and the last, which have those of the first and last mission."""
-    with extra("study", "load_study"):
-        import pyarrow
-    found = [_opened(file, ()).schema_arrow for file in (files[:1] + files[-1:])]
-    return pyarrow.unify_schemas(found, promote_options="permissive") if found else pyarrow.schema([])
-
-
-def _opened(file: UnitFile, coded: Collection[str]) -> Any:
+def _opened(file: UnitFile, coded: Collection[str] = ()) -> Any:
     """A file as PyArrow opens it, with some columns as codes of their texts."""
     with extra("study", "load_study"):
         import pyarrow
@@ -65,7 +57,17 @@ def _opened(file: UnitFile, coded: Collection[str]) -> Any:
         raise _damaged(file.path, error) from None
 
 
-def _read(file: UnitFile, names: Sequence[str], coded: Collection[str]) -> pyarrow.Table:
+def columns_in(files: Iterable[UnitFile]) -> tuple[str, ...]:
+    """The columns of all files together, in the order in which they first come."""
+    return tuple(dict.fromkeys(name for file in files for name in _opened(file).schema_arrow.names))
+
+
+def field_of(file: UnitFile, name: str) -> pyarrow.Field:
+    """Name, type and metadata of a column."""
+    return _opened(file).schema_arrow.field(name)
+
+
+def _read_file(file: UnitFile, names: Sequence[str], coded: Collection[str]) -> pyarrow.Table:
     """Chosen columns of a file, of those that it has."""
     with extra("study", "load_study"):
         import pyarrow
@@ -75,14 +77,9 @@ def _read(file: UnitFile, names: Sequence[str], coded: Collection[str]) -> pyarr
         table = opened.read(columns=here, use_threads=False)
     except (OSError, pyarrow.ArrowInvalid) as error:
         raise _damaged(file.path, error) from None
-    if len(table) != file.last - file.first:
-        raise _damaged(file.path, f"it has {len(table)} rows in place of {file.last - file.first}")
+    if opened.metadata.num_rows != file.last - file.first:
+        raise _damaged(file.path, f"it has {opened.metadata.num_rows} rows in place of {file.last - file.first}")
     return table
-
-
-def tables(files: Sequence[UnitFile], names: Sequence[str], coded: Collection[str] = ()) -> Iterator[pyarrow.Table]:
-    """Chosen columns, a table for each file, in the order of the rows."""
-    return (_read(file, names, coded) for file in files)
 
 
 def read(files: Sequence[UnitFile], names: Sequence[str], *, coded: bool = False) -> pyarrow.Table:
@@ -91,18 +88,42 @@ def read(files: Sequence[UnitFile], names: Sequence[str], *, coded: bool = False
     Args:
         files: of a study, in the order of their rows.
         names: of columns; null in rows of a file that lacks one.
-        coded: whether columns with few different texts hold codes of them, which takes little memory.
+        coded: whether columns with few different texts hold codes of them, which takes less memory.
 
     Raises:
         InputError: there is no such column, a file is damaged, or PyArrow is not installed (extra: study).
     """
+    codes = [name for name in names if name in CODED] if coded else []
+    parts = [_read_file(file, names, codes) for file in files]
+    known = {name for part in parts for name in part.column_names}
+    if any(name not in known for name in names):
+        missing = next(name for name in names if name not in known)
+        raise unknown("column", missing, columns_in(files))
     with extra("study", "load_study"):
         import pyarrow
-    schema = schema_of(files)
-    for name in names:
-        if name not in schema.names:
-            raise unknown("column", name, schema.names)
-    codes = [name for name in names if name in CODED] if coded else []
-    parts = list(tables(files, names, codes))
-    whole = pyarrow.concat_tables(parts, promote_options="permissive") if parts else schema.empty_table()
-    return whole.select(list(names)).unify_dictionaries()
+    columns = {name: _joined([(part, len(part)) for part in parts], name) for name in names}
+    return pyarrow.table(columns).unify_dictionaries()
+
+
+def _joined(parts: Sequence[tuple[pyarrow.Table, int]], name: str) -> pyarrow.ChunkedArray:
+    """A column of all files; of one type, although a file in which it is empty has another one."""
+    import pyarrow
+
+    found = [part[name] if name in part.column_names else None for part, _ in parts]
+    kinds = {column.type for column in found if column is not None and column.null_count < len(column)}
+    kind = kinds.pop() if len(kinds) == 1 else _common_type(kinds)
+    chunks = list[Any]()
+    for (_, count), column in zip(parts, found, strict=True):
+        if column is None or column.null_count == len(column):
+            chunks.append(pyarrow.nulls(count, kind))
+        else:
+            chunks += column.cast(kind).chunks
+    return pyarrow.chunked_array(chunks, kind)
+
+
+def _common_type(kinds: Iterable[pyarrow.DataType]) -> pyarrow.DataType:
+    """The type that holds values of several: numbers if they are, else texts; numbers of none."""
+    import pyarrow
+
+    numbers = all(pyarrow.types.is_integer(kind) or pyarrow.types.is_floating(kind) for kind in kinds)
+    return pyarrow.float64() if numbers else pyarrow.string()
