@@ -16,7 +16,7 @@ from tandemlift.studies.design.grids import grid_axes
 from tandemlift.studies.design.keys import changes_in, columns_of
 from tandemlift.studies.design.persons import check_has_person, person_changes, random_person
 from tandemlift.studies.design.sampling import point_count, points
-from tandemlift.studies.design.settings import MAX_ROWS, MOST_UNITS, ROWS_PER_UNIT, CaseTable, StudySettings
+from tandemlift.studies.design.settings import MAX_ROWS, CaseTable, StudySettings, default_rows_per_unit
 from tandemlift.studies.design.variants import Variant
 
 SEED = "mission.seed"
@@ -108,8 +108,7 @@ class StudyPlan:
     @cached_property
     def rows_per_unit(self) -> int:
         """Rows in one file of results."""
-        given = self.settings.study.rows_per_unit
-        return given or max(ROWS_PER_UNIT, -(-self.count // MOST_UNITS // 8) * 8)
+        return self.settings.study.rows_per_unit or default_rows_per_unit(self.count)
 
     @cached_property
     def _axes(self) -> list[list[Any]]:

@@ -13,7 +13,8 @@ from tandemlift.settings.value_types import Table, must
 
 MAX_ROWS = 10**9
 OUTCOME_NAMES = tuple(kind.name for kind in OUTCOMES)
-ROWS_PER_UNIT, MOST_UNITS = 256, 10_000
+BLOCK, ROWS_PER_UNIT, MOST_UNITS = 8, 256, 10_000
+UNITS = 32  # at least, of a study that has enough rows: so many workers have something to do
 Sampling = Literal["random", "sobol", "latin-hypercube", "saltelli"]
 REFUSED = "refused"  # the outcome of a row that cannot be flown
 
@@ -84,8 +85,14 @@ class StudyTable(Table):
     seeds: Count = key(1, "1", "flights of each point, with different mission.seed: noise, wind, tremor")
     seed: Annotated[int, Field(ge=0, le=10**18)] = key(0, "1", "seed of the points, and first mission.seed")
     rows_per_unit: Annotated[int, Field(ge=1, le=1_000_000)] | None = key(
-        None, "1", "flights in one file of results", unset=f"{ROWS_PER_UNIT}, or more so that there are few files"
+        None, "1", "flights in one file of results", unset=f"{ROWS_PER_UNIT}; fewer for a small study, more for one beyond {ROWS_PER_UNIT * MOST_UNITS} rows"
     )
+
+
+def default_rows_per_unit(count: int) -> int:
+    """Rows in one file of results of a study of `count` rows: whole blocks, so that all workers have some."""
+    fewest, most = -(-count // MOST_UNITS), -(-count // UNITS)
+    return -(-max(fewest, min(most, ROWS_PER_UNIT)) // BLOCK) * BLOCK
 
 
 class CaseTable(Table):
