@@ -15,7 +15,9 @@ from tandemlift.studies.reading.statistics import quantile, share, upper_bound
 def test_the_interval_of_a_share_is_that_of_the_exact_binomial_test(count, total, confidence):
     exact = stats.binomtest(count, total).proportion_ci(confidence, method="exact")
     found = share(count, total, confidence)
-    assert (found.low, found.high) == pytest.approx((exact.low, exact.high), rel=1e-9, abs=1e-11)  # it searches to 2e-12
+    assert (found.low, found.high) == pytest.approx(
+        (exact.low, exact.high), rel=1e-9, abs=1e-11
+    )  # it searches to 2e-12
     assert found.value == count / total
 
 

@@ -35,7 +35,7 @@ def to_xarray(plan: StudyPlan, table: pyarrow.Table, varied: pyarrow.Table) -> x
     def grid(column: Any) -> Any:
         return column.to_numpy(zero_copy_only=False).reshape(shape).reshape(tuple(kept.values()))
 
-    found = {name: (dim, values) for name, (dim, values) in coordinates.items() if dim in kept}
+    found: dict[str, Any] = {name: pair for name, pair in coordinates.items() if pair[0] in kept}
     drawn = [name for name in varied.column_names if name != "seed" and name not in coordinates]
     for name, column in [(SEED, "seed"), *[(name, name) for name in drawn]]:
         found[name] = _along_few(grid(varied[column]), dims)

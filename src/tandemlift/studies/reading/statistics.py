@@ -22,7 +22,7 @@ CONFIDENCE = 0.95
 class Share(NamedTuple):
     """How many of some rows have a property, with the interval of its probability."""
 
-    count: int
+    number: int
     total: int
     low: float
     high: float
@@ -30,7 +30,7 @@ class Share(NamedTuple):
     @property
     def value(self) -> float:
         """The share; NaN of no rows."""
-        return self.count / self.total if self.total else math.nan
+        return self.number / self.total if self.total else math.nan
 
 
 class Estimate(NamedTuple):

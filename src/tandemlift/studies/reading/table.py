@@ -23,7 +23,7 @@ from tandemlift.studies.design.sampling import points
 from tandemlift.studies.design.settings import REFUSED, StudySettings
 from tandemlift.studies.reading.dataset import to_xarray
 from tandemlift.studies.reading.html import study_html
-from tandemlift.studies.reading.unit_files import CHANNEL, UnitFile, check_whole, columns_in, field_of, read
+from tandemlift.studies.reading.unit_files import CHANNEL, UnitFile, check_whole, columns_in, read
 from tandemlift.studies.units.store import StudyFolder
 
 if TYPE_CHECKING:
@@ -142,7 +142,7 @@ class Study:
         """
         with extra("study", "to_polars"):
             import polars
-        return polars.from_arrow(self.read(columns))  # type: ignore[no-any-return]
+        return polars.from_arrow(self.read(columns))
 
     def to_xarray(self, columns: Sequence[str] | None = None) -> xarray.Dataset:
         """The rows as a grid: a dimension for each key of `[grid]`, and for all else of which there are several.

@@ -62,11 +62,6 @@ def columns_in(files: Iterable[UnitFile]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for file in files for name in _opened(file).schema_arrow.names))
 
 
-def field_of(file: UnitFile, name: str) -> pyarrow.Field:
-    """Name, type and metadata of a column."""
-    return _opened(file).schema_arrow.field(name)
-
-
 def _read_file(file: UnitFile, names: Sequence[str], coded: Collection[str]) -> pyarrow.Table:
     """Chosen columns of a file, of those that it has."""
     with extra("study", "load_study"):
@@ -96,26 +91,26 @@ def read(files: Sequence[UnitFile], names: Sequence[str], *, coded: bool = False
     codes = [name for name in names if name in CODED] if coded else []
     parts = [_read_file(file, names, codes) for file in files]
     known = {name for part in parts for name in part.column_names}
-    if any(name not in known for name in names):
+    if files and any(name not in known for name in names):
         missing = next(name for name in names if name not in known)
         raise unknown("column", missing, columns_in(files))
     with extra("study", "load_study"):
         import pyarrow
-    columns = {name: _joined([(part, len(part)) for part in parts], name) for name in names}
+    columns = {name: _joined(parts, name) for name in names}
     return pyarrow.table(columns).unify_dictionaries()
 
 
-def _joined(parts: Sequence[tuple[pyarrow.Table, int]], name: str) -> pyarrow.ChunkedArray:
+def _joined(parts: Sequence[pyarrow.Table], name: str) -> pyarrow.ChunkedArray:
     """A column of all files; of one type, although a file in which it is empty has another one."""
     import pyarrow
 
-    found = [part[name] if name in part.column_names else None for part, _ in parts]
+    found = [part[name] if name in part.column_names else None for part in parts]
     kinds = {column.type for column in found if column is not None and column.null_count < len(column)}
     kind = kinds.pop() if len(kinds) == 1 else _common_type(kinds)
     chunks = list[Any]()
-    for (_, count), column in zip(parts, found, strict=True):
+    for part, column in zip(parts, found, strict=True):
         if column is None or column.null_count == len(column):
-            chunks.append(pyarrow.nulls(count, kind))
+            chunks.append(pyarrow.nulls(part.num_rows, kind))
         else:
             chunks += column.cast(kind).chunks
     return pyarrow.chunked_array(chunks, kind)
