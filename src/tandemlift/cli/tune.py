@@ -1,4 +1,4 @@
-"""`tandemlift tune`: search values of a mission that make metrics small, and show on fresh draws that they are better."""
+"""`tandemlift tune`: search values of a mission that make metrics small, and compare them on fresh draws."""
 
 from __future__ import annotations
 
@@ -133,7 +133,9 @@ def _range_of(text: str) -> tuple[str, Any]:
     """The key of KEY[=RANGE], and its range or None."""
     key, equals, literal = (part.strip() for part in text.partition("="))
     if not re.fullmatch(r"[A-Za-z0-9_*?\[\]]+(\.[A-Za-z0-9_*?\[\]]+)*", key):
-        raise InputError(f"--over {text}: must be KEY or KEY=[low, high] with a dotted key, such as controller.gains.xi")
+        raise InputError(
+            f"--over {text}: must be KEY or KEY=[low, high] with a dotted key, such as controller.gains.xi"
+        )
     value = _literal(f"--over {text}", literal) if equals else None
     if equals and not isinstance(value, list):
         raise InputError(f"--over {text}: the range must be [low, high], or a list of words in quotes")
@@ -147,10 +149,9 @@ def _literal(where: str, literal: str) -> Any:
         raise InputError(f"{where}: must be a TOML value, such as 0.01 or [0.01, 0.01, 0.005]") from None
 
 
-def _draws_of(text: str) -> int:
-    if text.isdigit():
-        return int(text)
-    raise InputError(f"--draws {text}: must be a number of draws")
+def _draws_of(text: str) -> int | str:
+    """A number of draws, or the path of a study file."""
+    return int(text) if re.fullmatch("[0-9]{1,9}", text) else text
 
 
 @contextmanager
@@ -185,8 +186,9 @@ def _print(found: Tuning, folder: Path) -> None:
     from tandemlift.report.tuning import cost_words, what_was_done
 
     echo(f"{found.name}: {what_was_done(found)}")
-    old, new = (cost_words(cost, len(found.draws)) for cost in found.costs)
-    echo(f"  cost on the draws of the search: {old}; now {new}")
+    if not found.is_finished:
+        old, new = (cost_words(cost, len(found.draws)) for cost in found.costs)
+        echo(f"  cost on the draws of the search: {old}; now {new}")
     if found.evidence is not None:
         words = "better" if found.is_better else "not better"
         echo(f"  {words} on {len(found.fresh)} fresh draws: {found.evidence.words}")

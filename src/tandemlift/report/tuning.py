@@ -126,8 +126,8 @@ def _evidence(found: Tuning) -> str:
         rows.append(_row(f"{escape(words)}<br><code>{escape(c.label)}</code>", cells))
     count = len(found.fresh)
     rows.append(_bad_row(found, count))
-    heads = ("", "Present<br>median", "<br>worst", "New<br>median", "<br>worst")
-    heads += ("Difference<br>median", "<br>95 %", "Improved", "Unit")
+    of_values = ("Present<br>median", "<br>worst", "New<br>median", "<br>worst")
+    heads = ("", *of_values, "Difference<br>median", "<br>95 %", "Improved", "Unit")
     note = (
         f"On {count} fresh draws, which the search never saw; both fly the same draws. The difference is new minus "
         "present, draw by draw, over draws that went well with both; its interval holds for any distribution."
@@ -164,7 +164,9 @@ def _front(found: Tuning) -> str:
     ]
     note = "Costs of candidates that no other one beats in all goals; the present values have a cost of about one."
     head = _head(heads)
-    return f'<section>\n<h2>Front</h2>\n<p class="soft">{note}</p>\n{html_table(head, rows, "compared part")}\n</section>'
+    return (
+        f'<section>\n<h2>Front</h2>\n<p class="soft">{note}</p>\n{html_table(head, rows, "compared part")}\n</section>'
+    )
 
 
 def _values(found: Tuning) -> str:

@@ -2,43 +2,25 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.common.errors import InputError
 from tandemlift.common.outcomes import FAILURES
 from tandemlift.common.types import Array
-from tandemlift.missions import load_mission
 from tandemlift.settings import Mission
 from tandemlift.simulation.fly import fly_many
-from tandemlift.studies.tuning.draws import Changes, Draw
+from tandemlift.studies.design.settings import REFUSED
+from tandemlift.studies.tuning.draws import Draw
 from tandemlift.studies.tuning.goals import Goal
+from tandemlift.studies.tuning.source import Source
 
-REFUSED, NO_NUMBER = "refused", "no number"
+NO_NUMBER = "no number"
 TIE = 0.1  # weight of the mean beside the worst, so that what is not the worst does not drift
 Aim = Literal["mean", "worst"]
-
-
-class Source(NamedTuple):
-    """Where missions come from: a name or path, changes that all have, and the controller if it is another one."""
-
-    name: str
-    changes: Changes
-    controller: str | None = None
-
-    def load(self, *more: Mapping[str, Any]) -> Mission:
-        """The mission with more changes.
-
-        Raises:
-            InputError: there is no such mission.
-        """
-        changes = dict(self.changes)
-        for each in more:
-            changes |= each
-        return load_mission(self.name, changes, controller=self.controller)
+Changes = dict[str, Any]
 
 
 class Trial(NamedTuple):
@@ -123,12 +105,10 @@ def fly_candidates(
 
 def _loaded(source: Source, *changes: Changes) -> Mission | str:
     """A mission, or why it is refused."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)  # the search tries what may fly badly
-        try:
-            return source.load(*changes)
-        except InputError as error:
-            return str(error)
+    try:
+        return source.load(*changes)
+    except InputError as error:
+        return str(error)
 
 
 def _flown(missions: Sequence[Mission], threads: int | None) -> Iterable[Mapping[str, Any] | str]:

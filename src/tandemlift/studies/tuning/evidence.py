@@ -9,10 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.types import Array
+from tandemlift.studies.reading.statistics import quantile
 from tandemlift.studies.tuning.candidates import Aim, Cost, Trial, cost_of
 from tandemlift.studies.tuning.goals import Goal
-
-CONFIDENCE = 0.95
 
 
 class Comparison(NamedTuple):
@@ -57,28 +56,17 @@ class Evidence(NamedTuple):
     words: str
 
 
-def median_interval(values: Sequence[float] | Array, confidence: float = CONFIDENCE) -> tuple[float, float] | None:
-    """Bounds between which the median of a population lies with at least this confidence, of any distribution.
-
-    They are order statistics of the sample: the k-th value from either end, with the largest k for which a binomial
-    variable of n throws of a fair coin is below k with a probability of at most (1 - confidence)/2.
-
-    Returns:
-        (low, high), or None if there are too few values.
-    """
-    n, tail, below = len(values), 0.5 * (1.0 - confidence) * 2.0 ** len(values), 0
-    k = 0
-    while k <= n and (below := below + math.comb(n, k)) <= tail:
-        k += 1
-    ordered = np.sort(np.asarray(values, float))
-    return None if k == 0 else (float(ordered[k - 1]), float(ordered[n - k]))
+def median_interval(values: Array) -> tuple[float, float] | None:
+    """Bounds between which the median of a population lies with 95 % confidence; None for fewer than six values."""
+    found = quantile(values)
+    return None if math.isnan(found.low) or math.isnan(found.high) else (found.low, found.high)
 
 
 def evidence_of(old: Trial, new: Trial, goals: Sequence[Goal], scales: Sequence[Array], aim: Aim) -> Evidence:
     """What two trials on the same draws say.
 
-    The new values are better if fewer outcomes are bad, or, of as many, if their cost is lower; where the cost is a mean,
-    the whole interval of the median difference of the draws' scores must be below zero too.
+    The new values are better if fewer outcomes are bad, or, of as many, if their cost is lower; where the cost is a
+    mean, the whole interval of the median difference of the draws' scores must be below zero too.
     """
     costs = (cost_of(old, goals, scales, aim), cost_of(new, goals, scales, aim))
     both = ~old.bad & ~new.bad
@@ -126,7 +114,10 @@ def _verdict(costs: tuple[Cost, Cost], score: tuple[float, float] | None, draws:
     if new.ratio >= old.ratio:
         return False, change
     if aim == "mean" and score is not None and score[1] >= 0.0:
-        return False, f"{change}, which may be chance: the median difference is between {score[0]:.2g} and {score[1]:.2g}"
+        return (
+            False,
+            f"{change}, which may be chance: the median difference is between {score[0]:.2g} and {score[1]:.2g}",
+        )
     return True, change
 
 

@@ -43,10 +43,15 @@ class Goal(NamedTuple):
         last = self.name.rpartition(".")[2]
         return int(last) if last.isdigit() else None
 
+    def with_targets(self, cases: Mapping[str, Mapping[str, Any]]) -> Goal:
+        """The same goal with the targets that cases have for it, by name of the case."""
+        targets = {case: given[self.name] for case, given in cases.items() if self.name in given}
+        return self._replace(targets={**targets, **self.targets})
+
     def measured(self, metrics: Metrics) -> list[float] | None:
         """Its components in the metrics of a flight; None if there is no number."""
         value = metrics.get(self.metric)
-        values = value if isinstance(value, list) else [value]
+        values: list[Any] = value if isinstance(value, list) else [value]
         if not all(is_number(v) or isinstance(v, bool) for v in values):
             return None
         return [float(v) for v in (values if self.place is None else values[self.place : self.place + 1])]
@@ -78,15 +83,16 @@ def goals_from(asked: str | Goal | Mapping[str, Any] | Iterable[str | Goal]) -> 
     for goal in goals:
         if sum(other.name == goal.name for other in goals) > 1:
             raise InputError(f"--for {goal.name}: is given twice")
-        for target in (goal.target, *goal.targets.values()):
-            _check_target(goal.name, target)
+        _check_target(goal.name, goal.target)
     return tuple(goals)
 
 
 def _check_target(name: str, target: Any) -> None:
     values = target if isinstance(target, (list, tuple)) else [target]
     if target is not None and not (values and all(is_number(v) and 0.0 < v < math.inf for v in values)):
-        raise InputError(f"--for {name}={target}: the target must be a number > 0, or a list with one for each component")
+        raise InputError(
+            f"--for {name}={target}: the target must be a number > 0, or a list with one for each component"
+        )
 
 
 def check_goals(goals: Sequence[Goal], flown: Sequence[Metrics]) -> None:
@@ -99,11 +105,15 @@ def check_goals(goals: Sequence[Goal], flown: Sequence[Metrics]) -> None:
         return
     numbers = {name for metrics in flown for name, v in metrics.items() if _is_numeric(v)}
     for goal in goals:
+        for target in (goal.target, *goal.targets.values()):
+            _check_target(goal.name, target)
         if goal.metric not in flown[0] or goal.metric in ("outcome", "findings", "events", "steps", "wall_s"):
             raise unknown("metric", goal.metric, sorted(numbers - {"steps", "wall_s"}))
         sizes = {len(v) if isinstance(v, list) else 1 for m in flown if (v := m[goal.metric]) is not None}
         if not sizes:
-            raise InputError(f"--for {goal.name}: no flight has a number for it; metrics 'after 10 s' need longer flights")
+            raise InputError(
+                f"--for {goal.name}: no flight has a number for it; metrics 'after 10 s' need longer flights"
+            )
         if goal.place is not None and goal.place >= max(sizes):
             raise InputError(f"--for {goal.name}: {goal.metric} has {max(sizes)} components, from 0 on")
         for target in (goal.target, *goal.targets.values()):

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
-from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
 from tandemlift.studies.tuning.parameters import Parameter
 from tandemlift.studies.tuning.searches import BLOCK, Point
@@ -15,8 +15,8 @@ from tandemlift.studies.tuning.searches import BLOCK, Point
 class EstimatorSearch:
     """Tree-structured Parzen estimator: samples where good candidates were denser than bad ones.
 
-    Source: Bergstra et al., Algorithms for Hyper-Parameter Optimization, 2011; for several goals, Ozaki et al., 2022; by
-    the package `optuna`.
+    Source: Bergstra et al., Algorithms for Hyper-Parameter Optimization, 2011; for several goals, Ozaki et al., 2022;
+    by the package `optuna`.
 
     Args:
         parameters: numbers and choices.
@@ -29,12 +29,11 @@ class EstimatorSearch:
 
     size = 2 * BLOCK
     ended = ""
+    centre = None
 
     def __init__(self, parameters: Sequence[Parameter], seed: int, goals: int = 1) -> None:
-        try:
+        with extra("tune", "a search by Optuna"):
             import optuna
-        except ImportError:
-            raise InputError("--optimiser optuna needs the package optuna: pip install 'tandemlift[tune]'") from None
         optuna.logging.set_verbosity(optuna.logging.WARNING)
         self.parameters = tuple(parameters)
         with warnings.catch_warnings():

@@ -58,10 +58,10 @@ class Parameter(NamedTuple):
         """Its key, with the number of its component."""
         return self.key if self.place is None else f"{self.key}.{self.place}"
 
-    def as_flown(self, value: Any) -> Value:
+    def as_flown(self, value: Any) -> Any:
         """A value as it is flown: a choice unchanged, a number with three digits, within its bounds."""
         if self.choices:
-            return value  # type: ignore[no-any-return]
+            return value
         if self.is_whole:
             return int(min(max(round(value), math.ceil(self.low)), math.floor(self.high)))
         return float(min(max(float(f"{value:.{DIGITS}g}"), self.low), self.high))
@@ -119,7 +119,9 @@ def parameters_of(mission: Mission, over: Mapping[str, Range], factor: float) ->
 def _matching(asked: str, leaves: Mapping[str, _Leaf]) -> list[tuple[_Leaf, int | None]]:
     """The leaves that a key, a table or a pattern means, with the component if it names one."""
     if asked.split(".")[0] in JUDGING:
-        raise InputError(f"--over {asked}: [{asked.split('.')[0]}] says what is flown and how it is judged, so it stays")
+        raise InputError(
+            f"--over {asked}: [{asked.split('.')[0]}] says what is flown and how it is judged, so it stays"
+        )
     if asked in leaves:
         return [(leaves[asked], None)]
     above, _, last = asked.rpartition(".")
@@ -146,7 +148,9 @@ def _check_range(asked: str, limits: Range) -> None:
     if not is_range and not is_words:
         raise InputError(f"--over {asked}={shown(list(limits))}: must be [low, high], or a list of words")
     if is_range and not limits[0] < limits[1]:
-        raise InputError(f"--over {asked}={shown(list(limits))}: the range is empty; must be [low, high] with low < high")
+        raise InputError(
+            f"--over {asked}={shown(list(limits))}: the range is empty; must be [low, high] with low < high"
+        )
 
 
 def _parameters(leaf: _Leaf, limits: Range, factor: float) -> Iterator[Parameter]:

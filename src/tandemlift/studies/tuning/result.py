@@ -45,7 +45,7 @@ class Tuning(NamedTuple):
         fresh: draws that the search never saw.
         old: the present values.
         new: the best values found.
-        costs: of old and new, on the draws of the search.
+        costs: of old and new, on the draws for the choice among the best candidates; interrupted, on those of the search.
         history: the cost of every candidate in the order of the search, the present values first.
         apart: the same for each goal alone.
         ended: why the search ended.
@@ -117,7 +117,9 @@ class Tuning(NamedTuple):
             if value is not MISSING:
                 _put(tables, place, value)
         unfinished = "" if self.is_finished else ", unfinished"
-        return f"# {self.name}, tuned for {', '.join(g.name for g in self.task.goals)}{unfinished}\n{format_toml(tables)}"
+        return (
+            f"# {self.name}, tuned for {', '.join(g.name for g in self.task.goals)}{unfinished}\n{format_toml(tables)}"
+        )
 
     def as_table(self) -> dict[str, Any]:
         """All of it as JSON: what was searched and how, the values, the history, the evidence, the front."""
@@ -141,9 +143,8 @@ class Tuning(NamedTuple):
                 {"key": p.name, "old": old, "new": new, **({"choices": p.choices} if p.choices else _bounds(p))}
                 for p, old, new in zip(task.parameters, self.old, self.new, strict=True)
             ],
+            "choice": {"old": self.costs[0]._asdict(), "new": self.costs[1]._asdict()},
             "search": {
-                "old": self.costs[0]._asdict(),
-                "new": self.costs[1]._asdict(),
                 "draws": [draw._asdict() for draw in self.draws],
                 "history": [[cost.bad, cost.ratio] for cost in self.history],
             },
@@ -187,7 +188,7 @@ def _places(keys: Iterable[str], *, whole: bool) -> Iterable[Place]:
 
 
 def _put(tables: Tables, place: Place, value: Any) -> None:
-    *above, last = place
+    *above, last = map(str, place)
     for part in above:
         tables = tables.setdefault(part, {})
     tables[last] = value

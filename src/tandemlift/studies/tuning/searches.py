@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
 from tandemlift.studies.tuning.parameters import Parameter
 
@@ -28,6 +29,10 @@ class Search(Protocol):
     @property
     def ended(self) -> str:
         """Why it asks for no more candidates; "" while it does."""
+
+    @property
+    def centre(self) -> Point | None:
+        """The point about which it asks for candidates, if it has one."""
 
     def ask(self) -> list[Point]:
         """The next candidates: a value for each parameter, within its bounds."""
@@ -67,10 +72,18 @@ class EvolutionSearch:
         reasons = self._strategy.stop()
         return f"converged ({', '.join(sorted(reasons))})" if reasons else ""
 
+    @property
+    def centre(self) -> Point | None:
+        """The mean of the normal distribution."""
+        return self._values(self._strategy.result.xfavorite)
+
     def ask(self) -> list[Point]:
         """The next candidates."""
         self._asked = self._strategy.ask()
-        return [tuple(c.value(x) for c, x in zip(self.coordinates, point, strict=True)) for point in self._asked]
+        return [self._values(point) for point in self._asked]
+
+    def _values(self, point: Array) -> Point:
+        return tuple(c.value(x) for c, x in zip(self.coordinates, point, strict=True))
 
     def tell(self, points: Sequence[Point], costs: Array) -> None:
         """Learn from the costs (candidates, 1) of the candidates that were asked for last."""
@@ -99,10 +112,8 @@ class _Coordinate:
 
 def _strategy(start: Sequence[float], coordinates: Sequence[_Coordinate], size: int, seed: int) -> Any:
     """The strategy of the package `cma`, silent, without files, with random numbers of its own."""
-    try:
+    with extra("tune", "CMA-ES"):
         import cma
-    except ImportError:
-        raise InputError("--optimiser cma needs the package cma: pip install 'tandemlift[tune]'") from None
     rng = np.random.default_rng(seed)
     options = {
         "bounds": [[0.0] * len(start), [c.of(c.parameter.high) for c in coordinates]],

@@ -11,10 +11,12 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array
 from tandemlift.loop.running_metrics import EMPTY, summary
 from tandemlift.settings import Mission
-from tandemlift.studies.tuning.candidates import REFUSED, Aim, Cost, Source, Trial, cost_of, fly_candidates
-from tandemlift.studies.tuning.draws import Changes, Draw
+from tandemlift.studies.design.settings import REFUSED
+from tandemlift.studies.tuning.candidates import Aim, Changes, Cost, Trial, cost_of, fly_candidates
+from tandemlift.studies.tuning.draws import Draw
 from tandemlift.studies.tuning.goals import Goal, check_goals, scales_of
 from tandemlift.studies.tuning.parameters import Parameter, Value, changes_at
+from tandemlift.studies.tuning.source import Source
 
 Values = tuple[Value, ...]
 
@@ -91,7 +93,9 @@ def started(task: Task, draws: Sequence[Draw]) -> tuple[Task, Trial]:
     cases = [draw.case for draw in draws]
     scales = tuple(scales_of(goal, cases, values) for goal, values in zip(task.goals, trial.values, strict=True))
     if len(task.goals) > 1 and trial.bad.all() and any(goal.target is None and not goal.targets for goal in task.goals):
-        raise InputError("--for: with the present values every draw ends badly, so several goals need targets to compare")
+        raise InputError(
+            "--for: with the present values every draw ends badly, so several goals need targets to compare"
+        )
     return task._replace(sizes=sizes, scales=scales), trial
 
 

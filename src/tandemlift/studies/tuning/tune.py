@@ -8,15 +8,17 @@ from typing import Any, NamedTuple
 
 from tandemlift.common.errors import InputError, unknown
 from tandemlift.settings import Mission
-from tandemlift.studies.tuning.candidates import Aim, Source
-from tandemlift.studies.tuning.draws import FRESH, SEARCH, Draw, default_draws
+from tandemlift.studies.tuning.candidates import Aim
+from tandemlift.studies.tuning.draws import CHOICE_SEED, FRESH_SEED, Draw, DrawSource, Study, default_study
 from tandemlift.studies.tuning.evidence import evidence_of
+from tandemlift.studies.tuning.finals import TIMES, choose
 from tandemlift.studies.tuning.front import front_of
 from tandemlift.studies.tuning.goals import Goal, goals_from
 from tandemlift.studies.tuning.hunt import INTERRUPTED, Hunt, TuneProgress
 from tandemlift.studies.tuning.parameters import Parameter, Range, parameters_of
 from tandemlift.studies.tuning.result import Tuning, present_values
 from tandemlift.studies.tuning.searches import EvolutionSearch, Search
+from tandemlift.studies.tuning.source import Source
 from tandemlift.studies.tuning.task import Task, started
 
 FACTORS = {"cma": 1000.0, "optuna": 10.0}  # by which a number may differ: a search that moves can go far
@@ -28,8 +30,8 @@ class How(NamedTuple):
     """How to search and to compare; see `tune`."""
 
     over: Iterable[str] | Mapping[str, Range] = ()
-    draws: int | Sequence[Draw] = 8
-    fresh: int | Sequence[Draw] = 200
+    draws: int | Study = 8
+    fresh: int = 200
     budget: int | None = None
     optimiser: str | None = None
     aim: Aim = "mean"
@@ -63,8 +65,9 @@ def tune(
 
             over: dotted keys, tables or patterns of what to search, with a range [low, high] or a list of words for
             each if it is a table; by default the gains of the controller.
-            draws: flights on which candidates are compared, or how many of `default_draws`; 8.
-            fresh: flights on which old and new are compared in the end, or how many; 200.
+            draws: the study whose rows compare candidates, as file or tables, or the number of draws of
+            `default_study`; 8.
+            fresh: number of draws on which old and new are compared in the end; 200.
             budget: most candidates to try; by default 60 populations; with 0 only the present values fly.
             optimiser: "cma", or "optuna" for choices and for the front of several goals; by default what suits.
             aim: whether the "mean" over draws counts, or the "worst"; the mean.
@@ -88,7 +91,11 @@ def _tuned(source: Source, goals: tuple[Goal, ...], how: How, progress: TuneProg
         raise unknown("aim", how.aim, ("mean", "worst"))
     loaded = source.load()
     kind, parameters = _parameters(loaded, goals, how)
-    compared, unseen = _draws(loaded, how, parameters)
+    _check_count("--fresh", how.fresh)
+    drawn = _drawn(loaded, source, how)
+    goals = tuple(goal.with_targets(drawn.targets) for goal in goals)
+    compared, unseen = drawn.search_draws(), drawn.other_draws(how.fresh, FRESH_SEED)
+    _check_apart(compared, parameters)
     search = _search(kind, parameters, how.seed, len(goals))
     allowed = POPULATIONS * search.size if how.budget is None else how.budget
     if allowed != 0 and allowed < search.size:
@@ -98,6 +105,12 @@ def _tuned(source: Source, goals: tuple[Goal, ...], how: How, progress: TuneProg
     is_front = len(goals) > 1 and kind == "optuna"
     hunt.run(search, is_front=is_front)
     present = hunt.tried[0]
+    new, costs = hunt.best.values, (present.cost, hunt.best.cost)
+    if allowed and hunt.ended != INTERRUPTED:
+        try:
+            new, costs = choose(hunt, search, drawn.other_draws(TIMES * len(compared), CHOICE_SEED))
+        except KeyboardInterrupt:
+            hunt.ended = INTERRUPTED
     found = Tuning(
         task=task,
         optimiser=kind,
@@ -106,8 +119,8 @@ def _tuned(source: Source, goals: tuple[Goal, ...], how: How, progress: TuneProg
         draws=tuple(compared),
         fresh=tuple(unseen),
         old=present.values,
-        new=hunt.best.values,
-        costs=(present.cost, hunt.best.cost),
+        new=new,
+        costs=costs,
         history=tuple(t.cost for t in hunt.tried),
         apart=tuple(t.apart for t in hunt.tried),
         ended=hunt.ended,
@@ -150,23 +163,23 @@ def _search(kind: str, parameters: Sequence[Parameter], seed: int, goals: int) -
     return EstimatorSearch(parameters, seed, goals)
 
 
-def _draws(mission: Mission, how: How, parameters: Sequence[Parameter]) -> tuple[list[Draw], list[Draw]]:
-    """The draws of the search, and fresh ones.
+def _drawn(mission: Mission, source: Source, how: How) -> DrawSource:
+    """Where draws come from: the study that is given, or the default one."""
+    given = how.draws
+    if not isinstance(given, int):
+        return DrawSource(given, mission.mission.name, source.changes)
+    _check_count("--draws", given)
+    return DrawSource(default_study(mission, source, given, how.seed), mission.mission.name, source.changes)
 
-    Raises:
-        InputError: there are none, they change what is searched, or a fresh draw is one of the search.
-    """
-    given = (("draws", how.draws, SEARCH), ("fresh", how.fresh, FRESH))
-    found = []
-    for name, draws, stream in given:
-        count = draws if isinstance(draws, int) else len(draws)
-        if not 1 <= count <= MOST_DRAWS:
-            raise InputError(f"--{name} {count}: must be from 1 to {MOST_DRAWS}")
-        found.append(default_draws(mission, draws, how.seed, stream) if isinstance(draws, int) else list(draws))
-    for key in sorted({key for draw in (*found[0], *found[1]) for key in draw.changes}):
+
+def _check_count(option: str, count: int) -> None:
+    if not 1 <= count <= MOST_DRAWS:
+        raise InputError(f"{option} {count}: must be from 1 to {MOST_DRAWS}")
+
+
+def _check_apart(draws: Sequence[Draw], parameters: Sequence[Parameter]) -> None:
+    """Refuse draws that change what is searched."""
+    for key in sorted({key for draw in draws for key in draw.changes}):
         for p in parameters:
             if f"{p.key}.".startswith(f"{key}.") or key.startswith(f"{p.key}."):
                 raise InputError(f"--over {p.key}: the draws change {key}; a key is either searched or drawn")
-    if any(draw in found[0] for draw in found[1]):
-        raise InputError("--fresh: a fresh draw is one of the draws of the search; give them another mission.seed")
-    return found[0], found[1]
