@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -192,16 +192,19 @@ def _draws(found: Tuning) -> str:
     listed = found.draws[:FEW_DRAWS]
     rows = [
         f'<tr><th scope="row">{i}{f" {escape(draw.case)}" if draw.case else ""}</th>'
-        f"<td><code>{escape(', '.join(f'{key} = {shown(_short(value))}' for key, value in draw.changes.items()))}</code>"
-        "</td></tr>"
+        f"<td><code>{escape(_words(draw.changes))}</code></td></tr>"
         for i, draw in enumerate(listed, 1)
     ]
     more = f"; the first {len(listed)} are listed" if len(found.draws) > len(listed) else ""
     note = (
-        f"Every candidate flew the same {len(found.draws)} draws{more}. <code>evidence.json</code> lists all draws, fresh "
-        "ones too, with outcomes and values."
+        f"Every candidate flew the same {len(found.draws)} draws{more}. <code>evidence.json</code> lists all "
+        "draws, fresh ones too, with outcomes and values."
     )
     return f'<p class="soft">{note}</p>\n{html_table("", rows, "setup")}'
+
+
+def _words(changes: Mapping[str, Any]) -> str:
+    return ", ".join(f"{key} = {shown(_short(value))}" for key, value in changes.items())
 
 
 def _short(value: Any) -> Any:

@@ -45,7 +45,7 @@ class Tuning(NamedTuple):
         fresh: draws that the search never saw.
         old: the present values.
         new: the best values found.
-        costs: of old and new, on the draws for the choice among the best candidates; interrupted, on those of the search.
+        costs: of old and new, on the draws for the choice among the best; of an interrupted search, on its own draws.
         history: the cost of every candidate in the order of the search, the present values first.
         apart: the same for each goal alone.
         ended: why the search ended.
