@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.studies.reading.table import Study, load_study
+    from tandemlift.studies.study import study
     from tandemlift.targets.compiling import compile_mission
     from tandemlift.vehicle import Vehicle
 
@@ -47,6 +48,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "load_controller": "controllers.user_controller",
     "load_mission": "missions",
     "load_study": "studies.reading.table",
+    "study": "studies.study",
 }
 
 __all__ = [
@@ -67,6 +69,7 @@ __all__ = [
     "load_controller",
     "load_mission",
     "load_study",
+    "study",
 ]
 
 

@@ -11,6 +11,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
+from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
 from tandemlift.settings.key_description import key
 from tandemlift.settings.value_types import Positive, Table, must
@@ -103,11 +104,11 @@ class Normal(Distribution):
 
     def at(self, u: Array) -> Array:
         """Values (n,) at points u (n,)."""
-        from tandemlift.studies.design.packages import scipy_special
-
+        with extra("study", "a normal distribution"):
+            from scipy.special import ndtri
         ends = [self._share(x, otherwise) for x, otherwise in ((self.low, 0.0), (self.high, 1.0))]
         inside = np.clip(ends[0] + (ends[1] - ends[0]) * u, 1e-16, 1.0 - 1e-16)
-        values = self.mean + self.deviation * scipy_special().ndtri(inside)
+        values = self.mean + self.deviation * ndtri(inside)
         return np.clip(values, -np.inf if self.low is None else self.low, np.inf if self.high is None else self.high)
 
     def _share(self, limit: float | None, otherwise: float) -> float:

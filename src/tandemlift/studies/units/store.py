@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
 from tandemlift.missions import format_toml
 from tandemlift.missions.values import shown
 from tandemlift.studies.design.keys import leaves_of
-from tandemlift.studies.design.packages import parquet
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.study_files import checked_settings
 from tandemlift.studies.design.variants import variant_from
@@ -66,8 +66,10 @@ class StudyFolder:
         path = self.file(name)
         if not path.exists():
             return False
+        with extra("study", "a study"):
+            from pyarrow import parquet
         try:
-            parquet().read_metadata(path)
+            parquet.read_metadata(path)
         except Exception:  # whatever a broken file leads to
             with contextlib.suppress(FileNotFoundError):
                 path.unlink()
@@ -105,6 +107,8 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     Raises:
         InputError: the folder holds another study, or cannot be made or written to.
     """
+    with extra("study", "a study"):  # before anything flies
+        import pyarrow  # noqa: F401
     digest = study_digest(plan)
     if (path / PLAN).exists():
         folder = StudyFolder(path)
