@@ -143,7 +143,7 @@ class Integer(Distribution):
         return self
 
 
-class Choice(Distribution):
+class OneOf(Distribution):
     """One of some values, all equally likely."""
 
     distribution: Literal["choice"]
@@ -190,6 +190,6 @@ DISTRIBUTIONS: dict[str, type[Distribution]] = {
     "log-uniform": LogUniform,
     "normal": Normal,
     "integer": Integer,
-    "choice": Choice,
+    "choice": OneOf,
     "horizontal": Horizontal,
 }

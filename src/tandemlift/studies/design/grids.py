@@ -30,7 +30,7 @@ class Range(Table):
         if self.low >= self.high:
             raise must("range", f"have low = {self.low:g} below high = {self.high:g}")
         if self.spacing == "log" and self.low <= 0.0:
-            raise must("range", f"have low above 0 for spacing = \"log\", not {self.low:g}")
+            raise must("range", f'have low above 0 for spacing = "log", not {self.low:g}')
         return self
 
     @property

@@ -220,4 +220,6 @@ def _times(own: Any, factor: Any, key: str, mission: str) -> Any:
     elif isinstance(own, (int, float)) and not isinstance(own, bool) and not isinstance(factor, list):
         return own * factor
     what = "is not set" if own is MISSING else f"= {own!r}"
-    raise InputError(f"draw.{key}: relative = true, but in mission {mission} the key {what}; it must be as many numbers")
+    raise InputError(
+        f"draw.{key}: relative = true, but in mission {mission} the key {what}; it must be as many numbers"
+    )
