@@ -48,7 +48,9 @@ after_crash_option = click.option(
 
 
 @click.command()
-@click.argument("mission")
+@click.argument("mission", required=False)
+@click.option("--from", "study", metavar="STUDY", help="Fly a row of a study instead: its folder, with --row.")
+@click.option("--row", type=click.IntRange(min=0), help="The row of the study, as its table and its report number it.")
 @click.option(
     "--engine",
     help="Engine that simulates the vehicle; see `tandemlift engines`.  [default: that of the recording, or compiled]",
@@ -64,7 +66,9 @@ after_crash_option = click.option(
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
 @strict_option
 def run(
-    mission: str,
+    mission: str | None,
+    study: str | None,
+    row: int | None,
     engine: str | None,
     out: str | None,
     settings: tuple[str, ...],
@@ -84,6 +88,7 @@ def run(
       tandemlift run paper --set mission.duration=30 --set admittance.gate=soft
       tandemlift run one-push --set 'pushes.0.force=[0, 2, 0]' --out out/sideways
       tandemlift run hover --controller my_pd.py --set controller.stiffness=4
+      tandemlift run --from out/gusts --row 17
 
     \b
     Files in the results folder (other files there are left alone):
@@ -107,8 +112,16 @@ def run(
     if engine is not None:
         engine_named(engine)
     chosen = None if controller is None else chosen_controller(controller)
-    loaded = load(mission, with_after_crash(settings, after_crash), chosen)
-    with results_folder(out, Path("out") / loaded.mission.name) as folder:
+    settings = with_after_crash(settings, after_crash)
+    if study is not None or row is not None:
+        loaded, own_engine, name = _row_of(study, row, settings, mission, chosen)
+        engine = own_engine if engine is None else engine
+    elif mission is None:
+        raise click.UsageError("Missing argument 'MISSION'; `tandemlift missions` lists them.")
+    else:
+        loaded = load(mission, settings, chosen)
+        name = loaded.mission.name
+    with results_folder(out, Path("out") / name) as folder:
         flight = _fly(loaded, engine, chosen)
         print_summary(flight)
         copy_recording(loaded, folder)
@@ -119,6 +132,24 @@ def run(
         click.echo(f"{flight.name}: {flight.failure}", err=True)
         sys.exit(FAILED)
     exit_if_found(count, strict=strict)
+
+
+def _row_of(
+    study: str | None, row: int | None, settings: tuple[str, ...], mission: str | None, controller: Controller | None
+) -> tuple[Mission, str, str]:
+    """The mission, the engine and the name of a row of a study.
+
+    Raises:
+        InputError: there is no such study or row, the row is refused, or a mission or controller is given as well.
+    """
+    from tandemlift.studies.study import mission_of_row
+
+    if study is None or row is None:
+        raise InputError("--from STUDY --row N: give both, or neither")
+    if mission is not None or controller is not None:
+        given = f"MISSION {mission}" if mission is not None else "--controller"
+        raise InputError(f"{given}: a row of a study has its own; leave it out with --from")
+    return mission_of_row(Path(study), row, dict(map(parse_setting, settings)))
 
 
 def with_after_crash(settings: tuple[str, ...], seconds: float | None) -> tuple[str, ...]:

@@ -97,9 +97,15 @@ class StudyPlan:
     @property
     def sizes(self) -> str:
         """What the number of rows is the product of, in words."""
-        axes = " x ".join(f"{len(values)} of {key}" for key, values in self.grid.items())
-        parts = [f"{len(self.variants)} of mission, controller and engine", f"{len(self.cases)} cases"]
-        return " x ".join([*parts, *([axes] if axes else []), f"{self.point_count} draws", f"{self._seeds} seeds"])
+        axes = [(len(values), f"of {key}") for key, values in self.grid.items()]
+        counts = [
+            (len(self.variants), "missions, controllers and engines"),
+            (len(self.cases), "cases"),
+            *axes,
+            (self.point_count, "draws"),
+            (self._seeds, "seeds"),
+        ]
+        return " x ".join(f"{count:,} {what}" for count, what in counts if count > 1) or "one flight"
 
     @property
     def _seeds(self) -> int:

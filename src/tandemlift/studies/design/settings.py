@@ -25,6 +25,12 @@ def _name(name: str) -> str:
     return name
 
 
+def _words(name: str) -> str:
+    if not re.fullmatch(r"\S(.{0,62}\S)?", name) or not name.isprintable():
+        raise must("name", "be 1 to 64 characters on one line, the first and the last no spaces")
+    return name
+
+
 def _different(values: tuple[Any, ...]) -> tuple[Any, ...]:
     if len(set(values)) < len(values):
         raise must("different", "be without repetition")
@@ -101,7 +107,7 @@ def default_rows_per_unit(count: int) -> int:
 class CaseTable(Table):
     """`[[cases]]`: a named set of changes of the mission."""
 
-    name: Name = key(..., None, "name of the case", example="calm")
+    name: Annotated[str, AfterValidator(_words)] = key(..., None, "name of the case", example="calm")
     set: dict[str, Any] = key({}, None, "changes of the mission, as in `[set]`")
 
 
