@@ -67,7 +67,7 @@ def mission_of_row(folder: Path, number: int, changes: Mapping[str, Any] | None 
     row = plan.rows(number, number + 1)[0]
     variant = plan.variants[row.variant]
     try:
-        mission = variant.load({**row.changes, **(changes or {})})
+        mission = variant.template().mission({**row.changes, **(changes or {})})
     except InputError as error:
         raise InputError(f"row {number} of {folder} is refused: {error}") from None
     return mission, variant.engine, f"{plan.settings.study.name}-row-{number}"

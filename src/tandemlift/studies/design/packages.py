@@ -21,7 +21,7 @@ def scipy_special() -> ModuleType:
         from scipy import special
     except ImportError:
         raise _missing("a normal distribution", "scipy") from None
-    return special  # type: ignore[no-any-return]
+    return special
 
 
 def scipy_qmc() -> ModuleType:
@@ -34,7 +34,7 @@ def scipy_qmc() -> ModuleType:
         from scipy.stats import qmc
     except ImportError:
         raise _missing("this sampling", "scipy") from None
-    return qmc  # type: ignore[no-any-return]
+    return qmc
 
 
 def salib_sample() -> ModuleType:
@@ -47,7 +47,7 @@ def salib_sample() -> ModuleType:
         from SALib.sample import sobol
     except ImportError:
         raise _missing('sampling = "saltelli"', "SALib") from None
-    return sobol  # type: ignore[no-any-return]
+    return sobol
 
 
 def parquet() -> ModuleType:
@@ -60,4 +60,4 @@ def parquet() -> ModuleType:
         from pyarrow import parquet as module
     except ImportError:
         raise _missing("a study", "pyarrow") from None
-    return module  # type: ignore[no-any-return]
+    return module

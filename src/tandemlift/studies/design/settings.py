@@ -94,7 +94,7 @@ class StudyTable(Table):
         None,
         "1",
         "flights in one file of results",
-        unset=f"{ROWS_PER_UNIT}; fewer for a small study, more for one beyond {ROWS_PER_UNIT * MOST_UNITS} rows",
+        unset="256; fewer for a small study, more for one of millions of rows",
     )
 
 
@@ -131,8 +131,8 @@ class StudySettings(Table):
     """A study file; `[set]`, `[grid]` and `[draw]` hold keys of missions."""
 
     study: StudyTable
-    set: dict[str, Any] = Field(default_factory=dict)
+    set: dict[str, Any] = Field({})
     cases: tuple[CaseTable, ...] = ()
-    grid: dict[str, Any] = Field(default_factory=dict)
-    draw: dict[str, Any] = Field(default_factory=dict)
+    grid: dict[str, Any] = Field({})
+    draw: dict[str, Any] = Field({})
     keep: KeepTable = KeepTable()

@@ -30,6 +30,9 @@ class Part(NamedTuple):
     parts: int = 1
 
 
+WHOLE = Part()
+
+
 def part_from(text: str) -> Part:
     """The part that a text such as 3/40 names.
 
@@ -48,7 +51,7 @@ def run_units(
     *,
     executor: Executor | None = None,
     workers: int | None = None,
-    part: Part = Part(),
+    part: Part = WHOLE,
     progress: Progress | None = None,
 ) -> int:
     """Fly all units of a part that are not flown yet.

@@ -17,7 +17,7 @@ from tandemlift.studies.design.keys import leaves_of
 from tandemlift.studies.design.packages import parquet
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.study_files import checked_settings
-from tandemlift.studies.design.variants import Variant
+from tandemlift.studies.design.variants import variant_from
 from tandemlift.studies.units.columns import Columns, write_columns
 from tandemlift.studies.units.unit import sources_digest, study_digest, unit_names
 
@@ -50,10 +50,7 @@ class StudyFolder:
 
     def plan(self) -> StudyPlan:
         """The plan, from what the folder holds alone."""
-        variants = [
-            Variant(**{key: tuple(value) if isinstance(value, list) else value for key, value in said.items()})
-            for said in self._said["variants"]
-        ]
+        variants = [variant_from(said) for said in self._said["variants"]]
         return StudyPlan(checked_settings(self._said["settings"], str(self.path / PLAN)), variants)
 
     def names(self) -> list[str]:
