@@ -144,7 +144,7 @@ class Integer(Distribution):
         return self
 
 
-class Choice(Distribution):
+class Among(Distribution):
     """One of some values, all equally likely."""
 
     distribution: Literal["choice"]
@@ -160,7 +160,7 @@ class Choice(Distribution):
         return [list(row) for row in zip(*parts, strict=True)] if self.count else parts[0]
 
     @model_validator(mode="after")
-    def _is_given(self) -> Choice:
+    def _is_given(self) -> Among:
         if not self.among:
             raise must("range", "have a value among which to choose")
         if self.relative and not all(isinstance(x, (int, float)) and not isinstance(x, bool) for x in self.among):
@@ -191,6 +191,6 @@ DISTRIBUTIONS: dict[str, type[Distribution]] = {
     "log-uniform": LogUniform,
     "normal": Normal,
     "integer": Integer,
-    "choice": Choice,
+    "choice": Among,
     "horizontal": Horizontal,
 }
