@@ -11,7 +11,7 @@ import tandemlift as tl
 from tandemlift.cli.main import cli, main
 from tandemlift.figures.registry import figures
 from tandemlift.missions import built_in, load_mission, to_toml
-from tandemlift.studies.validation import CHAPTERS
+from tandemlift.studies.validation.chapters import CHAPTERS
 
 METRICS = [
     "position_rmse_m",

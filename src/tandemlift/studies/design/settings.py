@@ -91,7 +91,10 @@ class StudyTable(Table):
     seeds: Count = key(1, "1", "flights of each point, with different mission.seed: noise, wind, tremor")
     seed: Annotated[int, Field(ge=0, le=10**18)] = key(0, "1", "seed of the points, and first mission.seed")
     rows_per_unit: Annotated[int, Field(ge=1, le=1_000_000)] | None = key(
-        None, "1", "flights in one file of results", unset=f"{ROWS_PER_UNIT}; fewer for a small study, more for one beyond {ROWS_PER_UNIT * MOST_UNITS} rows"
+        None,
+        "1",
+        "flights in one file of results",
+        unset="256; fewer for a small study, more for one of millions of rows",
     )
 
 
@@ -128,8 +131,8 @@ class StudySettings(Table):
     """A study file; `[set]`, `[grid]` and `[draw]` hold keys of missions."""
 
     study: StudyTable
-    set: dict[str, Any] = {}
+    set: dict[str, Any] = Field({})
     cases: tuple[CaseTable, ...] = ()
-    grid: dict[str, Any] = {}
-    draw: dict[str, Any] = {}
+    grid: dict[str, Any] = Field({})
+    draw: dict[str, Any] = Field({})
     keep: KeepTable = KeepTable()

@@ -29,9 +29,10 @@ def load_plan(study: str | os.PathLike[str] | Mapping[str, Any], changes: Mappin
     Raises:
         InputError: the file cannot be read, or is not a study that can be flown.
     """
-    given = isinstance(study, Mapping)
-    source, folder = ("study", Path()) if given else (str(study), Path(study).parent)
-    tables = dict(study) if given else _read(Path(study))
+    if isinstance(study, Mapping):
+        source, folder, tables = "study", Path(), dict(study)
+    else:
+        source, folder, tables = str(study), Path(study).parent, _read(Path(study))
     for key, value in (changes or {}).items():
         tables = changed_tables(tables, key, value, source)
     settings = checked_settings(tables, source)

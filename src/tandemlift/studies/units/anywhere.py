@@ -11,7 +11,7 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.units.dask import cluster_workers, processes_of, scheduler_workers
-from tandemlift.studies.units.running import Part, run_units
+from tandemlift.studies.units.running import WHOLE, Part, run_units
 from tandemlift.studies.units.store import StudyFolder
 from tandemlift.studies.units.workers import ExecutorWorkers, Workers, thread_workers
 
@@ -24,7 +24,7 @@ def fly_study(
     executor: Executor | None = None,
     scheduler: str | None = None,
     cluster: str | None = None,
-    part: Part = Part(),
+    part: Part = WHOLE,
     progress: Progress | None = None,
     say: Callable[[str], None] = lambda line: None,
 ) -> int:

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.common.errors import InputError, unknown
+from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
 from tandemlift.flight.record import Flight
 from tandemlift.studies.design.keys import columns_of
-from tandemlift.studies.design.packages import parquet
 from tandemlift.studies.design.plan import SEED, StudyRow
 from tandemlift.studies.design.settings import REFUSED
 from tandemlift.studies.units.unit import Unit
@@ -102,13 +102,15 @@ def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> Non
     Raises:
         InputError: the file cannot be written: no space left, or no right to.
     """
-    import pyarrow as pa
+    with extra("study", "a study"):
+        import pyarrow as pa
+        from pyarrow import parquet
 
     arrays = {name: _array(pa, name, values) for name, values in columns.items()}
     table = pa.table(arrays).replace_schema_metadata({f"tandemlift.{key}": value for key, value in about.items()})
     try:
         with atomic_write(path) as partial:
-            parquet().write_table(table, partial, compression="zstd")
+            parquet.write_table(table, partial, compression="zstd")
             _sync(partial)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}; what is done so far stays") from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -42,10 +43,8 @@ class DaskWorkers:
         """See `Workers`."""
         if time.monotonic() - self._counted > COUNTED:
             self._counted = time.monotonic()
-            try:
+            with contextlib.suppress(OSError):  # the connection is lost: `submit` tells whether it comes back
                 self._count = max(1, sum(self._client.nthreads().values()))
-            except OSError:  # the connection is lost: `submit` tells whether it comes back
-                pass
         return self._count
 
     def submit(self, unit: Unit) -> Future[Any]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from tandemlift.common.errors import InputError
 from tandemlift.flight.record import Flight
+from tandemlift.missions.loading import MissionTemplate
 from tandemlift.settings import Mission
 from tandemlift.simulation.fly import fly, fly_many
 from tandemlift.studies.design.plan import StudyRow
@@ -23,7 +24,8 @@ def fly_unit(unit: Unit) -> Columns:
     Returns:
         The columns of its table, by name.
     """
-    results = [_Result(row, unit) for row in unit.rows]
+    templates = {i: variant.template() for i, variant in unit.variants.items()}
+    results = [_Result(row, templates[row.variant]) for row in unit.rows]
     for engine in {unit.variants[row.variant].engine for row in unit.rows}:
         ready = [r for r in results if r.mission is not None and unit.variants[r.row.variant].engine == engine]
         for result, metrics in zip(ready, _metrics([r.mission for r in ready if r.mission], engine), strict=True):
@@ -35,12 +37,12 @@ def fly_unit(unit: Unit) -> Columns:
 class _Result:
     """A row, its mission, and its metrics or why it was refused."""
 
-    def __init__(self, row: StudyRow, unit: Unit) -> None:
+    def __init__(self, row: StudyRow, template: MissionTemplate) -> None:
         self.row, self.refusal = row, ""
         self.mission: Mission | None = None
         self.metrics: dict[str, Any] | None = None
         try:
-            self.mission = unit.variants[row.variant].load(row.changes)
+            self.mission = template.mission(row.changes)
         except InputError as error:
             self.refusal = str(error)
 

@@ -29,6 +29,9 @@ class Part(NamedTuple):
     parts: int = 1
 
 
+WHOLE = Part()
+
+
 def part_from(text: str) -> Part:
     """The part that a text such as 3/40 names.
 
@@ -42,7 +45,7 @@ def part_from(text: str) -> Part:
 
 
 def run_units(
-    plan: StudyPlan, folder: StudyFolder, workers: Workers, part: Part = Part(), progress: Progress | None = None
+    plan: StudyPlan, folder: StudyFolder, workers: Workers, part: Part = WHOLE, progress: Progress | None = None
 ) -> int:
     """Fly all units of a part that are not flown yet.
 

@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
 from tandemlift.missions import format_toml
 from tandemlift.missions.values import shown
 from tandemlift.studies.design.keys import leaves_of
-from tandemlift.studies.design.packages import parquet
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.study_files import checked_settings
-from tandemlift.studies.design.variants import Variant
+from tandemlift.studies.design.variants import variant_from
 from tandemlift.studies.units.columns import Columns, write_columns
 from tandemlift.studies.units.unit import sources_digest, study_digest, unit_names
 
@@ -50,10 +50,7 @@ class StudyFolder:
 
     def plan(self) -> StudyPlan:
         """The plan, from what the folder holds alone."""
-        variants = [
-            Variant(**{key: tuple(value) if isinstance(value, list) else value for key, value in said.items()})
-            for said in self._said["variants"]
-        ]
+        variants = [variant_from(said) for said in self._said["variants"]]
         return StudyPlan(checked_settings(self._said["settings"], str(self.path / PLAN)), variants)
 
     def names(self) -> list[str]:
@@ -73,8 +70,10 @@ class StudyFolder:
         path = self.file(name)
         if not path.exists():
             return False
+        with extra("study", "a study"):
+            from pyarrow import parquet
         try:
-            parquet().read_metadata(path)
+            parquet.read_metadata(path)
         except FileNotFoundError:
             return False
         except (OSError, ValueError) as error:  # one without a number says that it is no Parquet file
@@ -138,6 +137,8 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     Raises:
         InputError: the folder holds another study, or cannot be made or written to.
     """
+    with extra("study", "a study"):  # before anything flies
+        import pyarrow  # noqa: F401
     digest = study_digest(plan)
     if (path / PLAN).exists():
         folder = StudyFolder(path)

@@ -14,8 +14,8 @@ import numpy as np
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.missions import Mission, load_mission
-from tandemlift.studies.rows import Row
-from tandemlift.studies.scenarios import Bench, Changes
+from tandemlift.studies.validation.rows import Row
+from tandemlift.studies.validation.scenarios import Bench, Changes
 
 SCALED = (
     *("stiffness", "damping", "lag", "gain", "speed"),

@@ -15,7 +15,7 @@ import numpy as np
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.simulation.fly import fly, fly_many
-from tandemlift.studies.census import Census
+from tandemlift.studies.validation.census import Census
 
 Changes = dict[str, Any]
 
