@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from tandemlift.cli.run import parse_setting
-from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
+from tandemlift.cli.terminal.console import compile_notices, echo
 
 if TYPE_CHECKING:
     from tandemlift.studies.design.plan import StudyPlan
@@ -28,6 +27,10 @@ if TYPE_CHECKING:
     help="Set one key of the study file, such as study.draws=1000. Can be repeated.",
 )
 @click.option("--threads", type=click.IntRange(min=1), help="Threads.  [default: one for each processor]")
+@click.option(
+    "--scheduler", metavar="ADDRESS", help="Fly on the workers of a Dask scheduler, such as tcp://10.0.0.1:8786."
+)
+@click.option("--cluster", metavar="local:N", help="Fly in N processes of this machine, with Dask's dashboard.")
 @click.option("--part", default="1/1", metavar="K/N", help="Fly part K of N only, as in a job array.")
 @click.option("--dry-run", is_flag=True, help="Fly a few rows only, and say what all would take.")
 @click.option("--template", is_flag=True, help="Print a commented study file.")
@@ -36,6 +39,8 @@ def study(
     out: str | None,
     settings: tuple[str, ...],
     threads: int | None,
+    scheduler: str | None,
+    cluster: str | None,
     part: str,
     dry_run: bool,
     template: bool,
@@ -79,18 +84,20 @@ def study(
     if dry_run:
         _print_estimate(plan, threads or os.cpu_count() or 1)
         return
-    folder = _fly(plan, out, threads, part)
+    folder = _fly(plan, out, part, threads=threads, scheduler=scheduler, cluster=cluster)
     _print_outcomes(folder)
 
 
-def _fly(plan: StudyPlan, out: str | None, threads: int | None, part: str) -> StudyFolder:
-    from tandemlift.studies.units.running import part_from, run_units
+def _fly(plan: StudyPlan, out: str | None, part: str, **where: Any) -> StudyFolder:
+    from tandemlift.studies.units.anywhere import fly_study
+    from tandemlift.studies.units.progress import shown_progress
+    from tandemlift.studies.units.running import part_from
     from tandemlift.studies.units.store import open_folder
 
     chosen = part_from(part)
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
-    with compile_notices.together(), progress_bar("Flying", plan.count, shown=sys.stderr.isatty()) as progress:
-        run_units(plan, folder, workers=threads, part=chosen, progress=progress)
+    with compile_notices.together(), shown_progress(plan.settings.study.name) as progress:
+        fly_study(plan, folder, part=chosen, progress=progress, say=lambda line: click.echo(line, err=True), **where)
     return folder
 
 

@@ -13,7 +13,8 @@ from tandemlift.common.types import Progress
 from tandemlift.settings import Mission
 from tandemlift.studies.design.study_files import load_plan
 from tandemlift.studies.reading.table import Study, load_study
-from tandemlift.studies.units.running import part_from, run_units
+from tandemlift.studies.units.anywhere import fly_study
+from tandemlift.studies.units.running import part_from
 from tandemlift.studies.units.store import StudyFolder, open_folder
 
 
@@ -44,7 +45,14 @@ def study(
     """
     plan = load_plan(study)
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
-    run_units(plan, folder, executor=executor, workers=threads, part=part_from(part), progress=progress)
+    fly_study(
+        plan,
+        folder,
+        threads=threads,
+        executor=executor,
+        part=part_from(part),
+        progress=progress,
+    )
     return load_study(folder.path)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -110,8 +111,15 @@ def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> Non
     try:
         with atomic_write(path) as partial:
             parquet.write_table(table, partial, compression="zstd")
+            _sync(partial)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}; what is done so far stays") from None
+
+
+def _sync(path: Path) -> None:
+    """Wait until the disk has a file: else a power failure may leave its name without all of its content."""
+    with path.open("rb+") as file:
+        os.fsync(file.fileno())
 
 
 def _array(pa: Any, name: str, values: list[Any]) -> Any:

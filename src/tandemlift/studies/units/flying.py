@@ -13,13 +13,9 @@ from tandemlift.simulation.fly import fly, fly_many
 from tandemlift.studies.design.plan import StudyRow
 from tandemlift.studies.design.settings import REFUSED, KeepTable
 from tandemlift.studies.units.columns import Columns, columns_of_rows
-from tandemlift.studies.units.unit import Unit, sources_digest
+from tandemlift.studies.units.unit import Unit
 
 COMPILED = "compiled"
-
-
-class OtherSources(InputError):
-    """A worker has other sources than the study that it is to fly."""
 
 
 def fly_unit(unit: Unit) -> Columns:
@@ -27,19 +23,7 @@ def fly_unit(unit: Unit) -> Columns:
 
     Returns:
         The columns of its table, by name.
-
-    Raises:
-        OtherSources: this process has other sources than the one that made the unit.
     """
-    if unit.sources != sources_digest():
-        import platform
-
-        from tandemlift import __version__
-
-        raise OtherSources(
-            f"worker {platform.node()}: its tandemlift {__version__} has the sources {sources_digest()}, the study "
-            f"those with digest {unit.sources}; install the same version on both"
-        )
     templates = {i: variant.template() for i, variant in unit.variants.items()}
     results = [_Result(row, templates[row.variant]) for row in unit.rows]
     for engine in {unit.variants[row.variant].engine for row in unit.rows}:

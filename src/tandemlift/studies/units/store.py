@@ -23,7 +23,7 @@ from tandemlift.studies.units.unit import sources_digest, study_digest, unit_nam
 
 STUDY, PLAN, UNITS = "study.toml", "study.json", "units"
 FORMAT = 1
-LEFT_OVER = 3600.0  # s, after which a half-written file is nobody's
+LEFT_OVER = 3600.0  # s, after which a half-written file, or a claim, is nobody's
 
 
 class StudyFolder:
@@ -62,7 +62,11 @@ class StudyFolder:
         return self.path / UNITS / f"{name}.parquet"
 
     def is_flown(self, name: str) -> bool:
-        """Whether a unit's file is there, and whole; one that was cut short is removed."""
+        """Whether a unit's file is there, and whole; one that was cut short is written anew when the unit is flown.
+
+        Raises:
+            InputError: there is a file that this process cannot read.
+        """
         path = self.file(name)
         if not path.exists():
             return False
@@ -70,11 +74,37 @@ class StudyFolder:
             from pyarrow import parquet
         try:
             parquet.read_metadata(path)
-        except Exception:  # whatever a broken file leads to
-            with contextlib.suppress(FileNotFoundError):
-                path.unlink()
+        except FileNotFoundError:
+            return False
+        except (OSError, ValueError) as error:  # one without a number says that it is no Parquet file
+            if getattr(error, "errno", None) is not None:
+                raise InputError(f"{path}: cannot be read: {getattr(error, 'strerror', error)}") from None
             return False
         return True
+
+    def claim(self, name: str) -> bool:
+        """Say that a unit is flown here; False if a process says so already, or said so and was killed.
+
+        Processes that share the folder take each other's claims as advice: they fly other units first.
+
+        Raises:
+            InputError: the folder cannot be written to.
+        """
+        try:
+            self._claim_file(name).touch(exist_ok=False)
+        except FileExistsError:
+            return False
+        except OSError as error:
+            raise InputError(f"{self.path}: cannot be written to: {error.strerror or error}") from None
+        return True
+
+    def release(self, name: str) -> None:
+        """Take back that a unit is flown here."""
+        with contextlib.suppress(OSError):
+            self._claim_file(name).unlink()
+
+    def _claim_file(self, name: str) -> Path:
+        return self.path / UNITS / f".{name}.claim"
 
     def flown(self) -> Iterator[tuple[str, Path]]:
         """The units whose files are there, in order: names and files."""
@@ -94,8 +124,8 @@ class StudyFolder:
         write_columns(columns, self.file(name), about)
 
     def clean(self) -> None:
-        """Remove half-written files that processes have left behind that were killed."""
-        for path in (self.path / UNITS).glob(".*.partial"):
+        """Remove the half-written files and the claims of processes that were killed."""
+        for path in (self.path / UNITS).glob(".*"):
             with contextlib.suppress(OSError):
                 if time.time() - path.stat().st_mtime > LEFT_OVER:
                     path.unlink()
