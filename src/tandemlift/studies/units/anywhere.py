@@ -11,6 +11,7 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.units.dask import cluster_workers, processes_of, scheduler_workers
+from tandemlift.studies.units.kept import check_kept
 from tandemlift.studies.units.running import WHOLE, Part, run_units
 from tandemlift.studies.units.store import StudyFolder
 from tandemlift.studies.units.workers import ExecutorWorkers, Workers, thread_workers
@@ -45,8 +46,10 @@ def fly_study(
         Number of units flown.
 
     Raises:
-        InputError: it cannot be flown there, or not be written; what is done stays.
+        InputError: what is to be kept does not exist, it cannot be flown there, or it cannot be written; what is done
+            stays.
     """
+    check_kept(plan)
     with _workers(threads, executor, scheduler, cluster, say) as workers:
         return run_units(plan, folder, workers, part, progress)
 

@@ -8,9 +8,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tandemlift.common.errors import InputError, unknown
+import numpy as np
+
+from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Array
+from tandemlift.flight.channels import DERIVED
 from tandemlift.flight.record import Flight
 from tandemlift.studies.design.keys import columns_of
 from tandemlift.studies.design.plan import SEED, StudyRow
@@ -33,9 +37,6 @@ def columns_of_rows(unit: Unit, results: Sequence[Result], flights: Mapping[int,
         unit: whose rows these are.
         results: of its rows, in order.
         flights: those of which channels are kept, by the row's number.
-
-    Raises:
-        InputError: a metric or channel that is to be kept does not exist.
     """
     rows = [_row(unit, *result) for result in results]
     for number, flight in flights.items():
@@ -76,19 +77,14 @@ def _row(unit: Unit, row: StudyRow, metrics: Mapping[str, Any] | None, refusal: 
 def _kept(chosen: Sequence[str], metrics: Mapping[str, Any]) -> Iterable[str]:
     """The names of the metrics that go into the table, beside those of `ALWAYS`."""
     known = [name for name in metrics if name not in (*ALWAYS, *NOT_KEPT)]
-    for name in chosen:
-        if name not in known and name not in ALWAYS:
-            raise unknown("metric", name, known)
     return [name for name in known if not chosen or name in chosen]
 
 
-def _channels(flight: Flight, names: Sequence[str]) -> dict[str, list[float]]:
-    """The chosen channels of a flight, row-major, and its time."""
-    for name in names:
-        if name not in flight:
-            raise unknown("channel", name, list(flight.channels))
-    kept = {name: flight[name].ravel().tolist() for name in names}
-    return {f"{CHANNEL}{name}": values for name, values in {"time": flight.time.tolist(), **kept}.items()}
+def _channels(flight: Flight, names: Sequence[str]) -> dict[str, Array]:
+    """The chosen channels that a flight has, row-major, and its time."""
+    has = (*flight, *(name for name, (*both, _) in DERIVED.items() if set(both) <= set(flight)))
+    kept = {name: flight[name].ravel() for name in names if name in has}
+    return {f"{CHANNEL}{name}": values for name, values in {"time": flight.time, **kept}.items()}
 
 
 def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> None:
@@ -129,7 +125,7 @@ def _array(pa: Any, name: str, values: list[Any]) -> Any:
         return pa.array(values, pa.int64())
     if known and all(isinstance(value, bool) for value in known):
         return pa.array(values, pa.bool_())
-    if known and all(isinstance(value, list) for value in known):
+    if known and all(isinstance(value, np.ndarray) for value in known):
         return pa.array(values, pa.list_(pa.float64()))
     if known and any(isinstance(value, str) for value in known):
         return pa.array([value if value is None or isinstance(value, str) else json.dumps(value) for value in values])
