@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.studies.reading.table import Study, load_study
     from tandemlift.studies.study import study
+    from tandemlift.studies.tuning.tune import tune
     from tandemlift.targets.compiling import compile_mission
     from tandemlift.vehicle import Vehicle
 
@@ -49,6 +50,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "load_mission": "missions",
     "load_study": "studies.reading.table",
     "study": "studies.study",
+    "tune": "studies.tuning.tune",
 }
 
 __all__ = [
@@ -70,6 +72,7 @@ __all__ = [
     "load_mission",
     "load_study",
     "study",
+    "tune",
 ]
 
 
