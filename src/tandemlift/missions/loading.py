@@ -13,7 +13,7 @@ from tandemlift.controllers import CONTROLLERS, Controller
 from tandemlift.flight.old_names import check_said_once
 from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.checking import check
-from tandemlift.missions.files import layers_of, overlay, path_of
+from tandemlift.missions.files import Layer, layers_of, overlay, path_of
 from tandemlift.missions.values import Tables, value_at
 from tandemlift.settings import Mission
 
@@ -43,14 +43,7 @@ def load_mission(
         InputError: the mission does not exist, cannot be read or cannot be flown; the message says what is allowed.
     """
     try:
-        layers = list(layers_of(path_of(name, Path())))
-        folded = list(itertools.accumulate((layer.tables for layer in layers), overlay, initial=Tables()))
-        tables = folded[-1]
-        if controller is not None:
-            chosen = controller if isinstance(controller, str) else controller.name
-            if not isinstance(controller, str) and CONTROLLERS.get(chosen) is not controller:
-                raise InputError(f"controller {chosen!r} is not the one registered last by that name; load it again")
-            tables = {**tables, "controller": _last_said_of(chosen, folded)}
+        tables, layers = read_tables(name, controller)
         check_said_once(changes or ())
         for key, value in (changes or {}).items():
             tables = changed_tables(tables, key, value, layers[-1].source)
@@ -59,3 +52,27 @@ def load_mission(
         raise InputError(f"{name} is not a mission: nested too deeply") from None
     except OSError as error:
         raise InputError(f"mission file {name}: {error.strerror or error}") from None
+
+
+def read_tables(
+    name: str | os.PathLike[str], controller: Controller | str | None = None, folder: Path = Path()
+) -> tuple[Tables, list[Layer]]:
+    """The tables of a mission, with all that it extends, and the layers that they are from; unchecked.
+
+    Args:
+        name: as for `load_mission`; a path is relative to `folder`.
+        controller: as for `load_mission`.
+        folder: where relative paths start.
+
+    Raises:
+        InputError: the mission does not exist or cannot be read, or the controller is not registered any more.
+    """
+    layers = list(layers_of(path_of(name, folder)))
+    folded = list(itertools.accumulate((layer.tables for layer in layers), overlay, initial=Tables()))
+    tables = folded[-1]
+    if controller is not None:
+        chosen = controller if isinstance(controller, str) else controller.name
+        if not isinstance(controller, str) and CONTROLLERS.get(chosen) is not controller:
+            raise InputError(f"controller {chosen!r} is not the one registered last by that name; load it again")
+        tables = {**tables, "controller": _last_said_of(chosen, folded)}
+    return tables, layers

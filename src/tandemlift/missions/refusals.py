@@ -25,13 +25,17 @@ class Problem(NamedTuple):
     sentence: str
 
 
-def problems_in(model: Model, error: ValidationError, tables: Any, prefix: Place = ()) -> list[Problem]:
-    """The problems of the table at `prefix` in `tables`, one for each key."""
+def problems_in(
+    model: Model, error: ValidationError, tables: Any, prefix: Place = (), whole: str = "a mission"
+) -> list[Problem]:
+    """The problems of the table at `prefix` in `tables`, one for each key; `whole` says what all tables are."""
     data = value_at(tables, prefix)
     found: dict[Place, Problem] = {}
     for problem in error.errors(include_url=False, include_input=False):
-        sentence = _unknown_key if problem["type"] == "extra_forbidden" else _refusal
-        place, text = sentence(model, problem, data, prefix)
+        if problem["type"] == "extra_forbidden":
+            place, text = _unknown_key(model, problem, data, prefix, whole)
+        else:
+            place, text = _refusal(model, problem, data, prefix)
         found.setdefault(place, Problem((*prefix, *place), text))
     return list(found.values())
 
@@ -102,7 +106,7 @@ def _hint(problem: Any, field: Any, given: Any) -> str:
     return ""
 
 
-def _unknown_key(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[Place, str]:
+def _unknown_key(model: Model, problem: Any, data: Any, prefix: Place, whole: str) -> tuple[Place, str]:
     *above, name = problem["loc"]
     _, _, table = _walk(model, above)
     names, where = list(table.model_fields), (*prefix, *above)
@@ -110,6 +114,6 @@ def _unknown_key(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[
     elsewhere = next((place for place in keys_of(model) if place[-1] == name), None)
     meant = (*where, near) if near else elsewhere and (*prefix, *elsewhere)
     hint = f". Did you mean {dotted(meant)}?" if meant else ""
-    this = f"{dotted(where)} has" if where else "a mission has the tables"
+    this = f"{dotted(where)} has" if where else f"{whole} has the tables"
     given = f"{dotted((*where, name))} = {shown(value_at(data, problem['loc']))}"
     return (*above, name), f"{given}: unknown key; {this} {', '.join(names)}{hint}"

@@ -14,6 +14,7 @@ import numpy as np
 from tandemlift.algebra.layout import flat, leaves, unflat
 from tandemlift.algebra.vector import Nothing, Vec3, dot
 from tandemlift.common.faults import ALARM_TEXTS, CHECKS
+from tandemlift.common.outcomes import FAILURES
 from tandemlift.common.phases import CONTACT as PHASE_CONTACT
 from tandemlift.common.phases import IDLE, PHASE_NAMES
 from tandemlift.common.types import Array
@@ -88,6 +89,7 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed["findings"] = [
         [f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, flown.step, formed["outcome"])
     ]
+    formed["failure"] = str(ending_of(p, flown.flight_state, flown.step) or FAILURES.get(formed["outcome"], ""))
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 

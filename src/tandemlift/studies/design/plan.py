@@ -1,0 +1,223 @@
+"""The plan of a study: how many rows it has, and what each flies."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from tandemlift.common.errors import InputError
+from tandemlift.missions import tables_of
+from tandemlift.missions.values import MISSING, Tables, value_at
+from tandemlift.settings import Mission
+from tandemlift.studies.design.draws import Drawn, dimensions_of, drawn_keys, values_at
+from tandemlift.studies.design.grids import grid_axes
+from tandemlift.studies.design.keys import changes_in, columns_of
+from tandemlift.studies.design.persons import check_has_person, person_changes, random_person
+from tandemlift.studies.design.sampling import point_count, points
+from tandemlift.studies.design.settings import MAX_ROWS, CaseTable, StudySettings, default_rows_per_unit
+from tandemlift.studies.design.variants import Variant
+
+SEED = "mission.seed"
+TRIED = 8  # rows of each variant that are formed before anything flies
+
+
+class StudyRow(NamedTuple):
+    """A row of a study: one flight.
+
+    Attributes:
+        number: of the row, from 0.
+        variant: number of its variant in the plan.
+        case: name of its case, "" without cases.
+        draw: number of its point of `[draw]`.
+        changes: of the mission, by dotted key: all of them, `mission.seed` included.
+        varied: those that vary from row to row, apart from the seed.
+    """
+
+    number: int
+    variant: int
+    case: str
+    draw: int
+    changes: dict[str, Any]
+    varied: dict[str, Any]
+
+
+class StudyPlan:
+    """The rows of a study. Draws and seeds vary fastest, then grid points, cases, engines, controllers, missions.
+
+    Args:
+        settings: of the study file, checked.
+        variants: from `variants_of`.
+
+    Raises:
+        InputError: a key is given twice, the grid is empty or too large, or no row can be formed.
+    """
+
+    def __init__(self, settings: StudySettings, variants: Sequence[Variant]) -> None:
+        tables = settings.model_dump(mode="json", exclude_none=True)
+        self.settings, self.variants = settings, tuple(variants)
+        self.common = changes_in(settings.set)
+        self.cases: tuple[CaseTable, ...] = settings.cases or (CaseTable.model_construct(name="", set={}),)
+        self.grid, self.drawn = grid_axes(tables), drawn_keys(tables)
+        self._check_said_once()
+        if settings.study.persons == "random":
+            self._add_persons()
+        study = settings.study
+        self.point_count = point_count(study.sampling, study.draws, dimensions_of(self.drawn))
+        self.count = (
+            len(self.variants) * len(self.cases) * math.prod(map(len, self.grid.values())) * self.point_count
+        ) * study.seeds
+        if self.count > MAX_ROWS:
+            raise InputError(f"the study has {self.count:.3g} rows ({self.sizes}); it must have at most {MAX_ROWS:.0e}")
+
+    def _check_said_once(self) -> None:
+        said: dict[str, str] = {}
+        names = [c.name for c in self.settings.cases]
+        if len(set(names)) < len(names):
+            raise InputError(f"cases: names {', '.join(names)} must be without repetition")
+        parts = {"set": self.common, "grid": self.grid, "draw": self.drawn}
+        for part, keys in parts.items():
+            for key in keys:
+                if key in said:
+                    raise InputError(f"{part}.{key}: the key is in [{said[key]}] already; give it once")
+                said[key] = part
+        for case in self.cases:
+            for key in changes_in(case.set):
+                if said.get(key, "set") != "set":
+                    raise InputError(f"cases: {case.name} sets {key}, which is in [{said[key]}] already; give it once")
+
+    def _add_persons(self) -> None:
+        for variant in self.variants:
+            check_has_person(variant.load(self.common))
+        own = random_person()
+        self.persons = {key: distribution for key, distribution in own.items() if key not in self.drawn}
+        self.drawn: Drawn = {**self.drawn, **self.persons}
+
+    @property
+    def sizes(self) -> str:
+        """What the number of rows is the product of, in words."""
+        axes = " x ".join(f"{len(values)} of {key}" for key, values in self.grid.items())
+        parts = [f"{len(self.variants)} of mission, controller and engine", f"{len(self.cases)} cases"]
+        return " x ".join([*parts, *([axes] if axes else []), f"{self.point_count} draws", f"{self._seeds} seeds"])
+
+    @property
+    def _seeds(self) -> int:
+        return self.settings.study.seeds
+
+    @cached_property
+    def rows_per_unit(self) -> int:
+        """Rows in one file of results."""
+        return self.settings.study.rows_per_unit or default_rows_per_unit(self.count)
+
+    @cached_property
+    def _axes(self) -> list[list[Any]]:
+        return list(self.grid.values())
+
+    @cached_property
+    def _own(self) -> list[tuple[Mission, Tables]]:
+        """The mission of each variant, with the changes of `[set]`, and its tables."""
+        loaded = [variant.load(self.common) for variant in self.variants]
+        return [(mission, tables_of(mission)) for mission in loaded]
+
+    def rows(self, first: int, last: int) -> list[StudyRow]:
+        """The rows first ≤ number < last.
+
+        Raises:
+            InputError: a draw is relative to a key that the mission does not have as a number.
+        """
+        study, per_point = self.settings.study, self.point_count * self._seeds
+        rows: list[StudyRow] = []
+        while first < last:
+            cell, inside = divmod(first, per_point)
+            end = min(last, (cell + 1) * per_point)
+            low, high = inside // self._seeds, -(-(end - cell * per_point) // self._seeds)
+            u = points(study.sampling, study.draws, dimensions_of(self.drawn), study.seed, low, high)
+            drawn = values_at(self.drawn, u)
+            for number in range(first, end):
+                draw, repeat = divmod(number - cell * per_point, self._seeds)
+                rows.append(self._row(number, cell, draw, repeat, drawn[draw - low]))
+            first = end
+        return rows
+
+    def _row(self, number: int, cell: int, draw: int, repeat: int, drawn: dict[str, Any]) -> StudyRow:
+        study, varied = self.settings.study, dict[str, Any]()
+        for key, values in reversed(list(self.grid.items())):
+            cell, i = divmod(cell, len(values))
+            varied[key] = values[i]
+        varied = {key: varied[key] for key in self.grid}
+        variant, place = divmod(cell, len(self.cases))
+        case = self.cases[place]
+        varied |= {key: self._absolute(key, value, variant) for key, value in drawn.items()}
+        changes = {**self.common, **changes_in(case.set), **varied}
+        if study.persons == "random":
+            changes, varied = self._with_person(changes, varied, variant)
+        if SEED not in changes:
+            changes[SEED] = study.seed + (0 if study.sampling == "saltelli" else draw * self._seeds) + repeat
+        return StudyRow(number=number, variant=variant, case=case.name, draw=draw, changes=changes, varied=varied)
+
+    def _with_person(
+        self, changes: dict[str, Any], varied: dict[str, Any], variant: int
+    ) -> tuple[dict[str, Any], dict[str, Any]]:
+        made = person_changes(self._own[variant][0], {key: varied[key] for key in self.persons})
+        left_out = self.persons.keys() - made.keys()
+        own = {key: value for key, value in changes.items() if key not in left_out}
+        return {**made, **own}, {key: value for key, value in varied.items() if key not in left_out}
+
+    def _absolute(self, key: str, value: Any, variant: int) -> Any:
+        """The value of a draw, which may be relative to the mission's own."""
+        if not self.drawn[key].relative:
+            return value
+        place = tuple(int(part) if part.isdigit() else part for part in key.split("."))
+        return _times(value_at(self._own[variant][1], place), value, key, self.variants[variant].mission)
+
+    def mission(self, row: StudyRow) -> Mission:
+        """The mission of a row.
+
+        Raises:
+            InputError: it cannot be flown: the row is refused.
+        """
+        return self.variants[row.variant].load(row.changes)
+
+    @cached_property
+    def varied(self) -> tuple[str, ...]:
+        """The columns of what varies from row to row, in order: keys of the grid and of the draws."""
+        columns: dict[str, None] = {}
+        per_variant = self.count // len(self.variants)
+        for variant in range(len(self.variants)):
+            row = self.rows(variant * per_variant, variant * per_variant + 1)[0]
+            for key, value in row.varied.items():
+                columns |= dict.fromkeys(name for name, _ in columns_of(key, value))
+        return tuple(columns)
+
+    def check(self) -> None:
+        """Check that each variant has rows that can be flown, among the first ones.
+
+        Raises:
+            InputError: all that were tried are refused; the message is that of the first.
+        """
+        per_variant = self.count // len(self.variants)
+        for variant in range(len(self.variants)):
+            first = variant * per_variant
+            refusals = []
+            for row in self.rows(first, first + min(TRIED, per_variant)):
+                try:
+                    self.mission(row)
+                    break
+                except InputError as error:
+                    refusals.append(str(error))
+            else:
+                many = "the only row" if per_variant == 1 else f"each of the first {len(refusals)} rows"
+                raise InputError(f"{many} is refused: {refusals[0]}")
+
+
+def _times(own: Any, factor: Any, key: str, mission: str) -> Any:
+    """A mission's own value times a factor, or times one factor for each entry of a list."""
+    if isinstance(own, (list, tuple)):
+        factors = factor if isinstance(factor, list) else [factor] * len(own)
+        if len(factors) == len(own):
+            return [_times(x, f, key, mission) for x, f in zip(own, factors, strict=True)]
+    elif isinstance(own, (int, float)) and not isinstance(own, bool) and not isinstance(factor, list):
+        return own * factor
+    what = "is not set" if own is MISSING else f"= {own!r}"
+    raise InputError(f"draw.{key}: relative = true, but in mission {mission} the key {what}; it must be as many numbers")

@@ -1,0 +1,138 @@
+"""The variants of a study: each mission with each controller in each engine, with all files that they need in them.
+
+A variant can be sent to another machine and kept in the folder of the study: it holds the mission's tables, the source
+of a user's controller and the bytes of a recording.
+"""
+
+from __future__ import annotations
+
+import base64
+import functools
+import hashlib
+import tempfile
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.controllers import controller, file_of, load_controller
+from tandemlift.engines.registry import engine_named
+from tandemlift.missions import check
+from tandemlift.missions.changes import changed_tables
+from tandemlift.missions.loading import read_tables
+from tandemlift.missions.values import Tables, merge, value_at
+from tandemlift.settings import Mission
+from tandemlift.studies.design.settings import StudyTable
+
+RECORDING = ("person", "recording")
+
+
+class Variant(NamedTuple):
+    """A mission, a controller and an engine.
+
+    Attributes:
+        mission: name of the mission.
+        controller: name of the controller.
+        engine: name of the engine.
+        tables: the mission's tables as its files say them, unchecked.
+        controller_file: name and source of a user's controller; empty for a registered one.
+        recording: name and base64 text of the mission's recording; empty without one.
+    """
+
+    mission: str
+    controller: str
+    engine: str
+    tables: Tables
+    controller_file: tuple[str, ...] = ()
+    recording: tuple[str, ...] = ()
+
+    def load(self, changes: Mapping[str, Any]) -> Mission:
+        """The mission with changes, by dotted key. Warnings are left out: a study has its table of findings instead.
+
+        Raises:
+            InputError: there is no such mission; the message says what is allowed.
+        """
+        tables = self._tables()
+        for key, value in changes.items():
+            tables = changed_tables(tables, key, value, self.mission)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", FlightWarning)
+            return check(tables, self.mission)
+
+    def _tables(self) -> Tables:
+        """The tables on this machine."""
+        if self.controller_file:
+            load_controller(_written(*self.controller_file))
+        if self.recording:
+            name, text = self.recording
+            return merge(self.tables, {"person": {"recording": str(_written(name, text, coded=True))}})
+        return self.tables
+
+
+@functools.lru_cache(maxsize=64)
+def _written(name: str, content: str, *, coded: bool = False) -> Path:
+    """A file of that content, the same for the same content; it stays until the machine clears its temporary files."""
+    data = base64.b64decode(content) if coded else content.encode()
+    path = Path(tempfile.gettempdir()) / f"tandemlift-{hashlib.sha256(data).hexdigest()[:16]}" / Path(name).name
+    if not path.exists() or path.read_bytes() != data:
+        from tandemlift.common.files import atomic_write
+
+        with atomic_write(path) as partial:
+            partial.write_bytes(data)
+    return path
+
+
+def variants_of(study: StudyTable, folder: Path) -> list[Variant]:
+    """All variants of a study, engines innermost.
+
+    Args:
+        study: the table `[study]`.
+        folder: where relative paths start.
+
+    Raises:
+        InputError: a mission, controller or engine does not exist or cannot be read.
+    """
+    for engine in study.engines:
+        engine_named(engine)
+    return [
+        variant._replace(engine=engine)
+        for mission in study.missions
+        for chosen in study.controllers or (None,)
+        for variant in [_variant(mission, chosen, folder)]
+        for engine in study.engines
+    ]
+
+
+def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
+    held = None if chosen is None else _controller(chosen, folder)
+    try:
+        tables, layers = read_tables(mission, held, folder)
+    except OSError as error:
+        raise InputError(f"study.missions: {mission}: {error.strerror or error}") from None
+    except RecursionError:
+        raise InputError(f"study.missions: {mission} is not a mission: nested too deeply") from None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FlightWarning)
+        loaded = check(tables, layers[-1].source, layers)
+    name = loaded.controller.name
+    file = () if _is_ours(name) else (Path(file_of(controller(name))).name, Path(file_of(controller(name))).read_text())
+    return Variant(loaded.mission.name, name, "compiled", tables, file, _recording(tables))
+
+
+def _controller(chosen: str, folder: Path) -> Any:
+    return load_controller(folder / chosen) if chosen.endswith(".py") or "/" in chosen else controller(chosen)
+
+
+def _is_ours(name: str) -> bool:
+    return controller(name).start.__module__.startswith("tandemlift.")
+
+
+def _recording(tables: Tables) -> tuple[str, ...]:
+    path = value_at(tables, RECORDING)
+    if not isinstance(path, str):
+        return ()
+    try:
+        return Path(path).name, base64.b64encode(Path(path).read_bytes()).decode()
+    except OSError as error:
+        raise InputError(f"person.recording = {path!r}: {error.strerror or error}") from None

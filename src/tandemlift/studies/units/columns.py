@@ -1,0 +1,126 @@
+"""The table of a unit as columns, and its Parquet file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from tandemlift.common.errors import InputError, unknown
+from tandemlift.common.files import atomic_write
+from tandemlift.flight.record import Flight
+from tandemlift.studies.design.keys import columns_of
+from tandemlift.studies.design.packages import parquet
+from tandemlift.studies.design.plan import SEED, StudyRow
+from tandemlift.studies.design.settings import REFUSED
+from tandemlift.studies.units.unit import Unit
+
+Columns = dict[str, list[Any]]
+Result = tuple[StudyRow, Mapping[str, Any] | None, str]  # a row, its metrics, or why it was refused
+
+ALWAYS = ("outcome", "failure", "findings", "events")  # metrics with columns of their own
+NOT_KEPT = ("wall_s",)  # not reproducible
+CHANNEL = "flight."  # begins the name of a channel's column
+WHOLE = ("row", "draw", "seed", "steps")  # columns of whole numbers
+
+
+def columns_of_rows(unit: Unit, results: Sequence[Result], flights: Mapping[int, Flight]) -> Columns:
+    """The columns of a unit's table; what a row does not have is None.
+
+    Args:
+        unit: whose rows these are.
+        results: of its rows, in order.
+        flights: those of which channels are kept, by the row's number.
+
+    Raises:
+        InputError: a metric or channel that is to be kept does not exist.
+    """
+    rows = [_row(unit, *result) for result in results]
+    for number, flight in flights.items():
+        rows[number - unit.first] |= _channels(flight, unit.keep.channels)
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name: [row.get(name) for row in rows] for name in names}
+
+
+def _row(unit: Unit, row: StudyRow, metrics: Mapping[str, Any] | None, refusal: str) -> dict[str, Any]:
+    variant = unit.variants[row.variant]
+    found: dict[str, Any] = {
+        "row": row.number,
+        "mission": variant.mission,
+        "controller": variant.controller,
+        "engine": variant.engine,
+        "case": row.case,
+        "draw": row.draw,
+        "seed": row.changes[SEED],
+    }
+    for key, value in row.varied.items():
+        found |= columns_of(key, value)
+    if metrics is None:
+        return {**found, "outcome": REFUSED, "reason": refusal}
+    findings = metrics["findings"]
+    found |= {
+        "outcome": metrics["outcome"],
+        "reason": metrics["failure"],
+        "findings": json.dumps(findings),
+        "finding_kinds": ",".join(dict.fromkeys(kind for _, kind, _ in findings)),
+        "events": json.dumps(metrics["events"]),
+    }
+    for name in _kept(unit.keep.metrics, metrics):
+        if metrics[name] is not None:  # whether it is one number or a list is known of the others
+            found |= columns_of(name, metrics[name])
+    return found
+
+
+def _kept(chosen: Sequence[str], metrics: Mapping[str, Any]) -> Iterable[str]:
+    """The names of the metrics that go into the table, beside those of `ALWAYS`."""
+    known = [name for name in metrics if name not in (*ALWAYS, *NOT_KEPT)]
+    for name in chosen:
+        if name not in known and name not in ALWAYS:
+            raise unknown("metric", name, known)
+    return [name for name in known if not chosen or name in chosen]
+
+
+def _channels(flight: Flight, names: Sequence[str]) -> dict[str, list[float]]:
+    """The chosen channels of a flight, row-major, and its time."""
+    for name in names:
+        if name not in flight:
+            raise unknown("channel", name, list(flight.channels))
+    kept = {name: flight[name].ravel().tolist() for name in names}
+    return {f"{CHANNEL}{name}": values for name, values in {"time": flight.time.tolist(), **kept}.items()}
+
+
+def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> None:
+    """Write a table as a Parquet file, whole or not at all.
+
+    Args:
+        columns: from `columns_of_rows`.
+        path: of the file.
+        about: what the file says of itself.
+
+    Raises:
+        InputError: the file cannot be written: no space left, or no right to.
+    """
+    import pyarrow as pa
+
+    arrays = {name: _array(pa, name, values) for name, values in columns.items()}
+    table = pa.table(arrays).replace_schema_metadata({f"tandemlift.{key}": value for key, value in about.items()})
+    try:
+        with atomic_write(path) as partial:
+            parquet().write_table(table, partial, compression="zstd")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror or error}; what is done so far stays") from None
+
+
+def _array(pa: Any, name: str, values: list[Any]) -> Any:
+    """A column of one type: whole numbers, numbers, truths, texts, or lists of numbers."""
+    known = [value for value in values if value is not None]
+    if name in WHOLE:
+        return pa.array(values, pa.int64())
+    if known and all(isinstance(value, bool) for value in known):
+        return pa.array(values, pa.bool_())
+    if known and all(isinstance(value, list) for value in known):
+        return pa.array(values, pa.list_(pa.float64()))
+    if known and any(isinstance(value, str) for value in known):
+        return pa.array([value if value is None or isinstance(value, str) else json.dumps(value) for value in values])
+    return pa.array(values, pa.float64())

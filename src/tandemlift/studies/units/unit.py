@@ -1,0 +1,94 @@
+"""A unit of work: rows of a study, with all that another machine needs to fly them; and its name."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from tandemlift.studies.design.plan import StudyPlan, StudyRow
+from tandemlift.studies.design.settings import KeepTable
+from tandemlift.studies.design.variants import Variant
+
+PACKAGE = Path(__file__).resolve().parents[2]
+SHOWING = (  # rooms that no flight and no metric depends on
+    *("cli", "export", "figures", "gazebo_app", "interactive", "linearization", "live", "rendering", "report", "ros"),
+    *("data", "studies", "targets"),
+)
+
+
+class Unit(NamedTuple):
+    """Rows first ≤ number < last of a study.
+
+    Attributes:
+        name: of the file of its results: the hash of its missions, seeds, what is kept, and the sources.
+        first: number of the first row.
+        last: number after the last row.
+        sources: digest of the sources that fly it.
+        rows: what each row flies.
+        variants: of these rows, by their numbers.
+        keep: what goes into the table.
+    """
+
+    name: str
+    first: int
+    last: int
+    sources: str
+    rows: tuple[StudyRow, ...]
+    variants: dict[int, Variant]
+    keep: KeepTable
+
+
+@functools.cache
+def sources_digest() -> str:
+    """Digest of the sources of this package that decide how a flight goes; equal for a checkout and its wheel."""
+    files = (path for path in PACKAGE.rglob("*.py") if path.relative_to(PACKAGE).parts[0] not in SHOWING)
+    digest = hashlib.sha256()
+    for path in sorted(files, key=lambda path: path.relative_to(PACKAGE).as_posix()):
+        digest.update(path.relative_to(PACKAGE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()[:16]
+
+
+def study_digest(plan: StudyPlan) -> str:
+    """Digest of all that decides the rows of a study: its settings, its missions and the sources."""
+    settings = plan.settings.model_dump(mode="json")
+    said = [settings, [variant._asdict() for variant in plan.variants], plan.rows_per_unit, sources_digest()]
+    return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
+
+
+def unit_count(plan: StudyPlan) -> int:
+    """Number of units of a study."""
+    return -(-plan.count // plan.rows_per_unit)
+
+
+def unit_names(digest: str, count: int, rows_per_unit: int) -> Iterator[str]:
+    """The names of the units of a study, in order.
+
+    Args:
+        digest: of the study.
+        count: number of rows.
+        rows_per_unit: rows of each unit but the last.
+    """
+    for i in range(-(-count // rows_per_unit)):
+        first, last = i * rows_per_unit, min(count, (i + 1) * rows_per_unit)
+        yield hashlib.sha256(f"{digest} {first} {last}".encode()).hexdigest()[:32]
+
+
+def unit_of(plan: StudyPlan, index: int, name: str) -> Unit:
+    """A unit of a study, ready to be flown anywhere."""
+    first = index * plan.rows_per_unit
+    last = min(plan.count, first + plan.rows_per_unit)
+    rows = tuple(plan.rows(first, last))
+    used = sorted({row.variant for row in rows})
+    return Unit(
+        name=name,
+        first=first,
+        last=last,
+        sources=sources_digest(),
+        rows=rows,
+        variants={i: plan.variants[i] for i in used},
+        keep=plan.settings.keep,
+    )
