@@ -33,7 +33,7 @@ def fly_unit(unit: Unit) -> Columns:
     if unit.sources != sources_digest():
         import platform
 
-        from tandemlift import __version__
+        from tandemlift.common.version import __version__
 
         raise OtherSources(
             f"worker {platform.node()}: its tandemlift {__version__} has the sources {sources_digest()}, the study "
