@@ -11,6 +11,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from tandemlift.common.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from tandemlift.common.errors import FlightWarning, InputError
     from tandemlift.controllers.user_controller import load_controller
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from tandemlift.linearization.linearize import linearize
     from tandemlift.linearization.mission_check import check
     from tandemlift.missions import load_mission
+    from tandemlift.report.feel_report import feel
     from tandemlift.settings import Mission
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
@@ -28,8 +31,6 @@ if TYPE_CHECKING:
     from tandemlift.studies.tuning.tune import tune
     from tandemlift.targets.compiling import compile_mission
     from tandemlift.vehicle import Vehicle
-
-__version__ = "0.1.0"
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Flight": "flight.record",
@@ -43,6 +44,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Vehicle": "vehicle",
     "check": "linearization.mission_check",
     "compile_mission": "targets.compiling",
+    "feel": "report.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
     "linearize": "linearization.linearize",
@@ -65,6 +67,7 @@ __all__ = [
     "Vehicle",
     "check",
     "compile_mission",
+    "feel",
     "fly",
     "fly_many",
     "linearize",

@@ -13,6 +13,7 @@ import click
 from tandemlift.cli.compare import compare
 from tandemlift.cli.compile import compile
 from tandemlift.cli.export import export
+from tandemlift.cli.feel import feel
 from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
 from tandemlift.cli.linearize import check, linearize
@@ -77,6 +78,7 @@ cli.add_command(validate)
 cli.add_command(tune)
 cli.add_command(linearize)
 cli.add_command(check)
+cli.add_command(feel)
 cli.add_command(export)
 cli.add_command(compile)
 cli.add_command(report)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift import __version__
+from tandemlift.common.version import __version__
 from tandemlift.algebra.vector import Nothing
 from tandemlift.common.faults import ALARM_TEXTS
 from tandemlift.common.phases import PHASE_NAMES

@@ -118,7 +118,7 @@ class StudyFolder:
         Raises:
             InputError: the file cannot be written.
         """
-        from tandemlift import __version__
+        from tandemlift.common.version import __version__
 
         about = {"study": self.digest, "unit": name, "sources": self.sources, "version": __version__}
         write_columns(columns, self.file(name), about)
