@@ -14,7 +14,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, load_mission, merge, tables_of
 from tandemlift.missions.values import Tables
 from tandemlift.simulation.fly import fly_many
-from tandemlift.studies.persons import succeeded
+from tandemlift.studies.validation.persons import succeeded
 
 CORRIDOR = "zigzag"
 LOGGED = 0.05  # s: motions of a person are slow against it
