@@ -13,6 +13,7 @@ import click
 from tandemlift.cli.compare import compare
 from tandemlift.cli.compile import compile
 from tandemlift.cli.export import export
+from tandemlift.cli.feel import feel
 from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
 from tandemlift.cli.linearize import check, linearize
@@ -24,6 +25,7 @@ from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run
 from tandemlift.cli.study import study
 from tandemlift.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
+from tandemlift.cli.tune import tune
 from tandemlift.cli.validate import validate
 from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.machine_code.compile_events import watching
@@ -73,8 +75,10 @@ cli.add_command(gazebo)
 cli.add_command(ros)
 cli.add_command(study)
 cli.add_command(validate)
+cli.add_command(tune)
 cli.add_command(linearize)
 cli.add_command(check)
+cli.add_command(feel)
 cli.add_command(export)
 cli.add_command(compile)
 cli.add_command(report)

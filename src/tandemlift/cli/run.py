@@ -106,21 +106,9 @@ def run(
       2   bad input: one message, nothing is written
       3   crashed, diverged or not lifted: what was flown is written; with --strict, also findings
     """
-    from tandemlift.engines.registry import engine_named
-
     began = time.perf_counter()
-    if engine is not None:
-        engine_named(engine)
     chosen = None if controller is None else chosen_controller(controller)
-    settings = with_after_crash(settings, after_crash)
-    if study is not None or row is not None:
-        loaded, own_engine, name = _row_of(study, row, settings, mission, chosen)
-        engine = own_engine if engine is None else engine
-    elif mission is None:
-        raise click.UsageError("Missing argument 'MISSION'; `tandemlift missions` lists them.")
-    else:
-        loaded = load(mission, settings, chosen)
-        name = loaded.mission.name
+    loaded, engine, name = _selected(mission, (study, row), with_after_crash(settings, after_crash), chosen, engine)
     with results_folder(out, Path("out") / name) as folder:
         flight = _fly(loaded, engine, chosen)
         print_summary(flight)
@@ -132,6 +120,31 @@ def run(
         click.echo(f"{flight.name}: {flight.failure}", err=True)
         sys.exit(FAILED)
     exit_if_found(count, strict=strict)
+
+
+def _selected(
+    mission: str | None,
+    place: tuple[str | None, int | None],
+    settings: tuple[str, ...],
+    controller: Controller | None,
+    engine: str | None,
+) -> tuple[Mission, str | None, str]:
+    """The mission to fly, its engine and the name of its results: a mission by name, or a row of a study by its place.
+
+    Raises:
+        InputError: there is no such mission, study, row or engine.
+    """
+    from tandemlift.engines.registry import engine_named
+
+    if engine is not None:
+        engine_named(engine)
+    if place != (None, None):
+        loaded, own, name = _row_of(*place, settings, mission, controller)
+        return loaded, engine or own, name
+    if mission is None:
+        raise click.UsageError("Missing argument 'MISSION'; `tandemlift missions` lists them.")
+    loaded = load(mission, settings, controller)
+    return loaded, engine, loaded.mission.name
 
 
 def _row_of(

@@ -7,9 +7,9 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 
-from tandemlift import __version__
 from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
+from tandemlift.common.version import __version__
 from tandemlift.studies.units.columns import Columns, write_columns
 
 LEFT_OVER = 3600.0  # s, after which a half-written file, or a claim, is nobody's
