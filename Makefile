@@ -84,7 +84,7 @@ bench-peers: .venv-peers/ready  ## speed beside other simulators, printed
 	@touch $@
 
 .venv/dev: .venv/run lock/dev.txt
-	@echo 'Installing what tests and linters need (once): 450 MB to fetch, then some 30 s …'
+	@echo 'Installing what tests and linters need (once): 600 MB to fetch, then some 40 s …'
 	@$(PIP) -r lock/dev.txt
 	@touch $@
 

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from tandemlift.settings import Mission
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
+    from tandemlift.studies.reading.table import Study, load_study
+    from tandemlift.studies.study import study
+    from tandemlift.studies.tuning.tune import tune
     from tandemlift.targets.compiling import compile_mission
     from tandemlift.vehicle import Vehicle
 
@@ -37,6 +40,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Mission": "settings",
     "Pilot": "simulation.pilot_api",
     "Simulation": "interactive.simulation",
+    "Study": "studies.reading.table",
     "Vehicle": "vehicle",
     "check": "linearization.mission_check",
     "compile_mission": "targets.compiling",
@@ -46,6 +50,9 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "linearize": "linearization.linearize",
     "load_controller": "controllers.user_controller",
     "load_mission": "missions",
+    "load_study": "studies.reading.table",
+    "study": "studies.study",
+    "tune": "studies.tuning.tune",
 }
 
 __all__ = [
@@ -56,6 +63,7 @@ __all__ = [
     "Mission",
     "Pilot",
     "Simulation",
+    "Study",
     "Vehicle",
     "check",
     "compile_mission",
@@ -65,6 +73,9 @@ __all__ = [
     "linearize",
     "load_controller",
     "load_mission",
+    "load_study",
+    "study",
+    "tune",
 ]
 
 

@@ -23,7 +23,9 @@ from tandemlift.cli.render import render
 from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run
+from tandemlift.cli.study import study
 from tandemlift.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
+from tandemlift.cli.tune import tune
 from tandemlift.cli.validate import validate
 from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.machine_code.compile_events import watching
@@ -71,7 +73,9 @@ cli.add_command(page)
 cli.add_command(replay)
 cli.add_command(gazebo)
 cli.add_command(ros)
+cli.add_command(study)
 cli.add_command(validate)
+cli.add_command(tune)
 cli.add_command(linearize)
 cli.add_command(check)
 cli.add_command(feel)

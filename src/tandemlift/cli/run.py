@@ -48,7 +48,9 @@ after_crash_option = click.option(
 
 
 @click.command()
-@click.argument("mission")
+@click.argument("mission", required=False)
+@click.option("--from", "study", metavar="STUDY", help="Fly a row of a study instead: its folder, with --row.")
+@click.option("--row", type=click.IntRange(min=0), help="The row of the study, as its table and its report number it.")
 @click.option(
     "--engine",
     help="Engine that simulates the vehicle; see `tandemlift engines`.  [default: that of the recording, or compiled]",
@@ -64,7 +66,9 @@ after_crash_option = click.option(
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
 @strict_option
 def run(
-    mission: str,
+    mission: str | None,
+    study: str | None,
+    row: int | None,
     engine: str | None,
     out: str | None,
     settings: tuple[str, ...],
@@ -84,6 +88,7 @@ def run(
       tandemlift run paper --set mission.duration=30 --set admittance.gate=soft
       tandemlift run one-push --set 'pushes.0.force=[0, 2, 0]' --out out/sideways
       tandemlift run hover --controller my_pd.py --set controller.stiffness=4
+      tandemlift run --from out/gusts --row 17
 
     \b
     Files in the results folder (other files there are left alone):
@@ -101,14 +106,10 @@ def run(
       2   bad input: one message, nothing is written
       3   crashed, diverged or not lifted: what was flown is written; with --strict, also findings
     """
-    from tandemlift.engines.registry import engine_named
-
     began = time.perf_counter()
-    if engine is not None:
-        engine_named(engine)
     chosen = None if controller is None else chosen_controller(controller)
-    loaded = load(mission, with_after_crash(settings, after_crash), chosen)
-    with results_folder(out, Path("out") / loaded.mission.name) as folder:
+    loaded, engine, name = _selected(mission, (study, row), with_after_crash(settings, after_crash), chosen, engine)
+    with results_folder(out, Path("out") / name) as folder:
         flight = _fly(loaded, engine, chosen)
         print_summary(flight)
         copy_recording(loaded, folder)
@@ -119,6 +120,49 @@ def run(
         click.echo(f"{flight.name}: {flight.failure}", err=True)
         sys.exit(FAILED)
     exit_if_found(count, strict=strict)
+
+
+def _selected(
+    mission: str | None,
+    place: tuple[str | None, int | None],
+    settings: tuple[str, ...],
+    controller: Controller | None,
+    engine: str | None,
+) -> tuple[Mission, str | None, str]:
+    """The mission to fly, its engine and the name of its results: a mission by name, or a row of a study by its place.
+
+    Raises:
+        InputError: there is no such mission, study, row or engine.
+    """
+    from tandemlift.engines.registry import engine_named
+
+    if engine is not None:
+        engine_named(engine)
+    if place != (None, None):
+        loaded, own, name = _row_of(*place, settings, mission, controller)
+        return loaded, engine or own, name
+    if mission is None:
+        raise click.UsageError("Missing argument 'MISSION'; `tandemlift missions` lists them.")
+    loaded = load(mission, settings, controller)
+    return loaded, engine, loaded.mission.name
+
+
+def _row_of(
+    study: str | None, row: int | None, settings: tuple[str, ...], mission: str | None, controller: Controller | None
+) -> tuple[Mission, str, str]:
+    """The mission, the engine and the name of a row of a study.
+
+    Raises:
+        InputError: there is no such study or row, the row is refused, or a mission or controller is given as well.
+    """
+    from tandemlift.studies.study import mission_of_row
+
+    if study is None or row is None:
+        raise InputError("--from STUDY --row N: give both, or neither")
+    if mission is not None or controller is not None:
+        given = f"MISSION {mission}" if mission is not None else "--controller"
+        raise InputError(f"{given}: a row of a study has its own; leave it out with --from")
+    return mission_of_row(Path(study), row, dict(map(parse_setting, settings)))
 
 
 def with_after_crash(settings: tuple[str, ...], seconds: float | None) -> tuple[str, ...]:

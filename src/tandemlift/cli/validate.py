@@ -46,8 +46,8 @@ def validate(engine: str, draws: int | None, chapters: tuple[str, ...], out: str
       3   with --strict: a flight has findings, and all targets are met
     """
     from tandemlift.engines.registry import engine_named
-    from tandemlift.studies.census import Census
-    from tandemlift.studies.validation import Bench, chosen, rows_of, table
+    from tandemlift.studies.validation.census import Census
+    from tandemlift.studies.validation.chapters import Bench, chosen, rows_of, table
 
     engine_named(engine)
     names = chosen(list(chapters))

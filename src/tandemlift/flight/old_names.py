@@ -6,6 +6,7 @@ This is the only place that knows an old name. Whatever takes names from outside
 
 from __future__ import annotations
 
+import functools
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
@@ -122,6 +123,7 @@ def _at(key: str) -> _At:
     return at
 
 
+@functools.lru_cache(maxsize=1024)
 def renamed_key(key: str) -> str:
     """A dotted key of a mission by its new name; numbers in it, which pick entries of lists, stay."""
     names = iter(_at(key).now)
@@ -149,7 +151,7 @@ def renamed_setting(key: str, value: Any) -> tuple[str, Any, list[str]]:
     """
     new = renamed_key(key)
     notices = [] if new == key else [_notice(key, new)]
-    return new, _renamed(value, _at(key), notices), notices
+    return new, _renamed(value, _at(key), notices) if isinstance(value, (str, list, Mapping)) else value, notices
 
 
 def renamed_channels(channels: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:

@@ -6,7 +6,7 @@ else is replaced, and another `controller.name` starts from that controller's de
 
 from tandemlift.missions.checking import changed, check, in_turn
 from tandemlift.missions.files import DATA, built_in
-from tandemlift.missions.loading import load_mission
+from tandemlift.missions.loading import MissionTemplate, load_mission
 from tandemlift.missions.values import merge
 from tandemlift.missions.writing import format_toml, tables_of, to_toml
 from tandemlift.settings import Mission
@@ -14,6 +14,7 @@ from tandemlift.settings import Mission
 __all__ = [
     "DATA",
     "Mission",
+    "MissionTemplate",
     "built_in",
     "changed",
     "check",

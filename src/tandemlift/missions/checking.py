@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import BaseModel, ValidationError
 
@@ -21,26 +21,77 @@ from tandemlift.settings import ControllerTable, Mission
 MAX_PROBLEMS = 8  # reported at once
 
 
-def check(tables: Tables, source: str = "mission", layers: Sequence[Layer] = ()) -> Mission:
-    """A checked mission from nested tables; `source` names them in messages, `layers` the files that they are from.
+class Checked(NamedTuple):
+    """Nested tables that have the right keys and types, and the mission that they are."""
+
+    tables: Tables
+    mission: Mission
+
+
+def as_checked(tables: Tables) -> Checked | None:
+    """Tables with the mission that they are; None if a key of theirs is missing or wrong."""
+    mission, problems = _mission_of(tables, None)
+    return None if problems else Checked(tables, mission)
+
+
+def check(
+    tables: Tables,
+    source: str = "mission",
+    layers: Sequence[Layer] = (),
+    *,
+    known: Checked | None = None,
+    quiet: bool = False,
+) -> Mission:
+    """A checked mission from nested tables.
+
+    Args:
+        tables: of the mission.
+        source: names them in messages.
+        layers: the files that they are from.
+        known: tables checked before: what `tables` shares with them, the very same objects, is not checked again.
+        quiet: leave out the warnings of what may fly badly.
 
     Raises:
         InputError: something is missing, unknown, of the wrong type, out of range, or cannot fly.
     """
-    checked, problems = dict(tables), list[Problem]()
-    table = tables.get("controller")
-    if isinstance(table, dict):
-        checked["controller"], problems = _controller(table, tables)
-    mission, more = _validated(Mission, checked, tables, ())
-    if problems := problems + more:
+    mission, problems = _mission_of(tables, known)
+    if problems:
         _refuse(problems, tables, source, layers)
     try:
         check_flyable(mission)
         list(in_turn(mission))
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
-    warn(mission, source)
+    if not quiet:
+        warn(mission, source)
     return mission
+
+
+def _mission_of(tables: Tables, known: Checked | None) -> tuple[Any, list[Problem]]:
+    """The mission of tables that have the right keys and types, or what is wrong with them."""
+    checked, problems = dict(tables), list[Problem]()
+    if known is not None:
+        checked = {key: _reused(tables[key], known, key) for key in tables}
+    if isinstance(checked.get("controller"), dict):
+        checked["controller"], problems = _controller(checked["controller"], tables)
+    mission, more = _validated(Mission, checked, tables, ())
+    return mission, problems + more
+
+
+def _reused(new: Any, known: Checked, key: str) -> Any:
+    """A table, or a list of tables; what was checked before is replaced by the table that it became."""
+    old, made = known.tables.get(key), getattr(known.mission, str(key), None)
+    if isinstance(new, dict) and new is old and isinstance(made, BaseModel):
+        return new if isinstance(made, ControllerTable) and not _is_registered(made) else made
+    if isinstance(new, list) and isinstance(old, list) and isinstance(made, tuple):
+        tables = {id(before): table for before, table in zip(old, made, strict=True)}
+        return [tables.get(id(entry), entry) for entry in new]
+    return new
+
+
+def _is_registered(table: ControllerTable) -> bool:
+    """Whether a controller's settings are those of the controller that has its name now."""
+    return table.name in CONTROLLERS and type(table) is CONTROLLERS[table.name].settings
 
 
 def changed(mission: Mission, key: str, value: Any) -> Mission:

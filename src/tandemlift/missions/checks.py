@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from tandemlift.common.caching import kept
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.sensors import ADDITIONAL
 from tandemlift.missions.flight_checks.schedule import check_heights
@@ -17,7 +18,7 @@ from tandemlift.missions.person_checks import check_person, person_warnings
 from tandemlift.missions.supervision_checks import check_supervision
 from tandemlift.missions.surroundings_checks import check_surroundings, surroundings_warnings
 from tandemlift.missions.values import shown
-from tandemlift.settings import Mission
+from tandemlift.settings import Mission, VehicleTable
 from tandemlift.settings.outcomes import promise_of
 from tandemlift.vehicle import Vehicle
 
@@ -34,7 +35,7 @@ def check_flyable(m: Mission) -> None:
         InputError: with the key, its value and what is allowed.
     """
     _check_times(m)
-    _check_vehicle(m)
+    _check_vehicle(m.vehicle, m.allocation.weights)
     _check_admittance(m)
     check_hardware(m)
     check_surroundings(m)
@@ -82,13 +83,14 @@ def _check_times(m: Mission) -> None:
         raise InputError(f"phases.land_start = {phases.land_start}: {limit}")
 
 
-def _check_vehicle(m: Mission) -> None:
-    """Refuse a vehicle that cannot be computed with."""
-    vehicle = Vehicle.from_settings(m.vehicle)
+@kept
+def _check_vehicle(table: VehicleTable, weights: tuple[tuple[float, ...], ...]) -> None:
+    """Refuse a vehicle that cannot be computed with, or an allocation that loses the wrench."""
+    vehicle = Vehicle.from_settings(table)
     try:
         with np.errstate(all="ignore"):
             moments = np.linalg.eigvalsh(vehicle.inertia)
-            both = vehicle.effect @ vehicle.allocation(m.allocation.weights)
+            both = vehicle.effect @ vehicle.allocation(weights)
             sound = math.isfinite(vehicle.max_thrust) and moments[0] > LEAST_RATIO * moments[-1]
     except (OverflowError, np.linalg.LinAlgError):
         sound, both = False, np.eye(4)
@@ -96,9 +98,10 @@ def _check_vehicle(m: Mission) -> None:
         raise InputError(
             "vehicle: masses, moments of inertia or positions are too large or too far apart to compute with"
         )
-    if not np.allclose(both, np.eye(4), rtol=0.0, atol=PRECISION):
-        given = shown(m.allocation.weights)
-        raise InputError(f"allocation.weights = {given}: must not be so far apart, or the wrench is lost in rounding")
+    if not np.all(np.abs(both - np.eye(4)) <= PRECISION):
+        raise InputError(
+            f"allocation.weights = {shown(weights)}: must not be so far apart, or the wrench is lost in rounding"
+        )
 
 
 def _check_admittance(m: Mission) -> None:

@@ -83,7 +83,13 @@ def overlay(base: Tables, changes: Tables) -> Tables:
     return merge(base, changes)
 
 
-def layers_of(path: Path, seen: tuple[Path, ...] = ()) -> Iterator[Layer]:
+def _identity(path: Path) -> tuple[int, int]:
+    """What a file has alone, whatever path leads to it: its device and its number there."""
+    status = path.stat()
+    return status.st_dev, status.st_ino
+
+
+def layers_of(path: Path, seen: tuple[tuple[int, int], ...] = ()) -> Iterator[Layer]:
     """What the file says, after what the missions say that it extends."""
     tables = _read(path)
     parent = tables.pop("extends", None)
@@ -92,11 +98,12 @@ def layers_of(path: Path, seen: tuple[Path, ...] = ()) -> Iterator[Layer]:
             if not isinstance(parent, str):
                 raise InputError("must be the name of a built-in mission or a path, in quotes")
             above = path_of(parent, path.parent)
-            if above.resolve() in (*seen, path.resolve()):
+            seen = *seen, _identity(path)
+            if _identity(above) in seen:
                 raise InputError("comes back to a file that extends it")
         except InputError as error:
             raise InputError(f"{path}: extends = {shown(parent)}: {error}") from None
-        yield from layers_of(above, (*seen, path.resolve()))
+        yield from layers_of(above, seen)
     yield Layer(path.stem if path.parent == DATA / "missions" else str(path), _anchored(tables, path.parent))
 
 

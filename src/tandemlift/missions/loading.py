@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from tandemlift.common.errors import InputError
 from tandemlift.controllers import CONTROLLERS, Controller
 from tandemlift.flight.old_names import check_said_once
 from tandemlift.missions.changes import changed_tables
-from tandemlift.missions.checking import check
+from tandemlift.missions.checking import as_checked, check
 from tandemlift.missions.files import Layer, layers_of, overlay, path_of
 from tandemlift.missions.values import Tables, value_at
 from tandemlift.settings import Mission
@@ -42,12 +43,73 @@ def load_mission(
     Raises:
         InputError: the mission does not exist, cannot be read or cannot be flown; the message says what is allowed.
     """
-    try:
+    with _named(name):
         tables, layers = read_tables(name, controller)
-        check_said_once(changes or ())
-        for key, value in (changes or {}).items():
-            tables = changed_tables(tables, key, value, layers[-1].source)
-        return check(tables, layers[-1].source, layers)
+        return check(_with_changes(tables, changes or {}, layers), layers[-1].source, layers)
+
+
+class MissionTemplate:
+    """Many missions of the same tables, each with a few changes; what they share is checked only once.
+
+    Args:
+        tables: from `read_tables`.
+        layers: that the tables are from; their last source names the mission in messages.
+        changes: values by dotted key that all missions have.
+        quiet: leave out the warnings of what may fly badly, for those who have seen them.
+
+    Raises:
+        InputError: a change has no place in the tables.
+    """
+
+    def __init__(
+        self,
+        tables: Tables,
+        layers: Sequence[Layer],
+        changes: Mapping[str, Any] | None = None,
+        *,
+        quiet: bool = False,
+    ) -> None:
+        self.changes, self.quiet = dict(changes or {}), quiet
+        self._layers, self._own = layers, tables
+        self._common = _with_changes(self._own, self.changes, self._layers)
+        self._known = as_checked(self._common)
+
+    @classmethod
+    def read(
+        cls,
+        name: str | os.PathLike[str],
+        changes: Mapping[str, Any] | None = None,
+        *,
+        controller: Controller | str | None = None,
+        quiet: bool = False,
+    ) -> MissionTemplate:
+        """The template of a built-in mission or a TOML file; arguments as for `load_mission`.
+
+        Raises:
+            InputError: the file does not exist or cannot be read, or a change has no place in it.
+        """
+        with _named(name):
+            return cls(*read_tables(name, controller), changes, quiet=quiet)
+
+    def mission(self, changes: Mapping[str, Any]) -> Mission:
+        """The mission that `load_mission` gives with the common changes and these.
+
+        Raises:
+            InputError: as by `load_mission`.
+        """
+        layers, again = self._layers, not self.changes.keys().isdisjoint(changes)
+        with _named(self._layers[-1].source):
+            check_said_once({**self.changes, **changes})
+            tables = self._own if again else self._common
+            tables = _with_changes(tables, {**self.changes, **changes} if again else changes, layers)
+            return check(tables, layers[-1].source, layers, known=self._known, quiet=self.quiet)
+
+
+@contextmanager
+def _named(name: str | os.PathLike[str]) -> Iterator[None]:
+    """Within it, a file that cannot be read or is nested too deeply is refused by its name."""
+    try:
+        yield
     except RecursionError:
         raise InputError(f"{name} is not a mission: nested too deeply") from None
     except OSError as error:
@@ -76,3 +138,11 @@ def read_tables(
             raise InputError(f"controller {chosen!r} is not the one registered last by that name; load it again")
         tables = {**tables, "controller": _last_said_of(chosen, folded)}
     return tables, layers
+
+
+def _with_changes(tables: Tables, changes: Mapping[str, Any], layers: Sequence[Layer]) -> Tables:
+    """Tables with values by dotted key set, one after the other."""
+    check_said_once(changes)
+    for key, value in changes.items():
+        tables = changed_tables(tables, key, value, layers[-1].source)
+    return tables

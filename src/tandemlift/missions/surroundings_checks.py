@@ -10,6 +10,7 @@ import numpy as np
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import vec3
+from tandemlift.common.caching import kept
 from tandemlift.common.errors import InputError
 from tandemlift.common.outcomes import HARD
 from tandemlift.laws.contact.feet import Floor, floor, sinkage_of, sole_positions, standing_height
@@ -18,8 +19,9 @@ from tandemlift.laws.contact.wall_geometry import offset, wall
 from tandemlift.laws.mechanics.rotation import rotation_from_euler
 from tandemlift.laws.mechanics.turbulence import FOOT, HIGHEST, LOWEST
 from tandemlift.missions.values import shown
-from tandemlift.settings import Mission
+from tandemlift.settings import Mission, VehicleTable
 from tandemlift.settings.corridor import SHORTEST
+from tandemlift.settings.surroundings import GroundTable
 from tandemlift.vehicle import Vehicle
 
 DEEP = 0.02  # m, of feet in the floor at the start
@@ -82,15 +84,21 @@ def _check_start(m: Mission) -> None:
 
 def standing_of(m: Mission) -> Standing:
     """How the vehicle stands on the floor of a mission."""
-    vehicle, fleet = Vehicle.from_settings(m.vehicle), m.vehicle.quadrotors
-    mass, z = vehicle.mass * m.plant.mass_scale, m.initial.position[2]
+    return _standing(m.vehicle, m.ground, m.plant.mass_scale, m.mission.step, m.initial.position[2], m.initial.euler)
+
+
+@kept
+def _standing(
+    table: VehicleTable, g: GroundTable, mass_scale: float, step: float, z: float, euler: tuple[float, float, float]
+) -> Standing:
+    vehicle, fleet = Vehicle.from_settings(table), table.quadrotors
+    mass = vehicle.mass * mass_scale
     soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
-    g = m.ground
-    shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=m.mission.step)
-    built = floor(soles, mass, vehicle.inertia, m.mission.step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
+    shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
+    built = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
     stands, sinkage = standing_height(built, mass * GRAVITY), sinkage_of(built, mass * GRAVITY)
     height = z - stands if g.height is None else g.height
-    R = rotation_from_euler(vec3(m.initial.euler))
+    R = rotation_from_euler(vec3(euler))
     lowest = z + min(float((soles @ np.array(R.z)).min()), lowest_of_hull(shapes, R))
     return Standing(built._replace(height=height), height + stands, sinkage, height - lowest - sinkage)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
@@ -40,10 +41,17 @@ class Table(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _lists_as_tuples(cls, data: Any) -> Any:
-        kinds = {name: (field.annotation, *get_args(field.annotation)) for name, field in cls.model_fields.items()}
-        tuples = {name for name, options in kinds.items() if any(get_origin(o) is tuple for o in options)}
-        items = data.items() if isinstance(data, dict) else ()
-        return {k: tuple(v) if k in tuples and isinstance(v, list) else v for k, v in items} or data
+        if not isinstance(data, dict):
+            return data
+        listed = {name: tuple(data[name]) for name in _tuples_of(cls) if isinstance(data.get(name), list)}
+        return {**data, **listed} if listed else data
+
+
+@functools.lru_cache(maxsize=256)
+def _tuples_of(table: type[BaseModel]) -> tuple[str, ...]:
+    """The keys of a table that hold tuples; kept, because every mission asks it of every table."""
+    kinds = {name: (field.annotation, *get_args(field.annotation)) for name, field in table.model_fields.items()}
+    return tuple(name for name, options in kinds.items() if any(get_origin(o) is tuple for o in options))
 
 
 def is_number(value: Any) -> bool:

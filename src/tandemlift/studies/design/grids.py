@@ -30,14 +30,14 @@ class Range(Table):
         if self.low >= self.high:
             raise must("range", f"have low = {self.low:g} below high = {self.high:g}")
         if self.spacing == "log" and self.low <= 0.0:
-            raise must("range", f"have low above 0 for spacing = \"log\", not {self.low:g}")
+            raise must("range", f"have low above 0 for spacing = 'log', not {self.low:g}")
         return self
 
     @property
     def values(self) -> list[float]:
         """The values, ends exact."""
         if self.spacing == "linear":
-            return np.linspace(self.low, self.high, self.count).tolist()  # type: ignore[no-any-return]
+            return np.linspace(self.low, self.high, self.count).tolist()
         inner = np.exp(np.linspace(np.log(self.low), np.log(self.high), self.count)).tolist()[1:-1]
         return [self.low, *inner, self.high]
 

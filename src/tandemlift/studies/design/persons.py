@@ -25,9 +25,7 @@ LONGER = 1.6  # times the mission's duration
 def random_person() -> Drawn:
     """The distributions of a random person."""
     return {
-        **{
-            f"person.{key}": Uniform(distribution="uniform", low=0.7, high=1.3, relative=True) for key in SCALED
-        },
+        **{f"person.{key}": Uniform(distribution="uniform", low=0.7, high=1.3, relative=True) for key in SCALED},
         "person.delay": Uniform(distribution="uniform", low=0.1, high=0.3, step=0.02),
         "person.tremor": Uniform(distribution="uniform", low=0.0, high=0.1),
         GRIP: Uniform(distribution="uniform", low=-1.0, high=1.0),

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.common.errors import InputError
 from tandemlift.missions import tables_of
+from tandemlift.missions.loading import MissionTemplate
 from tandemlift.missions.values import MISSING, Tables, value_at
 from tandemlift.settings import Mission
 from tandemlift.studies.design.draws import Drawn, dimensions_of, drawn_keys, values_at
@@ -60,6 +61,7 @@ class StudyPlan:
         self.common = changes_in(settings.set)
         self.cases: tuple[CaseTable, ...] = settings.cases or (CaseTable.model_construct(name="", set={}),)
         self.grid, self.drawn = grid_axes(tables), drawn_keys(tables)
+        self.persons: Drawn = {}
         self._check_said_once()
         if settings.study.persons == "random":
             self._add_persons()
@@ -89,17 +91,23 @@ class StudyPlan:
 
     def _add_persons(self) -> None:
         for variant in self.variants:
-            check_has_person(variant.load(self.common))
+            check_has_person(variant.template(self.common).mission({}))
         own = random_person()
         self.persons = {key: distribution for key, distribution in own.items() if key not in self.drawn}
-        self.drawn: Drawn = {**self.drawn, **self.persons}
+        self.drawn = {**self.drawn, **self.persons}
 
     @property
     def sizes(self) -> str:
         """What the number of rows is the product of, in words."""
-        axes = " x ".join(f"{len(values)} of {key}" for key, values in self.grid.items())
-        parts = [f"{len(self.variants)} of mission, controller and engine", f"{len(self.cases)} cases"]
-        return " x ".join([*parts, *([axes] if axes else []), f"{self.point_count} draws", f"{self._seeds} seeds"])
+        axes = [(len(values), f"of {key}") for key, values in self.grid.items()]
+        counts = [
+            (len(self.variants), "missions, controllers and engines"),
+            (len(self.cases), "cases"),
+            *axes,
+            (self.point_count, "draws"),
+            (self._seeds, "seeds"),
+        ]
+        return " x ".join(f"{count:,} {what}" for count, what in counts if count > 1) or "one flight"
 
     @property
     def _seeds(self) -> int:
@@ -115,9 +123,13 @@ class StudyPlan:
         return list(self.grid.values())
 
     @cached_property
+    def _templates(self) -> list[MissionTemplate]:
+        return [variant.template(self.common) for variant in self.variants]
+
+    @cached_property
     def _own(self) -> list[tuple[Mission, Tables]]:
         """The mission of each variant, with the changes of `[set]`, and its tables."""
-        loaded = [variant.load(self.common) for variant in self.variants]
+        loaded = [template.mission({}) for template in self._templates]
         return [(mission, tables_of(mission)) for mission in loaded]
 
     def rows(self, first: int, last: int) -> list[StudyRow]:
@@ -177,7 +189,7 @@ class StudyPlan:
         Raises:
             InputError: it cannot be flown: the row is refused.
         """
-        return self.variants[row.variant].load(row.changes)
+        return self._templates[row.variant].mission(row.changes)
 
     @cached_property
     def varied(self) -> tuple[str, ...]:
@@ -220,4 +232,6 @@ def _times(own: Any, factor: Any, key: str, mission: str) -> Any:
     elif isinstance(own, (int, float)) and not isinstance(own, bool) and not isinstance(factor, list):
         return own * factor
     what = "is not set" if own is MISSING else f"= {own!r}"
-    raise InputError(f"draw.{key}: relative = true, but in mission {mission} the key {what}; it must be as many numbers")
+    raise InputError(
+        f"draw.{key}: relative = true, but in mission {mission} the key {what}; it must be as many numbers"
+    )

@@ -25,6 +25,12 @@ def _name(name: str) -> str:
     return name
 
 
+def _words(name: str) -> str:
+    if not re.fullmatch(r"\S(.{0,62}\S)?", name) or not name.isprintable():
+        raise must("name", "be 1 to 64 characters on one line, the first and the last no spaces")
+    return name
+
+
 def _different(values: tuple[Any, ...]) -> tuple[Any, ...]:
     if len(set(values)) < len(values):
         raise must("different", "be without repetition")
@@ -85,7 +91,10 @@ class StudyTable(Table):
     seeds: Count = key(1, "1", "flights of each point, with different mission.seed: noise, wind, tremor")
     seed: Annotated[int, Field(ge=0, le=10**18)] = key(0, "1", "seed of the points, and first mission.seed")
     rows_per_unit: Annotated[int, Field(ge=1, le=1_000_000)] | None = key(
-        None, "1", "flights in one file of results", unset=f"{ROWS_PER_UNIT}; fewer for a small study, more for one beyond {ROWS_PER_UNIT * MOST_UNITS} rows"
+        None,
+        "1",
+        "flights in one file of results",
+        unset="256; fewer for a small study, more for one of millions of rows",
     )
 
 
@@ -98,8 +107,11 @@ def default_rows_per_unit(count: int) -> int:
 class CaseTable(Table):
     """`[[cases]]`: a named set of changes of the mission."""
 
-    name: Name = key(..., None, "name of the case", example="calm")
+    name: Annotated[str, AfterValidator(_words)] = key(..., None, "name of the case", example="calm")
     set: dict[str, Any] = key({}, None, "changes of the mission, as in `[set]`")
+    targets: dict[str, Any] = key(
+        {}, None, "for `tandemlift tune`: what metrics should come to in this case, by their names in metrics.json"
+    )
 
 
 class KeepTable(Table):
@@ -122,8 +134,8 @@ class StudySettings(Table):
     """A study file; `[set]`, `[grid]` and `[draw]` hold keys of missions."""
 
     study: StudyTable
-    set: dict[str, Any] = {}
+    set: dict[str, Any] = Field({})
     cases: tuple[CaseTable, ...] = ()
-    grid: dict[str, Any] = {}
-    draw: dict[str, Any] = {}
+    grid: dict[str, Any] = Field({})
+    draw: dict[str, Any] = Field({})
     keep: KeepTable = KeepTable()

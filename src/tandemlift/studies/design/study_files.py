@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from tandemlift.common.errors import InputError
+from tandemlift.missions.changes import changed_tables
 from tandemlift.missions.files import MAX_FILE
 from tandemlift.missions.refusals import problems_in
 from tandemlift.studies.design.plan import StudyPlan
@@ -18,25 +19,27 @@ from tandemlift.studies.design.settings import StudySettings
 from tandemlift.studies.design.variants import variants_of
 
 
-def load_plan(study: str | os.PathLike[str] | Mapping[str, Any]) -> StudyPlan:
+def load_plan(study: str | os.PathLike[str] | Mapping[str, Any], changes: Mapping[str, Any] | None = None) -> StudyPlan:
     """The plan of a study.
 
     Args:
         study: path of a study file, or its tables.
+        changes: values of the study's keys by dotted key, such as {"study.draws": 1000}.
 
     Raises:
         InputError: the file cannot be read, or is not a study that can be flown.
     """
     if isinstance(study, Mapping):
-        settings, folder = checked_settings(dict(study), "study"), Path()
+        source, folder, tables = "study", Path(), dict(study)
     else:
-        path = Path(study)
-        settings, folder = checked_settings(_read(path), str(path)), path.parent
+        source, folder, tables = str(study), Path(study).parent, _read(Path(study))
+    for key, value in (changes or {}).items():
+        tables = changed_tables(tables, key, value, source)
+    settings = checked_settings(tables, source)
     try:
         plan = StudyPlan(settings, variants_of(settings.study, folder))
         plan.check()
     except InputError as error:
-        source = "study" if isinstance(study, Mapping) else str(study)
         raise InputError(f"{source}: {error}") from None
     return plan
 

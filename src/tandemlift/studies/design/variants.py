@@ -16,16 +16,22 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.common.files import atomic_write
 from tandemlift.controllers import controller, file_of, load_controller
 from tandemlift.engines.registry import engine_named
 from tandemlift.missions import check
-from tandemlift.missions.changes import changed_tables
-from tandemlift.missions.loading import read_tables
+from tandemlift.missions.files import Layer
+from tandemlift.missions.loading import MissionTemplate, read_tables
 from tandemlift.missions.values import Tables, merge, value_at
-from tandemlift.settings import Mission
 from tandemlift.studies.design.settings import StudyTable
 
 RECORDING = ("person", "recording")
+
+
+def variant_from(said: Mapping[str, Any]) -> Variant:
+    """A variant from what JSON makes of it."""
+    files: dict[str, Any] = {key: tuple(said[key]) for key in ("controller_file", "recording")}
+    return Variant(said["mission"], said["controller"], said["engine"], said["tables"], **files)
 
 
 class Variant(NamedTuple):
@@ -47,18 +53,13 @@ class Variant(NamedTuple):
     controller_file: tuple[str, ...] = ()
     recording: tuple[str, ...] = ()
 
-    def load(self, changes: Mapping[str, Any]) -> Mission:
-        """The mission with changes, by dotted key. Warnings are left out: a study has its table of findings instead.
+    def template(self, changes: Mapping[str, Any] | None = None) -> MissionTemplate:
+        """Forms missions of this variant, with changes that all have; without warnings, because findings are counted.
 
         Raises:
-            InputError: there is no such mission; the message says what is allowed.
+            InputError: the controller's file fails, or a change has no place in the mission.
         """
-        tables = self._tables()
-        for key, value in changes.items():
-            tables = changed_tables(tables, key, value, self.mission)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", FlightWarning)
-            return check(tables, self.mission)
+        return MissionTemplate(self._tables(), [Layer(self.mission, self.tables)], changes, quiet=True)
 
     def _tables(self) -> Tables:
         """The tables on this machine."""
@@ -76,8 +77,6 @@ def _written(name: str, content: str, *, coded: bool = False) -> Path:
     data = base64.b64decode(content) if coded else content.encode()
     path = Path(tempfile.gettempdir()) / f"tandemlift-{hashlib.sha256(data).hexdigest()[:16]}" / Path(name).name
     if not path.exists() or path.read_bytes() != data:
-        from tandemlift.common.files import atomic_write
-
         with atomic_write(path) as partial:
             partial.write_bytes(data)
     return path

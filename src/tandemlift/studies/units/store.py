@@ -10,20 +10,20 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
 from tandemlift.missions import format_toml
 from tandemlift.missions.values import shown
 from tandemlift.studies.design.keys import leaves_of
-from tandemlift.studies.design.packages import parquet
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.study_files import checked_settings
-from tandemlift.studies.design.variants import Variant
+from tandemlift.studies.design.variants import variant_from
 from tandemlift.studies.units.columns import Columns, write_columns
 from tandemlift.studies.units.unit import sources_digest, study_digest, unit_names
 
 STUDY, PLAN, UNITS = "study.toml", "study.json", "units"
 FORMAT = 1
-LEFT_OVER = 3600.0  # s, after which a half-written file is nobody's
+LEFT_OVER = 3600.0  # s, after which a half-written file, or a claim, is nobody's
 
 
 class StudyFolder:
@@ -50,10 +50,7 @@ class StudyFolder:
 
     def plan(self) -> StudyPlan:
         """The plan, from what the folder holds alone."""
-        variants = [
-            Variant(**{key: tuple(value) if isinstance(value, list) else value for key, value in said.items()})
-            for said in self._said["variants"]
-        ]
+        variants = [variant_from(said) for said in self._said["variants"]]
         return StudyPlan(checked_settings(self._said["settings"], str(self.path / PLAN)), variants)
 
     def names(self) -> list[str]:
@@ -65,17 +62,49 @@ class StudyFolder:
         return self.path / UNITS / f"{name}.parquet"
 
     def is_flown(self, name: str) -> bool:
-        """Whether a unit's file is there, and whole; one that was cut short is removed."""
+        """Whether a unit's file is there, and whole; one that was cut short is written anew when the unit is flown.
+
+        Raises:
+            InputError: there is a file that this process cannot read.
+        """
         path = self.file(name)
         if not path.exists():
             return False
+        with extra("study", "a study"):
+            from pyarrow import parquet
         try:
-            parquet().read_metadata(path)
-        except Exception:  # whatever a broken file leads to
-            with contextlib.suppress(FileNotFoundError):
-                path.unlink()
+            parquet.read_metadata(path)
+        except FileNotFoundError:
+            return False
+        except (OSError, ValueError) as error:  # one without a number says that it is no Parquet file
+            if getattr(error, "errno", None) is not None:
+                raise InputError(f"{path}: cannot be read: {getattr(error, 'strerror', error)}") from None
             return False
         return True
+
+    def claim(self, name: str) -> bool:
+        """Say that a unit is flown here; False if a process says so already, or said so and was killed.
+
+        Processes that share the folder take each other's claims as advice: they fly other units first.
+
+        Raises:
+            InputError: the folder cannot be written to.
+        """
+        try:
+            self._claim_file(name).touch(exist_ok=False)
+        except FileExistsError:
+            return False
+        except OSError as error:
+            raise InputError(f"{self.path}: cannot be written to: {error.strerror or error}") from None
+        return True
+
+    def release(self, name: str) -> None:
+        """Take back that a unit is flown here."""
+        with contextlib.suppress(OSError):
+            self._claim_file(name).unlink()
+
+    def _claim_file(self, name: str) -> Path:
+        return self.path / UNITS / f".{name}.claim"
 
     def flown(self) -> Iterator[tuple[str, Path]]:
         """The units whose files are there, in order: names and files."""
@@ -95,8 +124,8 @@ class StudyFolder:
         write_columns(columns, self.file(name), about)
 
     def clean(self) -> None:
-        """Remove half-written files that processes have left behind that were killed."""
-        for path in (self.path / UNITS).glob(".*.partial"):
+        """Remove the half-written files and the claims of processes that were killed."""
+        for path in (self.path / UNITS).glob(".*"):
             with contextlib.suppress(OSError):
                 if time.time() - path.stat().st_mtime > LEFT_OVER:
                     path.unlink()
@@ -108,6 +137,8 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     Raises:
         InputError: the folder holds another study, or cannot be made or written to.
     """
+    with extra("study", "a study"):  # before anything flies
+        import pyarrow  # noqa: F401
     digest = study_digest(plan)
     if (path / PLAN).exists():
         folder = StudyFolder(path)

@@ -1,8 +1,8 @@
 """The census of a study counts flights by outcome and by the kinds of their findings."""
 
 import tandemlift as tl
-from tandemlift.studies.census import Census
-from tandemlift.studies.scenarios import Bench
+from tandemlift.studies.validation.census import Census
+from tandemlift.studies.validation.scenarios import Bench
 
 
 def test_flights_are_counted_once_each_whatever_their_findings():

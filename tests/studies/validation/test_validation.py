@@ -9,10 +9,10 @@ import tandemlift as tl
 from tandemlift.cli.main import cli
 from tandemlift.flight.record import Flight
 from tandemlift.missions import tables_of
-from tandemlift.studies.persons import random_persons
-from tandemlift.studies.rows import below, true_yielding
-from tandemlift.studies.scenarios import WINDY, drawn, mission
-from tandemlift.studies.validation import CHAPTERS, Row, chosen, table
+from tandemlift.studies.validation.chapters import CHAPTERS, Row, chosen, table
+from tandemlift.studies.validation.persons import random_persons
+from tandemlift.studies.validation.rows import below, true_yielding
+from tandemlift.studies.validation.scenarios import WINDY, drawn, mission
 
 
 def test_a_row_is_met_if_no_number_exceeds_its_limit():

@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from tandemlift.common.errors import InputError, unknown
-from tandemlift.studies import compliance, contacts, persons, rotor_losses, tracking, triggers
-from tandemlift.studies.rows import Row
-from tandemlift.studies.scenarios import Bench
+from tandemlift.studies.validation import compliance, contacts, persons, rotor_losses, tracking, triggers
+from tandemlift.studies.validation.rows import Row
+from tandemlift.studies.validation.scenarios import Bench
 
 __all__ = ["CHAPTERS", "Bench", "Chapter", "Row", "chosen", "rows_of", "table"]
 

@@ -1,0 +1,1 @@
+"""Reading a study: its table, statistics of its rows, and what its results depend on."""

@@ -1,0 +1,41 @@
+"""Small studies, flown: what several tests read."""
+
+import shutil
+from pathlib import Path
+
+from tandemlift.studies.design.study_files import load_plan
+from tandemlift.studies.reading.table import load_study
+from tandemlift.studies.units.anywhere import fly_study
+from tandemlift.studies.units.store import open_folder
+
+DRAWN = {"distribution": "uniform", "low": 0.9, "high": 1.2}
+GUSTS = {
+    "study": {
+        "name": "gusts",
+        "missions": ["one-push"],
+        "controllers": ["nftsmc", "pid"],
+        "draws": 6,
+        "seeds": 2,
+        "rows_per_unit": 20,
+    },
+    "set": {"mission.duration": 1.0},
+    "cases": [{"name": "calm"}, {"name": "turned", "set": {"mission.duration": 1.5}}],
+    "grid": {"admittance.damping": [5.0, 10.0, 20.0]},
+    "draw": {"plant.mass_scale": DRAWN, "pushes.0.force": {"distribution": "horizontal", "low": 1.0, "high": 3.0}},
+    "keep": {"channels": ["position"], "rows": [3]},
+}
+"""144 rows in 8 files: 2 controllers x 2 cases x 3 grid points x 6 draws x 2 seeds."""
+
+
+def flown(tables, folder: Path):
+    """A study, flown into a folder and loaded."""
+    plan = load_plan(tables)
+    fly_study(plan, open_folder(plan, folder), threads=2)
+    return load_study(folder)
+
+
+def without_file(study, number: int, folder: Path):
+    """A copy of a study in another folder, in which one of its files is missing."""
+    shutil.copytree(study.folder, folder)
+    (folder / study.files[number].path.relative_to(study.folder)).unlink()
+    return load_study(folder)
