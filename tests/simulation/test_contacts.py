@@ -12,7 +12,7 @@ from tandemlift.common.phases import CONTACT
 from tandemlift.laws.estimation.contact_detection import ContactEstimate
 from tandemlift.laws.guidance.contact_hold import code_of
 from tandemlift.simulation.contact_texts import contact_codes, describe_contact
-from tandemlift.studies.contacts import (
+from tandemlift.studies.validation.contacts import (
     ACROSS,
     KINDS,
     POST,
@@ -25,7 +25,7 @@ from tandemlift.studies.contacts import (
     touch_of,
     touching,
 )
-from tandemlift.studies.persons import random_persons
+from tandemlift.studies.validation.persons import random_persons
 
 pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.common.errors.FlightWarning")
 

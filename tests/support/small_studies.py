@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tandemlift.studies.design.study_files import load_plan
 from tandemlift.studies.reading.table import load_study
-from tandemlift.studies.units.running import run_units
+from tandemlift.studies.units.anywhere import fly_study
 from tandemlift.studies.units.store import open_folder
 
 DRAWN = {"distribution": "uniform", "low": 0.9, "high": 1.2}
@@ -30,7 +30,7 @@ GUSTS = {
 def flown(tables, folder: Path):
     """A study, flown into a folder and loaded."""
     plan = load_plan(tables)
-    run_units(plan, open_folder(plan, folder), workers=2)
+    fly_study(plan, open_folder(plan, folder), threads=2)
     return load_study(folder)
 
 

@@ -30,6 +30,12 @@ from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
 
+DETECTION = ("rotors_taken_for_lost", "rotor_loss_found_after_s")  # metrics with detection of a lost rotor
+OF_ANY_FLIGHT = (  # metrics besides those of `summary`
+    *("final_position_m", "final_reference_m", "command_at_start"),
+    *("outcome", "findings", "failure", "steps", "wall_s", "events"),
+)
+
 
 @dataclass
 class RawResult:
@@ -93,6 +99,18 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
+def metric_names(p: FlightPlan) -> list[str]:
+    """The names of the metrics of a flight, known before it is flown."""
+    empty = p.model.flight_state.metrics
+    detected = DETECTION if not isinstance(p.model.pilot.detection, Nothing) else ()
+    return [*summary(empty, empty, p.dt), *detected, *OF_ANY_FLIGHT]
+
+
+def channel_names(p: FlightPlan) -> list[str]:
+    """The names of the channels of a flight, known before it is flown."""
+    return [name for name, _ in channels_of(p.sample, np.zeros((1, leaves(p.sample))))]
+
+
 def events_of(flight_state: FlightState) -> list[list[Any]]:
     """Events of the supervision, as [time [s], text], in the order of time; none without supervision."""
     supervising = getattr(flight_state.memory.guidance, "supervision", None)
@@ -131,7 +149,7 @@ def _detection_metrics(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     v = memory.verdict
     lost = int(dot(v.lost, detection.numbers))
     times = [f.time for f in p.mission.faults if 4 * (f.quadrotor - 1) + f.rotor == lost]
-    return {"rotors_taken_for_lost": v.named, "rotor_loss_found_after_s": v.since - times[0] if times else None}
+    return dict(zip(DETECTION, (v.named, v.since - times[0] if times else None), strict=True))
 
 
 @cache

@@ -12,7 +12,9 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
 from tandemlift.settings import Mission
 from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.units.running import part_from, run_units
+from tandemlift.studies.reading.table import Study, load_study
+from tandemlift.studies.units.anywhere import fly_study
+from tandemlift.studies.units.running import part_from
 from tandemlift.studies.units.store import StudyFolder, open_folder
 
 
@@ -24,7 +26,7 @@ def study(
     executor: Executor | None = None,
     part: str = "1/1",
     progress: Progress | None = None,
-) -> StudyFolder:
+) -> Study:
     """Fly a study; what its folder already holds is not flown again.
 
     Args:
@@ -36,15 +38,22 @@ def study(
         progress: called with (rows flown, rows in all).
 
     Returns:
-        The study, to be read.
+        The study: its table, and the mission of each row.
 
     Raises:
         InputError: the study cannot be flown, the folder is that of another study, or it cannot be written to.
     """
     plan = load_plan(study)
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
-    run_units(plan, folder, executor=executor, workers=threads, part=part_from(part), progress=progress)
-    return folder
+    fly_study(
+        plan,
+        folder,
+        threads=threads,
+        executor=executor,
+        part=part_from(part),
+        progress=progress,
+    )
+    return load_study(folder.path)
 
 
 def mission_of_row(folder: Path, number: int, changes: Mapping[str, Any] | None = None) -> tuple[Mission, str, str]:

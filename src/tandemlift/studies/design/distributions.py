@@ -11,6 +11,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
+from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
 from tandemlift.settings.key_description import key
 from tandemlift.settings.value_types import Positive, Table, must
@@ -103,11 +104,11 @@ class Normal(Distribution):
 
     def at(self, u: Array) -> Array:
         """Values (n,) at points u (n,)."""
-        from tandemlift.studies.design.packages import scipy_special
-
+        with extra("study", "a normal distribution"):
+            from scipy.special import ndtri
         ends = [self._share(x, otherwise) for x, otherwise in ((self.low, 0.0), (self.high, 1.0))]
         inside = np.clip(ends[0] + (ends[1] - ends[0]) * u, 1e-16, 1.0 - 1e-16)
-        values = self.mean + self.deviation * scipy_special().ndtri(inside)
+        values = self.mean + self.deviation * ndtri(inside)
         return np.clip(values, -np.inf if self.low is None else self.low, np.inf if self.high is None else self.high)
 
     def _share(self, limit: float | None, otherwise: float) -> float:
@@ -143,7 +144,7 @@ class Integer(Distribution):
         return self
 
 
-class Choice(Distribution):
+class Among(Distribution):
     """One of some values, all equally likely."""
 
     distribution: Literal["choice"]
@@ -159,7 +160,7 @@ class Choice(Distribution):
         return [list(row) for row in zip(*parts, strict=True)] if self.count else parts[0]
 
     @model_validator(mode="after")
-    def _is_given(self) -> Choice:
+    def _is_given(self) -> Among:
         if not self.among:
             raise must("range", "have a value among which to choose")
         if self.relative and not all(isinstance(x, (int, float)) and not isinstance(x, bool) for x in self.among):
@@ -190,6 +191,6 @@ DISTRIBUTIONS: dict[str, type[Distribution]] = {
     "log-uniform": LogUniform,
     "normal": Normal,
     "integer": Integer,
-    "choice": Choice,
+    "choice": Among,
     "horizontal": Horizontal,
 }

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import lru_cache
 
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
-from tandemlift.studies.design.packages import salib_sample, scipy_qmc
 from tandemlift.studies.design.settings import Sampling
 
 MOST_NUMBERS = 200_000_000  # of points that must be formed all at once
@@ -65,9 +66,9 @@ def points(sampling: Sampling, draws: int, dimensions: int, seed: int, first: in
 
 
 def _sobol(dimensions: int, seed: int, first: int, last: int) -> Array:
-    import warnings
-
-    sequence = scipy_qmc().Sobol(dimensions, scramble=True, rng=np.random.default_rng(seed))
+    with extra("study", "sampling = 'sobol'"):
+        from scipy.stats.qmc import Sobol
+    sequence = Sobol(dimensions, scramble=True, rng=np.random.default_rng(seed))
     if first:
         sequence.fast_forward(first)
     with warnings.catch_warnings():
@@ -78,9 +79,13 @@ def _sobol(dimensions: int, seed: int, first: int, last: int) -> Array:
 @lru_cache(maxsize=2)
 def _all_at_once(sampling: Sampling, draws: int, dimensions: int, seed: int) -> Array:
     if sampling == "latin-hypercube":
-        found = scipy_qmc().LatinHypercube(dimensions, rng=np.random.default_rng(seed)).random(draws)
+        with extra("study", "sampling = 'latin-hypercube'"):
+            from scipy.stats.qmc import LatinHypercube
+        found = LatinHypercube(dimensions, rng=np.random.default_rng(seed)).random(draws)
     else:
-        found = salib_sample().sample(saltelli_problem(dimensions), draws, calc_second_order=True, seed=seed)
+        with extra("study", "sampling = 'saltelli'"):
+            from SALib.sample import sobol
+        found = sobol.sample(saltelli_problem(dimensions), draws, calc_second_order=True, seed=seed)
     return np.minimum(np.asarray(found, np.float64), LARGEST)
 
 

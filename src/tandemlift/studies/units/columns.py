@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tandemlift.common.errors import InputError, unknown
+import numpy as np
+
+from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Array
+from tandemlift.flight.channels import DERIVED
 from tandemlift.flight.record import Flight
 from tandemlift.studies.design.keys import columns_of
-from tandemlift.studies.design.packages import parquet
 from tandemlift.studies.design.plan import SEED, StudyRow
 from tandemlift.studies.design.settings import REFUSED
 from tandemlift.studies.units.unit import Unit
@@ -32,9 +37,6 @@ def columns_of_rows(unit: Unit, results: Sequence[Result], flights: Mapping[int,
         unit: whose rows these are.
         results: of its rows, in order.
         flights: those of which channels are kept, by the row's number.
-
-    Raises:
-        InputError: a metric or channel that is to be kept does not exist.
     """
     rows = [_row(unit, *result) for result in results]
     for number, flight in flights.items():
@@ -75,19 +77,14 @@ def _row(unit: Unit, row: StudyRow, metrics: Mapping[str, Any] | None, refusal: 
 def _kept(chosen: Sequence[str], metrics: Mapping[str, Any]) -> Iterable[str]:
     """The names of the metrics that go into the table, beside those of `ALWAYS`."""
     known = [name for name in metrics if name not in (*ALWAYS, *NOT_KEPT)]
-    for name in chosen:
-        if name not in known and name not in ALWAYS:
-            raise unknown("metric", name, known)
     return [name for name in known if not chosen or name in chosen]
 
 
-def _channels(flight: Flight, names: Sequence[str]) -> dict[str, list[float]]:
-    """The chosen channels of a flight, row-major, and its time."""
-    for name in names:
-        if name not in flight:
-            raise unknown("channel", name, list(flight.channels))
-    kept = {name: flight[name].ravel().tolist() for name in names}
-    return {f"{CHANNEL}{name}": values for name, values in {"time": flight.time.tolist(), **kept}.items()}
+def _channels(flight: Flight, names: Sequence[str]) -> dict[str, Array]:
+    """The chosen channels that a flight has, row-major, and its time."""
+    has = (*flight, *(name for name, (*both, _) in DERIVED.items() if set(both) <= set(flight)))
+    kept = {name: flight[name].ravel() for name in names if name in has}
+    return {f"{CHANNEL}{name}": values for name, values in {"time": flight.time, **kept}.items()}
 
 
 def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> None:
@@ -101,15 +98,24 @@ def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> Non
     Raises:
         InputError: the file cannot be written: no space left, or no right to.
     """
-    import pyarrow as pa
+    with extra("study", "a study"):
+        import pyarrow as pa
+        from pyarrow import parquet
 
     arrays = {name: _array(pa, name, values) for name, values in columns.items()}
     table = pa.table(arrays).replace_schema_metadata({f"tandemlift.{key}": value for key, value in about.items()})
     try:
         with atomic_write(path) as partial:
-            parquet().write_table(table, partial, compression="zstd")
+            parquet.write_table(table, partial, compression="zstd")
+            _sync(partial)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}; what is done so far stays") from None
+
+
+def _sync(path: Path) -> None:
+    """Wait until the disk has a file: else a power failure may leave its name without all of its content."""
+    with path.open("rb+") as file:
+        os.fsync(file.fileno())
 
 
 def _array(pa: Any, name: str, values: list[Any]) -> Any:
@@ -119,7 +125,7 @@ def _array(pa: Any, name: str, values: list[Any]) -> Any:
         return pa.array(values, pa.int64())
     if known and all(isinstance(value, bool) for value in known):
         return pa.array(values, pa.bool_())
-    if known and all(isinstance(value, list) for value in known):
+    if known and all(isinstance(value, np.ndarray) for value in known):
         return pa.array(values, pa.list_(pa.float64()))
     if known and any(isinstance(value, str) for value in known):
         return pa.array([value if value is None or isinstance(value, str) else json.dumps(value) for value in values])

@@ -1,4 +1,4 @@
-"""Running a study: its units one by one on an executor, those that are flown already left out.
+"""Flying the units of a study, or of other work, one by one on workers; those that are flown already are left out.
 
 Nothing but the files of finished units says what is done. So a study can be stopped, killed, started again and spread
 over processes and machines that share a folder, and gives the same rows.
@@ -6,21 +6,23 @@ over processes and machines that share a folder, and gives the same rows.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
-from contextlib import contextmanager
-from typing import NamedTuple
+from collections import Counter, deque
+from collections.abc import Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from functools import partial
+from typing import Any, NamedTuple, Protocol
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
 from tandemlift.studies.design.plan import StudyPlan
-from tandemlift.studies.units.columns import Columns
+from tandemlift.studies.units.files import UnitFiles
 from tandemlift.studies.units.flying import fly_unit
-from tandemlift.studies.units.store import StudyFolder
 from tandemlift.studies.units.unit import unit_of
+from tandemlift.studies.units.workers import Task, Workers
 
 WAITING = 2  # units handed over for each worker, so that none waits
+BEAT = 1.0  # s, after which progress is told although no unit has ended
+MOST_LOST = 5  # times that a unit is handed over again because its worker ended
 
 
 class Part(NamedTuple):
@@ -40,29 +42,59 @@ def part_from(text: str) -> Part:
         InputError: it has another form.
     """
     number, slash, parts = text.partition("/")
-    if not (slash and number.isdigit() and parts.isdigit() and 1 <= int(number) <= int(parts)):
+    if not (slash and number.isdecimal() and parts.isdecimal() and 1 <= int(number) <= int(parts)):
         raise InputError(f"part = {text!r}: must be K/N with 1 ≤ K ≤ N, such as 3/40")
     return Part(int(number), int(parts))
 
 
+class Work(Protocol):
+    """Units that are flown into files."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Of all units; that of a unit says all that decides its rows."""
+        ...
+
+    def size(self, i: int) -> int:
+        """Number of rows of unit i."""
+        ...
+
+    def task(self, i: int) -> Task:
+        """What flies unit i, on any worker."""
+        ...
+
+
+class StudyWork:
+    """The units of a study.
+
+    Args:
+        plan: of the study.
+        names: of its units.
+    """
+
+    def __init__(self, plan: StudyPlan, names: Sequence[str]) -> None:
+        self.names, self._plan = names, plan
+
+    def size(self, i: int) -> int:
+        """See `Work`."""
+        return min(self._plan.rows_per_unit, self._plan.count - i * self._plan.rows_per_unit)
+
+    def task(self, i: int) -> Task:
+        """See `Work`."""
+        return partial(fly_unit, unit_of(self._plan, i, self.names[i]))
+
+
 def run_units(
-    plan: StudyPlan,
-    folder: StudyFolder,
-    *,
-    executor: Executor | None = None,
-    workers: int | None = None,
-    part: Part = WHOLE,
-    progress: Progress | None = None,
+    work: Work, files: UnitFiles, workers: Workers, part: Part = WHOLE, progress: Progress | None = None
 ) -> int:
     """Fly all units of a part that are not flown yet.
 
     Args:
-        plan: of the study.
-        folder: of the study; receives the files.
-        executor: flies the units; by default, threads of this process.
-        workers: of the executor; by default one for each processor here.
+        work: the units.
+        files: receive what is flown.
+        workers: fly the units.
         part: of the units to fly.
-        progress: called with (rows flown, rows of the part).
+        progress: called with (rows flown, rows of the part), at least every second or so.
 
     Returns:
         Number of units flown.
@@ -70,54 +102,93 @@ def run_units(
     Raises:
         InputError: a unit cannot be flown or written; those that are done stay.
     """
-    workers = workers or os.cpu_count() or 1
-    own = range(part.number - 1, len(folder.names()), part.parts)
-    names = folder.names()
-    sizes = {i: min(plan.rows_per_unit, plan.count - i * plan.rows_per_unit) for i in own}
-    done, total, flown = 0, sum(sizes.values()), 0
-    with _running(executor, workers) as pool:
-        pending: dict[Future[Columns], int] = {}
-        todo = _in_turn(list(own))
-        exhausted = False
-        while pending or not exhausted:
-            while not exhausted and len(pending) < WAITING * workers:
-                i = next(todo, None)
-                if i is None:
-                    exhausted = True
-                elif folder.is_flown(names[i]):
-                    done += sizes[i]
-                else:
-                    pending[pool.submit(fly_unit, unit_of(plan, i, names[i]))] = i
-            if progress:
-                progress(done, total)
-            for future in wait(pending, return_when=FIRST_COMPLETED).done if pending else ():
-                i = pending.pop(future)
-                columns = future.result()
-                if not folder.is_flown(names[i]):
-                    folder.write(names[i], columns)
-                done, flown = done + sizes[i], flown + 1
-        if progress:
-            progress(done, total)
-    return flown
+    return _Run(work, files, workers, part, progress).run()
 
 
-def _in_turn(own: list[int]) -> Iterator[int]:
-    """The units in order, from one on that differs by process: processes on one folder then rarely meet."""
-    start = (os.getpid() * 7919) % len(own) if own else 0
-    yield from own[start:]
-    yield from own[:start]
+class _Run:
+    """A run over the units of a part: those to do, those that others do, and those that are handed over."""
 
+    def __init__(self, work: Work, files: UnitFiles, workers: Workers, part: Part, progress: Progress | None) -> None:
+        self.work, self.files, self.workers, self.progress = work, files, workers, progress
+        self.names = work.names
+        own = range(part.number - 1, len(self.names), part.parts)
+        self.todo = deque(i for i in own if not files.is_flown(self.names[i]))
+        self.others = deque[int]()
+        self.pending = dict[Future[Any], int]()
+        self.lost, self.flown = Counter[int](), 0
+        self.total = sum(map(work.size, own))
+        self.done = self.total - sum(map(work.size, self.todo))
 
-@contextmanager
-def _running(executor: Executor | None, workers: int) -> Iterator[Executor]:
-    """An executor; one of our own threads is left behind on an error, without waiting."""
-    if executor is not None:
-        yield executor
-        return
-    pool = ThreadPoolExecutor(workers)
-    try:
-        yield pool
-    except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
-        raise
-    pool.shutdown()
+    def run(self) -> int:
+        try:
+            self._tell()
+            self._hand_over()
+            while self.pending:
+                for future in wait(self.pending, BEAT, FIRST_COMPLETED).done:
+                    self._take(future)
+                    self._hand_over()
+                self._tell()
+        finally:
+            for future, i in self.pending.items():
+                future.cancel()
+                self.files.release(self.names[i])
+        return self.flown
+
+    def _tell(self) -> None:
+        while self.others and self.files.is_flown(self.names[self.others[0]]):
+            self.done += self.work.size(self.others.popleft())
+        if self.progress:
+            self.progress(self.done, self.total)
+
+    def _hand_over(self) -> None:
+        while len(self.pending) < WAITING * self.workers.count:
+            i = self._next()
+            if i is None:
+                return
+            self._submit(i)
+
+    def _submit(self, i: int) -> None:
+        self.pending[self.workers.submit(self.work.task(i))] = i
+
+    def _next(self) -> int | None:
+        """The next unit to fly: those that other processes say they fly come last, for these may have been killed."""
+        while self.todo:
+            i = self.todo.popleft()
+            if not self.files.claim(self.names[i]):
+                self.others.append(i)
+            elif self.files.is_flown(self.names[i]):
+                self.files.release(self.names[i])
+                self.done += self.work.size(i)
+            else:
+                return i
+        while self.others:
+            i = self.others.pop()
+            if not self.files.is_flown(self.names[i]):
+                return i
+            self.done += self.work.size(i)
+        return None
+
+    def _take(self, future: Future[Any]) -> None:
+        """Write the results of a unit; if its worker ended, hand it over again."""
+        i = self.pending.pop(future)
+        try:
+            columns = self.workers.columns(future)
+        except BaseException as error:
+            if not self.workers.is_lost(error):
+                raise
+            self._fly_again(i, error)
+            return
+        if not self.files.is_flown(self.names[i]):
+            self.files.write(self.names[i], columns)
+        self.files.release(self.names[i])
+        self.done, self.flown = self.done + self.work.size(i), self.flown + 1
+
+    def _fly_again(self, i: int, error: BaseException) -> None:
+        self.lost[i] += 1
+        if self.lost[i] > MOST_LOST:
+            first = sum(map(self.work.size, range(i)))
+            raise InputError(
+                f"rows {first} to {first + self.work.size(i) - 1}: whatever worker flies them ends: {error} "
+                "What else is flown stays"
+            )
+        self._submit(i)

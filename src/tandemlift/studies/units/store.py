@@ -2,28 +2,24 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
 from tandemlift.missions import format_toml
 from tandemlift.missions.values import shown
 from tandemlift.studies.design.keys import leaves_of
-from tandemlift.studies.design.packages import parquet
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.study_files import checked_settings
 from tandemlift.studies.design.variants import variant_from
-from tandemlift.studies.units.columns import Columns, write_columns
+from tandemlift.studies.units.files import UnitFiles
 from tandemlift.studies.units.unit import sources_digest, study_digest, unit_names
 
 STUDY, PLAN, UNITS = "study.toml", "study.json", "units"
 FORMAT = 1
-LEFT_OVER = 3600.0  # s, after which a half-written file is nobody's
 
 
 class StudyFolder:
@@ -37,6 +33,7 @@ class StudyFolder:
         count: number of rows.
         rows_per_unit: rows of each unit but the last.
         sources: digest of the sources that fly it.
+        files: those of its units.
 
     Raises:
         InputError: the folder holds no study.
@@ -47,6 +44,7 @@ class StudyFolder:
         self._said = _plan_in(path)
         self.digest, self.sources = self._said["digest"], self._said["sources"]
         self.count, self.rows_per_unit = self._said["rows"], self._said["rows_per_unit"]
+        self.files = UnitFiles(path / UNITS, {"study": self.digest, "sources": self.sources})
 
     def plan(self) -> StudyPlan:
         """The plan, from what the folder holds alone."""
@@ -57,47 +55,6 @@ class StudyFolder:
         """The names of all units, in order."""
         return list(unit_names(self.digest, self.count, self.rows_per_unit))
 
-    def file(self, name: str) -> Path:
-        """The file of a unit's results, be it there or not."""
-        return self.path / UNITS / f"{name}.parquet"
-
-    def is_flown(self, name: str) -> bool:
-        """Whether a unit's file is there, and whole; one that was cut short is removed."""
-        path = self.file(name)
-        if not path.exists():
-            return False
-        try:
-            parquet().read_metadata(path)
-        except Exception:  # whatever a broken file leads to
-            with contextlib.suppress(FileNotFoundError):
-                path.unlink()
-            return False
-        return True
-
-    def flown(self) -> Iterator[tuple[str, Path]]:
-        """The units whose files are there, in order: names and files."""
-        for name in self.names():
-            if self.is_flown(name):
-                yield name, self.file(name)
-
-    def write(self, name: str, columns: Columns) -> None:
-        """Write the results of a unit, whole or not at all.
-
-        Raises:
-            InputError: the file cannot be written.
-        """
-        from tandemlift import __version__
-
-        about = {"study": self.digest, "unit": name, "sources": self.sources, "version": __version__}
-        write_columns(columns, self.file(name), about)
-
-    def clean(self) -> None:
-        """Remove half-written files that processes have left behind that were killed."""
-        for path in (self.path / UNITS).glob(".*.partial"):
-            with contextlib.suppress(OSError):
-                if time.time() - path.stat().st_mtime > LEFT_OVER:
-                    path.unlink()
-
 
 def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     """The folder of a study, made if it is not there.
@@ -105,12 +62,14 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     Raises:
         InputError: the folder holds another study, or cannot be made or written to.
     """
+    with extra("study", "a study"):  # before anything flies
+        import pyarrow  # noqa: F401
     digest = study_digest(plan)
     if (path / PLAN).exists():
         folder = StudyFolder(path)
         if folder.digest != digest:
             raise InputError(f"{path} holds another study: {_difference(folder, plan)}; choose another --out")
-        folder.clean()
+        folder.files.clean()
         return folder
     _make(path, plan, digest)
     return StudyFolder(path)

@@ -14,10 +14,16 @@ from tandemlift.studies.design.settings import KeepTable
 from tandemlift.studies.design.variants import Variant
 
 PACKAGE = Path(__file__).resolve().parents[2]
-SHOWING = (  # rooms that no flight and no metric depends on
+SHOWING = (  # rooms that no row of a study depends on
     *("cli", "export", "figures", "gazebo_app", "interactive", "linearization", "live", "rendering", "report", "ros"),
-    *("data", "studies", "targets"),
+    *("data", "targets"),
 )
+ROWS = (
+    "studies/design/",
+    "studies/many.py",
+    "studies/units/columns.py",
+    "studies/units/flying.py",
+)  # what does, of `studies`
 
 
 class Unit(NamedTuple):
@@ -27,7 +33,6 @@ class Unit(NamedTuple):
         name: of the file of its results: the hash of its missions, seeds, what is kept, and the sources.
         first: number of the first row.
         last: number after the last row.
-        sources: digest of the sources that fly it.
         rows: what each row flies.
         variants: of these rows, by their numbers.
         keep: what goes into the table.
@@ -36,7 +41,6 @@ class Unit(NamedTuple):
     name: str
     first: int
     last: int
-    sources: str
     rows: tuple[StudyRow, ...]
     variants: dict[int, Variant]
     keep: KeepTable
@@ -45,11 +49,17 @@ class Unit(NamedTuple):
 @functools.cache
 def sources_digest() -> str:
     """Digest of the sources of this package that decide how a flight goes; equal for a checkout and its wheel."""
-    files = (path for path in PACKAGE.rglob("*.py") if path.relative_to(PACKAGE).parts[0] not in SHOWING)
+    files = {path.relative_to(PACKAGE).as_posix(): path for path in PACKAGE.rglob("*.py")}
     digest = hashlib.sha256()
-    for path in sorted(files, key=lambda path: path.relative_to(PACKAGE).as_posix()):
-        digest.update(path.relative_to(PACKAGE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for name in sorted(filter(_decides, files)):
+        digest.update(name.encode() + b"\0" + files[name].read_bytes() + b"\0")
     return digest.hexdigest()[:16]
+
+
+def _decides(name: str) -> bool:
+    """Whether a row can depend on a source file."""
+    room = name.partition("/")[0]
+    return name.startswith(ROWS) if room == "studies" else room not in SHOWING
 
 
 def study_digest(plan: StudyPlan) -> str:
@@ -87,7 +97,6 @@ def unit_of(plan: StudyPlan, index: int, name: str) -> Unit:
         name=name,
         first=first,
         last=last,
-        sources=sources_digest(),
         rows=rows,
         variants={i: plan.variants[i] for i in used},
         keep=plan.settings.keep,

@@ -1,0 +1,249 @@
+"""`tandemlift compare`: one mission with several controllers, as a table and a page."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
+from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
+from tandemlift.cli.terminal.mission_options import (
+    FAILED,
+    chosen_controller,
+    engine_option,
+    load,
+    parse_setting,
+    set_option,
+)
+from tandemlift.cli.terminal.results import results_folder
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
+
+if TYPE_CHECKING:
+    from tandemlift.controllers import Controller
+    from tandemlift.flight.record import Flight
+    from tandemlift.studies.controller_comparison import Entrant, Entry, ScoredPart
+
+FILES = ("compare.html", "compare.json")
+ENGINE_FILES = ("engines.html", "engines.json")
+
+
+@click.command()
+@click.argument("mission")
+@click.option("--controllers", metavar="A,B,…", help="Controllers: names, or your .py files.  [default: all]")
+@engine_option
+@click.option("--engines", metavar="A,B,…", help="Compare engines instead: fly the mission once in each.")
+@set_option
+@click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
+@strict_option
+def compare(
+    mission: str,
+    controllers: str | None,
+    engine: str,
+    engines: str | None,
+    settings: tuple[str, ...],
+    out: str | None,
+    strict: bool,
+) -> None:
+    """Fly MISSION with several controllers, or in several engines, print a table and write a page.
+
+    The mission's own controller flies with the mission's settings, every other one with its defaults. Keys of
+    `controller` given by --set apply to the mission's own controller only.
+
+    \b
+    Examples:
+      tandemlift compare iris
+      tandemlift compare iris --controllers nftsmc,pid,lqr --set 'disturbance.force=[3, 3, 0]'
+      tandemlift compare hover --controllers nftsmc,my_pd.py --out out/mine
+      tandemlift compare zigzag --engines compiled,mujoco,gazebo
+
+    \b
+    Files in the results folder (other files there are left alone):
+      compare.html   table, errors and thrusts on one page that needs no network
+      compare.json   the same as numbers in SI units, with all metrics and settings
+      engines.html   with --engines: the flights, and their differences from the first
+      engines.json   with --engines: the same as numbers in SI units
+
+    \b
+    Exit code:
+      0   all flights were flown; findings are on standard error, a line each
+      2   bad input: one message, nothing is written
+      3   a flight crashed, diverged or did not lift: its row says why; everything is written; with --strict,
+          also a flight with findings
+    """
+    if engines is not None:
+        if controllers is not None:
+            raise InputError("--engines, --controllers: give only one of them")
+        _compare_engines(mission, _names("--engines", engines, "compiled,mujoco"), settings, out, strict=strict)
+        return
+    from tandemlift.engines.registry import engine_named
+    from tandemlift.studies.controller_comparison import entrants
+
+    engine_named(engine)
+    changes = dict(map(parse_setting, settings))
+    entered = entrants(mission, changes, _chosen(controllers))
+    name = next(e.mission.mission.name for e in entered if e.mission)
+    with results_folder(out, Path("out") / name, FILES) as folder:
+        entries = _fly(entered, engine)
+        _print_tables(name, entries)
+        _write(entries, folder, name, engine)
+        echo(f"  page: {folder / 'compare.html'}")
+    count = print_findings((e.name, e.flight) for e in entries if e.flight)
+    failed = {e.name: e.flight.failure for e in entries if e.flight and e.flight.failure}
+    for controller, failure in failed.items():
+        click.echo(f"{controller}: {failure}", err=True)
+    if failed:
+        sys.exit(FAILED)
+    exit_if_found(count, strict=strict)
+
+
+def _chosen(given: str | None) -> list[Controller] | None:
+    """The controllers of a comma-separated list, without repetition; None for all.
+
+    Raises:
+        InputError: the list is empty, or a controller is unknown.
+    """
+    if given is None:
+        return None
+    return [chosen_controller(name) for name in _names("--controllers", given, "nftsmc,pid")]
+
+
+def _names(option: str, given: str, example: str) -> list[str]:
+    """The names of a comma-separated list, without repetition.
+
+    Raises:
+        InputError: the list is empty.
+    """
+    names = list(dict.fromkeys(part.strip() for part in given.split(",") if part.strip()))
+    if not names:
+        raise InputError(f"{option}: must be a comma-separated list of names, such as {example}")
+    return names
+
+
+def _fly(entered: Sequence[Entrant], engine: str) -> list[Entry]:
+    from tandemlift.studies.controller_comparison import compare
+
+    count = sum(e.mission is not None for e in entered)
+    with compile_notices.together(), progress_bar("Flying", count, shown=sys.stderr.isatty()) as progress:
+        return compare(entered, engine, progress)
+
+
+HEADS = ("RMSE x", "y", "z (mm)", "max (mm)", "effort (N m)")
+FLIGHT_HEADS = ("saturated (%)", "findings", "ns/step")
+
+
+def _printed(value: float | None, scale: float, digits: int) -> str:
+    return "" if value is None else f"{scale * value:.{digits}f}"
+
+
+def _scores(flight: Flight, part: ScoredPart) -> list[str]:
+    """The cells of `HEADS`."""
+    from tandemlift.studies.controller_comparison import scores
+
+    s = scores(flight, part)
+    errors = [_printed(value, 1e3, 3) for value in s["position_rmse_m"] or (None, None, None)]
+    return [*errors, _printed(s["position_max_error_m"], 1e3, 3), _printed(s["effort_n_m"], 1.0, 3)]
+
+
+def _run(flight: Flight) -> list[str]:
+    """The cells of `FLIGHT_HEADS`."""
+    from tandemlift.studies.controller_comparison import run_of
+
+    found = run_of(flight)
+    return [
+        _printed(found["rotor_saturated_share"], 1e2, 2),
+        str(found["findings"]),
+        _printed(found["step_ns"], 1.0, 0),
+    ]
+
+
+def _print_rows(heads: Sequence[str], rows: Sequence[tuple[str, list[str], str]]) -> None:
+    """Print a table whose rows are a name, cells, and a note for the line below (or an empty one)."""
+    width = max(len(name) for name, _, _ in rows) + 2
+    echo("  " + " " * width + "  ".join(head.rjust(max(9, len(head))) for head in heads))
+    for name, cells, note in rows:
+        filled = (cell.rjust(max(9, len(head))) for cell, head in zip(cells, heads, strict=False))
+        echo(f"  {name.ljust(width)}{'  '.join(filled)}".rstrip())
+        if note:
+            echo(f"  {'':{width}}{note}")
+
+
+def _print_tables(name: str, entries: Sequence[Entry]) -> None:
+    """Print a table for each part of the mission; the first also says which flights diverged or were refused."""
+    from tandemlift.studies.controller_comparison import moving_axes, parts_of
+
+    flights = {e.name: e.flight for e in entries if e.flight}
+    counts, *others = parts_of(flights.values())
+    rows = []
+    for entry in entries:
+        if entry.flight:
+            cells = [*_scores(entry.flight, counts), *_run(entry.flight)]
+            rows.append((entry.name, cells, entry.flight.failure))
+        else:
+            rows.append((entry.name, [], f"not flown: {entry.refusal}"))
+    echo(f"{name}: position errors {counts.words}")
+    _print_rows((*HEADS, *FLIGHT_HEADS), rows)
+    for part in others:
+        if any(moving_axes(flights.values(), part)):
+            echo(f"{name}: position errors {part.words}")
+            _print_rows(HEADS, [(controller, _scores(flight, part), "") for controller, flight in flights.items()])
+        else:
+            echo(f"  {part.words.capitalize()} every position error is below 1 µm.")
+
+
+def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> None:
+    from tandemlift.report.controller_comparison import write_comparison
+    from tandemlift.studies.controller_comparison import summary_of
+
+    found: dict[str, Any] = {"mission": name, "engine": engine, "controllers": summary_of(entries)}
+    _write_json(found, folder / "compare.json")
+    write_comparison(entries, folder / "compare.html")
+
+
+def _write_json(found: Any, path: Path) -> None:
+    with atomic_write(path) as partial:
+        partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
+
+
+def _compare_engines(
+    mission: str, names: list[str], settings: tuple[str, ...], out: str | None, *, strict: bool
+) -> None:
+    """Fly a mission in several engines, print their differences and write the page."""
+    from tandemlift.report.engine_comparison import write_engines
+    from tandemlift.studies.engine_comparison import fly_in, summary_of
+
+    loaded = load(mission, settings)
+    with results_folder(out, Path("out") / loaded.mission.name, ENGINE_FILES) as folder:
+        with compile_notices.together(), progress_bar("Flying", len(names), shown=sys.stderr.isatty()) as progress:
+            flights = fly_in(loaded, names, progress)
+        found = summary_of(flights)
+        _print_differences(loaded.mission.name, found)
+        _write_json({"mission": loaded.mission.name, "engines": found}, folder / "engines.json")
+        echo(f"  page: {write_engines(flights, folder / 'engines.html')}")
+    count = print_findings(flights.items())
+    failed = [row for row in found if row["failure"]]
+    for row in failed:
+        click.echo(f"{row['engine']}: {row['failure']}", err=True)
+    if failed:
+        sys.exit(FAILED)
+    exit_if_found(count, strict=strict)
+
+
+def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:
+    """Print a row for each engine: the largest differences from the first engine, and the speed."""
+    from tandemlift.studies.engine_comparison import QUANTITIES
+
+    shown = [q for q in QUANTITIES if q in found[0]["difference"]]
+    heads = [f"{q.replace('_', ' ')} ({QUANTITIES[q]})" for q in shown] + ["steps/s"]
+    width = max(len(row["engine"]) for row in found) + 2
+    echo(f"{name}: largest difference from {found[0]['engine']}")
+    echo("  " + " " * width + "  ".join(head.rjust(18) for head in heads))
+    for row in found:
+        cells = [f"{row['difference'][q]:.1e}" if row is not found[0] else "" for q in shown]
+        line = "  ".join(cell.rjust(18) for cell in [*cells, f"{row['steps_per_s']:,.0f}"])
+        echo(f"  {row['engine'].ljust(width)}{line}")

@@ -1,0 +1,169 @@
+"""Dask (`distributed`) as workers: those of a scheduler that runs already, or processes of this machine."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError, Future
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
+from tandemlift.studies.units.columns import Columns
+from tandemlift.studies.units.unit import sources_digest
+from tandemlift.studies.units.workers import ExecutorWorkers, Task, other_sources
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+PATIENCE = 10.0  # s, within which a scheduler must answer
+ALLOWED_FAILURES = 10  # workers that may end while they fly a unit, until Dask gives the unit back
+COUNTED = 5.0  # s, after which the workers are counted again
+MOST_PROCESSES = 1024
+Say = Callable[[str], None]
+
+
+class DaskWorkers:
+    """The workers of a Dask scheduler, however many join and leave.
+
+    Args:
+        client: of the scheduler.
+    """
+
+    def __init__(self, client: Client) -> None:
+        self._client, self._count, self._counted = client, 1, float("-inf")
+        self._workers = ExecutorWorkers(client.get_executor(pure=False), 1)
+
+    @property
+    def count(self) -> int:
+        """See `Workers`."""
+        if time.monotonic() - self._counted > COUNTED:
+            self._counted = time.monotonic()
+            with contextlib.suppress(OSError):  # the connection is lost: `submit` tells whether it comes back
+                self._count = max(1, sum(self._client.nthreads().values()))
+        return self._count
+
+    def submit(self, task: Task) -> Future[Any]:
+        """See `Workers`."""
+        return self._workers.submit(task)
+
+    def columns(self, future: Future[Any]) -> Columns:
+        """See `Workers`."""
+        if self._client.status in ("closing", "closed"):
+            raise InputError("the connection to the Dask scheduler is lost; what is flown stays: start the study again")
+        try:
+            return self._workers.columns(future)
+        except ModuleNotFoundError as error:
+            raise _without_package("a worker", error) from None
+
+    def is_lost(self, error: BaseException) -> bool:
+        """See `Workers`; also if the scheduler was started anew, and has forgotten the unit."""
+        from distributed import KilledWorker
+
+        return isinstance(error, (KilledWorker, CancelledError))
+
+
+def _without_package(worker: str, error: Exception) -> InputError:
+    return InputError(f"{worker} cannot fly: {error}; install the same version of tandemlift there")
+
+
+@contextmanager
+def scheduler_workers(address: str, say: Say) -> Iterator[DaskWorkers]:
+    """The workers of a scheduler that runs already.
+
+    A worker that is killed does not end the study: Dask gives its units to others, and those that it gives up after
+    `distributed.scheduler.allowed-failures`, which the scheduler alone can set, are handed over again.
+
+    Args:
+        address: of the scheduler, such as tcp://10.0.0.1:8786, or the path of its scheduler file.
+        say: prints a line.
+
+    Raises:
+        InputError: it does not answer, a worker of it has other sources, or `distributed` is not installed (extra:
+            dask).
+    """
+    with extra("dask", "--scheduler"):
+        from distributed import Client
+    file = Path(address)
+    if file.suffix == ".json" and not file.is_file():
+        raise InputError(f"--scheduler {address}: there is no such scheduler file")
+    where: dict[str, Any] = {"scheduler_file": address} if file.suffix == ".json" else {"address": address}
+    try:
+        client = Client(**where, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ImportError, ValueError, TypeError, AttributeError) as error:
+        raise InputError(
+            f"--scheduler {address}: no Dask scheduler answers there within {PATIENCE:.0f} s: {_line(error)}"
+        ) from None
+    try:
+        check_sources(client)
+        say(f"Dask: {_workers_text(client)}; dashboard: {client.dashboard_link}")
+        yield DaskWorkers(client)
+    finally:
+        client.close(timeout=2)
+
+
+@contextmanager
+def cluster_workers(processes: int, say: Say) -> Iterator[DaskWorkers]:
+    """Processes of this machine, of one thread each, under a scheduler of their own.
+
+    Args:
+        processes: number of them.
+        say: prints a line.
+
+    Raises:
+        InputError: `distributed` is not installed (extra: dask).
+    """
+    with extra("dask", "--cluster"):
+        import dask
+        from distributed import Client, LocalCluster
+    with dask.config.set({"distributed.scheduler.allowed-failures": ALLOWED_FAILURES}):
+        cluster = LocalCluster(
+            n_workers=processes,
+            threads_per_worker=1,
+            dashboard_address="127.0.0.1:0",
+            silence_logs="CRITICAL",
+        )
+    with cluster, Client(cluster, set_as_default=False) as client:
+        say(f"Dask: {_workers_text(client)}; dashboard: {client.dashboard_link}")
+        yield DaskWorkers(client)
+
+
+def processes_of(cluster: str) -> int:
+    """The number of processes that a text such as local:4 names; `local` alone is one for each processor.
+
+    Raises:
+        InputError: it has another form.
+    """
+    kind, colon, count = cluster.partition(":")
+    if kind == "local" and not colon:
+        return os.cpu_count() or 1
+    if kind != "local" or not count.isdecimal() or not 1 <= int(count) <= MOST_PROCESSES:
+        raise InputError(f"cluster = {cluster!r}: must be local:N, with N processes from 1 to {MOST_PROCESSES}")
+    return int(count)
+
+
+def check_sources(client: Client) -> None:
+    """Check that all workers that a scheduler has now can fly what is sent to them.
+
+    Raises:
+        InputError: one has other sources, or lacks a package.
+    """
+    here = sources_digest()
+    for worker, there in client.run(sources_digest, on_error="return").items():
+        if isinstance(there, Exception):
+            raise _without_package(f"worker {worker}", there)
+        if there != here:
+            raise other_sources(worker, there, here)
+
+
+def _workers_text(client: Client) -> str:
+    count = len(client.nthreads())
+    return f"{count} worker{'s' * (count != 1)}" if count else "no worker yet; the study waits for some"
+
+
+def _line(error: Exception) -> str:
+    return " ".join(str(error).split()) or type(error).__name__

@@ -1,0 +1,70 @@
+"""What the pilot is held to: rows, their targets, and the command that prints them."""
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from scipy.integrate import solve_ivp
+
+import tandemlift as tl
+from tandemlift.cli.main import cli
+from tandemlift.flight.record import Flight
+from tandemlift.missions import tables_of
+from tandemlift.studies.validation.chapters import CHAPTERS, Row, chosen, table
+from tandemlift.studies.validation.persons import random_persons
+from tandemlift.studies.validation.rows import below, true_yielding
+from tandemlift.studies.validation.scenarios import WINDY, drawn, mission
+
+
+def test_a_row_is_met_if_no_number_exceeds_its_limit():
+    assert below("error", [1.0, 2.0], [1.0, 2.0], "mm").met
+    assert not below("error", [1.0, 2.1], [1.0, 2.0], "mm").met
+    assert not below("error", [1.0, np.nan], [1.0, 2.0], "mm").met
+    assert below("error", 0.5, 1.0, "mm", 2).measured == "0.50 mm"
+
+
+def test_the_table_marks_what_is_met_and_what_is_missed():
+    text = table([Row("a", "1", "1", True), Row("b", "1", "2", False), Row("c", "", "3", None)])
+    assert text.splitlines()[2:] == ["| a | 1 | 1 | met |", "| b | 1 | 2 | **missed** |", "| c |  | 3 |  |"]
+
+
+def test_chapters_are_all_unless_some_are_named():
+    assert chosen([]) == list(CHAPTERS)
+    assert chosen(["yaw"]) == ["yaw"]
+    with pytest.raises(tl.InputError, match="unknown chapter 'yav'"):
+        chosen(["yav"])
+
+
+@pytest.mark.parametrize("arguments", [("--chapter", "yav"), ("--engine", "mujoko")], ids=str)
+def test_what_there_is_not_is_refused_before_anything_flies(arguments):
+    result = CliRunner().invoke(cli, ["validate", *arguments])
+    assert isinstance(result.exception, tl.InputError)
+    assert "there are" in str(result.exception)
+
+
+def test_the_unfiltered_admittance_is_that_of_the_true_push():
+    given = tl.load_mission("iris", {"mission.duration": 40.0})
+    time = np.arange(0.0, 40.0, 0.5)
+    flight = Flight(time, {"position": np.zeros((len(time), 3))}, tables_of(given), {})
+
+    def rate(t, y):
+        force = sum(np.array(p.force) * np.exp(-((t - p.time) ** 2) / (2.0 * p.sigma**2)) for p in given.pushes)
+        beyond = force - np.clip(force, -0.3, 0.3)
+        return [*y[3:], *(beyond - 1.6 * y[3:])]
+
+    solution = solve_ivp(rate, (0.0, 40.0), np.zeros(6), t_eval=time, rtol=1e-8, atol=1e-10, max_step=0.05)
+    assert np.abs(true_yielding(flight) - solution.y[:3].T).max() < 2e-3  # m: a force held over a step
+
+
+def test_what_is_drawn_is_the_same_again_and_differs_from_draw_to_draw():
+    one, again = (drawn(np.random.default_rng(1), 0) for _ in range(2))
+    assert one == again
+    assert drawn(np.random.default_rng(2), 0) != one
+    assert len({p.person.delay for p in random_persons("zigzag", 20)}) > 3
+
+
+def test_the_wind_of_the_table_is_three_newtons_along_x_and_y():
+    windy = mission(WINDY)
+    velocity = np.array(windy.wind.velocity)
+    area = sum(q.drag_area[0] * q.drag_coefficient for q in windy.vehicle.quadrotors)
+    force = 0.5 * windy.wind.density * area * np.linalg.norm(velocity) * velocity
+    assert force == pytest.approx([3.0, 3.0, 0.0], abs=0.01)
