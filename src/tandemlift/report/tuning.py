@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -119,18 +120,19 @@ def _evidence(found: Tuning) -> str:
     rows = []
     for c in found.evidence.comparisons:
         words, unit = axis_label(c.label)
-        scale, unit = shown_scale(unit, max(abs(x) for x in (*c.old, *c.new)))
+        scale, unit = shown_scale(unit, max((abs(x) for x in (*c.old, *c.new) if not math.isnan(x)), default=0.0))
         interval = DASH if c.interval is None else f"{number(c.interval[0] * scale)} to {number(c.interval[1] * scale)}"
-        cells = [number(x * scale) for x in (*c.old, *c.new, c.difference)]
-        cells += [interval, f"{100.0 * c.improved:.0f} %", unit]
+        cells = [DASH if math.isnan(x) else number(x * scale) for x in (*c.old, *c.new, c.difference)]
+        cells += [interval, DASH if math.isnan(c.improved) else f"{100.0 * c.improved:.0f} %", unit]
         rows.append(_row(f"{escape(words)}<br><code>{escape(c.label)}</code>", cells))
     count = len(found.fresh)
     rows.append(_bad_row(found, count))
     of_values = ("Present<br>median", "<br>worst", "New<br>median", "<br>worst")
     heads = ("", *of_values, "Difference<br>median", "<br>95 %", "Improved", "Unit")
     note = (
-        f"On {count} fresh draws, which the search never saw; both fly the same draws. The difference is new minus "
-        "present, draw by draw, over draws that went well with both; its interval holds for any distribution."
+        f"On {count} fresh draws, which the search never saw; both fly the same draws. Medians and worst values are over "
+        "draws that went well. The difference is new minus present, draw by draw, over draws that went well with "
+        "both; its interval holds for any distribution."
     )
     table = html_table(_head(heads), rows, "compared part")
     return f'<section>\n<h2>Evidence</h2>\n<p class="soft">{note}</p>\n{table}\n</section>'

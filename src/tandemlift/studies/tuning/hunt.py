@@ -52,6 +52,16 @@ class Hunt:
     def _judged(self, values: Values, trial: Trial) -> Tried:
         return Tried(values, self.task.cost(trial), tuple(self.task.costs_apart(trial)))
 
+    @property
+    def records(self) -> tuple[tuple[int, Values], ...]:
+        """The candidates that were better than all before them, with their numbers in the order of the search."""
+        found, lowest = [], self.tried[0].cost.rank
+        for number, tried in enumerate(self.tried[1:], 1):
+            if tried.cost.rank < lowest:
+                lowest = tried.cost.rank
+                found.append((number, tried.values))
+        return tuple(found)
+
     def run(self, search: Optimiser, *, is_front: bool) -> None:
         """Search until the budget is spent, the search converges, or Ctrl-C, which keeps what there is.
 

@@ -103,7 +103,8 @@ class EvolutionSearch:
 def _together(keys: Sequence[str]) -> Array:
     """Root (d, d) of the covariance of the first candidates: components of one key are correlated by `TOGETHER`."""
     same = np.array([[a == b for b in keys] for a in keys])
-    return np.linalg.cholesky(np.where(same, TOGETHER, 0.0) + (1.0 - TOGETHER) * np.eye(len(keys)))
+    root = np.linalg.cholesky(np.where(same, TOGETHER, 0.0) + (1.0 - TOGETHER) * np.eye(len(keys)))
+    return np.asarray(root, np.float64)
 
 
 class _Coordinate:

@@ -121,6 +121,7 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
         costs=costs,
         history=tuple(t.cost for t in hunt.tried),
         apart=tuple(t.apart for t in hunt.tried),
+        records=hunt.records,
         ended=hunt.ended,
         is_finished=hunt.ended != INTERRUPTED,
         front=front_of(hunt.tried, new) if kind == "optuna" and len(goals) > 1 else (),
