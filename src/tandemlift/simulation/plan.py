@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 from functools import cached_property
 from typing import Any
 
@@ -22,6 +23,7 @@ from tandemlift.settings import Mission
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
 KERNELS: dict[Any, Kernels] = {}
+_MAKING = threading.Lock()
 
 
 class FlightPlan:
@@ -77,10 +79,11 @@ class FlightPlan:
 
     @property
     def kernels(self) -> Kernels:
-        """The compiled loops of this variant."""
-        if self.variant not in KERNELS:
-            KERNELS[self.variant] = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
-        return KERNELS[self.variant]
+        """The compiled loops of this variant: the same for all threads, so that each is compiled once."""
+        with _MAKING:
+            if self.variant not in KERNELS:
+                KERNELS[self.variant] = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
+            return KERNELS[self.variant]
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""

@@ -76,7 +76,7 @@ class _Run:
         own = range(part.number - 1, len(self.names), part.parts)
         self.todo = deque(i for i in own if not folder.is_flown(self.names[i]))
         self.others = deque[int]()
-        self.pending = dict[Future[Any], int]()
+        self.pending, self.claimed = dict[Future[Any], int](), set[int]()
         self.lost, self.flown = Counter[int](), 0
         self.total = sum(map(self._size, own))
         self.done = self.total - sum(map(self._size, self.todo))
@@ -95,9 +95,10 @@ class _Run:
                     self._hand_over()
                 self._tell()
         finally:
-            for future, i in self.pending.items():
+            for future in self.pending:
                 future.cancel()
-                self.folder.release(self.names[i])
+            for i in list(self.claimed):
+                self._release(i)
         return self.flown
 
     def _tell(self) -> None:
@@ -116,17 +117,22 @@ class _Run:
     def _submit(self, i: int) -> None:
         self.pending[self.workers.submit(unit_of(self.plan, i, self.names[i]))] = i
 
+    def _release(self, i: int) -> None:
+        self.folder.release(self.names[i])
+        self.claimed.discard(i)
+
     def _next(self) -> int | None:
         """The next unit to fly: those that other processes say they fly come last, for these may have been killed."""
         while self.todo:
             i = self.todo.popleft()
             if not self.folder.claim(self.names[i]):
                 self.others.append(i)
-            elif self.folder.is_flown(self.names[i]):
-                self.folder.release(self.names[i])
-                self.done += self._size(i)
-            else:
+                continue
+            self.claimed.add(i)
+            if not self.folder.is_flown(self.names[i]):
                 return i
+            self._release(i)
+            self.done += self._size(i)
         while self.others:
             i = self.others.pop()
             if not self.folder.is_flown(self.names[i]):
@@ -146,7 +152,7 @@ class _Run:
             return
         if not self.folder.is_flown(self.names[i]):
             self.folder.write(self.names[i], columns)
-        self.folder.release(self.names[i])
+        self._release(i)
         self.done, self.flown = self.done + self._size(i), self.flown + 1
 
     def _fly_again(self, i: int, error: BaseException) -> None:
