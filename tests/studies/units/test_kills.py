@@ -1,4 +1,7 @@
-"""A study that is killed, stopped or flown by several processes at once gives the same rows (at length: make studies)."""
+"""A study that is killed, stopped, or flown by two processes at once gives the same rows.
+
+At length, it is killed and shared by `python benchmarks/studies.py kills`.
+"""
 
 import random
 import signal

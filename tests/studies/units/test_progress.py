@@ -95,9 +95,13 @@ def test_a_notebooks_progress_goes_to_the_output_of_the_cell(monkeypatch):
 
 def test_the_line_ends_although_the_study_is_stopped():
     stream = Terminal()
-    with pytest.raises(KeyboardInterrupt), shown_progress("gusts", stream) as progress:
-        progress(1, 8)
-        raise KeyboardInterrupt
+
+    def stopped():
+        with shown_progress("gusts", stream) as progress:
+            progress(1, 8)
+            raise KeyboardInterrupt
+
+    pytest.raises(KeyboardInterrupt, stopped)
     assert stream.getvalue().endswith("\n")
 
 

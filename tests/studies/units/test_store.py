@@ -1,4 +1,4 @@
-"""The folder of a study when something is wrong with it: files cut short, no space, no right to write, another study."""
+"""The folder of a study when something is wrong with it: files cut short, no space, no rights, another study."""
 
 import os
 import resource

@@ -153,7 +153,7 @@ def test_another_cluster_is_refused(cluster, tmp_path):
 
 
 def test_two_places_at_once_are_refused(tmp_path):
-    with pytest.raises(InputError, match="^scheduler and cluster: give one of them"):
+    with pytest.raises(InputError, match=r"^scheduler and cluster: give one of them"):
         fly(TWELVE, tmp_path, scheduler="tcp://127.0.0.1:1", cluster="local:1")
-    with pytest.raises(InputError, match="^threads and cluster: give one of them"):
+    with pytest.raises(InputError, match=r"^threads and cluster: give one of them"):
         fly(TWELVE, tmp_path, threads=2, cluster="local:1")
