@@ -101,7 +101,8 @@ def test_the_line_ends_although_the_study_is_stopped():
             progress(1, 8)
             raise KeyboardInterrupt
 
-    pytest.raises(KeyboardInterrupt, stopped)
+    with pytest.raises(KeyboardInterrupt):
+        stopped()
     assert stream.getvalue().endswith("\n")
 
 

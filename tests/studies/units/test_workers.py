@@ -139,7 +139,7 @@ def test_a_scheduler_that_does_not_answer_is_refused_in_time(tmp_path, monkeypat
     assert list(tmp_path.glob("units/*")) == []
 
 
-@pytest.mark.parametrize("address", ["nonsense", "ftp://a:1", "tcp://:99999999", "", "there/is/no/file.json"])
+@pytest.mark.parametrize("address", ["nonsense", "ftp://localhost:1", "tcp://:99999999", "", "there/is/no/file.json"])
 def test_an_address_that_is_none_is_refused(address, tmp_path, monkeypatch):
     monkeypatch.setattr(dask, "PATIENCE", 1.0)
     with pytest.raises(InputError, match=r"^--scheduler .*: no (Dask scheduler answers|scheduler file)"):

@@ -81,7 +81,7 @@ def scheduler_workers(address: str, say: Say) -> Iterator[DaskWorkers]:
     `distributed.scheduler.allowed-failures`, which the scheduler alone can set, are handed over again.
 
     Args:
-        address: of the scheduler, such as tcp://10.0.0.1:8786, or the path of its scheduler file.
+        address: of the scheduler, such as tcp://127.0.0.1:8786, or the path of its scheduler file.
         say: prints a line.
 
     Raises:
