@@ -11,6 +11,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from tandemlift.common.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from tandemlift.common.errors import FlightWarning, InputError
     from tandemlift.controllers.user_controller import load_controller
@@ -20,15 +22,15 @@ if TYPE_CHECKING:
     from tandemlift.linearization.linearize import linearize
     from tandemlift.linearization.mission_check import check
     from tandemlift.missions import load_mission
+    from tandemlift.report.feel_report import feel
     from tandemlift.settings import Mission
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.studies.reading.table import Study, load_study
     from tandemlift.studies.study import study
+    from tandemlift.studies.tuning.tune import tune
     from tandemlift.targets.compiling import compile_mission
     from tandemlift.vehicle import Vehicle
-
-__version__ = "0.1.0"
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Flight": "flight.record",
@@ -42,6 +44,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Vehicle": "vehicle",
     "check": "linearization.mission_check",
     "compile_mission": "targets.compiling",
+    "feel": "report.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
     "linearize": "linearization.linearize",
@@ -49,6 +52,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "load_mission": "missions",
     "load_study": "studies.reading.table",
     "study": "studies.study",
+    "tune": "studies.tuning.tune",
 }
 
 __all__ = [
@@ -63,6 +67,7 @@ __all__ = [
     "Vehicle",
     "check",
     "compile_mission",
+    "feel",
     "fly",
     "fly_many",
     "linearize",
@@ -70,6 +75,7 @@ __all__ = [
     "load_mission",
     "load_study",
     "study",
+    "tune",
 ]
 
 

@@ -36,6 +36,7 @@ METRICS = [
     "events",
     "outcome",
     "findings",
+    "failure",
 ]
 OURS = {"mission.toml", "flight.npz", "metrics.json", "findings.json", "figures", "report.html"}
 ALWAYS = ("reference", "path", "tracking", "inputs", "interaction", "joints")
@@ -113,7 +114,7 @@ def test_the_version_is_told(run):
             ("rnu", "paper"),
             [
                 "No such command 'rnu'",
-                "run, compare, render, live, page, replay, gazebo, ros, validate, linearize, check, export, compile,",
+                "run, compare, render, live, page, replay, gazebo, ros, study, validate, tune, linearize, check, feel,",
                 "Did you mean 'run'?",
             ],
         ),

@@ -129,7 +129,7 @@ def test_metrics_around_ten_seconds_are_those_of_the_law_compiled(duration, law,
     )
     assert (compiled["thrust_max_after_10s_n"] is None) == (duration <= 10.0)
     for name, value in compiled.items():
-        if name in ("outcome", "findings"):
+        if name in ("outcome", "findings", "failure"):
             assert interpreted[name] == value
         elif name == "wall_s" or value is None:
             assert name == "wall_s" or interpreted[name] is None

@@ -166,7 +166,7 @@ def test_the_metrics_are_those_of_every_step(which, request, flown):
 
 def test_the_metrics_have_the_design_s_names_and_no_other(pushed):
     metrics = pushed.metrics()
-    assert set(metrics) == {name for name, _ in NAMES} | {"events", "outcome", "findings"}
+    assert set(metrics) == {name for name, _ in NAMES} | {"events", "outcome", "findings", "failure"}
     assert metrics["outcome"] == "flying"
     assert metrics["events"] == []  # nobody supervises
     for name, count in NAMES:

@@ -158,6 +158,7 @@ def test_every_leaf_that_the_design_gives_per_axis_is_one():
             *(f"controller.gains.{gain}" for gain in ("xi", "eta", "lambda_1", "lambda_2", "a")),
             "controller.boundary_layer",
             *(f"admittance.{key}" for key in ("mass", "damping", "stiffness", "threshold")),
+            *(f"admittance.feel.{key}" for key in ("force", "speed", "time")),
             *(f"initial.{key}" for key in ("position", "velocity", "euler", "rates")),
             "disturbance.force",
             "disturbance.moment",

@@ -158,6 +158,7 @@ def test_every_metric_is_in_the_table_with_its_value_and_unit(page, paper):
     assert metrics.pop("events") == []  # in a list of their own
     assert metrics.pop("outcome") == "landed"  # the verdict
     assert metrics.pop("findings") == []  # a list of their own
+    assert metrics.pop("failure") == ""
     assert list(rows) == list(metrics)
     for name, value in metrics.items():
         if name == "command_at_start":

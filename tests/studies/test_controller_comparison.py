@@ -111,7 +111,7 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments, pieces, run, tmp
 
 def test_a_folder_that_is_in_the_way_is_refused_before_the_flight(run, tmp_path, monkeypatch):
     (tmp_path / "taken" / "compare.html").mkdir(parents=True)
-    monkeypatch.setattr("tandemlift.studies.controller_comparison.fly_many", lambda *_, **__: pytest.fail("flown"))
+    monkeypatch.setattr("tandemlift.studies.controller_comparison.fly_each", lambda *_, **__: pytest.fail("flown"))
     code, _, err = run("compare", "hover", "--out", "taken")
     assert code == 2
     assert "taken/compare.html is in the way" in err

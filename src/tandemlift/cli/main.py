@@ -10,7 +10,6 @@ from typing import Any
 
 import click
 
-from tandemlift.cli.compare import compare
 from tandemlift.cli.compile import compile
 from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
@@ -22,9 +21,12 @@ from tandemlift.cli.render import render
 from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run
-from tandemlift.cli.study import study
+from tandemlift.cli.studies.compare import compare
+from tandemlift.cli.studies.feel import feel
+from tandemlift.cli.studies.study import study
+from tandemlift.cli.studies.tune import tune
+from tandemlift.cli.studies.validate import validate
 from tandemlift.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
-from tandemlift.cli.validate import validate
 from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.machine_code.compile_events import watching
 
@@ -73,8 +75,10 @@ cli.add_command(gazebo)
 cli.add_command(ros)
 cli.add_command(study)
 cli.add_command(validate)
+cli.add_command(tune)
 cli.add_command(linearize)
 cli.add_command(check)
+cli.add_command(feel)
 cli.add_command(export)
 cli.add_command(compile)
 cli.add_command(report)

@@ -11,6 +11,7 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.flight.old_names import renamed_setting, warn_of_old_names
 from tandemlift.missions.values import Tables, merge, shown, value_at
+from tandemlift.settings.admittance import with_feel
 
 
 def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:
@@ -30,6 +31,16 @@ def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:
     return merge(at, {part: value})
 
 
+def _without_feel(tables: Tables) -> Tables:
+    """Tables with the mass and damping of a feel in its place, for one of them that is set now counts."""
+    tables = with_feel(tables)
+    admittance = tables.get("admittance")
+    if not isinstance(admittance, dict) or "feel" not in admittance:
+        return tables
+    kept = {name: list(value) if isinstance(value, tuple) else value for name, value in admittance.items()}
+    return {**tables, "admittance": {name: value for name, value in kept.items() if name != "feel"}}
+
+
 def changed_tables(tables: Tables, key: Any, value: Any, source: str) -> Tables:
     """Tables with a dotted key set; a number in it picks an entry of a list. NumPy's values become plain ones."""
     if not isinstance(key, str) or not all(key.split(".")):
@@ -40,6 +51,8 @@ def changed_tables(tables: Tables, key: Any, value: Any, source: str) -> Tables:
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
     warn_of_old_names(source, notices)
+    if re.match(r"admittance\.(mass|damping)\b", key):
+        tables = _without_feel(tables)
     after = _with(tables, key.split("."), value, f"{source}: {key}")
     names = [value_at(t, ("controller", "name")) for t in (tables, after)]
     if names[0] != names[1] and key in ("controller", "controller.name"):

@@ -65,6 +65,8 @@ def _walk(model: Model, loc: Iterable[Any]) -> tuple[Place, Any, Any]:
 
 def _refusal(model: Model, problem: Any, data: Any, prefix: Place) -> tuple[Place, str]:
     place, field, table = _walk(model, problem["loc"])
+    if not (place or prefix):  # a rule between tables, which names the key itself
+        return place, problem["msg"]
     if table is None and value_at(data, place) is MISSING:  # inside one value that serves all axes
         while isinstance(place[-1], int):
             place = place[:-1]

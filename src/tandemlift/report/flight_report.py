@@ -93,7 +93,7 @@ def _metrics(metrics: Mapping[str, Any]) -> str:
     """The metrics as a table, a row each."""
     rows = []
     for name, value in metrics.items():
-        if name in ("outcome", "events", "findings"):
+        if name in ("outcome", "events", "findings", "failure"):
             continue
         words, unit = split_unit(name)
         head = f'<th scope="row">{escape(words)}<br><code>{escape(name)}</code></th>'

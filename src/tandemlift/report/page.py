@@ -125,3 +125,39 @@ COMPARISON = """<!DOCTYPE html>
 </body>
 </html>
 """
+
+FEEL = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{name}: what a push feels like</title>
+<style>{style}</style>
+</head>
+<body>
+<main>
+<header>
+<p class="kind">What a push feels like</p>
+<h1>{name}</h1>
+{verdict}
+</header>
+<section>
+<h2>The standard push</h2>
+<p class="soft">{note}</p>
+{table}
+{sentences}
+</section>
+{figures}
+<section>
+<h2>Checks</h2>
+{checks}
+</section>
+<section>
+<h2>Admittance</h2>
+<pre><code>{admittance}</code></pre>
+</section>
+<footer class="soft">Flown with {versions}.</footer>
+</main>
+</body>
+</html>
+"""

@@ -4,14 +4,14 @@ Every table is strict: unknown keys, wrong types and non-finite numbers are refu
 takes one number for all axes or one number each. The built-in missions in `data/missions` hold the numbers.
 """
 
-from tandemlift.settings.changes import ChangeTable
+from tandemlift.settings.admittance import AdmittanceTable
 from tandemlift.settings.corridor import CorridorTable, WallTable, wall_tables
 from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
 from tandemlift.settings.key_description import KeyDescription, description_of, key
-from tandemlift.settings.mission import Mission, MissionTable
+from tandemlift.settings.mission import ChangeTable, Mission, MissionTable
 from tandemlift.settings.parts import Drag, Payload, Quadrotor, VehicleTable
 from tandemlift.settings.person import PersonTable
-from tandemlift.settings.pilot import AdmittanceTable, ControllerTable, PhasesTable
+from tandemlift.settings.pilot import ControllerTable, PhasesTable
 from tandemlift.settings.sensors import AdditionalSensorTable, InertialSensor, JointSensors, SensorFaultTable
 from tandemlift.settings.supervision import SupervisionTable
 from tandemlift.settings.value_types import (

@@ -1,13 +1,14 @@
-"""The whole of a mission: its tables, and `[mission]` itself."""
+"""The whole of a mission: its tables, and `[mission]` and `[[changes]]` themselves."""
 
 from __future__ import annotations
 
 import re
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, SerializeAsAny
+from pydantic import AfterValidator, Field, SerializeAsAny, model_validator
 
-from tandemlift.settings.changes import ChangeTable
+from tandemlift.settings import key_description
+from tandemlift.settings.admittance import AdmittanceTable, with_feel
 from tandemlift.settings.corridor import CorridorTable, WallTable
 from tandemlift.settings.guided import ComplianceTable, DetectionTable, ObserverTable
 from tandemlift.settings.key_description import key
@@ -15,7 +16,6 @@ from tandemlift.settings.outcomes import CrashTable, FindingsTable, OutcomeTable
 from tandemlift.settings.parts import VehicleTable
 from tandemlift.settings.person import PersonTable
 from tandemlift.settings.pilot import (
-    AdmittanceTable,
     AllocationTable,
     ControllerTable,
     EstimatorTable,
@@ -25,7 +25,7 @@ from tandemlift.settings.pilot import (
 from tandemlift.settings.sensors import SensorFaultTable, SensorsTable
 from tandemlift.settings.supervision import ContactTable, RequestTable, SupervisionTable
 from tandemlift.settings.surroundings import GroundTable, WindTable
-from tandemlift.settings.value_types import Positive, Table, divisor, must
+from tandemlift.settings.value_types import NonNegative, Positive, Table, divisor, must
 from tandemlift.settings.world import ActuatorsTable, DisturbanceTable, FaultTable, InitialTable, PlantTable, PushTable
 
 
@@ -81,6 +81,27 @@ class MissionTable(Table):
         return max(1, round(min(self.log_interval / self.step, self.steps + 1)))
 
 
+class ChangeTable(Table):
+    """`[[changes]]`: a key that takes another value in flight; one table for each change, in the order of their times.
+
+    Numbers (gains, admittance, wind, lags, noise, an efficiency) move in a straight line within `duration`. A choice,
+    such as `admittance.gate` or the controller, switches from one step to the next; a new controller starts with a
+    fresh memory. A change is refused if it would need another memory of anything else: another `wind.model`, a delay,
+    another body or other channels. A flight with changes is flown step by step, at about 20 µs a step.
+    """
+
+    time: NonNegative = key_description.key(
+        ..., "s", "start of the change, rounded to a whole step", rule="not before the change above it", example=10.0
+    )
+    key: str = key_description.key(..., None, "dotted key that changes, as for --set", example="admittance.damping")
+    value: Any = key_description.key(
+        ..., None, "new value of the key", rule="as the key takes it", example=[4.0, 4.0, 4.0]
+    )
+    duration: NonNegative = key_description.key(
+        0.0, "s", "time within which numbers move to the new value, in a straight line"
+    )
+
+
 class Mission(Table):
     """Everything that a flight depends on; see `tandemlift.missions` for loading one."""
 
@@ -116,6 +137,11 @@ class Mission(Table):
     outcome: OutcomeTable = OutcomeTable()
     promise: PromiseTable = PromiseTable()
     findings: FindingsTable = FindingsTable()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _by_feel(cls, data: Any) -> Any:
+        return with_feel(data) if isinstance(data, dict) else data
 
     @property
     def all_walls(self) -> tuple[WallTable, ...]:

@@ -1,27 +1,23 @@
-"""Settings of the pilot: controller, admittance, allocation, phases, and the sources of its signals."""
+"""Settings of the pilot: controller, allocation, phases, and the sources of its signals."""
 
 from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, ValidationError, model_validator
+from pydantic import AfterValidator, Field
 from pydantic_core import core_schema
 
 from tandemlift.settings.key_description import key
 from tandemlift.settings.value_types import (
     NonNegative,
-    NonNegative3,
     PerAxis,
     Positive,
-    Positive3,
     Scale,
     Table,
     divisor,
     is_number,
     must,
 )
-
-LN_20 = 2.995732273553991  # time constants until 95 %
 
 Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
 Bandwidth = Annotated[float, Field(gt=0.0, le=1e4), AfterValidator(divisor)]  # rad/s
@@ -32,59 +28,6 @@ class ControllerTable(Table):
     """`[controller]`: the controller and its settings; each controller adds its own keys."""
 
     name: str = key(..., None, "name of the controller, one of `tandemlift controllers`", example="nftsmc")
-
-
-class FeelTable(Table):
-    """`[admittance.feel]`: the response to a push, in place of mass and damping: a force, a speed and a time."""
-
-    force: Positive = key(
-        1.0, "N", "a push of this force", rule="above the threshold with a soft gate", source="chosen"
-    )
-    speed: Positive = key(0.6, "m/s", "speed that the push leads to", source="chosen")
-    time: Positive = key(0.5, "s", "time in which 95 % of that speed is reached", source="chosen")
-
-
-class AdmittanceTable(Table):
-    """`[admittance]`: virtual mass, damping and stiffness that a push moves, along each world axis."""
-
-    feel: FeelTable | None = None
-
-    mass: Positive3 = key(..., "kg", "virtual mass M", example=1.0)
-    damping: NonNegative3 = key(
-        ...,
-        "N s/m",
-        "virtual damping C; a push of impulse I moves the vehicle by about I/C",
-        rule="from stiffness · step / 2 to 2 · mass / step",
-        example=1.6,
-    )
-    stiffness: NonNegative3 = key(
-        (0.0, 0.0, 0.0), "N/m", "virtual stiffness K; with 0 the vehicle stays where it was pushed"
-    )
-    threshold: NonNegative3 = key(..., "N", "forces up to this are ignored", example=0.3)
-    gate: Literal["hard", "soft"] = key(
-        "hard",
-        None,
-        "how much of a force beyond the threshold acts",
-        choices={"hard": "the whole force", "soft": "only what exceeds the threshold"},
-    )
-    reanchor: bool = key(
-        False, None, "with stiffness: true makes the vehicle stay where its motion has died, instead of springing back"
-    )
-
-    @model_validator(mode="before")
-    @classmethod
-    def _by_feel(cls, data: Any) -> Any:
-        """Mass and damping from the feel: v(t) = v (1 − exp(−C t/M)) under the force beyond the threshold."""
-        if not isinstance(data, dict) or not isinstance(data.get("feel"), dict):
-            return data
-        try:
-            feel, threshold = FeelTable(**data["feel"]), data["threshold"]
-            axes = [threshold] * 3 if is_number(threshold) else list(threshold)
-            less = [0.0 if data.get("gate", "hard") == "hard" else float(x) for x in axes]
-        except (ValidationError, KeyError, TypeError, ValueError):
-            return data  # which the keys' own rules explain
-        damping = tuple((feel.force - x) / feel.speed for x in less)
-        return {**data, "damping": damping, "mass": tuple(c * feel.time / LN_20 for c in damping)}
 
 
 class Weights:

@@ -10,7 +10,7 @@ from tandemlift.simulation.pilot_api import pilot_at_start
 
 
 def portable_mission(mission: Mission) -> Mission:
-    """The mission with `mission.fused = false`.
+    """The mission with `mission.fused = false`, and with mass and damping in place of `[admittance.feel]`.
 
     Raises:
         InputError: its controller is plain Python, or it changes while it is flown.
@@ -22,6 +22,8 @@ def portable_mission(mission: Mission) -> Mission:
         recording = str(mission.person.recording)
         raise InputError(f"person.recording = {recording!r}: other machines play no recorded hand; remove it")
     portable = changed(mission, "mission.fused", False) if mission.mission.fused else mission
+    if portable.admittance.feel:
+        portable = changed(portable, "admittance.feel", None)
     if type(pilot_at_start(portable).parameters.controller) in control.interpreted:
         name = mission.controller.name
         way = "register it as a law, without compiled=False"

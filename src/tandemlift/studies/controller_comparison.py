@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
 from tandemlift.controllers import CONTROLLERS, Controller, controller, error_text, file_of
-from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
-from tandemlift.simulation.fly import fly, fly_many
+from tandemlift.simulation.many import fly_each
 
 Mask = NDArray[np.bool_]
 
@@ -99,28 +98,15 @@ def compare(entered: Sequence[Entrant], engine: str = "compiled", progress: Prog
     Raises:
         InputError: the engine is unknown, or a user's controller fails.
     """
-    compiled = not engine_named(engine).load
     missions = [e.mission for e in entered if e.mission]
-    try:
-        if compiled:
-            flights = fly_many(missions, threads=1, progress=progress)  # on one thread, because their speed is compared
-        else:
-            flights = _one_by_one(missions, engine, progress)
+    try:  # on one thread, because their speed is compared
+        flights = fly_each(missions, engine, keep="flights", threads=1, progress=progress)
     except InputError:
         raise
     except Exception as error:
         raise _explained(error, entered) from error
     flown = iter(flights)
     return [Entry(e.name, next(flown) if e.mission else None, e.refusal) for e in entered]
-
-
-def _one_by_one(missions: Sequence[Mission], engine: str, progress: Progress | None) -> list[Flight]:
-    flights = []
-    for mission in missions:
-        flights.append(fly(mission, engine))
-        if progress:
-            progress(len(flights), len(missions))
-    return flights
 
 
 def _explained(error: Exception, entered: Sequence[Entrant]) -> Exception:

@@ -9,10 +9,10 @@ import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Array, Progress
-from tandemlift.engines.registry import ENGINES, engine_named
+from tandemlift.engines.registry import ENGINES
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
-from tandemlift.simulation.fly import fly
+from tandemlift.simulation.many import fly_each
 
 QUANTITIES = {"position": "m", "attitude": "rad", "joint_force": "N", "joint_torque": "N m", "push_estimate": "N"}
 SETTLED = 0.1  # s, from which on joints are compared: some engines first correct joint errors of a fast start
@@ -34,14 +34,8 @@ def fly_in(mission: Mission, engines: Sequence[str], progress: Progress | None =
     """
     if len(set(engines)) < 2 or len(set(engines)) < len(engines):
         raise InputError(f"engines = {', '.join(engines)}: must be two or more, without repetition")
-    for name in engines:
-        engine_named(name)
-    flights = {}
-    for name in engines:
-        flights[name] = fly(mission, name)
-        if progress:
-            progress(len(flights), len(engines))
-    return flights
+    flights = fly_each([mission] * len(engines), engines, keep="flights", progress=progress)
+    return dict(zip(engines, flights, strict=True))
 
 
 def angles_between(a: Array, b: Array) -> Array:

@@ -1,16 +1,14 @@
 """Units on workers: which are flown, by whom, and again when a worker ends; what a part is."""
 
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 
 import pytest
 from study_runs import TWELVE, assert_same_rows, files_of, fly
 
 from tandemlift.common.errors import InputError
 from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.units.flying import fly_unit
-from tandemlift.studies.units.running import WAITING, part_from, run_units
+from tandemlift.studies.units.running import WAITING, StudyWork, part_from, run_units
 from tandemlift.studies.units.store import open_folder
-from tandemlift.studies.units.workers import ThreadWorkers
 
 
 class Lost(Exception):
@@ -25,23 +23,29 @@ class WorkersThatEnd:
     def __init__(self, ends):
         self.ends, self.waiting, self.most = ends, 0, 0
 
-    def submit(self, unit):
+    def submit(self, task):
         self.waiting += 1
         self.most = max(self.most, self.waiting)
         future = Future()
-        future.set_result(unit)
+        future.set_result(task)
         return future
 
     def columns(self, future):
         self.waiting -= 1
-        unit = future.result()
+        task = future.result()
+        (unit,) = task.args
         if self.ends.get(unit.first, 0):
             self.ends[unit.first] -= 1
             raise Lost
-        return fly_unit(unit)
+        return task()
 
     def is_lost(self, error):
         return isinstance(error, Lost)
+
+
+def run(plan, path, workers, **options):
+    folder = open_folder(plan, path)
+    return run_units(StudyWork(plan, folder.names()), folder.files, workers, **options)
 
 
 @pytest.fixture(scope="module")
@@ -59,13 +63,13 @@ def plan():
 
 def test_a_unit_whose_worker_ends_is_flown_by_another_one(twelve, plan, tmp_path):
     workers = WorkersThatEnd({0: 1, 8: 5, 44: 2})
-    assert run_units(plan, open_folder(plan, tmp_path), workers) == 12
+    assert run(plan, tmp_path, workers) == 12
     assert_same_rows(twelve, tmp_path)
 
 
 def test_a_unit_that_ends_whatever_worker_flies_it_is_named_and_the_others_stay(plan, tmp_path):
     with pytest.raises(InputError, match=r"^rows 8 to 11: whatever worker flies them ends"):
-        run_units(plan, open_folder(plan, tmp_path), WorkersThatEnd({8: 100}))
+        run(plan, tmp_path, WorkersThatEnd({8: 100}))
     done = len(files_of(tmp_path))
     assert 2 <= done < 12
     assert fly(TWELVE, tmp_path, threads=1) == 12 - done
@@ -73,7 +77,7 @@ def test_a_unit_that_ends_whatever_worker_flies_it_is_named_and_the_others_stay(
 
 def test_few_units_wait_at_a_time(plan, tmp_path):
     workers = WorkersThatEnd({})
-    run_units(plan, open_folder(plan, tmp_path), workers)
+    run(plan, tmp_path, workers)
     assert workers.most == WAITING * workers.count
 
 
@@ -81,7 +85,7 @@ def test_an_error_of_a_unit_ends_the_run_and_gives_its_claims_back(plan, tmp_pat
     workers = WorkersThatEnd({20: 1})
     workers.is_lost = lambda error: False
     with pytest.raises(Lost):
-        run_units(plan, open_folder(plan, tmp_path), workers)
+        run(plan, tmp_path, workers)
     assert list(tmp_path.glob("units/.*")) == []
 
 
@@ -106,12 +110,17 @@ def test_units_that_another_process_claims_are_flown_last(plan, tmp_path):
     folder = open_folder(plan, tmp_path)
     names = folder.names()
     for name in names[:3]:
-        assert folder.claim(name)
+        assert folder.files.claim(name)
     order = []
-    folder.write, write = (lambda name, columns: (order.append(name), write(name, columns))), folder.write
-    with ThreadPoolExecutor(1) as pool:
-        assert run_units(plan, folder, ThreadWorkers(pool, 1)) == 12
+
+    class Noting(WorkersThatEnd):
+        def submit(self, task):
+            order.append(task.args[0].name)
+            return super().submit(task)
+
+    assert run(plan, tmp_path, Noting({})) == 12
     assert set(order[-3:]) == set(names[:3])
+    assert list(tmp_path.glob("units/.*")) == []
 
 
 def test_what_another_process_has_flown_meanwhile_is_not_flown(twelve, plan, tmp_path):
@@ -121,11 +130,11 @@ def test_what_another_process_has_flown_meanwhile_is_not_flown(twelve, plan, tmp
     class Overtaken(WorkersThatEnd):
         def columns(self, future):
             for name in names[6:]:
-                folder.file(name).write_bytes((twelve / "units" / f"{name}.parquet").read_bytes())
+                folder.files.file(name).write_bytes((twelve / "units" / f"{name}.parquet").read_bytes())
             return super().columns(future)
 
     done = []
-    flown = run_units(plan, folder, Overtaken({}), progress=lambda rows, total: done.append(rows))
+    flown = run(plan, tmp_path, Overtaken({}), progress=lambda rows, total: done.append(rows))
     assert flown == 6
     assert done[-1] == 48
     assert_same_rows(twelve, tmp_path)

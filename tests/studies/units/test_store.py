@@ -60,8 +60,8 @@ def test_a_file_of_something_else_is_made_again(whole, twelve):
 
 def test_a_file_says_of_which_study_and_unit_it_is(twelve):
     folder = open_folder(load_plan(TWELVE), twelve)
-    for name, path in folder.flown():
-        about = pq.read_metadata(path).metadata
+    for name in folder.names():
+        about = pq.read_metadata(folder.files.file(name)).metadata
         assert about[b"tandemlift.study"].decode() == folder.digest
         assert about[b"tandemlift.unit"].decode() == name
 

@@ -47,6 +47,7 @@ def _always(mission: Mission) -> Iterator[tuple[str, Any]]:
     yield "pushes", []
     yield "mission.duration", MAX_DURATION
     yield "phases.land_start", NEVER
+    yield "admittance.feel", None  # mass and damping, which it comes to, are changed in flight
 
 
 def _if_possible(mission: Mission) -> Iterator[tuple[str, Any]]:

@@ -109,6 +109,9 @@ class CaseTable(Table):
 
     name: Annotated[str, AfterValidator(_words)] = key(..., None, "name of the case", example="calm")
     set: dict[str, Any] = key({}, None, "changes of the mission, as in `[set]`")
+    targets: dict[str, Any] = key(
+        {}, None, "for `tandemlift tune`: what metrics should come to in this case, by their names in metrics.json"
+    )
 
 
 class KeepTable(Table):

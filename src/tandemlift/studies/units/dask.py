@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
 from tandemlift.studies.units.columns import Columns
-from tandemlift.studies.units.unit import Unit, sources_digest
-from tandemlift.studies.units.workers import ExecutorWorkers, other_sources
+from tandemlift.studies.units.unit import sources_digest
+from tandemlift.studies.units.workers import ExecutorWorkers, Task, other_sources
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -49,9 +49,9 @@ class DaskWorkers:
                 self._count = max(1, sum(self._client.nthreads().values()))
         return self._count
 
-    def submit(self, unit: Unit) -> Future[Any]:
+    def submit(self, task: Task) -> Future[Any]:
         """See `Workers`."""
-        return self._workers.submit(unit)
+        return self._workers.submit(task)
 
     def columns(self, future: Future[Any]) -> Columns:
         """See `Workers`."""

@@ -6,16 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from tandemlift.common.errors import InputError
-from tandemlift.flight.record import Flight
 from tandemlift.missions.loading import MissionTemplate
 from tandemlift.settings import Mission
-from tandemlift.simulation.fly import fly, fly_many
+from tandemlift.simulation.many import Keep, fly_each
 from tandemlift.studies.design.plan import StudyRow
 from tandemlift.studies.design.settings import REFUSED, KeepTable
 from tandemlift.studies.units.columns import Columns, columns_of_rows
 from tandemlift.studies.units.unit import Unit
-
-COMPILED = "compiled"
 
 
 def fly_unit(unit: Unit) -> Columns:
@@ -26,11 +23,11 @@ def fly_unit(unit: Unit) -> Columns:
     """
     templates = {i: variant.template() for i, variant in unit.variants.items()}
     results = [_Result(row, templates[row.variant]) for row in unit.rows]
-    for engine in {unit.variants[row.variant].engine for row in unit.rows}:
-        ready = [r for r in results if r.mission is not None and unit.variants[r.row.variant].engine == engine]
-        for result, metrics in zip(ready, _metrics([r.mission for r in ready if r.mission], engine), strict=True):
-            result.take(metrics)
-    flights = {r.row.number: _flown_again(r, unit) for r in results if _is_kept(r, unit.keep)}
+    ready = [result for result in results if result.mission is not None]
+    for result, metrics in zip(ready, _flown(ready, unit, "metrics"), strict=True):
+        result.take(metrics)
+    kept = [result for result in results if _is_kept(result, unit.keep)]
+    flights = dict(zip([result.row.number for result in kept], _flown(kept, unit, "flights"), strict=True))
     return columns_of_rows(unit, [(r.row, r.metrics, r.refusal) for r in results], flights)
 
 
@@ -57,24 +54,11 @@ class _Result:
         return REFUSED if self.metrics is None else self.metrics["outcome"]
 
 
-def _metrics(missions: Sequence[Mission], engine: str) -> list[dict[str, Any] | InputError]:
-    """The metrics of each mission, or why it cannot be built."""
-    if engine == COMPILED:
-        try:
-            return fly_many(missions, keep="metrics", threads=1)
-        except InputError:
-            if len(missions) == 1:
-                return [_alone(missions[0], engine)]
-            middle = len(missions) // 2
-            return [*_metrics(missions[:middle], engine), *_metrics(missions[middle:], engine)]
-    return [_alone(mission, engine) for mission in missions]
-
-
-def _alone(mission: Mission, engine: str) -> dict[str, Any] | InputError:
-    try:
-        return fly(mission, engine).metrics()
-    except InputError as error:
-        return error
+def _flown(results: Sequence[_Result], unit: Unit, keep: Keep) -> list[Any]:
+    """The flights or metrics of rows that have missions, or why they are refused; the same to the last bit again."""
+    missions = [result.mission for result in results if result.mission is not None]
+    engines = [unit.variants[result.row.variant].engine for result in results]
+    return fly_each(missions, engines, keep=keep, threads=1, refusals=True)
 
 
 def _is_kept(result: _Result, keep: KeepTable) -> bool:
@@ -84,9 +68,3 @@ def _is_kept(result: _Result, keep: KeepTable) -> bool:
     number = result.row.number
     every = keep.every is not None and number % keep.every == 0
     return every or number in keep.rows or result.outcome in keep.outcomes
-
-
-def _flown_again(result: _Result, unit: Unit) -> Flight:
-    """The flight of a row whose channels are kept; the same flight, to the last bit."""
-    assert result.mission is not None
-    return fly(result.mission, unit.variants[result.row.variant].engine)

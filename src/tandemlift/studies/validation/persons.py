@@ -1,9 +1,4 @@
-"""Rows about the corridors, with the mission's person and with random persons: success and effort.
-
-Gains, arm, speed and lag of a random person are those of the mission times independent factors of 0.7 to 1.3. The
-visual delay is 0.1 s to 0.3 s (in steps of 20 ms, so that blocks fill), the tremor up to 0.1 N, the grip anywhere on
-the beam. A wind of up to 1 N, unknown to the pilot, comes from a random direction.
-"""
+"""Rows about the corridors, with the mission's person and with random persons: success and effort."""
 
 from __future__ import annotations
 
@@ -14,36 +9,19 @@ import numpy as np
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.missions import Mission, load_mission
+from tandemlift.studies.design.study_files import load_plan
 from tandemlift.studies.validation.rows import Row
 from tandemlift.studies.validation.scenarios import Bench, Changes
 
-SCALED = (
-    *("stiffness", "damping", "lag", "gain", "speed"),
-    *("look_ahead", "approach_gain", "trim_rate", "yaw_gain", "yaw_damping"),
-)
-LONGER = 1.6  # times the mission's duration, because some persons are slow
 NEAR, STANDS = 1.2, 0.02  # m, tolerance of the path's end and of the final height
 LEAST = {"zigzag": 0.0, "narrow": 0.3, "narrow-zigzag": 0.1, "doorway": 0.05}  # m, smallest clearance
 
 
 def random_persons(name: str, count: int, seed: int = 1, changes: Changes | None = None) -> list[Mission]:
-    """A mission with `count` random persons, with further changes of it."""
-    mission, rng = load_mission(name), np.random.default_rng(seed)
-    drawn = []
-    for i in range(count):
-        wind, angle, grip = rng.uniform(0.0, 1.0), rng.uniform(0.0, 2.0 * np.pi), rng.uniform(-1.0, 1.0)
-        own = {f"person.{key}": getattr(mission.person, key) * rng.uniform(0.7, 1.3) for key in SCALED}
-        own |= {
-            "mission.seed": i,
-            "mission.duration": LONGER * mission.mission.duration,
-            "person.delay": 0.02 * int(rng.integers(5, 16)),
-            "person.tremor": rng.uniform(0.0, 0.1),
-            "disturbance.force": [wind * np.cos(angle), wind * np.sin(angle), 0.0],
-        }
-        if mission.person.model == "steer":
-            own["person.grip"] = grip
-        drawn.append(load_mission(name, {**own, **(changes or {})}))
-    return drawn
+    """A mission with `count` random persons, as a study draws them, with further changes of it."""
+    study = {"name": "persons", "missions": [name], "persons": "random", "draws": count, "seed": seed}
+    plan = load_plan({"study": study, "set": changes or {}})
+    return [plan.mission(row) for row in plan.rows(0, plan.count)]
 
 
 def succeeded(mission: Mission, metrics: dict[str, Any]) -> bool:

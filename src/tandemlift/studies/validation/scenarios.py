@@ -14,7 +14,7 @@ import numpy as np
 
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
-from tandemlift.simulation.fly import fly, fly_many
+from tandemlift.simulation.many import fly_each
 from tandemlift.studies.validation.census import Census
 
 Changes = dict[str, Any]
@@ -40,9 +40,6 @@ STEADY, TURBULENCE = 4.16, 4.7  # m/s: mean wind on each axis, and wind at 20 ft
 AREA = 0.1  # m², of each quadrotor
 
 
-FEW = 64  # flights at once, limited by the memory of their logs
-
-
 class Bench(NamedTuple):
     """The engine of the validation, the number of random draws, and who counts how flights end, if anyone does."""
 
@@ -57,21 +54,13 @@ class Bench(NamedTuple):
 
     def fly(self, missions: Iterable[Mission]) -> list[Flight]:
         """The flights of missions, in order."""
-        missions = list(missions)
-        if self.engine == "compiled" and len(missions) > 1:
-            parts = (missions[i : i + FEW] for i in range(0, len(missions), FEW))
-            flights = [flight for part in parts for flight in fly_many(part)]
-        else:
-            flights = [fly(mission, self.engine) for mission in missions]
+        flights = fly_each(missions, self.engine, keep="flights")
         self._counted([flight.metrics() for flight in flights])
         return flights
 
     def metrics(self, missions: Iterable[Mission]) -> list[dict[str, Any]]:
         """The metrics of flights, in order."""
-        missions = list(missions)
-        if self.engine == "compiled" and len(missions) > 1:
-            return self._counted(fly_many(missions, keep="metrics"))
-        return self._counted([fly(mission, self.engine).metrics() for mission in missions])
+        return self._counted(fly_each(missions, self.engine))
 
 
 def quadrotors(**changes: Any) -> list[dict[str, Any]]:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.run import parse_setting
 from tandemlift.cli.terminal.console import compile_notices, echo
+from tandemlift.cli.terminal.mission_options import parse_setting
 
 if TYPE_CHECKING:
     from tandemlift.studies.design.plan import StudyPlan

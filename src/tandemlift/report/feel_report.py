@@ -1,0 +1,158 @@
+"""What a push feels like, to look at and to keep: `tl.feel(mission)`, its numbers, its figure and its page."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tandemlift.common.files import atomic_write
+from tandemlift.common.types import Progress
+from tandemlift.missions import Mission, format_toml, tables_of
+from tandemlift.missions.flight_checks.result import FAILS, CheckResult
+from tandemlift.report.controller_comparison import html_figures, html_versions
+from tandemlift.report.flight_report import DASH, html_table, number
+from tandemlift.report.page import FEEL, STYLE
+from tandemlift.studies.feel.feel_study import HEADS, FeelStudy, sentences_of, study_feel, table_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+NOTE = """Closed form → flown: a push that begins at once, lasts, and ends at once, in calm air from hover. The lag is
+the mean delay of the speed against the push; apart is the largest difference between both speeds."""
+FIGURE = "feel"
+
+
+class FeelReport:
+    """What the keys of a mission feel like.
+
+    Args:
+        study: from `study_feel`.
+
+    Attributes:
+        study: axes under the standard push, effort and checks, as numbers.
+    """
+
+    def __init__(self, study: FeelStudy) -> None:
+        self.study = study
+
+    @property
+    def checks(self) -> tuple[CheckResult, ...]:
+        """Each check with its number, its limit, and what to do."""
+        return self.study.checks
+
+    def summary(self) -> dict[str, Any]:
+        """All numbers in SI units, as in feel.json."""
+        return self.study.summary()
+
+    def __str__(self) -> str:
+        """The table, the sentences and what fails."""
+        rows = [("", *HEADS), *table_of(self.study)]
+        widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+        lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+        failed = [f"{check.verdict}: {check.text}" for check in self.checks if check.verdict == FAILS]
+        return "\n".join([*lines, *sentences_of(self.study), *failed])
+
+    def figure(self) -> Figure:
+        """The speed over time along each axis, by closed form and flown."""
+        from tandemlift.figures.feel import draw
+
+        return draw(self.study)
+
+    def save(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write feel.json, feel.png, feel.pdf and feel.html into a folder, which is made; each appears whole or not.
+
+        Returns:
+            The files.
+        """
+        from tandemlift.figures.feel import CAPTION
+        from tandemlift.figures.registry import save_figure
+
+        folder, figure = Path(folder), self.figure()
+        folder.mkdir(parents=True, exist_ok=True)
+        files = [folder / f"{FIGURE}.json", folder / f"{FIGURE}.html"]
+        _write(files[0], json.dumps(_plain(self.summary()), indent=1, ensure_ascii=False, allow_nan=False))
+        _write(files[1], self._page(html_figures({FIGURE: figure}, {FIGURE: CAPTION})))
+        return [*files, *(save_figure(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]
+
+    def _page(self, figures: str) -> str:
+        tables = {"admittance": tables_of(self.study.mission)["admittance"]}
+        return FEEL.format(
+            name=escape(self.study.mission.mission.name),
+            style=STYLE,
+            verdict=_verdict(self.checks),
+            note=NOTE,
+            table=_axes(table_of(self.study)),
+            sentences="\n".join(f"<p>{_with_code(text)}</p>" for text in sentences_of(self.study)),
+            figures=figures,
+            checks=_checks(self.checks),
+            admittance=escape(format_toml(tables)),
+            versions=html_versions(self.study.pushed[0].flight),
+        )
+
+
+def feel(mission: Mission, *, progress: Progress | None = None) -> FeelReport:
+    """What a mission's admittance feels like: flown, checked, and ready to be shown.
+
+    Args:
+        mission: from `load_mission`.
+        progress: called with (parts done, parts in all).
+
+    Raises:
+        InputError: the mission cannot be flown without its surroundings, or `zigzag` not with its admittance.
+    """
+    return FeelReport(study_feel(mission, progress))
+
+
+def _write(path: Path, text: str) -> None:
+    with atomic_write(path) as partial:
+        partial.write_text(f"{text}\n", "utf-8")
+
+
+def _plain(value: Any) -> Any:
+    """A value for JSON, which has no infinity."""
+    if isinstance(value, dict):
+        return {key: _plain(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    return None if isinstance(value, float) and abs(value) == float("inf") else value
+
+
+def _with_code(text: str) -> str:
+    """A sentence as HTML; what stands in backquotes is code."""
+    parts = escape(text).split("`")
+    return "".join(f"<code>{part}</code>" if i % 2 else part for i, part in enumerate(parts))
+
+
+def _verdict(checks: Iterable[CheckResult]) -> str:
+    failed = [check for check in checks if check.verdict == FAILS]
+    if not failed:
+        return '<p class="verdict"><strong>No check fails</strong>.</p>'
+    named = ", ".join(dict.fromkeys(f"{check.check} {check.subject}".strip() for check in failed))
+    return f'<p class="verdict missed"><strong>{len(failed)} checks fail</strong>: {escape(named)}.</p>'.replace(
+        "<strong>1 checks fail", "<strong>1 check fails"
+    )
+
+
+def _axes(rows: Iterable[tuple[str, ...]]) -> str:
+    heads = "".join(f'<th scope="col">{head}</th>' for head in ("Axis", *HEADS))
+    cells = (
+        f'<tr><th scope="row">{name}</th>{"".join(f"<td>{escape(cell)}</td>" for cell in row)}</tr>'
+        for name, *row in rows
+    )
+    return html_table(f"<tr>{heads}</tr>", cells, "axes")
+
+
+def _checks(checks: Iterable[CheckResult]) -> str:
+    heads = "".join(f'<th scope="col">{head}</th>' for head in ("Check", "Value", "Limit", "Margin", "What to do"))
+    rows = []
+    for c in checks:
+        shown = [DASH if x is None else f"{number(x)} {'' if c.unit == '1' else c.unit}" for x in (c.value, c.limit)]
+        margin = DASH if c.margin is None else f"{100.0 * c.margin:.0f} %"
+        cells = "".join(f"<td>{cell}</td>" for cell in (*shown, margin.replace("-", "−")))
+        said = f"<strong>{c.verdict}</strong>: {_with_code(c.text)}" if c.text else c.verdict
+        rows.append(f'<tr><th scope="row">{escape(f"{c.check} {c.subject}")}</th>{cells}<td>{said}</td></tr>')
+    return html_table(f"<tr>{heads}</tr>", rows, "compared")

@@ -1,0 +1,219 @@
+"""The page of a tuning: one HTML file that needs nothing else: verdict, evidence, figures, values, draws, mission."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from tandemlift.common.files import atomic_write
+from tandemlift.missions.values import shown
+from tandemlift.report import tuning_figures
+from tandemlift.report.controller_comparison import html_figures
+from tandemlift.report.flight_report import DASH, html_table, number
+from tandemlift.report.page import STYLE
+from tandemlift.report.tuning_figures import axis_label, shown_scale
+from tandemlift.simulation.results import versions
+from tandemlift.studies.tuning.candidates import Cost
+from tandemlift.studies.tuning.result import MISSION_FILE, Tuning
+
+PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{name}: tuning</title>
+<style>{style}</style>
+</head>
+<body>
+<main>
+<header>
+<p class="kind">Tuning</p>
+<h1>{name}</h1>
+<p class="kind">{what}</p>
+{verdict}
+</header>
+{evidence}
+{figures}
+{front}
+<section>
+<h2>Values</h2>
+{values}
+</section>
+<section>
+<h2>Draws</h2>
+{draws}
+</section>
+<section>
+<h2>Mission</h2>
+<p>Save it as <code>{file}</code> (the search writes it beside this page), and</p>
+<pre><code>tandemlift run {file}</code></pre>
+<pre><code>{mission}</code></pre>
+</section>
+<footer class="soft">Searched with {versions}.</footer>
+</main>
+</body>
+</html>
+"""
+METHODS = {"cma": "CMA-ES", "optuna": "Optuna's tree-structured Parzen estimator"}
+FEW_DRAWS = 12  # draws whose changes are listed
+
+
+def write_tuning(found: Tuning, path: str | os.PathLike[str]) -> Path:
+    """Write the page of a tuning as one HTML file without references; it appears whole or not at all.
+
+    Args:
+        found: from `tune`.
+        path: of the HTML file; its folder is there.
+
+    Returns:
+        The path.
+    """
+    path, drawn = Path(path), tuning_figures.drawn_figures(found)
+    text = PAGE.format(
+        name=escape(found.name),
+        style=STYLE,
+        what=escape(what_was_done(found)),
+        verdict=_verdict(found),
+        evidence=_evidence(found),
+        figures=html_figures(drawn, tuning_figures.CAPTIONS) if drawn else "",
+        front=_front(found),
+        values=_values(found),
+        draws=_draws(found),
+        file=MISSION_FILE,
+        mission=escape(found.to_toml(path.parent)),
+        versions=escape(", ".join(f"{name} {version}" for name, version in versions("compiled").items())),
+    )
+    with atomic_write(path) as partial:
+        partial.write_text(text, "utf-8")
+    return path
+
+
+def what_was_done(found: Tuning) -> str:
+    """The search in a sentence."""
+    tried, task = len(found.history) - 1, found.task
+    what = f"{len(task.parameters)} value{'s' * (len(task.parameters) != 1)}"
+    draws = f"{len(found.draws)} draw{'s' * (len(found.draws) != 1)}"
+    return f"{what} searched by {METHODS[found.optimiser]}: {tried} candidates on {draws} each; {found.ended}"
+
+
+def _verdict(found: Tuning) -> str:
+    if found.evidence is None:
+        return '<p class="verdict missed"><strong>Unfinished</strong>: interrupted; not flown on fresh draws.</p>'
+    if found.is_better:
+        return f'<p class="verdict"><strong>Better</strong> on fresh draws: {escape(found.evidence.words)}.</p>'
+    return f'<p class="verdict missed"><strong>Not better</strong> on fresh draws: {escape(found.evidence.words)}.</p>'
+
+
+def cost_words(cost: Cost, draws: int) -> str:
+    """A cost in words: the ratio, and bad outcomes if there are any."""
+    return f"{cost.ratio:.4g}" + (f", {cost.bad} of {draws} bad" if cost.bad else "")
+
+
+def _evidence(found: Tuning) -> str:
+    """The table of old against new."""
+    if found.evidence is None:
+        return ""
+    rows = []
+    for c in found.evidence.comparisons:
+        words, unit = axis_label(c.label)
+        scale, unit = shown_scale(unit, max(abs(x) for x in (*c.old, *c.new)))
+        interval = DASH if c.interval is None else f"{number(c.interval[0] * scale)} to {number(c.interval[1] * scale)}"
+        cells = [number(x * scale) for x in (*c.old, *c.new, c.difference)]
+        cells += [interval, f"{100.0 * c.improved:.0f} %", unit]
+        rows.append(_row(f"{escape(words)}<br><code>{escape(c.label)}</code>", cells))
+    count = len(found.fresh)
+    rows.append(_bad_row(found, count))
+    of_values = ("Present<br>median", "<br>worst", "New<br>median", "<br>worst")
+    heads = ("", *of_values, "Difference<br>median", "<br>95 %", "Improved", "Unit")
+    note = (
+        f"On {count} fresh draws, which the search never saw; both fly the same draws. The difference is new minus "
+        "present, draw by draw, over draws that went well with both; its interval holds for any distribution."
+    )
+    table = html_table(_head(heads), rows, "compared part")
+    return f'<section>\n<h2>Evidence</h2>\n<p class="soft">{note}</p>\n{table}\n</section>'
+
+
+def _bad_row(found: Tuning, count: int) -> str:
+    assert found.evidence is not None
+    old, new = (f"{cost.bad} of {count}" for cost in found.evidence.costs)
+    return (
+        f'<tr><th scope="row">Bad outcomes</th><td class="one" colspan="2">{old}</td>'
+        f'<td class="one" colspan="2">{new}</td><td></td><td></td><td></td><td></td></tr>'
+    )
+
+
+def _front(found: Tuning) -> str:
+    """The table of the front."""
+    if not found.front:
+        return ""
+    goals = [axis_label(goal.name)[0] for goal in found.task.goals]
+    heads = ("", *(f"{g}<br>search" for g in goals), *(f"{g}<br>fresh" for g in goals), "")
+    rows = [
+        _row(
+            f"{place}{' (the mission below)' if point.values == found.new else ''}",
+            [
+                *(cost_words(cost, len(found.draws)) for cost in point.costs),
+                *(cost_words(cost, len(found.fresh)) for cost in point.fresh),
+                "",
+            ],
+        )
+        for place, point in enumerate(found.front, 1)
+    ]
+    note = "Costs of candidates that no other one beats in all goals; the present values have a cost of about one."
+    head = _head(heads)
+    return (
+        f'<section>\n<h2>Front</h2>\n<p class="soft">{note}</p>\n{html_table(head, rows, "compared part")}\n</section>'
+    )
+
+
+def _values(found: Tuning) -> str:
+    rows = [
+        _row(f"<code>{escape(p.name)}</code>", [_value(old), _value(new), _span(p)])
+        for p, old, new in zip(found.task.parameters, found.old, found.new, strict=True)
+    ]
+    return html_table(_head(("Key", "Present", "New", "Searched")), rows, "compared part")
+
+
+def _value(value: Any) -> str:
+    return escape(shown(value)) if isinstance(value, (bool, str)) else number(value)
+
+
+def _span(p: Any) -> str:
+    if p.choices:
+        return escape(", ".join(map(shown, p.choices)))
+    return f"{number(p.low)} to {number(p.high)}"
+
+
+def _draws(found: Tuning) -> str:
+    """What the draws of the search change."""
+    listed = found.draws[:FEW_DRAWS]
+    rows = [
+        f'<tr><th scope="row">{i}{f" {escape(draw.case)}" if draw.case else ""}</th>'
+        f"<td><code>{escape(', '.join(f'{key} = {shown(_short(value))}' for key, value in draw.changes.items()))}</code>"
+        "</td></tr>"
+        for i, draw in enumerate(listed, 1)
+    ]
+    more = f"; the first {len(listed)} are listed" if len(found.draws) > len(listed) else ""
+    note = (
+        f"Every candidate flew the same {len(found.draws)} draws{more}. <code>evidence.json</code> lists all draws, fresh "
+        "ones too, with outcomes and values."
+    )
+    return f'<p class="soft">{note}</p>\n{html_table("", rows, "setup")}'
+
+
+def _short(value: Any) -> Any:
+    """Numbers with four digits."""
+    if isinstance(value, float):
+        return float(f"{value:.4g}")
+    return [_short(v) for v in value] if isinstance(value, (list, tuple)) else value
+
+
+def _head(cells: Sequence[str]) -> str:
+    return "<tr>" + "".join(f'<th scope="col">{cell}</th>' for cell in cells) + "</tr>"
+
+
+def _row(head: str, cells: Sequence[str]) -> str:
+    return f'<tr><th scope="row">{head}</th>' + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"

@@ -1,0 +1,96 @@
+"""The one way in which studies fly many missions, each in its engine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, Literal
+
+from tandemlift.common.errors import InputError
+from tandemlift.common.types import Progress
+from tandemlift.engines.registry import engine_named
+from tandemlift.settings import Mission
+from tandemlift.simulation.fly import fly, fly_many
+
+Keep = Literal["flights", "metrics"]
+
+
+def fly_each(
+    missions: Iterable[Mission],
+    engine: str | Sequence[str] = "compiled",
+    *,
+    keep: Keep = "metrics",
+    threads: int | None = None,
+    refusals: bool = False,
+    progress: Progress | None = None,
+) -> list[Any]:
+    """Fly missions: those of the compiled engine in blocks on several threads, those of other engines one by one.
+
+    Args:
+        missions: from `load_mission`.
+        engine: name of the engine, or one name for each mission.
+        keep: "flights" for a `Flight` of each; "metrics" for its metrics.
+        threads: for blocks; by default one for each processor.
+        refusals: whether a mission that cannot be built gives its `InputError`, and the others are flown.
+        progress: called with (flights flown, flights in all).
+
+    Returns:
+        One entry for each mission, in the order given.
+
+    Raises:
+        InputError: an engine is unknown, or a mission cannot be built and `refusals` are not asked for.
+    """
+    missions = list(missions)
+    engines = [engine] * len(missions) if isinstance(engine, str) else list(engine)
+    ways = {name: _Engine(name, keep, threads, refusals) for name in ([engine] if isinstance(engine, str) else engines)}
+    found, done = [None] * len(missions), 0
+
+    def advanced(flown: int, _: int) -> None:
+        if progress:
+            progress(done + flown, len(missions))
+
+    for name, way in ways.items():
+        places = [i for i, own in enumerate(engines) if own == name]
+        for i, result in zip(places, way.flown([missions[i] for i in places], advanced), strict=True):
+            found[i] = result
+        done += len(places)
+    return found
+
+
+class _Engine:
+    """An engine that flies many missions."""
+
+    def __init__(self, name: str, keep: Keep, threads: int | None, refusals: bool) -> None:
+        self.name, self.keep, self.threads, self.refusals = name, keep, threads, refusals
+        self.in_blocks = engine_named(name).load is None
+
+    def flown(self, missions: list[Mission], progress: Progress) -> list[Any]:
+        if self.in_blocks:
+            return self._together(missions, progress)
+        found = []
+        for mission in missions:
+            found.append(self._alone(mission))
+            progress(len(found), len(missions))
+        return found
+
+    def _together(self, missions: list[Mission], progress: Progress) -> list[Any]:
+        """All at once; if one of them is refused, in halves, until it is alone."""
+        try:
+            return fly_many(missions, self.keep, self.threads, progress=progress)
+        except InputError as error:
+            if not self.refusals:
+                raise
+            if len(missions) == 1:
+                progress(1, 1)
+                return [error]
+        middle = len(missions) // 2
+        first = self._together(missions[:middle], progress)
+        return [*first, *self._together(missions[middle:], lambda flown, _: progress(middle + flown, len(missions)))]
+
+    def _alone(self, mission: Mission) -> Any:
+        try:
+            flight = fly(mission, self.name)
+        except InputError as error:
+            if not self.refusals:
+                raise
+            return error
+        return flight if self.keep == "flights" else flight.metrics()

@@ -1,0 +1,139 @@
+"""Candidates flown on draws, and what they cost: bad outcomes first, then the goals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from tandemlift.common.errors import InputError
+from tandemlift.common.outcomes import FAILURES
+from tandemlift.common.types import Array
+from tandemlift.settings import Mission
+from tandemlift.simulation.fly import fly_many
+from tandemlift.studies.design.settings import REFUSED
+from tandemlift.studies.tuning.draws import Draw
+from tandemlift.studies.tuning.goals import Goal
+from tandemlift.studies.tuning.source import Source
+
+NO_NUMBER = "no number"
+TIE = 0.1  # weight of the mean beside the worst, so that what is not the worst does not drift
+Aim = Literal["mean", "worst"]
+Changes = dict[str, Any]
+
+
+class Trial(NamedTuple):
+    """What became of a candidate on some draws.
+
+    Attributes:
+        outcomes: of each draw; also "refused", or "no number" where a goal has none.
+        reasons: why a draw was refused, "" for others.
+        flown: fraction of the mission that was flown, (draws,).
+        metrics: of each draw; none of one that was refused.
+        values: for each goal (draws, components), NaN where the outcome is bad.
+    """
+
+    outcomes: tuple[str, ...]
+    reasons: tuple[str, ...]
+    flown: Array
+    metrics: tuple[Mapping[str, Any], ...]
+    values: tuple[Array, ...] = ()
+
+    @property
+    def bad(self) -> Any:
+        """Mask (draws,) of bad outcomes."""
+        return np.array([outcome in FAILURES or outcome in (REFUSED, NO_NUMBER) for outcome in self.outcomes])
+
+    def measured(self, goals: Sequence[Goal], sizes: Sequence[int]) -> Trial:
+        """The same with the values of goals, of so many components each."""
+        found = [[goal.measured(m) for goal in goals] for m in self.metrics]
+        outcomes = [
+            NO_NUMBER if outcome not in FAILURES and outcome != REFUSED and None in row else outcome
+            for outcome, row in zip(self.outcomes, found, strict=True)
+        ]
+        trial = self._replace(outcomes=tuple(outcomes))
+        values = tuple(np.full((len(outcomes), size), np.nan) for size in sizes)
+        for i, bad in enumerate(trial.bad):
+            for column, value in zip(values, found[i], strict=True):
+                if not bad:
+                    column[i] = value
+        return trial._replace(values=values)
+
+
+class Cost(NamedTuple):
+    """Number of bad outcomes, and what the goals come to over all other draws; of all bad, the fraction not flown."""
+
+    bad: int
+    ratio: float
+
+    @property
+    def rank(self) -> float:
+        """One number that orders costs: first by bad outcomes, then by ratio."""
+        return self.bad + self.ratio / (1.0 + self.ratio)
+
+
+def cost_of(trial: Trial, goals: Sequence[Goal], scales: Sequence[Array], aim: Aim) -> Cost:
+    """The cost of a trial.
+
+    Args:
+        trial: with its values.
+        goals: that count, with their scales.
+        scales: of each goal (draws, components).
+        aim: "mean" of all ratios of value to scale, or the "worst" and a little of their mean.
+    """
+    good = ~trial.bad
+    if not good.any():
+        return Cost(len(good), float(1.0 - trial.flown.mean()))
+    ratios = [goal.ratios(v[good], s[good]) for goal, v, s in zip(goals, trial.values, scales, strict=True)]
+    mean = float(np.mean([r.mean() for r in ratios]))
+    worst = max(float(r.max()) for r in ratios)
+    return Cost(int((~good).sum()), mean if aim == "mean" else worst + TIE * mean)
+
+
+def fly_candidates(
+    source: Source, candidates: Sequence[Changes], draws: Sequence[Draw], threads: int | None = None
+) -> list[Trial]:
+    """Fly every candidate on every draw, all at once, so that blocks of flights fill."""
+    rows = [_loaded(source, draw.changes, candidate) for candidate in candidates for draw in draws]
+    missions = [row for row in rows if isinstance(row, Mission)]
+    flown = iter(_flown(missions, threads))
+    results = [row if isinstance(row, str) else (row, next(flown)) for row in rows]
+    count = len(draws)
+    return [_trial(results[i * count : (i + 1) * count]) for i in range(len(candidates))]
+
+
+def _loaded(source: Source, *changes: Changes) -> Mission | str:
+    """A mission, or why it is refused."""
+    try:
+        return source.load(*changes)
+    except InputError as error:
+        return str(error)
+
+
+def _flown(missions: Sequence[Mission], threads: int | None) -> Iterable[Mapping[str, Any] | str]:
+    """The metrics of missions, or why one is refused as it is prepared."""
+    try:
+        return fly_many(missions, keep="metrics", threads=threads)
+    except InputError:
+        if len(missions) == 1:
+            raise
+    found: list[Mapping[str, Any] | str] = []
+    for mission in missions:
+        try:
+            found += fly_many([mission], keep="metrics", threads=1)
+        except InputError as error:
+            found.append(str(error))
+    return found
+
+
+def _trial(rows: Sequence[Any]) -> Trial:
+    outcomes, reasons, shares, metrics = [], [], [], []
+    for row in rows:
+        reason = row if isinstance(row, str) else row[1] if isinstance(row[1], str) else ""
+        found = {} if reason else row[1]
+        outcomes.append(REFUSED if reason else found["outcome"])
+        reasons.append(reason)
+        shares.append(0.0 if reason else found["steps"] / row[0].mission.steps)
+        metrics.append(found)
+    return Trial(tuple(outcomes), tuple(reasons), np.array(shares), tuple(metrics))

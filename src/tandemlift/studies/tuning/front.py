@@ -1,0 +1,23 @@
+"""The front of several goals: what cannot be improved in one without loss in another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tandemlift.studies.tuning.hunt import Tried
+from tandemlift.studies.tuning.result import FrontPoint
+
+MOST = 12  # points that are shown, and flown on fresh draws
+
+
+def front_of(tried: Sequence[Tried]) -> tuple[FrontPoint, ...]:
+    """The candidates that no other one beats, in the order of their first goal; at most `MOST`, evenly spread."""
+    ranks = np.array([[cost.rank for cost in t.apart] for t in tried])
+    kept: list[int] = []
+    for i in sorted(range(len(tried)), key=lambda i: (*ranks[i], i)):
+        if not any(np.all(ranks[j] <= ranks[i]) for j in kept):
+            kept.append(i)
+    places = np.unique(np.linspace(0, len(kept) - 1, min(len(kept), MOST)).round().astype(int))
+    return tuple(FrontPoint(tried[kept[k]].values, tried[kept[k]].apart) for k in places)
