@@ -13,8 +13,8 @@ from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, load_mission, merge, tables_of
 from tandemlift.missions.values import Tables
-from tandemlift.simulation.fly import fly_many
-from tandemlift.studies.persons import succeeded
+from tandemlift.studies.many import fly_each
+from tandemlift.studies.validation.persons import succeeded
 
 CORRIDOR = "zigzag"
 LOGGED = 0.05  # s: motions of a person are slow against it
@@ -73,7 +73,10 @@ def effort_in_corridor(m: Mission) -> Effort:
 
 def efforts(missions: Sequence[Mission], progress: Progress | None = None) -> list[Effort]:
     """The efforts of missions with persons, in their order."""
-    return [_effort(m, flight) for m, flight in zip(missions, fly_many(missions, progress=progress), strict=True)]
+    return [
+        _effort(m, flight)
+        for m, flight in zip(missions, fly_each(missions, keep="flights", progress=progress), strict=True)
+    ]
 
 
 def _effort(m: Mission, flight: Flight) -> Effort:
