@@ -25,7 +25,7 @@ from tandemlift.vehicle import Vehicle
 RISE = 0.02  # s: spacing and standard deviation of the Gaussians
 MOST_PUSHES = 1500
 SETTLING = 3.0  # s, after lift and tare
-HOLD, LEAST_HOLD, MOST_HOLD = 2.0, 1.0, 60.0  # of the time to 95 %; s; s
+HOLD, LEAST_HOLD, MOST_HOLD = 2.5, 1.0, 60.0  # of the time to 95 %; s; s
 LAST = 0.1  # of the hold, over which the final speed is the mean
 NEVER = 1e6  # s
 LEAST = 0.02  # of the final speed, below which a flight has not moved
