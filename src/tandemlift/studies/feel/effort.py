@@ -13,7 +13,7 @@ from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, load_mission, merge, tables_of
 from tandemlift.missions.values import Tables
-from tandemlift.studies.many import fly_each
+from tandemlift.simulation.many import fly_each
 from tandemlift.studies.validation.persons import succeeded
 
 CORRIDOR = "zigzag"

@@ -18,7 +18,7 @@ from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
 from tandemlift.missions.values import Tables
-from tandemlift.studies.many import fly_each
+from tandemlift.simulation.many import fly_each
 from tandemlift.studies.feel.closed_form import AXES, YAW, AxisFeel, axes_of, speed_at
 from tandemlift.vehicle import Vehicle
 

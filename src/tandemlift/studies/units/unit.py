@@ -20,7 +20,6 @@ SHOWING = (  # rooms that no row of a study depends on
 )
 ROWS = (
     "studies/design/",
-    "studies/many.py",
     "studies/units/columns.py",
     "studies/units/flying.py",
 )  # what does, of `studies`
