@@ -9,15 +9,9 @@ import numpy as np
 
 from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
-<<<<<<< HEAD
 from tandemlift.missions import Mission, load_mission
-from tandemlift.simulation.fly import fly_many
-from tandemlift.studies.feel.quiet import quietly
-=======
-from tandemlift.missions import Mission, check, load_mission, merge, tables_of
-from tandemlift.missions.values import Tables
 from tandemlift.simulation.many import fly_each
->>>>>>> engine
+from tandemlift.studies.feel.quiet import quietly
 from tandemlift.studies.validation.persons import succeeded
 
 CORRIDOR = "zigzag"
@@ -72,22 +66,14 @@ def effort_in_corridor(m: Mission) -> Effort:
 
 
 def efforts(missions: Sequence[Mission], progress: Progress | None = None) -> list[Effort]:
-<<<<<<< HEAD
     """The efforts of missions with persons, in their order; memory does not grow with their number."""
     found = list[Effort]()
     for first in range(0, len(missions), TOGETHER):
         some = missions[first : first + TOGETHER]
-        found += [_effort(m, flight) for m, flight in zip(some, fly_many(some), strict=True)]
+        found += [_effort(m, flight) for m, flight in zip(some, fly_each(some, keep="flights"), strict=True)]
         if progress:
             progress(len(found), len(missions))
     return found
-=======
-    """The efforts of missions with persons, in their order."""
-    return [
-        _effort(m, flight)
-        for m, flight in zip(missions, fly_each(missions, keep="flights", progress=progress), strict=True)
-    ]
->>>>>>> engine
 
 
 def _effort(m: Mission, flight: Flight) -> Effort:
