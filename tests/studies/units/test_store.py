@@ -12,7 +12,8 @@ from study_runs import TWELVE, assert_same_rows, files_of, fly, started
 
 from tandemlift.common.errors import InputError
 from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.units.store import LEFT_OVER, open_folder
+from tandemlift.studies.units.files import LEFT_OVER
+from tandemlift.studies.units.store import open_folder
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ from tandemlift.common.types import Progress
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.units.dask import cluster_workers, processes_of, scheduler_workers
 from tandemlift.studies.units.kept import check_kept
-from tandemlift.studies.units.running import WHOLE, Part, StudyWork, run_units
+from tandemlift.studies.units.running import WHOLE, StudyPart, StudyWork, run_units
 from tandemlift.studies.units.store import StudyFolder
 from tandemlift.studies.units.workers import ExecutorWorkers, Workers, thread_workers
 
@@ -25,7 +25,7 @@ def fly_study(
     executor: Executor | None = None,
     scheduler: str | None = None,
     cluster: str | None = None,
-    part: Part = WHOLE,
+    part: StudyPart = WHOLE,
     progress: Progress | None = None,
     say: Callable[[str], None] = lambda line: None,
 ) -> int:
