@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import threading
 from functools import cached_property
 from typing import Any
 
@@ -23,7 +22,6 @@ from tandemlift.settings import Mission
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
 KERNELS: dict[Any, Kernels] = {}
-_MAKING = threading.Lock()
 
 
 class FlightPlan:
@@ -77,13 +75,14 @@ class FlightPlan:
         """The first step that starts at `LATE` or later."""
         return math.ceil(LATE / self.dt - 1e-9)
 
-    @property
+    @cached_property
     def kernels(self) -> Kernels:
-        """The compiled loops of this variant: the same for all threads, so that each is compiled once."""
-        with _MAKING:
-            if self.variant not in KERNELS:
-                KERNELS[self.variant] = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
-            return KERNELS[self.variant]
+        """The compiled loops of this variant."""
+        found = KERNELS.get(self.variant)
+        if found is None:  # another thread may have made them by now
+            made = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
+            found = KERNELS.setdefault(self.variant, made)
+        return found
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""
