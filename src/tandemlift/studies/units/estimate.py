@@ -11,7 +11,7 @@ from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.settings import BLOCK
 from tandemlift.studies.units.columns import write_columns
 from tandemlift.studies.units.flying import fly_unit
-from tandemlift.studies.units.unit import Unit, unit_count
+from tandemlift.studies.units.unit import StudyUnit, unit_count
 
 
 class Estimate(NamedTuple):
@@ -45,7 +45,7 @@ def estimate(plan: StudyPlan) -> Estimate:
     return Estimate(plan.count, units, seconds, round(size))
 
 
-def _sample(plan: StudyPlan, first: int, last: int) -> Unit:
+def _sample(plan: StudyPlan, first: int, last: int) -> StudyUnit:
     rows = tuple(plan.rows(first, last))
     variants = {row.variant: plan.variants[row.variant] for row in rows}
-    return Unit("sample", first, last, rows, variants, plan.settings.keep)
+    return StudyUnit("sample", first, last, rows, variants, plan.settings.keep)
