@@ -15,7 +15,7 @@ from tandemlift.simulation.fly import fly_many
 from tandemlift.studies.design.settings import REFUSED
 from tandemlift.studies.tuning.draws import Draw
 from tandemlift.studies.tuning.goals import Goal
-from tandemlift.studies.tuning.source import Source
+from tandemlift.studies.tuning.source import MissionSource
 
 NO_NUMBER = "no number"
 TIE = 0.1  # weight of the mean beside the worst, so that what is not the worst does not drift
@@ -92,7 +92,7 @@ def cost_of(trial: Trial, goals: Sequence[Goal], scales: Sequence[Array], aim: A
 
 
 def fly_candidates(
-    source: Source, candidates: Sequence[Changes], draws: Sequence[Draw], threads: int | None = None
+    source: MissionSource, candidates: Sequence[Changes], draws: Sequence[Draw], threads: int | None = None
 ) -> list[Trial]:
     """Fly every candidate on every draw, all at once, so that blocks of flights fill."""
     rows = [_loaded(source, draw.changes, candidate) for candidate in candidates for draw in draws]
@@ -103,7 +103,7 @@ def fly_candidates(
     return [_trial(results[i * count : (i + 1) * count]) for i in range(len(candidates))]
 
 
-def _loaded(source: Source, *changes: Changes) -> Mission | str:
+def _loaded(source: MissionSource, *changes: Changes) -> Mission | str:
     """A mission, or why it is refused."""
     try:
         return source.load(*changes)

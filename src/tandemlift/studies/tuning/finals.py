@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from tandemlift.studies.tuning.candidates import Cost
 from tandemlift.studies.tuning.draws import Draw
 from tandemlift.studies.tuning.hunt import Hunt
-from tandemlift.studies.tuning.searches import Search
+from tandemlift.studies.tuning.searches import GainSearch
 from tandemlift.studies.tuning.task import Task, Values
 
 FINALISTS = 8  # candidates, and the present values
 TIMES = 4  # draws, for each draw of the search
 
 
-def choose(hunt: Hunt, search: Search, draws: Sequence[Draw]) -> tuple[Values, tuple[Cost, Cost]]:
+def choose(hunt: Hunt, search: GainSearch, draws: Sequence[Draw]) -> tuple[Values, tuple[Cost, Cost]]:
     """The best of the best candidates, and the costs of the present values and of its own, on draws for the choice.
 
     The finalists are the candidates of the lowest cost and the point about which the search was trying in the end.
@@ -33,7 +33,7 @@ def choose(hunt: Hunt, search: Search, draws: Sequence[Draw]) -> tuple[Values, t
     return (chosen, (old, lowest)) if lowest.rank < old.rank else (present.values, (old, old))
 
 
-def _centre(task: Task, search: Search) -> list[Values]:
+def _centre(task: Task, search: GainSearch) -> list[Values]:
     point = search.centre
     if point is None:
         return []

@@ -9,7 +9,7 @@ import numpy as np
 
 from tandemlift.studies.tuning.candidates import Cost, Trial
 from tandemlift.studies.tuning.draws import Draw
-from tandemlift.studies.tuning.searches import Search
+from tandemlift.studies.tuning.searches import GainSearch
 from tandemlift.studies.tuning.task import Task, Values
 
 TuneProgress = Callable[[int, int, Cost], None]
@@ -52,7 +52,7 @@ class Hunt:
     def _judged(self, values: Values, trial: Trial) -> Tried:
         return Tried(values, self.task.cost(trial), tuple(self.task.costs_apart(trial)))
 
-    def run(self, search: Search, *, is_front: bool) -> None:
+    def run(self, search: GainSearch, *, is_front: bool) -> None:
         """Search until the budget is spent, the search converges, or Ctrl-C, which keeps what there is.
 
         Args:
@@ -69,7 +69,7 @@ class Hunt:
         except KeyboardInterrupt:
             self.ended = INTERRUPTED
 
-    def _try_population(self, search: Search, is_front: bool) -> None:
+    def _try_population(self, search: GainSearch, is_front: bool) -> None:
         task, points = self.task, search.ask()
         values = [tuple(p.as_flown(x) for p, x in zip(task.parameters, point, strict=True)) for point in points]
         trials = task.fly([task.changes(v) for v in values], self.draws)

@@ -11,7 +11,7 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
-from tandemlift.studies.tuning.parameters import Parameter
+from tandemlift.studies.tuning.parameters import TunedNumber
 
 BLOCK = 8  # candidates: as many as fly in one block
 FIRST_STEP = 0.35  # of a coordinate: standard deviation of the first candidates
@@ -19,7 +19,7 @@ PARTS = 6.0  # of a narrow range, or of one that is not logarithmic, that make o
 Point = tuple[Any, ...]
 
 
-class Search(Protocol):
+class GainSearch(Protocol):
     """Proposes values of parameters, and learns from their costs."""
 
     @property
@@ -55,7 +55,7 @@ class EvolutionSearch:
         InputError: a parameter is a choice, or the package is missing.
     """
 
-    def __init__(self, parameters: Sequence[Parameter], seed: int) -> None:
+    def __init__(self, parameters: Sequence[TunedNumber], seed: int) -> None:
         for p in parameters:
             if p.choices:
                 raise InputError(f"--optimiser cma: {p.name} is a choice, for which there is --optimiser optuna")
@@ -93,7 +93,7 @@ class EvolutionSearch:
 class _Coordinate:
     """A parameter as a coordinate in which a step of one is about as large for all of them."""
 
-    def __init__(self, p: Parameter) -> None:
+    def __init__(self, p: TunedNumber) -> None:
         self.parameter = p
         width = math.log(p.high / p.low) if p.is_log else p.high - p.low
         self.unit = min(1.0, width / PARTS) if p.is_log else width / PARTS

@@ -15,8 +15,8 @@ from tandemlift.studies.design.settings import REFUSED
 from tandemlift.studies.tuning.candidates import Aim, Changes, Cost, Trial, cost_of, fly_candidates
 from tandemlift.studies.tuning.draws import Draw
 from tandemlift.studies.tuning.goals import Goal, check_goals, scales_of
-from tandemlift.studies.tuning.parameters import Parameter, Value, changes_at
-from tandemlift.studies.tuning.source import Source
+from tandemlift.studies.tuning.parameters import TunedNumber, Value, changes_at
+from tandemlift.studies.tuning.source import MissionSource
 
 Values = tuple[Value, ...]
 
@@ -35,9 +35,9 @@ class Task(NamedTuple):
         threads: that fly; None for one for each processor.
     """
 
-    source: Source
+    source: MissionSource
     mission: Mission
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[TunedNumber, ...]
     goals: tuple[Goal, ...]
     sizes: tuple[int, ...]
     scales: tuple[Array, ...]

@@ -15,10 +15,10 @@ from tandemlift.studies.tuning.finals import TIMES, choose
 from tandemlift.studies.tuning.front import front_of
 from tandemlift.studies.tuning.goals import Goal, goals_from
 from tandemlift.studies.tuning.hunt import INTERRUPTED, Hunt, TuneProgress
-from tandemlift.studies.tuning.parameters import Parameter, Range, parameters_of
+from tandemlift.studies.tuning.parameters import Range, TunedNumber, parameters_of
 from tandemlift.studies.tuning.result import Tuning, present_values
-from tandemlift.studies.tuning.searches import EvolutionSearch, Search
-from tandemlift.studies.tuning.source import Source
+from tandemlift.studies.tuning.searches import EvolutionSearch, GainSearch
+from tandemlift.studies.tuning.source import MissionSource
 from tandemlift.studies.tuning.task import Task, started
 
 FACTORS = {"cma": 1000.0, "optuna": 10.0}  # by which a number may differ: a search that moves can go far
@@ -82,11 +82,11 @@ def tune(
     """
     if strange := set(how) - set(How._fields):
         raise unknown("argument of tune", min(strange), How._fields)
-    source = Source(os.fspath(mission), dict(changes or {}), controller)
+    source = MissionSource(os.fspath(mission), dict(changes or {}), controller)
     return _tuned(source, goals_from(goals), How(**how), progress)
 
 
-def _tuned(source: Source, goals: tuple[Goal, ...], how: How, progress: TuneProgress | None) -> Tuning:
+def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: TuneProgress | None) -> Tuning:
     if how.aim not in ("mean", "worst"):
         raise unknown("aim", how.aim, ("mean", "worst"))
     loaded = source.load()
@@ -142,7 +142,7 @@ def _with_evidence(found: Tuning) -> Tuning:
     return found._replace(evidence=evidence_of(old, new, task.goals, task.scales, task.aim), front=tuple(points))
 
 
-def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str, tuple[Parameter, ...]]:
+def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str, tuple[TunedNumber, ...]]:
     """The optimiser, and the parameters that it searches."""
     if how.optimiser is not None and how.optimiser not in FACTORS:
         raise unknown("optimiser", how.optimiser, FACTORS)
@@ -155,7 +155,7 @@ def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str,
     return kind, found
 
 
-def _search(kind: str, parameters: Sequence[Parameter], seed: int, goals: int) -> Search:
+def _search(kind: str, parameters: Sequence[TunedNumber], seed: int, goals: int) -> GainSearch:
     if kind == "cma":
         return EvolutionSearch(parameters, seed)
     from tandemlift.studies.tuning.optuna_search import EstimatorSearch
@@ -163,7 +163,7 @@ def _search(kind: str, parameters: Sequence[Parameter], seed: int, goals: int) -
     return EstimatorSearch(parameters, seed, goals)
 
 
-def _drawn(mission: Mission, source: Source, how: How) -> DrawSource:
+def _drawn(mission: Mission, source: MissionSource, how: How) -> DrawSource:
     """Where draws come from: the study that is given, or the default one."""
     given = how.draws
     if not isinstance(given, int):
@@ -177,7 +177,7 @@ def _check_count(option: str, count: int) -> None:
         raise InputError(f"{option} {count}: must be from 1 to {MOST_DRAWS}")
 
 
-def _check_apart(draws: Sequence[Draw], parameters: Sequence[Parameter]) -> None:
+def _check_apart(draws: Sequence[Draw], parameters: Sequence[TunedNumber]) -> None:
     """Refuse draws that change what is searched."""
     for key in sorted({key for draw in draws for key in draw.changes}):
         for p in parameters:
