@@ -107,7 +107,7 @@ def locked(whole):
 
 def test_a_read_only_folder_is_one_clear_line(locked):
     there = stamps(locked)
-    with pytest.raises(InputError, match=r"/twelve: cannot be written to: Permission denied$"):
+    with pytest.raises(InputError, match=r"/twelve/units: cannot be written to: Permission denied$"):
         fly(TWELVE, locked, threads=1)
     with pytest.raises(InputError, match=r"/inner: cannot be made or written to: Permission denied$"):
         fly(TWELVE, locked / "inner", threads=1)
