@@ -55,4 +55,4 @@ def rebuilt(leaves: Any, like: Any) -> Any:
     """A nested value laid out like `like`, made of the next leaves of an iterator."""
     if not is_value(like):
         return next(leaves)
-    return type(like)(*[next(leaves) if type(part) is float else rebuilt(leaves, part) for part in like])
+    return type(like)._make([next(leaves) if type(part) is float else rebuilt(leaves, part) for part in like])

@@ -17,6 +17,7 @@ from pydantic import BaseModel
 
 F = TypeVar("F", bound=Callable[..., Any])
 KEPT = 64  # results of a function
+PLAIN = {float, int, bool, str, tuple, type(None)}
 
 _TRACE: ContextVar[dict[Any, Any] | None] = ContextVar("trace", default=None)
 
@@ -39,7 +40,7 @@ def kept(function: F) -> F:
             if key not in trace:
                 trace[key] = function(*args), args  # arguments that live keep their identity
             return trace[key][0]
-        key = tuple([id(arg) if isinstance(arg, BaseModel) else _text(arg) for arg in args])
+        key = tuple([repr(arg) if type(arg) in PLAIN else _identity(arg) for arg in args])
         found = same.get(key)
         if found is None:
             found = same[key] = equal(_Said(args)), args
@@ -55,7 +56,7 @@ class _Said:
 
     def __init__(self, args: tuple[Any, ...]) -> None:
         self.args = args
-        self.text = tuple([_text(arg) for arg in args])
+        self.text = tuple([repr(arg) if type(arg) in PLAIN else _text(arg) for arg in args])
 
     def __hash__(self) -> int:
         return hash(self.text)
@@ -64,13 +65,14 @@ class _Said:
         return isinstance(other, _Said) and self.text == other.text
 
 
+def _identity(arg: Any) -> Any:
+    """Which argument it is; values without numbers are all the same."""
+    return type(arg) if isinstance(arg, tuple) and not arg else id(arg)
+
+
 def _text(arg: Any) -> Any:
-    """What an argument says: tables and plain values as text; nested values and objects are themselves."""
-    if isinstance(arg, BaseModel):
-        return type(arg), arg.model_dump_json()
-    if hasattr(arg, "_fields"):
-        return id(arg) if arg else type(arg)
-    return repr(arg) if isinstance(arg, (float, int, str, tuple)) else arg
+    """What a table says; anything else is itself."""
+    return (type(arg), arg.model_dump_json()) if isinstance(arg, BaseModel) else _identity(arg)
 
 
 @contextmanager

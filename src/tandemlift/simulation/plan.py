@@ -75,12 +75,14 @@ class FlightPlan:
         """The first step that starts at `LATE` or later."""
         return math.ceil(LATE / self.dt - 1e-9)
 
-    @property
+    @cached_property
     def kernels(self) -> Kernels:
         """The compiled loops of this variant."""
-        if self.variant not in KERNELS:
-            KERNELS[self.variant] = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
-        return KERNELS[self.variant]
+        found = KERNELS.get(self.variant)
+        if found is None:  # another thread may have made them by now
+            made = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
+            found = KERNELS.setdefault(self.variant, made)
+        return found
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""

@@ -7,19 +7,18 @@ of two hands across the beam, which turns with the answer of the closed form.
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.common.errors import FlightWarning
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
 from tandemlift.missions.values import Tables
 from tandemlift.simulation.many import fly_each
 from tandemlift.studies.feel.closed_form import AXES, YAW, AxisFeel, axes_of, speed_at
+from tandemlift.studies.feel.quiet import quietly
 from tandemlift.vehicle import Vehicle
 
 RISE = 0.02  # s: spacing and standard deviation of the Gaussians
@@ -143,8 +142,7 @@ def push_mission(m: Mission, k: AxisFeel, start: float, end: float) -> Mission:
         "person": {"model": "none"},
     }
     tables.pop("person", None)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
+    with quietly():
         return check(merge(tables, changes), f"{m.mission.name}, pushed along {k.axis}")
 
 

@@ -114,7 +114,7 @@ class _Run:
         own = range(part.number - 1, len(self.names), part.parts)
         self.todo = deque(i for i in own if not files.is_flown(self.names[i]))
         self.others = deque[int]()
-        self.pending = dict[Future[Any], int]()
+        self.pending, self.claimed = dict[Future[Any], int](), set[int]()
         self.lost, self.flown = Counter[int](), 0
         self.total = sum(map(work.size, own))
         self.done = self.total - sum(map(work.size, self.todo))
@@ -129,9 +129,10 @@ class _Run:
                     self._hand_over()
                 self._tell()
         finally:
-            for future, i in self.pending.items():
+            for future in self.pending:
                 future.cancel()
-                self.files.release(self.names[i])
+            for i in list(self.claimed):
+                self._release(i)
         return self.flown
 
     def _tell(self) -> None:
@@ -150,17 +151,22 @@ class _Run:
     def _submit(self, i: int) -> None:
         self.pending[self.workers.submit(self.work.task(i))] = i
 
+    def _release(self, i: int) -> None:
+        self.files.release(self.names[i])
+        self.claimed.discard(i)
+
     def _next(self) -> int | None:
         """The next unit to fly: those that other processes say they fly come last, for these may have been killed."""
         while self.todo:
             i = self.todo.popleft()
             if not self.files.claim(self.names[i]):
                 self.others.append(i)
-            elif self.files.is_flown(self.names[i]):
-                self.files.release(self.names[i])
-                self.done += self.work.size(i)
-            else:
+                continue
+            self.claimed.add(i)
+            if not self.files.is_flown(self.names[i]):
                 return i
+            self._release(i)
+            self.done += self.work.size(i)
         while self.others:
             i = self.others.pop()
             if not self.files.is_flown(self.names[i]):
@@ -180,7 +186,7 @@ class _Run:
             return
         if not self.files.is_flown(self.names[i]):
             self.files.write(self.names[i], columns)
-        self.files.release(self.names[i])
+        self._release(i)
         self.done, self.flown = self.done + self.work.size(i), self.flown + 1
 
     def _fly_again(self, i: int, error: BaseException) -> None:

@@ -18,11 +18,7 @@ SHOWING = (  # rooms that no row of a study depends on
     *("cli", "export", "figures", "gazebo_app", "interactive", "linearization", "live", "rendering", "report", "ros"),
     *("data", "targets"),
 )
-ROWS = (
-    "studies/design/",
-    "studies/units/columns.py",
-    "studies/units/flying.py",
-)  # what does, of `studies`
+ROWS = ("studies/design/", "studies/units/columns.py", "studies/units/flying.py")  # what does, of `studies`
 
 
 class Unit(NamedTuple):
