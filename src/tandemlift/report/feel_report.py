@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Progress
-from tandemlift.missions import Mission, format_toml, tables_of
+from tandemlift.missions import Mission, format_toml, tables_of, to_toml
 from tandemlift.missions.flight_checks.result import FAILS, CheckResult
 from tandemlift.report.controller_comparison import html_figures, html_versions
 from tandemlift.report.flight_report import DASH, html_table, number
@@ -20,6 +20,8 @@ from tandemlift.studies.feel.feel_study import HEADS, FeelStudy, sentences_of, s
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from tandemlift.studies.feel.search import FeelSearch
 
 NOTE = """Closed form → flown: a push that begins at once, lasts, and ends at once, in calm air from hover. The lag is
 the mean delay of the speed against the push; apart is the largest difference between both speeds."""
@@ -31,13 +33,15 @@ class FeelReport:
 
     Args:
         study: from `study_feel`.
+        search: that found the numbers of the study, if one did.
 
     Attributes:
         study: axes under the standard push, effort and checks, as numbers.
+        search: old numbers against new ones; None without a search.
     """
 
-    def __init__(self, study: FeelStudy) -> None:
-        self.study = study
+    def __init__(self, study: FeelStudy, search: FeelSearch | None = None) -> None:
+        self.study, self.search = study, search
 
     @property
     def checks(self) -> tuple[CheckResult, ...]:
@@ -46,7 +50,11 @@ class FeelReport:
 
     def summary(self) -> dict[str, Any]:
         """All numbers in SI units, as in feel.json."""
-        return self.study.summary()
+        return self.study.summary() | ({"search": self.search.evidence()} if self.search else {})
+
+    def sentences(self) -> list[str]:
+        """What the least force does, the effort in the corridor, and what a search found."""
+        return [*sentences_of(self.study), *(self.search.sentences() if self.search else [])]
 
     def __str__(self) -> str:
         """The table, the sentences and what fails."""
@@ -54,7 +62,7 @@ class FeelReport:
         widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
         lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
         failed = [f"{check.verdict}: {check.text}" for check in self.checks if check.verdict == FAILS]
-        return "\n".join([*lines, *sentences_of(self.study), *failed])
+        return "\n".join([*lines, *self.sentences(), *failed])
 
     def figure(self) -> Figure:
         """The speed over time along each axis, by closed form and flown."""
@@ -63,7 +71,9 @@ class FeelReport:
         return draw(self.study)
 
     def save(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write feel.json, feel.png, feel.pdf and feel.html into a folder, which is made; each appears whole or not.
+        """Write feel.json, feel.html, feel.png and feel.pdf into a folder, which is made; each appears whole or not.
+
+        After a search, also evidence.json and feel.toml, the mission with the new numbers.
 
         Returns:
             The files.
@@ -76,6 +86,10 @@ class FeelReport:
         files = [folder / f"{FIGURE}.json", folder / f"{FIGURE}.html"]
         _write(files[0], json.dumps(_plain(self.summary()), indent=1, ensure_ascii=False, allow_nan=False))
         _write(files[1], self._page(html_figures({FIGURE: figure}, {FIGURE: CAPTION})))
+        if self.search:
+            files += [folder / "evidence.json", folder / "feel.toml"]
+            _write(files[2], json.dumps(_plain(self.search.evidence()), indent=1, allow_nan=False))
+            _write(files[3], to_toml(self.search.mission).rstrip())
         return [*files, *(save_figure(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]
 
     def _page(self, figures: str) -> str:
@@ -86,7 +100,7 @@ class FeelReport:
             verdict=_verdict(self.checks),
             note=NOTE,
             table=_axes(table_of(self.study)),
-            sentences="\n".join(f"<p>{_with_code(text)}</p>" for text in sentences_of(self.study)),
+            sentences="\n".join(f"<p>{_with_code(text)}</p>" for text in self.sentences()),
             figures=figures,
             checks=_checks(self.checks),
             admittance=escape(format_toml(tables)),

@@ -70,7 +70,8 @@ def _slower(k: AxisFeel, most: float) -> str:
     if most <= 0.0 or not 0.0 < k.final_speed < math.inf:
         return "ask for less"
     speed, time = most * k.time / LN_20, LN_20 * k.final_speed / most
-    return f"allow it at least {time:.2g} s for {k.final_speed:.3g} m/s, or ask for at most {speed:.2g} m/s"
+    most_speed = f"at most {speed:.2g} m/s in {k.time:.2g} s"
+    return f"allow it at least {time:.2g} s for {k.final_speed:.3g} m/s, or ask for {most_speed}"
 
 
 def drift_checks(m: Mission) -> Iterator[CheckResult]:

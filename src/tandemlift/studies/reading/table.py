@@ -248,7 +248,7 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     store = StudyFolder(path)
     files = []
     for i, name in enumerate(store.names()):
-        first, file = i * store.rows_per_unit, store.file(name)
+        first, file = i * store.rows_per_unit, store.files.file(name)
         if file.exists():
             check_whole(file)
             files.append(UnitFile(file, first, min(store.count, first + store.rows_per_unit)))
