@@ -58,15 +58,10 @@ def tune(
     goals: tuple[str, ...],
     over: tuple[str, ...],
     draws: str,
-    fresh: int,
-    budget: int | None,
-    optimiser: str | None,
-    aim: str,
-    seed: int,
-    threads: int | None,
     controller: str | None,
     settings: tuple[str, ...],
     out: str | None,
+    **how: Any,
 ) -> None:
     """Search values of MISSION that make metrics small, then fly old and new on draws that the search never saw.
 
@@ -95,25 +90,12 @@ def tune(
       130  Ctrl-C: the best so far is written, marked as unfinished
     """
     from tandemlift.missions import load_mission
-    from tandemlift.studies.tuning.tune import tune as search
 
     changes, chosen = dict(map(parse_setting, settings)), controller and chosen_controller(controller).name
     name = load_mission(mission, changes, controller=chosen).mission.name
-    given: dict[str, Any] = {
-        "over": dict(_range_of(text) for text in over),
-        "draws": _draws_of(draws),
-        "fresh": fresh,
-        "budget": budget,
-        "optimiser": optimiser,
-        "aim": aim,
-        "seed": seed,
-        "threads": threads,
-        "changes": changes,
-        "controller": chosen,
-    }
+    how |= {"over": dict(map(_range_of, over)), "draws": _draws_of(draws), "changes": changes, "controller": chosen}
     with results_folder(out, Path("out") / f"{name}-tuned", FILES) as folder:
-        with compile_notices.together(), _progress() as progress:
-            found = search(mission, dict(_goal_of(text) for text in goals), **given, progress=progress)
+        found = _search(mission, dict(map(_goal_of, goals)), how)
         _write(found, folder)
     _print(found, folder)
     if not found.is_finished:
@@ -121,6 +103,13 @@ def tune(
         sys.exit(INTERRUPTED)
     if not found.is_better:
         sys.exit(NOT_BETTER)
+
+
+def _search(mission: str, goals: dict[str, Any], how: dict[str, Any]) -> Tuning:
+    from tandemlift.studies.tuning.tune import tune
+
+    with compile_notices.together(), _progress() as progress:
+        return tune(mission, goals, **how, progress=progress)
 
 
 def _goal_of(text: str) -> tuple[str, Any]:
