@@ -55,7 +55,7 @@ NO_DRAG = Drag()
 EQUAL = ((1.0, 1.0, 1.0, 1.0),)  # weights of the allocation
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Vehicle:
     """N ≥ 1 quadrotors rigidly fixed to a payload.
 
@@ -198,8 +198,7 @@ class Vehicle:
 
     def allocation(self, weights: Sequence[Sequence[float]] = EQUAL) -> Array:
         """(4N × 4): thrusts of all rotors from a wrench, by `pseudo_inverse` and each quadrotor's mixer inverse."""
-        parts = np.split(self.pseudo_inverse(weights), self.count, axis=0)
-        return np.vstack([mixer_inverse(q) @ u for q, u in zip(self.quadrotors, parts, strict=True)])
+        return _allocation(self, tuple(map(tuple, weights)))
 
     @property
     def max_thrust(self) -> float:
@@ -210,3 +209,9 @@ class Vehicle:
     def weight(self) -> float:
         """m_t g [N]."""
         return self.mass * GRAVITY
+
+
+@kept
+def _allocation(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> Array:
+    parts = np.split(vehicle.pseudo_inverse(weights), vehicle.count, axis=0)
+    return np.vstack([mixer_inverse(q) @ u for q, u in zip(vehicle.quadrotors, parts, strict=True)])

@@ -114,7 +114,7 @@ def test_the_version_is_told(run):
             ("rnu", "paper"),
             [
                 "No such command 'rnu'",
-                "run, compare, render, live, page, replay, gazebo, ros, study, validate, linearize, check, export, compile,",
+                "run, compare, render, live, page, replay, gazebo, ros, study, validate, tune, linearize, check, feel,",
                 "Did you mean 'run'?",
             ],
         ),

@@ -15,7 +15,7 @@ from mission_schema import EVERYTHING, SCHEMA
 import tandemlift as tl
 from tandemlift.algebra.layout import flat
 from tandemlift.assembly.assemble import assemble
-from tandemlift.cli.run import parse_setting
+from tandemlift.cli.terminal.mission_options import parse_setting
 from tandemlift.missions import check, load_mission, to_toml
 from tandemlift.missions.bounds import allowed
 

@@ -96,7 +96,7 @@ ANCHORED = "@elementwise\ndef anchored"
 CHOICE = '"hard": "'
 LAW: Edits = {
     "laws/compliance/admittance.py": [(ADMITTANCE, GATE + ADMITTANCE), (ANCHORED, SMOOTH + ANCHORED)],
-    "settings/pilot.py": [
+    "settings/admittance.py": [
         ('gate: Literal["hard", "soft"]', 'gate: Literal["hard", "soft", "smooth"]'),
         (CHOICE, '"smooth": "F³/(F² + threshold²)", ' + CHOICE),
     ],

@@ -8,6 +8,10 @@ from patience import joined
 
 import tandemlift as tl
 from tandemlift.common.errors import InputError
+from tandemlift.kernels import LANES
+from tandemlift.missions import MissionTemplate
+from tandemlift.simulation import fly as fly_module
+from tandemlift.simulation.plan import FlightPlan
 
 SHORT = {"mission.duration": 20.0}
 FOUR_IDEAL = {"controller.attitude_reference_derivatives": "zero", "admittance.gate": "hard"}
@@ -115,6 +119,75 @@ def test_a_lane_that_diverges_stops_where_it_does_alone_and_leaves_the_others_be
 
 def test_no_missions_make_no_flights():
     assert tl.fly_many([]) == []
+
+
+def tiny(count, **changes):
+    """Missions of some steps each."""
+    template = MissionTemplate.read("one-push", {"mission.duration": 0.02, **changes}, quiet=True)
+    return (template.mission({"mission.seed": i, "plant.mass_scale": 1.0 + 1e-3 * i}) for i in range(count))
+
+
+def timeless(metrics):
+    return [{k: v for k, v in m.items() if k != "wall_s"} for m in metrics]
+
+
+def test_missions_of_an_iterator_are_read_while_others_fly_and_come_back_in_order():
+    read, ahead, totals = [], [], []
+
+    def reading():
+        for mission in tiny(200):
+            read.append(mission)
+            yield mission
+
+    def progress(flown, total):
+        ahead.append(len(read) - flown)
+        totals.append((flown, total))
+
+    found = tl.fly_many(reading(), "metrics", 2, progress=progress)
+    assert timeless(found) == timeless(tl.fly_many(list(tiny(200)), "metrics", 1))
+    assert max(ahead) <= 3 * LANES
+    assert totals[-1] == (200, 200)
+    assert all(flown <= total <= 200 for flown, total in totals)
+
+
+def test_no_more_missions_wait_for_others_of_their_variant_than_allowed(monkeypatch):
+    monkeypatch.setattr(fly_module, "WAITING", 20)
+    read, ahead = [], []
+
+    def reading():  # no two have as many steps
+        for i in range(80):
+            read.append(i)
+            yield tl.load_mission("one-push", {"mission.duration": 0.01 + 0.001 * i})
+
+    found = tl.fly_many(reading(), "metrics", 1, progress=lambda flown, _: ahead.append(len(read) - flown))
+    assert [m["steps"] for m in found] == [10 + i for i in range(80)]
+    assert max(ahead) <= 20 + 1
+
+
+def test_a_mission_that_cannot_be_built_stops_all_or_gives_its_refusal(monkeypatch):
+    def plan(mission):
+        if mission.mission.seed in (3, 30):
+            raise InputError(f"seed {mission.mission.seed} cannot be built")
+        return FlightPlan(mission)
+
+    monkeypatch.setattr(fly_module, "FlightPlan", plan)
+    with pytest.raises(InputError, match="seed 3 "):
+        tl.fly_many(tiny(40), "metrics", 1)
+    found = tl.fly_many(tiny(40), "metrics", 2, refusals=True)
+    assert [i for i, m in enumerate(found) if isinstance(m, InputError)] == [3, 30]
+    assert str(found[30]) == "seed 30 cannot be built"
+    monkeypatch.undo()
+    expected = timeless(tl.fly_many(tiny(40), "metrics"))
+    assert timeless(m for m in found if isinstance(m, dict)) == [m for i, m in enumerate(expected) if i not in (3, 30)]
+
+
+def test_an_error_of_the_callers_iterator_ends_the_call():
+    def reading():
+        yield from tiny(20)
+        raise OSError("the list of missions ends early")
+
+    with pytest.raises(OSError, match="ends early"):
+        tl.fly_many(reading(), "metrics", 2)
 
 
 @pytest.mark.parametrize("count", [0, 1, 3, 8, 9, 40])

@@ -37,8 +37,12 @@ class Elementwise:
 
     def __call__(self, *args: Any) -> Any:
         """The scalar law, of every component if an argument is a vector."""
-        shape = next((a for a in args if getattr(a, "componentwise", False)), None)
-        if shape is None:
+        shape = None
+        for a in args:
+            if type(a) is not float and getattr(a, "componentwise", False):
+                shape = a
+                break
+        else:
             return self.scalar(*args)
         rolled = next((a for a in args if getattr(a, "rolled", 0)), None)
         if rolled is not None and getattr(type(shape), "is_set", False):  # of sets that are one symbol each

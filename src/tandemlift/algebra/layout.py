@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 
 def is_value(x: Any) -> bool:
     """Whether x is a nested value rather than a number."""
@@ -12,7 +14,21 @@ def is_value(x: Any) -> bool:
 
 def flat(value: Any) -> list[float]:
     """The numbers of a nested value, depth first."""
-    return [number for part in value for number in flat(part)] if is_value(value) else [float(value)]
+    if not is_value(value):
+        return [float(value)]
+    numbers = list[float]()
+    _extend(numbers, value)
+    return numbers
+
+
+def _extend(numbers: list[float], value: Any) -> None:
+    for part in value:
+        if type(part) is float:  # by far most are
+            numbers.append(part)
+        elif is_value(part):
+            _extend(numbers, part)
+        else:
+            numbers.append(float(part))
 
 
 def numbers_of(value: Any) -> list[Any]:
@@ -32,9 +48,11 @@ def zeroed(value: Any) -> Any:
 
 def unflat(numbers: Any, like: Any) -> Any:
     """A nested value laid out like `like` with these numbers, as Python floats."""
-    return rebuilt(map(float, numbers), like)
+    return rebuilt(iter(numbers.tolist() if isinstance(numbers, np.ndarray) else map(float, numbers)), like)
 
 
 def rebuilt(leaves: Any, like: Any) -> Any:
     """A nested value laid out like `like`, made of the next leaves of an iterator."""
-    return type(like)(*[rebuilt(leaves, part) for part in like]) if is_value(like) else next(leaves)
+    if not is_value(like):
+        return next(leaves)
+    return type(like)._make([next(leaves) if type(part) is float else rebuilt(leaves, part) for part in like])

@@ -166,13 +166,15 @@ ZERO = Vec3(0.0, 0.0, 0.0)
 
 def layout(value: Any) -> Any:
     """The classes of a nested value, without its numbers: equal for values that hold their numbers alike."""
-    return (type(value), *map(layout, value)) if hasattr(value, "_fields") else None
+    if not hasattr(value, "_fields"):
+        return None
+    return (type(value), *[None if type(part) is float else layout(part) for part in value])
 
 
 def vec3(values: Any) -> Vec3:
     """A Vec3 of floats from any three numbers; of symbols from symbols."""
-    x, y, z = (number(v) for v in values)
-    return Vec3(x, y, z)
+    x, y, z = values
+    return Vec3(x, y, z) if type(x) is type(y) is type(z) is float else Vec3(number(x), number(y), number(z))
 
 
 def mat3(rows: Any) -> Mat3:

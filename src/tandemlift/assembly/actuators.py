@@ -6,6 +6,7 @@ from typing import Any
 
 from tandemlift.algebra.ops import maximum, minimum
 from tandemlift.algebra.vector import Nothing, each, spread
+from tandemlift.common.caching import kept
 from tandemlift.laws.mechanics.rigid_body import Wrench
 from tandemlift.laws.rotors.allocation import wrench_scale
 from tandemlift.laws.rotors.ground_effect import FreeAir, GroundEffect
@@ -13,10 +14,12 @@ from tandemlift.laws.rotors.rotor_faults import NoFaults, RotorFaults, rotor_fau
 from tandemlift.laws.rotors.rotor_lag import lag
 from tandemlift.laws.rotors.rotors import IdealRotors, Rotors, RotorState
 from tandemlift.settings import Mission
+from tandemlift.settings.world import FaultTable
 from tandemlift.vehicle import Vehicle
 
 
-def hover_thrusts(vehicle: Vehicle, weights: Any) -> Any:
+@kept
+def hover_thrusts(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> Any:
     """Rotor thrusts [N] that carry the weight, as a set."""
     thrusts = vehicle.allocation(weights) @ [vehicle.weight, 0.0, 0.0, 0.0]
     return each(vehicle.rotor_count)(*thrusts.tolist())
@@ -63,17 +66,31 @@ def start_rotors(mission: Mission, vehicle: Vehicle, floor: Any, *, delayed: boo
     hover = hover_thrusts(vehicle, mission.allocation.weights)
     if mission.actuators.model == "ideal":
         return IdealRotors(), Nothing(), hover
-    failures = [(f.quadrotor, f.rotor, f.time, f.efficiency) for f in mission.faults]
-    surface = ground_effect_from(vehicle, floor.height) if mission.ground.effect else FreeAir()
-    rotors = rotors_from(
+    height = floor.height if mission.ground.effect else None
+    rotors = _real_rotors(vehicle, mission.mission.step, delayed, mission.faults, height)
+    return rotors, *_start(hover, rotors, mission.actuators.start == "hover")
+
+
+@kept
+def _real_rotors(
+    vehicle: Vehicle, step: float, delayed: bool, faults: tuple[FaultTable, ...], floor: float | None
+) -> Rotors:
+    """The rotors of a vehicle with faults and, over a floor at z = `floor` [m], with ground effect."""
+    failures = [(f.quadrotor, f.rotor, f.time, f.efficiency) for f in faults]
+    return rotors_from(
         vehicle,
-        mission.mission.step,
+        step,
         delayed=delayed,
         faults=rotor_faults(vehicle.rotor_count, failures),
-        surface=surface,
+        surface=FreeAir() if floor is None else ground_effect_from(vehicle, floor),
         wrench_scale=wrench_scale(vehicle.effect),
     )
-    cls, share = type(hover), 1.0 if mission.actuators.start == "hover" else 0.0
+
+
+@kept
+def _start(hover: Any, rotors: Rotors, hovers: bool) -> tuple[RotorState, Any]:
+    """The state of rotors and their thrusts at t = 0: those of hover, or none."""
+    cls, share = type(hover), 1.0 if hovers else 0.0
     start = cls(*[share * minimum(maximum(f, 0.0), most) for f, most in zip(hover, rotors.max_thrust, strict=True)])
     speed = cls(*[(f * c) ** 0.5 for f, c in zip(start, rotors.per_constant, strict=True)])
-    return rotors, RotorState(speed, start), start
+    return RotorState(speed, start), start

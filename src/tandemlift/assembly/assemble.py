@@ -26,13 +26,13 @@ from tandemlift.assembly.findings import finding_limits_from, start_detectors
 from tandemlift.assembly.persons import path_legs_from, start_person
 from tandemlift.assembly.sensors import sensors_from, start_estimators
 from tandemlift.assembly.watchdogs import with_faults, with_watchdogs
+from tandemlift.common.caching import kept
 from tandemlift.common.outcomes import FLIES
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.kernels.external_inputs import InputTables
 from tandemlift.laws.contact.clearance import clearance
 from tandemlift.laws.contact.feet import start_foot_grip
 from tandemlift.laws.contact.touches import start_touches
-from tandemlift.laws.mechanics.push import PushSamples
 from tandemlift.laws.mechanics.rigid_body import State
 from tandemlift.laws.sensors.readings import by_name, readings_of, start_sensing
 from tandemlift.laws.signals.random_numbers import key_from_seed
@@ -43,6 +43,8 @@ from tandemlift.loop.step import FlightModel, FlightState, StepInputs, StepNoise
 from tandemlift.pilot.assemble import start_pilot
 from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
+
+_grip, _clearance = kept(start_foot_grip), kept(clearance)
 
 
 class AssembledFlight(NamedTuple):
@@ -130,12 +132,11 @@ def assemble(mission: Mission) -> AssembledFlight:
     chance = np.random.default_rng(mission.mission.seed)
     pilot, memory = start_pilot(mission, vehicle)
     state, plant = start_state(mission), plant_from(mission, vehicle)
-    grip = Nothing() if isinstance(plant.floor, Nothing) else start_foot_grip(plant.floor, state)
+    grip = Nothing() if isinstance(plant.floor, Nothing) else _grip(plant.floor, state)
     delays = delays_from(mission)
     rotors, spinning, thrusts = start_rotors(mission, vehicle, plant.floor, delayed=bool(delays[2]))
     wind, wind_state = start_weather(mission, vehicle, chance)
-    push = push_kind(mission)
-    near, hand = near_walls_from(plant.walls), PushSamples(push, push, push)
+    near, hand = near_walls_from(plant.walls), push_kind(mission)
     at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
     senses = start_perception(mission, vehicle, state, chance, at_rest)
     person, memory_of_person, tremor_noise = start_person(mission, vehicle, state)
@@ -152,7 +153,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         rotors=spinning,
         readings=senses.readings,
         person=memory_of_person,
-        metrics=start_metrics(clearance(plant.walls, near, plant.frame, state), memory_of_person),
+        metrics=start_metrics(_clearance(plant.walls, near, plant.frame, state), memory_of_person),
         impulse=Nothing() if isinstance(limits.strike, Nothing) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,

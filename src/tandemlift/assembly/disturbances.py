@@ -12,11 +12,12 @@ from tandemlift.algebra.arrays import array, distance
 from tandemlift.algebra.layout import leaves, numbers_of
 from tandemlift.algebra.ops import maximum
 from tandemlift.algebra.vector import ZERO, Nothing, mat3, spread, vec3
+from tandemlift.common.caching import kept
 from tandemlift.kernels.external_inputs import GAUSSIAN, GUST, InputTables
 from tandemlift.laws.contact.wall_geometry import WALL, wall
 from tandemlift.laws.contact.walls import no_walls_near
 from tandemlift.laws.mechanics.air_drag import AirDrag
-from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush
+from tandemlift.laws.mechanics.push import CentralPush, GaussianPush, PointPush, PushSamples
 from tandemlift.laws.mechanics.turbulence import WindNoise, dryden, start_turbulence
 from tandemlift.laws.mechanics.wind import Gust, Wind
 from tandemlift.laws.person.person import PATH_LEG, PathLeg
@@ -25,13 +26,16 @@ from tandemlift.settings import Mission
 from tandemlift.vehicle import Vehicle
 
 LEAST_AIRSPEED = 0.5  # m/s, at which turbulence passes in still air
+CENTRAL = PushSamples(*[CentralPush(ZERO)] * 3)
+AT_A_POINT = PushSamples(*[PointPush(ZERO, mat3([[0.0] * 3] * 3))] * 3)
 NO_NOISE = WindNoise(0.0, 0.0, 0.0, 0.0, 0.0)
+WIDTHS = tuple(map(leaves, (GAUSSIAN, GUST, WALL, PATH_LEG)))  # of the rows of tables
 
 
-def push_kind(mission: Mission) -> Any:
-    """A zero push of the type that the mission needs: with a moment only if a push has one."""
+def push_kind(mission: Mission) -> PushSamples:
+    """Zero pushes of the type that the mission needs: with a moment only if a push has one."""
     central = all(p.point == ZERO for p in mission.pushes) and mission.person.model == "none"
-    return CentralPush(ZERO) if central else PointPush(ZERO, mat3([[0.0] * 3] * 3))
+    return CENTRAL if central else AT_A_POINT
 
 
 def input_tables_from(mission: Mission, legs: list[PathLeg]) -> InputTables:
@@ -40,11 +44,12 @@ def input_tables_from(mission: Mission, legs: list[PathLeg]) -> InputTables:
     gusts = mission.wind.gusts if mission.wind.model == "air" else ()
     blows = [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
     upright = [wall(w.start, w.end, w.top) for w in mission.all_walls]
-    return InputTables(_table(pushes, GAUSSIAN), _table(blows, GUST), _table(upright, WALL), _table(legs, PATH_LEG))
+    rows: tuple[list[Any], ...] = (pushes, blows, upright, legs)
+    return InputTables(*map(_table, rows, WIDTHS))
 
 
-def _table(rows: list[Any], like: Any) -> NDArray[np.float64]:
-    return array([numbers_of(row) for row in rows]).reshape(len(rows), leaves(like))
+def _table(rows: list[Any], width: int) -> NDArray[np.float64]:
+    return array([numbers_of(row) for row in rows]).reshape(len(rows), width)
 
 
 def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
@@ -79,6 +84,7 @@ def wind_noise_from(weather: Any) -> Any:
     return Nothing() if still else NO_NOISE
 
 
+@kept
 def near_walls_from(settings: Any) -> Any:
     """The nearest walls before any was looked at, or `Nothing`."""
     return settings if isinstance(settings, Nothing) else no_walls_near(settings)

@@ -7,10 +7,11 @@ import math
 from tandemlift.algebra.ops import cos, maximum, minimum, where
 from tandemlift.algebra.types import Number
 from tandemlift.algebra.vector import Nothing, Vec3
+from tandemlift.common.caching import kept
 from tandemlift.loop.detectors import ASLEEP, Detectors, FindingLimits, PushLimits
 from tandemlift.loop.oscillation import OscillationLimits, Swings
-from tandemlift.settings import Mission
-from tandemlift.settings.outcomes import promise_of
+from tandemlift.settings import AdmittanceTable, Mission
+from tandemlift.settings.outcomes import FindingsTable, promise_of
 from tandemlift.vehicle import Vehicle
 
 HEARD = 2.0  # times the threshold, from where on a true push should be heard
@@ -29,7 +30,7 @@ def finding_limits_from(mission: Mission, vehicle: Vehicle) -> FindingLimits:
         mass=vehicle.mass,
         thrust=vehicle.max_thrust * vehicle.max_thrust if mission.actuators.model == "rotors" else math.inf,
         rate=f.oscillation_rate * f.oscillation_rate,
-        push=_push_limits(mission),
+        push=_push_limits(mission.admittance, f, mission.compliance.max_speed, mission.pilot.guidance == "hand"),
         oscillation=OscillationLimits(
             levels=Swings(f.oscillation_rate, f.oscillation_rate, f.oscillation_rate, f.oscillation_speed),
             shortest=0.5 / f.fastest_oscillation,
@@ -46,9 +47,10 @@ def start_detectors(mission: Mission) -> Detectors:
     return ASLEEP._replace(saturation=Nothing(), reach=Nothing())
 
 
-def _push_limits(mission: Mission) -> PushLimits:
-    a, f = mission.admittance, mission.findings
-    by_hand = mission.pilot.guidance == "hand"
+@kept
+def _push_limits(
+    a: AdmittanceTable, f: FindingsTable, max_speed: tuple[float, float, float], by_hand: bool
+) -> PushLimits:
     least = maximum(minimum(minimum(*a.threshold[:2]), a.threshold[2]) * LEAST, LEAST_FORCE)
     times = [_over(m, c) for m, c in zip(a.mass, a.damping, strict=True)]
     return PushLimits(
@@ -57,7 +59,7 @@ def _push_limits(mission: Mission) -> PushLimits:
         inverse_damping=Vec3(
             *[where(k > 0.0, 0.0, _over(1.0, c)) for k, c in zip(a.stiffness, a.damping, strict=True)]
         ),
-        speed=Vec3(*mission.compliance.max_speed) if by_hand else Vec3(UNLIMITED, UNLIMITED, UNLIMITED),
+        speed=Vec3(*max_speed) if by_hand else Vec3(UNLIMITED, UNLIMITED, UNLIMITED),
         time=f.push_time + maximum(maximum(times[0], times[1]), times[2]),
         response=f.push_response,
     )

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from tandemlift.cli.run import load, set_option
 from tandemlift.cli.terminal.console import echo
+from tandemlift.cli.terminal.mission_options import load, set_option
 
 
 @click.command()

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.run import load, set_option
 from tandemlift.cli.terminal.console import echo
+from tandemlift.cli.terminal.mission_options import load, set_option
 from tandemlift.cli.terminal.results import flight_file
 from tandemlift.common.errors import InputError
 

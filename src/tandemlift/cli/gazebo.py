@@ -13,17 +13,10 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import DEFAULT
-from tandemlift.cli.run import (
-    FAILED,
-    after_crash_option,
-    load,
-    print_report_path,
-    print_summary,
-    set_option,
-    with_after_crash,
-)
+from tandemlift.cli.run import print_report_path, print_summary
 from tandemlift.cli.terminal.console import echo, progress_bar
 from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
+from tandemlift.cli.terminal.mission_options import FAILED, after_crash_option, load, set_option, with_after_crash
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
 

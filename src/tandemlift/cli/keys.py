@@ -6,8 +6,8 @@ import json
 
 import click
 
-from tandemlift.cli.run import chosen_controller
 from tandemlift.cli.terminal.console import echo
+from tandemlift.cli.terminal.mission_options import chosen_controller
 
 controller_option = click.option(
     "--controller", metavar="FILE", help="Your own controller (.py file): its keys are included."

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.run import FAILED, chosen_controller, load, set_option
 from tandemlift.cli.terminal.check_table import print_checks
 from tandemlift.cli.terminal.console import echo
+from tandemlift.cli.terminal.mission_options import FAILED, chosen_controller, load, set_option
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.files import atomic_write
 

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.run import engine_option, load, set_option
 from tandemlift.cli.terminal.console import echo, exit_now
+from tandemlift.cli.terminal.mission_options import engine_option, load, set_option
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:

@@ -10,10 +10,8 @@ from typing import Any
 
 import click
 
-from tandemlift.cli.compare import compare
 from tandemlift.cli.compile import compile
 from tandemlift.cli.export import export
-from tandemlift.cli.feel import feel
 from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
 from tandemlift.cli.linearize import check, linearize
@@ -23,10 +21,12 @@ from tandemlift.cli.render import render
 from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
 from tandemlift.cli.run import run
-from tandemlift.cli.study import study
+from tandemlift.cli.studies.compare import compare
+from tandemlift.cli.studies.feel import feel
+from tandemlift.cli.studies.study import study
+from tandemlift.cli.studies.tune import tune
+from tandemlift.cli.studies.validate import validate
 from tandemlift.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
-from tandemlift.cli.tune import tune
-from tandemlift.cli.validate import validate
 from tandemlift.common.errors import FlightWarning, InputError, suggestion
 from tandemlift.machine_code.compile_events import watching
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.run import engine_option, load, set_option
 from tandemlift.cli.terminal.console import echo, progress_bar
+from tandemlift.cli.terminal.mission_options import engine_option, load, set_option
 from tandemlift.cli.terminal.results import flight_file
 from tandemlift.common.errors import InputError
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import DEFAULT, session_of
-from tandemlift.cli.run import FAILED, engine_option, load, set_option
 from tandemlift.cli.terminal.console import echo
+from tandemlift.cli.terminal.mission_options import FAILED, engine_option, load, set_option
 from tandemlift.common.errors import InputError
 from tandemlift.ros.sample_queue import steps_between_samples
 

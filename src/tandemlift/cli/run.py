@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import time
-import tomllib
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from tandemlift.cli.terminal.console import echo, progress_bar
 from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
+from tandemlift.cli.terminal.mission_options import (
+    FAILED,
+    after_crash_option,
+    chosen_controller,
+    load,
+    parse_setting,
+    set_option,
+    with_after_crash,
+)
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
@@ -21,30 +28,7 @@ if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
 
-FAILED = 3
 NOT_KNOWN = "   not known"
-WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
-
-
-engine_option = click.option(
-    "--engine",
-    default="compiled",
-    show_default=True,
-    help="Engine that simulates the vehicle; see `tandemlift engines`.",
-)
-set_option = click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="KEY=VALUE",
-    help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
-)
-after_crash_option = click.option(
-    "--after-crash",
-    type=click.FloatRange(min=0.0),
-    metavar="SECONDS",
-    help="Fly on after a crash, rotors stopped, at most until the vehicle lies still: the key crash.fly_on.",
-)
 
 
 @click.command()
@@ -163,55 +147,6 @@ def _row_of(
         given = f"MISSION {mission}" if mission is not None else "--controller"
         raise InputError(f"{given}: a row of a study has its own; leave it out with --from")
     return mission_of_row(Path(study), row, dict(map(parse_setting, settings)))
-
-
-def with_after_crash(settings: tuple[str, ...], seconds: float | None) -> tuple[str, ...]:
-    """Settings of a mission with how long to fly on after a crash [s], if that is given."""
-    return settings if seconds is None else (*settings, f"crash.fly_on={seconds!r}")
-
-
-def chosen_controller(given: str) -> Controller:
-    """A registered controller by name, or the controller of a Python file.
-
-    Raises:
-        InputError: there is no such controller, or the file defines none.
-    """
-    from tandemlift.controllers import controller, load_controller
-
-    return load_controller(given) if given.endswith(".py") or "/" in given else controller(given)
-
-
-def load(mission: str, settings: tuple[str, ...], controller: Controller | None = None) -> Mission:
-    """Load a mission by name or path, with the changes of `--set`.
-
-    Raises:
-        InputError: there is no such mission, or it is not valid.
-    """
-    from tandemlift.missions import load_mission
-
-    return load_mission(mission, dict(map(parse_setting, settings)), controller=controller)
-
-
-def parse_setting(text: str) -> tuple[str, Any]:
-    """The dotted key and the value of KEY=VALUE; VALUE is a TOML literal, or an unquoted word for a string.
-
-    Raises:
-        InputError: the text has another form.
-    """
-    key, equals, literal = (part.strip() for part in text.partition("="))
-    if not equals or not re.fullmatch(r"[A-Za-z0-9_]+(\.[A-Za-z0-9_]+)*", key):
-        raise InputError(f"--set {text}: must be KEY=VALUE with a dotted key, such as mission.duration=5.0")
-    try:
-        parsed = tomllib.loads(f"value = {literal}")
-    except (ValueError, RecursionError):
-        if re.fullmatch(WORD, literal):
-            return key, literal
-        parsed = {}
-    if list(parsed) != ["value"]:
-        shown = repr(literal if len(literal) <= 80 else f"{literal[:79]}…")
-        allowed = "a number such as 0.5, true, false, a list such as [1, 2, 3], a word, or '\"text in quotes\"'"
-        raise InputError(f"--set {key}={shown}: the value must be {allowed}")
-    return key, parsed["value"]
 
 
 def _fly(mission: Mission, engine: str | None, controller: Controller | None) -> Flight:

@@ -26,7 +26,7 @@ from tandemlift.engines.compiled_contact import (
     with_contact_force,
     with_load,
 )
-from tandemlift.laws.mechanics.inertia import inertia_value
+from tandemlift.laws.mechanics.inertia import Inertia, inertia_value
 from tandemlift.laws.mechanics.loads import PerfectReadings, perfect_readings, readings_with_load
 from tandemlift.laws.mechanics.parts import Acceleration
 from tandemlift.laws.mechanics.push import PushSamples
@@ -36,6 +36,7 @@ from tandemlift.laws.rotors.allocation import Mixer, mixer_from, wrench
 from tandemlift.models.parts_layout import parts_layout_from
 from tandemlift.models.surroundings import floor_from, walls_from
 from tandemlift.settings import Mission, VehicleTable
+from tandemlift.settings.world import DisturbanceTable, InitialTable, PlantTable
 from tandemlift.vehicle import Vehicle
 
 
@@ -103,6 +104,7 @@ def advance(
     return BodyStep(after, readings_in(b, s, k1, air, thrusts), grip_after(plant.floor, grip, after), Nothing())
 
 
+@kept
 def readings_at_rest(
     plant: CompiledPlant, s: State, grip: Any, near: Any, thrusts: Any, hand: PushSamples
 ) -> PerfectReadings:
@@ -116,20 +118,35 @@ def _effect(vehicle: VehicleTable) -> Mixer:
     return mixer_from(Vehicle.from_settings(vehicle).effect)
 
 
+@kept
+def _inertia(vehicle: Vehicle, inertia_scale: tuple[float, ...]) -> tuple[Inertia, Inertia]:
+    """The true inertia of a vehicle and its inverse."""
+    scale = np.diag(square_roots(array(inertia_scale)))
+    J = scale @ vehicle.inertia @ scale
+    return inertia_value(J), inertia_value(inverse(J))
+
+
 def start_plant(mission: Mission, vehicle: Vehicle, floor: Any, walls: Any) -> CompiledPlant:
     """The body of a mission, on a floor and between walls, or `Nothing`."""
-    scale = np.diag(square_roots(array(mission.plant.inertia_scale)))
-    J = scale @ vehicle.inertia @ scale
-    body = RigidBody(
-        inverse_mass=1.0 / (vehicle.mass * mission.plant.mass_scale),
-        inertia=inertia_value(J),
-        inverse_inertia=inertia_value(inverse(J)),
+    body = _body(vehicle, mission.plant, mission.disturbance)
+    return _plant(_effect(mission.vehicle), body, parts_layout_from(vehicle), floor, walls)
+
+
+_plant = kept(CompiledPlant)
+
+
+@kept
+def _body(vehicle: Vehicle, plant: PlantTable, disturbance: DisturbanceTable) -> RigidBody:
+    inertia, inverse_inertia = _inertia(vehicle, plant.inertia_scale)
+    return RigidBody(
+        inverse_mass=1.0 / (vehicle.mass * plant.mass_scale),
+        inertia=inertia,
+        inverse_inertia=inverse_inertia,
         drag_force=vec3(vehicle.drag.force),
         drag_moment=vec3(vehicle.drag.moment),
-        force=vec3(mission.disturbance.force),
-        moment=vec3(mission.disturbance.moment),
+        force=vec3(disturbance.force),
+        moment=vec3(disturbance.moment),
     )
-    return CompiledPlant(_effect(mission.vehicle), body, parts_layout_from(vehicle), floor, walls)
 
 
 def plant_from(mission: Mission, vehicle: Vehicle) -> CompiledPlant:
@@ -139,6 +156,10 @@ def plant_from(mission: Mission, vehicle: Vehicle) -> CompiledPlant:
 
 def start_state(mission: Mission) -> State:
     """The state of a mission at t = 0."""
-    initial = mission.initial
+    return _state(mission.initial)
+
+
+@kept
+def _state(initial: InitialTable) -> State:
     attitude = quaternion_from_euler(vec3(initial.euler))
     return State(vec3(initial.position), vec3(initial.velocity), attitude, vec3(initial.rates))

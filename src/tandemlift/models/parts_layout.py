@@ -6,10 +6,12 @@ import numpy as np
 
 from tandemlift.algebra.types import number
 from tandemlift.algebra.vector import each, quarters, spread, vec3
+from tandemlift.common.caching import kept
 from tandemlift.laws.mechanics.loads import PartsLayout
 from tandemlift.vehicle import Vehicle
 
 
+@kept
 def parts_layout_from(vehicle: Vehicle) -> PartsLayout:
     """The layout of a vehicle's parts."""
     quadrotors, N = vehicle.quadrotors, vehicle.count

@@ -6,11 +6,13 @@ from typing import Any
 
 from tandemlift.algebra.constants import GRAVITY
 from tandemlift.algebra.vector import Nothing
+from tandemlift.common.caching import kept
 from tandemlift.laws.contact.feet import Floor, floor, sole_positions, standing_height
 from tandemlift.laws.contact.hull import hull
 from tandemlift.laws.contact.spheres import rotor_spheres
 from tandemlift.laws.contact.walls import Walls, walls
 from tandemlift.settings import Mission
+from tandemlift.settings.surroundings import GroundTable
 from tandemlift.vehicle import Vehicle
 
 
@@ -21,14 +23,20 @@ def floor_from(mission: Mission, vehicle: Vehicle) -> Any:
 
 def feet_and_floor_from(mission: Mission, vehicle: Vehicle) -> Floor:
     """The floor of a mission, its feet and its hull, even if `ground.model` is "none"."""
-    g = mission.ground
-    fleet, mass, step = vehicle.quadrotors, vehicle.mass * mission.plant.mass_scale, mission.mission.step
+    start = mission.initial.position[2] if mission.ground.height is None else 0.0
+    return _floor(vehicle, mission.ground, mission.plant.mass_scale, mission.mission.step, start)
+
+
+@kept
+def _floor(vehicle: Vehicle, g: GroundTable, mass_scale: float, step: float, start: float) -> Floor:
+    """The floor under a vehicle; unless its height is given, the vehicle stands on it with its centre at `start`."""
+    fleet, mass = vehicle.quadrotors, vehicle.mass * mass_scale
     soles = sole_positions(vehicle.lever_arms, [q.feet_spread for q in fleet], [q.feet_depth for q in fleet])
     shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
     at_zero = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
     if g.height is not None:
         return at_zero._replace(height=g.height)
-    return at_zero._replace(height=mission.initial.position[2] - standing_height(at_zero, mass * GRAVITY))
+    return at_zero._replace(height=start - standing_height(at_zero, mass * GRAVITY))
 
 
 def walls_from(mission: Mission, vehicle: Vehicle) -> Any:
@@ -38,15 +46,20 @@ def walls_from(mission: Mission, vehicle: Vehicle) -> Any:
 
 def wall_contact_from(mission: Mission, vehicle: Vehicle) -> Walls:
     """The contact shapes and parameters for walls, even if the mission has none."""
+    return _walls(vehicle, mission.ground.friction, mission.plant.mass_scale, mission.mission.step)
+
+
+@kept
+def _walls(vehicle: Vehicle, friction: float, mass_scale: float, step: float) -> Walls:
     fleet, hubs = vehicle.quadrotors, vehicle.rotor_hubs
     guards = [q.guard_radius for q in fleet]
     return walls(
         vehicle.lever_arms,
         guards,
-        vehicle.mass * mission.plant.mass_scale,
+        vehicle.mass * mass_scale,
         vehicle.inertia,
-        mission.mission.step,
-        friction=mission.ground.friction,
+        step,
+        friction=friction,
         rotors=rotor_spheres(vehicle.lever_arms, hubs, [q.rotor_radius for q in fleet], guards),
         beam=vehicle.beam,
         payload=-vehicle.center_of_mass,

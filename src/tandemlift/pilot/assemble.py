@@ -45,6 +45,11 @@ def _weighted(vehicle: VehicleTable, priorities: tuple[float, ...]) -> tuple[Mix
     return mixer_from(weighted_rows(effect, weights)), Wrench(thrust, Vec3(roll, pitch, yaw))
 
 
+@kept
+def _effect(vehicle: VehicleTable) -> Mixer:
+    return mixer_from(Vehicle.from_settings(vehicle).effect)
+
+
 def _allocation(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     """The allocation of a mission and its memory."""
     a, cls = mission.allocation, each(vehicle.rotor_count)
@@ -58,6 +63,7 @@ def _allocation(mission: Mission, vehicle: Vehicle) -> tuple[Any, Any]:
     return allocation, AllocationState(none, none)
 
 
+@kept
 def admittance_from(a: AdmittanceTable) -> Admittance:
     """M, C, K and the gate of a mission."""
     kind = HardGate if a.gate == "hard" else SoftGate
@@ -108,8 +114,8 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
     """
     gains, memory = controller(mission.controller.name).start(mission.controller, vehicle, mission.mission.step)
     guidance, guidance_memory = _guidance(mission, vehicle)
-    observer, observer_memory = start_observer(mission, vehicle, mixer_from(vehicle.effect))
+    observer, observer_memory = start_observer(mission, vehicle, _effect(mission.vehicle))
     allocation, allocation_memory = _allocation(mission, vehicle)
-    detection, detection_memory = start_detection(mission, vehicle, mixer_from(vehicle.effect))
+    detection, detection_memory = start_detection(mission, vehicle, _effect(mission.vehicle))
     parameters = PilotParameters(guidance, observer, gains, allocation, detection)
     return parameters, PilotMemory(guidance_memory, observer_memory, memory, allocation_memory, detection_memory)

@@ -46,7 +46,7 @@ NARROW = 0.38  # of the flight, the least width of a column
 BANDS = 300  # stretches of time into which what the rotors give is drawn
 
 
-def _look(place: int) -> dict[str, Any]:
+def look(place: int) -> dict[str, Any]:
     """The look of the controller number `place`: eight colours, each with a dash, then the next dash."""
     return {"color": COLOURS[place % len(COLOURS)], "ls": DASHES[(place + place // len(COLOURS)) % len(DASHES)]}
 
@@ -69,7 +69,7 @@ def _panel(ax: Any, flights: Mapping[str, Flight], part: ScoredPart, axis: int) 
         time = flight.time[(flight.time >= part.first) & (flight.time < part.last)]
         error = _errors(flight, part)[:, axis]
         if len(error):
-            line(ax, time, error, lw=0.8, **_look(place))
+            line(ax, time, error, lw=0.8, **look(place))
         if flight in _settled(flights):
             shown.append(error)
     fit(ax, *shown, least=LEAST_SPAN)
@@ -83,7 +83,7 @@ def _still(ax: Any, what: str) -> None:
 
 
 def _names(figure: Figure, flights: Mapping[str, Flight]) -> None:
-    handles = [Line2D([], [], lw=1.1, **_look(place)) for place in range(len(flights))]
+    handles = [Line2D([], [], lw=1.1, **look(place)) for place in range(len(flights))]
     names = [f"{name} ({f.ending.outcome})" if f.ending else name for name, f in flights.items()]
     figure.legend(handles, names, loc="outside upper left", ncols=min(len(names), 6), columnspacing=1.2)
 

@@ -21,7 +21,7 @@ def html_findings(flight: Flight) -> str:
 def _item(finding: Finding) -> str:
     where = "" if finding.place is None else f", at {html_place(finding.place)}"
     what = f"<strong>{escape(finding.kind)}</strong> at {finding.time:.2f} s{where}: {escape(finding.text)}."
-    return f'{what}<br><span class="soft">What to do: {_with_keys(finding.remedy)}.</span>'
+    return f'{what}<br><span class="soft">What to do: {with_keys(finding.remedy)}.</span>'
 
 
 def html_place(point: Iterable[float]) -> str:
@@ -29,6 +29,6 @@ def html_place(point: Iterable[float]) -> str:
     return f"({', '.join(f'{round(v, 3) + 0.0:.3f}'.replace('-', '−') for v in point)}) m"
 
 
-def _with_keys(text: str) -> str:
+def with_keys(text: str) -> str:
     """A text as HTML whose `keys` are set as code."""
     return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text))

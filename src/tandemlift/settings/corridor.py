@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from tandemlift.algebra.arrays import array, lengths
+from tandemlift.common.caching import kept
 from tandemlift.settings.key_description import key
 from tandemlift.settings.value_types import PerAxis, Table, must
 
@@ -93,13 +94,16 @@ class CorridorTable(Table):
     @property
     def walls(self) -> tuple[WallTable, ...]:
         """Its walls: to the left from its start to its end, to the right, and across its ends where they are closed."""
-        if not self.centreline:
-            return ()
-        left, right = (side.tolist() for side in sides(self.centreline, self.width))
-        lines = [*pairwise(left), *pairwise(right)]
-        if self.ends == "closed":
-            lines += [(left[0], right[0]), (left[-1], right[-1])]
-        return tuple(WallTable.model_construct(start=tuple(a), end=tuple(b), top=self.height) for a, b in lines)
+        return _walls_of(self) if self.centreline else ()
+
+
+@kept
+def _walls_of(corridor: CorridorTable) -> tuple[WallTable, ...]:
+    left, right = (side.tolist() for side in sides(corridor.centreline, corridor.width))
+    lines = [*pairwise(left), *pairwise(right)]
+    if corridor.ends == "closed":
+        lines += [(left[0], right[0]), (left[-1], right[-1])]
+    return tuple(WallTable.model_construct(start=tuple(a), end=tuple(b), top=corridor.height) for a, b in lines)
 
 
 def wall_tables(mission: Mapping[str, Any]) -> list[dict[str, Any]]:

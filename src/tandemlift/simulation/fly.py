@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import threading
 import time
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Literal
+from collections import OrderedDict
+from collections.abc import Callable, Iterable, Iterator, Sequence, Sized
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from typing import Any, Literal, NamedTuple
+from weakref import WeakKeyDictionary
 
 from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.common.errors import InputError
@@ -16,6 +17,7 @@ from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import LANES, FlightMemory
 from tandemlift.loop.running_metrics import EMPTY
+from tandemlift.machine_code.code import Code
 from tandemlift.machine_code.compile_events import Stopped, always
 from tandemlift.missions.recording import engine_of
 from tandemlift.settings import Mission
@@ -25,12 +27,16 @@ from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take
 from tandemlift.simulation.stepping import body_of, fly_stepwise
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
-FIRST_STRETCH = 5_000  # steps of the first stretch
+FIRST_STRETCH = 5_000  # steps of the first stretch of code
+WAITING = 64 * LANES  # flights, at most, that wait for others of their variant
+
+_PACES = WeakKeyDictionary[Code, int]()  # steps of code's last stretch: few stretches seldom wait for Python's lock
 
 
 def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
     """Fly to the end in stretches of some tenth of a second; yields the step reached after each."""
-    pace, ends = FIRST_STRETCH, sorted({s for s in (p.late_step,) if s < p.steps} | {p.steps + 1})
+    pace = _PACES.get(memory.code, FIRST_STRETCH)
+    ends = sorted({s for s in (p.late_step,) if s < p.steps} | {p.steps + 1})
     for end in ends:
         while memory.k < min(end, p.steps):
             if not going():
@@ -44,6 +50,7 @@ def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -
             if after < min(stop, p.steps):
                 return
             pace = max(FIRST_STRETCH, int((after - before) * min(STRETCH / max(spent, 1e-9), 4.0)))
+            _PACES[memory.code] = pace
 
 
 def _fly_compiled(
@@ -132,84 +139,149 @@ def fly_many(
     keep: Literal["flights", "metrics"] = "flights",
     threads: int | None = None,
     *,
+    refusals: bool = False,
     progress: Progress | None = None,
 ) -> list[Any]:
     """Fly many missions of any mixture of variants, in blocks that share each instruction, on several threads.
 
     Args:
-        missions: from `load_mission`.
+        missions: from `load_mission`; an iterator is read as the flights go on, one mission after the other.
         keep: "flights" for a list of `Flight`; "metrics" for a list of metrics only, in memory that does not grow with
             the number of steps.
         threads: number of threads; by default one for each processor.
-        progress: called with (flights flown, flights in all).
+        refusals: whether a mission that cannot be built gives its `InputError`, and the others are flown.
+        progress: called with (flights flown, flights in all; of an iterator, those read so far).
 
     Returns:
         One entry for each mission, in the order given, equal to the last bit to that of a flight alone.
 
     Raises:
-        InputError: `keep` or `threads` is not one of the above, or a mission cannot be built.
+        InputError: `keep` or `threads` is not one of the above, or a mission cannot be built and `refusals` are not
+            asked for.
     """
     if keep not in ("flights", "metrics"):
         raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
     if threads is not None and (not isinstance(threads, int) or threads < 1):
         raise InputError(f"threads = {threads!r}: must be a whole number of at least 1")
-    missions = list(missions)
-    results: list[Any] = [None] * len(missions)
-    finished = _Counter(len(missions), progress)
-
+    groups, results = _FlightGroups(missions, refusals), dict[int, Any]()
+    finished = _Counter(groups, missions, progress)
     going = threading.Event()
     going.set()
 
-    def run(places: list[int], flights: list[FlightPlan]) -> None:
-        p = flights[0]
-        rows, every = (p.steps // p.every + 1, p.every) if keep == "flights" else (1, p.steps + 1)
-        flown = _fly_together(flights, rows, every, going=going.is_set)
-        for i, f, x in zip(places, flights, flown, strict=True):
-            results[i] = flight_of(f, x) if keep == "flights" else metrics_of(f, x)
-        finished.add(len(places))
+    def work() -> None:
+        while going.is_set() and (group := groups.take()):
+            results.update(zip(group.places, groups.results_of(group, keep, going.is_set), strict=True))
+            finished.add(len(group.places))
 
-    jobs = list(_jobs(missions))  # prepared first, because Python code here would block the threads
-    pool = ThreadPoolExecutor(threads or os.cpu_count() or 1)
+    count = threads or os.cpu_count() or 1
+    pool = ThreadPoolExecutor(count)
     try:
-        for future in [pool.submit(run, places, flights) for places, flights in jobs]:
+        for future in as_completed([pool.submit(work) for _ in range(count)]):
             future.result()
     except BaseException:  # also Ctrl-C: do not wait for the threads
         going.clear()
         pool.shutdown(wait=False, cancel_futures=True)
         raise
     pool.shutdown()
-    return results
+    return [results[place] for place in range(groups.read)]
+
+
+def _flown(flights: list[FlightPlan], keep: str, going: Callable[[], bool]) -> list[Any]:
+    """The flights of a group, flown, or their metrics."""
+    p = flights[0]
+    if keep == "flights":
+        return list(map(flight_of, flights, _fly_together(flights, p.steps // p.every + 1, p.every, going=going)))
+    return list(map(metrics_of, flights, _fly_together(flights, 1, p.steps + 1, going=going)))
 
 
 class _Counter:
     """Counts the finished flights of all threads."""
 
-    def __init__(self, total: int, progress: Progress | None) -> None:
-        self.flown, self.total, self.progress = 0, total, progress
+    def __init__(self, groups: _FlightGroups, missions: Iterable[Mission], progress: Progress | None) -> None:
+        self.flown, self.groups, self.progress = 0, groups, progress
+        self.total = len(missions) if isinstance(missions, Sized) else None
         self.lock = threading.Lock()
 
     def add(self, count: int) -> None:
         with self.lock:
             self.flown += count
             if self.progress:
-                self.progress(self.flown, self.total)
+                self.progress(self.flown, self.groups.read if self.total is None else self.total)
 
 
-def _jobs(missions: Sequence[Mission]) -> Iterator[tuple[list[int], list[FlightPlan]]]:
-    """Groups of flights of one variant and grid, at most LANES, with their places; stepwise flights alone."""
-    groups: defaultdict[Any, list[tuple[int, FlightPlan]]] = defaultdict(list)
-    for i, mission in enumerate(missions):
-        p = FlightPlan(mission)
-        if _flies_stepwise(p):
-            yield [i], [p]
-            continue
-        key = (p.variant, p.steps, p.every, p.dt, tuple(p.delays))
-        groups[key].append((i, p))
-        if len(groups[key]) == LANES:
-            yield _unzipped(groups.pop(key))
-    for group in groups.values():
-        yield _unzipped(group)
+class _FlightGroup(NamedTuple):
+    """Flights that fly together, and their places among all missions; or the refusal of the mission at one place."""
+
+    places: list[int]
+    flights: list[FlightPlan]
+    refusal: InputError | None = None
 
 
-def _unzipped(pairs: list[tuple[int, FlightPlan]]) -> tuple[list[int], list[FlightPlan]]:
-    return [i for i, _ in pairs], [p for _, p in pairs]
+class _FlightGroups:
+    """The groups of some missions, for any number of threads: each takes the next one when it is free.
+
+    A group is prepared by the thread that takes it, so that one thread prepares while others fly, and no more missions
+    are held than those that fly or wait for others of their variant.
+
+    Args:
+        missions: an iterable, of which one mission is read after the other.
+        refusals: whether an `InputError` is a result.
+
+    Attributes:
+        read: the number of missions read so far.
+    """
+
+    def __init__(self, missions: Iterable[Mission], refusals: bool) -> None:
+        self.read, self.refusals = 0, refusals
+        self._groups = self._grouped(missions)
+        self._lock = threading.Lock()
+
+    def take(self) -> _FlightGroup | None:
+        """The next group; None if there is no other.
+
+        Raises:
+            InputError: a mission cannot be built.
+        """
+        with self._lock:
+            return next(self._groups, None)
+
+    def results_of(self, group: _FlightGroup, keep: str, going: Callable[[], bool]) -> list[Any]:
+        """The flights of a group, flown, or their metrics; or what refuses them."""
+        if group.refusal:
+            return [group.refusal]
+        try:
+            return _flown(group.flights, keep, going)
+        except InputError as error:
+            if not self.refusals:
+                raise
+            return [error] * len(group.flights)
+
+    def _plan(self, mission: Mission) -> FlightPlan | InputError:
+        try:
+            return FlightPlan(mission)
+        except InputError as error:
+            if not self.refusals:
+                raise
+            return error
+
+    def _grouped(self, missions: Iterable[Mission]) -> Iterator[_FlightGroup]:
+        """Groups of flights of one variant and grid, at most LANES; stepwise flights alone."""
+        waiting, count = OrderedDict[Any, _FlightGroup](), 0
+        for place, mission in enumerate(missions):
+            self.read, p = place + 1, self._plan(mission)
+            if isinstance(p, InputError):
+                yield _FlightGroup([place], [], p)
+            elif _flies_stepwise(p):
+                yield _FlightGroup([place], [p])
+            else:
+                key = (p.variant, p.steps, p.every, p.dt, tuple(p.delays.tolist()))
+                group = waiting.setdefault(key, _FlightGroup([], []))
+                group.places.append(place)
+                group.flights.append(p)
+                count += 1
+                full = len(group.flights) == LANES
+                if full or count > WAITING:  # one that is full, else the one that waits longest
+                    group = waiting.pop(key) if full else waiting.popitem(last=False)[1]
+                    count -= len(group.flights)
+                    yield group
+        yield from waiting.values()

@@ -75,24 +75,26 @@ class FlightPlan:
         """The first step that starts at `LATE` or later."""
         return math.ceil(LATE / self.dt - 1e-9)
 
-    @property
+    @cached_property
     def kernels(self) -> Kernels:
         """The compiled loops of this variant."""
-        if self.variant not in KERNELS:
-            KERNELS[self.variant] = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
-        return KERNELS[self.variant]
+        found = KERNELS.get(self.variant)
+        if found is None:  # another thread may have made them by now
+            made = Kernels(self.model, self.given, fuses=self.mission.mission.fused)
+            found = KERNELS.setdefault(self.variant, made)
+        return found
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""
-        return FlightStart(np.array(flat(self.model)), self.tables, self._delay_lines(), self.seeds)
+        numbers = np.array(flat(self.model))
+        return FlightStart(numbers, self.tables, self._delay_lines(numbers), self.seeds)
 
     def grid(self, rows: int, every: int) -> TimeGrid:
         """The time grid of the flight, with a log of `rows` rows, one every `every` steps."""
         return TimeGrid(self.steps, every, rows, self.dt, self.delays)
 
-    def _delay_lines(self) -> np.ndarray:
-        """The delay lines of this flight, filled with the values at t = 0."""
-        numbers = np.array(flat(self.model))
+    def _delay_lines(self, numbers: np.ndarray) -> np.ndarray:
+        """The delay lines of this flight, filled with the values at t = 0: `numbers`, those of its model."""
         if not self.delays.any():
             return np.zeros((1, 0))
         row = np.concatenate([numbers[span.at : span.at + span.size] for span in self.kernels.delayed])

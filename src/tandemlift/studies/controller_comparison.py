@@ -15,7 +15,7 @@ from tandemlift.common.types import Progress
 from tandemlift.controllers import CONTROLLERS, Controller, controller, error_text, file_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
-from tandemlift.studies.many import fly_each
+from tandemlift.simulation.many import fly_each
 
 Mask = NDArray[np.bool_]
 

@@ -12,7 +12,7 @@ from tandemlift.common.types import Array, Progress
 from tandemlift.engines.registry import ENGINES
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
-from tandemlift.studies.many import fly_each
+from tandemlift.simulation.many import fly_each
 
 QUANTITIES = {"position": "m", "attitude": "rad", "joint_force": "N", "joint_torque": "N m", "push_estimate": "N"}
 SETTLED = 0.1  # s, from which on joints are compared: some engines first correct joint errors of a fast start

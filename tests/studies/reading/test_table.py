@@ -96,7 +96,7 @@ def test_kept_channels_are_those_of_the_flight(gusts):
 
 def test_what_each_draw_was_is_a_rising_function_of_its_point(gusts):
     points = gusts.drawn_points()
-    assert list(points) == ["plant.mass_scale", "pushes.0.force (1 of 2)", "pushes.0.force (2 of 2)"]
+    assert list(points) == ["plant.mass_scale", "pushes.0.force (length)", "pushes.0.force (direction)"]
     drawn = gusts.values("plant.mass_scale")[gusts.values("draw").argsort(kind="stable")][:: 144 // 6]
     np.testing.assert_allclose(drawn, 0.9 + 0.3 * points["plant.mass_scale"], rtol=1e-12)
 

@@ -10,6 +10,7 @@ from tandemlift.algebra.law import choice, law
 from tandemlift.algebra.vector import Mat3, Vec3, apply, cross, mat3, vec3
 
 Inertia: TypeAlias = Vec3 | Mat3
+OFF_DIAGONAL = ~np.eye(3, dtype=bool)
 
 
 @choice
@@ -35,5 +36,6 @@ def gyroscopic(J: Inertia, rates: Vec3) -> Vec3:
 
 def inertia_value(J: NDArray[np.floating]) -> Inertia:
     """A 3 × 3 tensor as a Vec3 if it is diagonal to rounding, else as a Mat3."""
-    off = largest(np.abs(J - np.diag(np.diag(J))).reshape(1, -1), axis=1)
-    return vec3(np.diag(J)) if off[0] <= 1e-12 * largest(np.abs(J).reshape(1, -1), axis=1)[0] else mat3(J)
+    sizes = np.abs(J)
+    off, whole = (largest(part.reshape(1, -1), axis=1)[0] for part in (sizes[OFF_DIAGONAL], sizes))
+    return vec3(np.diag(J)) if off <= 1e-12 * whole else mat3(J)

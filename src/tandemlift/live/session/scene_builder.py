@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.common.version import __version__
 from tandemlift.algebra.vector import Nothing
 from tandemlift.common.faults import ALARM_TEXTS
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.common.types import Array
+from tandemlift.common.version import __version__
 from tandemlift.laws.contact.feet import sole_positions
 from tandemlift.live.wire.frames import RATE, layout_for
 from tandemlift.live.wire.scene import (

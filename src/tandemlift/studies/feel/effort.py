@@ -10,7 +10,7 @@ import numpy as np
 from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
-from tandemlift.simulation.fly import fly_many
+from tandemlift.simulation.many import fly_each
 from tandemlift.studies.feel.quiet import quietly
 from tandemlift.studies.validation.persons import succeeded
 
@@ -70,7 +70,7 @@ def efforts(missions: Sequence[Mission], progress: Progress | None = None) -> li
     found = list[Effort]()
     for first in range(0, len(missions), TOGETHER):
         some = missions[first : first + TOGETHER]
-        found += [_effort(m, flight) for m, flight in zip(some, fly_many(some), strict=True)]
+        found += [_effort(m, flight) for m, flight in zip(some, fly_each(some, keep="flights"), strict=True)]
         if progress:
             progress(len(found), len(missions))
     return found

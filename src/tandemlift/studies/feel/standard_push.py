@@ -16,7 +16,7 @@ from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
 from tandemlift.missions.values import Tables
-from tandemlift.simulation.fly import fly_many
+from tandemlift.simulation.many import fly_each
 from tandemlift.studies.feel.closed_form import AXES, YAW, AxisFeel, axes_of, speed_at
 from tandemlift.studies.feel.quiet import quietly
 from tandemlift.vehicle import Vehicle
@@ -99,7 +99,7 @@ def pushed_axes(m: Mission) -> tuple[PushedAxis, ...]:
     """
     axes, start = axes_of(m), start_of(m)
     end = start + 2.0 * max(map(hold_of, axes)) + LEAST_HOLD
-    flights = fly_many([push_mission(m, k, start, end) for k in axes])
+    flights = fly_each([push_mission(m, k, start, end) for k in axes], keep="flights")
     return tuple(_measured(k, flight, start) for k, flight in zip(axes, flights, strict=True))
 
 

@@ -16,6 +16,7 @@ from tandemlift.common.extras import extra
 from tandemlift.common.outcomes import FAILURES
 from tandemlift.common.types import Array
 from tandemlift.settings import Mission
+from tandemlift.studies.design.distributions import Distribution, Horizontal
 from tandemlift.studies.design.draws import dimensions_of
 from tandemlift.studies.design.keys import columns_of
 from tandemlift.studies.design.plan import StudyPlan
@@ -23,7 +24,7 @@ from tandemlift.studies.design.sampling import points
 from tandemlift.studies.design.settings import REFUSED, StudySettings
 from tandemlift.studies.reading.dataset import to_xarray
 from tandemlift.studies.reading.html import study_html
-from tandemlift.studies.reading.unit_files import CHANNEL, UnitFile, check_whole, columns_in, read
+from tandemlift.studies.reading.unit_files import CHANNEL, UnitFile, about, check_whole, columns_in, read
 from tandemlift.studies.units.store import StudyFolder
 
 if TYPE_CHECKING:
@@ -84,6 +85,12 @@ class Study:
     def grid(self) -> tuple[str, ...]:
         """The columns of what varies on a grid."""
         return tuple(name for key, values in self.plan.grid.items() for name, _ in columns_of(key, values[0]))
+
+    @property
+    def versions(self) -> dict[str, str]:
+        """Version and digest of the sources of tandemlift that flew it."""
+        said = about(self.files[0]) if self.files else {}
+        return {name: said[key] for name, key in (("tandemlift", "version"), ("sources", "sources")) if key in said}
 
     @cached_property
     def columns(self) -> tuple[str, ...]:
@@ -210,7 +217,7 @@ class Study:
         """
         study, drawn = self.settings.study, self.plan.drawn
         found = points(study.sampling, study.draws, dimensions_of(drawn), study.seed, 0, self.plan.point_count)
-        names = [name for key, d in drawn.items() for name in _names(key, d.dimensions, d.numbers)]
+        names = [name for key, distribution in drawn.items() for name in _names(key, distribution)]
         return dict(zip(names, found.T, strict=True))
 
     def _number(self, row: int) -> int:
@@ -219,11 +226,11 @@ class Study:
         return int(row)
 
 
-def _names(key: str, dimensions: int, numbers: int) -> list[str]:
-    """What the numbers of a drawn key are called: the key, its entries, or its numbers."""
-    if dimensions == 1:
-        return [key]
-    return [f"{key}.{i}" if numbers == 1 else f"{key} ({i + 1} of {dimensions})" for i in range(dimensions)]
+def _names(key: str, distribution: Distribution) -> list[str]:
+    """What the numbers of a drawn key are called: the key, its entries, or length and direction of a vector."""
+    if isinstance(distribution, Horizontal):
+        return [f"{key} (length)", f"{key} (direction)"]
+    return [key] if distribution.count is None else [f"{key}.{i}" for i in range(distribution.count)]
 
 
 def load_study(folder: str | os.PathLike[str]) -> Study:
@@ -241,7 +248,7 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     store = StudyFolder(path)
     files = []
     for i, name in enumerate(store.names()):
-        first, file = i * store.rows_per_unit, store.file(name)
+        first, file = i * store.rows_per_unit, store.files.file(name)
         if file.exists():
             check_whole(file)
             files.append(UnitFile(file, first, min(store.count, first + store.rows_per_unit)))

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 CHANNEL = "flight."  # begins the name of a kept channel's column
 CODED = ("mission", "controller", "engine", "case", "outcome", "finding_kinds")  # few different texts in many rows
+ABOUT = "tandemlift."  # begins what a file says of itself
 MARK = b"PAR1"  # begins and ends a whole Parquet file
 
 
@@ -60,6 +61,16 @@ def _opened(file: UnitFile, coded: Collection[str] = ()) -> Any:
 def columns_in(files: Iterable[UnitFile]) -> tuple[str, ...]:
     """The columns of all files together, in the order in which they first come."""
     return tuple(dict.fromkeys(name for file in files for name in _opened(file).schema_arrow.names))
+
+
+def about(file: UnitFile) -> dict[str, str]:
+    """What a file says of itself: study, unit, sources and version of tandemlift."""
+    said = _opened(file).schema_arrow.metadata or {}
+    return {
+        key.decode().removeprefix(ABOUT): value.decode()
+        for key, value in said.items()
+        if key.decode().startswith(ABOUT)
+    }
 
 
 def _read_file(file: UnitFile, names: Sequence[str], coded: Collection[str]) -> pyarrow.Table:

@@ -12,7 +12,7 @@ from tandemlift.common.types import Progress
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.units.dask import cluster_workers, processes_of, scheduler_workers
 from tandemlift.studies.units.kept import check_kept
-from tandemlift.studies.units.running import WHOLE, Part, run_units
+from tandemlift.studies.units.running import WHOLE, Part, StudyWork, run_units
 from tandemlift.studies.units.store import StudyFolder
 from tandemlift.studies.units.workers import ExecutorWorkers, Workers, thread_workers
 
@@ -51,7 +51,7 @@ def fly_study(
     """
     check_kept(plan)
     with _workers(threads, executor, scheduler, cluster, say) as workers:
-        return run_units(plan, folder, workers, part, progress)
+        return run_units(StudyWork(plan, folder.names()), folder.files, workers, part, progress)
 
 
 @contextmanager

@@ -109,7 +109,8 @@ def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> Non
             parquet.write_table(table, partial, compression="zstd")
             _sync(partial)
     except OSError as error:
-        raise InputError(f"{path}: cannot be written: {error.strerror or error}; what is done so far stays") from None
+        why = os.strerror(error.errno) if error.errno else error
+        raise InputError(f"{path}: cannot be written: {why}; what is done so far stays") from None
 
 
 def _sync(path: Path) -> None:

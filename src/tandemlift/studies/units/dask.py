@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
+import json
 import os
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import CancelledError, Future
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
 from tandemlift.studies.units.columns import Columns
-from tandemlift.studies.units.unit import Unit, sources_digest
-from tandemlift.studies.units.workers import ExecutorWorkers, other_sources
+from tandemlift.studies.units.unit import sources_digest
+from tandemlift.studies.units.workers import ExecutorWorkers, Task, other_sources
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -47,9 +49,9 @@ class DaskWorkers:
                 self._count = max(1, sum(self._client.nthreads().values()))
         return self._count
 
-    def submit(self, unit: Unit) -> Future[Any]:
+    def submit(self, task: Task) -> Future[Any]:
         """See `Workers`."""
-        return self._workers.submit(unit)
+        return self._workers.submit(task)
 
     def columns(self, future: Future[Any]) -> Columns:
         """See `Workers`."""
@@ -79,7 +81,7 @@ def scheduler_workers(address: str, say: Say) -> Iterator[DaskWorkers]:
     `distributed.scheduler.allowed-failures`, which the scheduler alone can set, are handed over again.
 
     Args:
-        address: of the scheduler, such as tcp://10.0.0.1:8786, or the path of its scheduler file.
+        address: of the scheduler, such as tcp://127.0.0.1:8786, or the path of its scheduler file.
         say: prints a line.
 
     Raises:
@@ -88,12 +90,11 @@ def scheduler_workers(address: str, say: Say) -> Iterator[DaskWorkers]:
     """
     with extra("dask", "--scheduler"):
         from distributed import Client
-    file = Path(address)
-    if file.suffix == ".json" and not file.is_file():
-        raise InputError(f"--scheduler {address}: there is no such scheduler file")
-    where: dict[str, Any] = {"scheduler_file": address} if file.suffix == ".json" else {"address": address}
+    found = _address_in(address) if address.endswith(".json") else address
     try:
-        client = Client(**where, timeout=PATIENCE, set_as_default=False)
+        with ThreadPoolExecutor(1) as pool:  # a notebook's own thread has a loop that runs
+            pool.submit(asyncio.run, _answer(found)).result()
+        client = Client(found, timeout=PATIENCE, set_as_default=False)
     except (OSError, ImportError, ValueError, TypeError, AttributeError) as error:
         raise InputError(
             f"--scheduler {address}: no Dask scheduler answers there within {PATIENCE:.0f} s: {_line(error)}"
@@ -104,6 +105,24 @@ def scheduler_workers(address: str, say: Say) -> Iterator[DaskWorkers]:
         yield DaskWorkers(client)
     finally:
         client.close(timeout=2)
+
+
+def _address_in(file: str) -> str:
+    """The address that a scheduler file says."""
+    try:
+        return str(json.loads(Path(file).read_text("utf-8"))["address"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(f"--scheduler {file}: no scheduler file: {_line(error)}") from None
+
+
+async def _answer(address: str) -> None:
+    """Wait for the answer of a scheduler. A client itself waits forever for a program that listens and is silent."""
+    from distributed import Security
+    from distributed.core import rpc
+
+    async with asyncio.timeout(PATIENCE):
+        async with rpc(address, connection_args=Security().get_connection_args("client")) as scheduler:
+            await scheduler.identity()
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.settings import BLOCK
 from tandemlift.studies.units.columns import write_columns
 from tandemlift.studies.units.flying import fly_unit
-from tandemlift.studies.units.unit import Unit, sources_digest, unit_count
+from tandemlift.studies.units.unit import Unit, unit_count
 
 
 class Estimate(NamedTuple):
@@ -48,4 +48,4 @@ def estimate(plan: StudyPlan) -> Estimate:
 def _sample(plan: StudyPlan, first: int, last: int) -> Unit:
     rows = tuple(plan.rows(first, last))
     variants = {row.variant: plan.variants[row.variant] for row in rows}
-    return Unit("sample", first, last, sources_digest(), rows, variants, plan.settings.keep)
+    return Unit("sample", first, last, rows, variants, plan.settings.keep)

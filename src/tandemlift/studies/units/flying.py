@@ -8,9 +8,9 @@ from typing import Any
 from tandemlift.common.errors import InputError
 from tandemlift.missions.loading import MissionTemplate
 from tandemlift.settings import Mission
+from tandemlift.simulation.many import Keep, fly_each
 from tandemlift.studies.design.plan import StudyRow
 from tandemlift.studies.design.settings import REFUSED, KeepTable
-from tandemlift.studies.many import Keep, fly_each
 from tandemlift.studies.units.columns import Columns, columns_of_rows
 from tandemlift.studies.units.unit import Unit
 

@@ -1,4 +1,4 @@
-"""Running a study: its units one by one on workers, those that are flown already left out.
+"""Flying the units of a study, or of other work, one by one on workers; those that are flown already are left out.
 
 Nothing but the files of finished units says what is done. So a study can be stopped, killed, started again and spread
 over processes and machines that share a folder, and gives the same rows.
@@ -7,15 +7,18 @@ over processes and machines that share a folder, and gives the same rows.
 from __future__ import annotations
 
 from collections import Counter, deque
+from collections.abc import Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any, NamedTuple, Protocol
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
 from tandemlift.studies.design.plan import StudyPlan
-from tandemlift.studies.units.store import StudyFolder
+from tandemlift.studies.units.files import UnitFiles
+from tandemlift.studies.units.flying import fly_unit
 from tandemlift.studies.units.unit import unit_of
-from tandemlift.studies.units.workers import Workers
+from tandemlift.studies.units.workers import Task, Workers
 
 WAITING = 2  # units handed over for each worker, so that none waits
 BEAT = 1.0  # s, after which progress is told although no unit has ended
@@ -44,14 +47,51 @@ def part_from(text: str) -> Part:
     return Part(int(number), int(parts))
 
 
+class Work(Protocol):
+    """Units that are flown into files."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Of all units; that of a unit says all that decides its rows."""
+        ...
+
+    def size(self, i: int) -> int:
+        """Number of rows of unit i."""
+        ...
+
+    def task(self, i: int) -> Task:
+        """What flies unit i, on any worker."""
+        ...
+
+
+class StudyWork:
+    """The units of a study.
+
+    Args:
+        plan: of the study.
+        names: of its units.
+    """
+
+    def __init__(self, plan: StudyPlan, names: Sequence[str]) -> None:
+        self.names, self._plan = names, plan
+
+    def size(self, i: int) -> int:
+        """See `Work`."""
+        return min(self._plan.rows_per_unit, self._plan.count - i * self._plan.rows_per_unit)
+
+    def task(self, i: int) -> Task:
+        """See `Work`."""
+        return partial(fly_unit, unit_of(self._plan, i, self.names[i]))
+
+
 def run_units(
-    plan: StudyPlan, folder: StudyFolder, workers: Workers, part: Part = WHOLE, progress: Progress | None = None
+    work: Work, files: UnitFiles, workers: Workers, part: Part = WHOLE, progress: Progress | None = None
 ) -> int:
     """Fly all units of a part that are not flown yet.
 
     Args:
-        plan: of the study.
-        folder: of the study; receives the files.
+        work: the units.
+        files: receive what is flown.
         workers: fly the units.
         part: of the units to fly.
         progress: called with (rows flown, rows of the part), at least every second or so.
@@ -62,28 +102,22 @@ def run_units(
     Raises:
         InputError: a unit cannot be flown or written; those that are done stay.
     """
-    return _Run(plan, folder, workers, part, progress).run()
+    return _Run(work, files, workers, part, progress).run()
 
 
 class _Run:
     """A run over the units of a part: those to do, those that others do, and those that are handed over."""
 
-    def __init__(
-        self, plan: StudyPlan, folder: StudyFolder, workers: Workers, part: Part, progress: Progress | None
-    ) -> None:
-        self.plan, self.folder, self.workers, self.progress = plan, folder, workers, progress
-        self.names = folder.names()
+    def __init__(self, work: Work, files: UnitFiles, workers: Workers, part: Part, progress: Progress | None) -> None:
+        self.work, self.files, self.workers, self.progress = work, files, workers, progress
+        self.names = work.names
         own = range(part.number - 1, len(self.names), part.parts)
-        self.todo = deque(i for i in own if not folder.is_flown(self.names[i]))
+        self.todo = deque(i for i in own if not files.is_flown(self.names[i]))
         self.others = deque[int]()
-        self.pending = dict[Future[Any], int]()
+        self.pending, self.claimed = dict[Future[Any], int](), set[int]()
         self.lost, self.flown = Counter[int](), 0
-        self.total = sum(map(self._size, own))
-        self.done = self.total - sum(map(self._size, self.todo))
-
-    def _size(self, i: int) -> int:
-        """Rows of a unit."""
-        return min(self.plan.rows_per_unit, self.plan.count - i * self.plan.rows_per_unit)
+        self.total = sum(map(work.size, own))
+        self.done = self.total - sum(map(work.size, self.todo))
 
     def run(self) -> int:
         try:
@@ -95,14 +129,15 @@ class _Run:
                     self._hand_over()
                 self._tell()
         finally:
-            for future, i in self.pending.items():
+            for future in self.pending:
                 future.cancel()
-                self.folder.release(self.names[i])
+            for i in list(self.claimed):
+                self._release(i)
         return self.flown
 
     def _tell(self) -> None:
-        while self.others and self.folder.is_flown(self.names[self.others[0]]):
-            self.done += self._size(self.others.popleft())
+        while self.others and self.files.is_flown(self.names[self.others[0]]):
+            self.done += self.work.size(self.others.popleft())
         if self.progress:
             self.progress(self.done, self.total)
 
@@ -114,24 +149,29 @@ class _Run:
             self._submit(i)
 
     def _submit(self, i: int) -> None:
-        self.pending[self.workers.submit(unit_of(self.plan, i, self.names[i]))] = i
+        self.pending[self.workers.submit(self.work.task(i))] = i
+
+    def _release(self, i: int) -> None:
+        self.files.release(self.names[i])
+        self.claimed.discard(i)
 
     def _next(self) -> int | None:
         """The next unit to fly: those that other processes say they fly come last, for these may have been killed."""
         while self.todo:
             i = self.todo.popleft()
-            if not self.folder.claim(self.names[i]):
+            if not self.files.claim(self.names[i]):
                 self.others.append(i)
-            elif self.folder.is_flown(self.names[i]):
-                self.folder.release(self.names[i])
-                self.done += self._size(i)
-            else:
+                continue
+            self.claimed.add(i)
+            if not self.files.is_flown(self.names[i]):
                 return i
+            self._release(i)
+            self.done += self.work.size(i)
         while self.others:
             i = self.others.pop()
-            if not self.folder.is_flown(self.names[i]):
+            if not self.files.is_flown(self.names[i]):
                 return i
-            self.done += self._size(i)
+            self.done += self.work.size(i)
         return None
 
     def _take(self, future: Future[Any]) -> None:
@@ -144,17 +184,17 @@ class _Run:
                 raise
             self._fly_again(i, error)
             return
-        if not self.folder.is_flown(self.names[i]):
-            self.folder.write(self.names[i], columns)
-        self.folder.release(self.names[i])
-        self.done, self.flown = self.done + self._size(i), self.flown + 1
+        if not self.files.is_flown(self.names[i]):
+            self.files.write(self.names[i], columns)
+        self._release(i)
+        self.done, self.flown = self.done + self.work.size(i), self.flown + 1
 
     def _fly_again(self, i: int, error: BaseException) -> None:
         self.lost[i] += 1
         if self.lost[i] > MOST_LOST:
-            first = i * self.plan.rows_per_unit
+            first = sum(map(self.work.size, range(i)))
             raise InputError(
-                f"rows {first} to {first + self._size(i) - 1}: whatever worker flies them ends: {error} "
+                f"rows {first} to {first + self.work.size(i) - 1}: whatever worker flies them ends: {error} "
                 "What else is flown stays"
             )
         self._submit(i)

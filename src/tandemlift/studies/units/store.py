@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +15,11 @@ from tandemlift.studies.design.keys import leaves_of
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.study_files import checked_settings
 from tandemlift.studies.design.variants import variant_from
-from tandemlift.studies.units.columns import Columns, write_columns
+from tandemlift.studies.units.files import UnitFiles
 from tandemlift.studies.units.unit import sources_digest, study_digest, unit_names
 
 STUDY, PLAN, UNITS = "study.toml", "study.json", "units"
 FORMAT = 1
-LEFT_OVER = 3600.0  # s, after which a half-written file, or a claim, is nobody's
 
 
 class StudyFolder:
@@ -37,6 +33,7 @@ class StudyFolder:
         count: number of rows.
         rows_per_unit: rows of each unit but the last.
         sources: digest of the sources that fly it.
+        files: those of its units.
 
     Raises:
         InputError: the folder holds no study.
@@ -47,6 +44,7 @@ class StudyFolder:
         self._said = _plan_in(path)
         self.digest, self.sources = self._said["digest"], self._said["sources"]
         self.count, self.rows_per_unit = self._said["rows"], self._said["rows_per_unit"]
+        self.files = UnitFiles(path / UNITS, {"study": self.digest, "sources": self.sources})
 
     def plan(self) -> StudyPlan:
         """The plan, from what the folder holds alone."""
@@ -56,79 +54,6 @@ class StudyFolder:
     def names(self) -> list[str]:
         """The names of all units, in order."""
         return list(unit_names(self.digest, self.count, self.rows_per_unit))
-
-    def file(self, name: str) -> Path:
-        """The file of a unit's results, be it there or not."""
-        return self.path / UNITS / f"{name}.parquet"
-
-    def is_flown(self, name: str) -> bool:
-        """Whether a unit's file is there, and whole; one that was cut short is written anew when the unit is flown.
-
-        Raises:
-            InputError: there is a file that this process cannot read.
-        """
-        path = self.file(name)
-        if not path.exists():
-            return False
-        with extra("study", "a study"):
-            from pyarrow import parquet
-        try:
-            parquet.read_metadata(path)
-        except FileNotFoundError:
-            return False
-        except (OSError, ValueError) as error:  # one without a number says that it is no Parquet file
-            if getattr(error, "errno", None) is not None:
-                raise InputError(f"{path}: cannot be read: {getattr(error, 'strerror', error)}") from None
-            return False
-        return True
-
-    def claim(self, name: str) -> bool:
-        """Say that a unit is flown here; False if a process says so already, or said so and was killed.
-
-        Processes that share the folder take each other's claims as advice: they fly other units first.
-
-        Raises:
-            InputError: the folder cannot be written to.
-        """
-        try:
-            self._claim_file(name).touch(exist_ok=False)
-        except FileExistsError:
-            return False
-        except OSError as error:
-            raise InputError(f"{self.path}: cannot be written to: {error.strerror or error}") from None
-        return True
-
-    def release(self, name: str) -> None:
-        """Take back that a unit is flown here."""
-        with contextlib.suppress(OSError):
-            self._claim_file(name).unlink()
-
-    def _claim_file(self, name: str) -> Path:
-        return self.path / UNITS / f".{name}.claim"
-
-    def flown(self) -> Iterator[tuple[str, Path]]:
-        """The units whose files are there, in order: names and files."""
-        for name in self.names():
-            if self.is_flown(name):
-                yield name, self.file(name)
-
-    def write(self, name: str, columns: Columns) -> None:
-        """Write the results of a unit, whole or not at all.
-
-        Raises:
-            InputError: the file cannot be written.
-        """
-        from tandemlift.common.version import __version__
-
-        about = {"study": self.digest, "unit": name, "sources": self.sources, "version": __version__}
-        write_columns(columns, self.file(name), about)
-
-    def clean(self) -> None:
-        """Remove the half-written files and the claims of processes that were killed."""
-        for path in (self.path / UNITS).glob(".*"):
-            with contextlib.suppress(OSError):
-                if time.time() - path.stat().st_mtime > LEFT_OVER:
-                    path.unlink()
 
 
 def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
@@ -144,7 +69,7 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
         folder = StudyFolder(path)
         if folder.digest != digest:
             raise InputError(f"{path} holds another study: {_difference(folder, plan)}; choose another --out")
-        folder.clean()
+        folder.files.clean()
         return folder
     _make(path, plan, digest)
     return StudyFolder(path)

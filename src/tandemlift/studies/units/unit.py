@@ -28,7 +28,6 @@ class Unit(NamedTuple):
         name: of the file of its results: the hash of its missions, seeds, what is kept, and the sources.
         first: number of the first row.
         last: number after the last row.
-        sources: digest of the sources that fly it.
         rows: what each row flies.
         variants: of these rows, by their numbers.
         keep: what goes into the table.
@@ -37,7 +36,6 @@ class Unit(NamedTuple):
     name: str
     first: int
     last: int
-    sources: str
     rows: tuple[StudyRow, ...]
     variants: dict[int, Variant]
     keep: KeepTable
@@ -94,7 +92,6 @@ def unit_of(plan: StudyPlan, index: int, name: str) -> Unit:
         name=name,
         first=first,
         last=last,
-        sources=sources_digest(),
         rows=rows,
         variants={i: plan.variants[i] for i in used},
         keep=plan.settings.keep,

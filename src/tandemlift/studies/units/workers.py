@@ -9,19 +9,21 @@ from __future__ import annotations
 import os
 import pickle
 import platform
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any, Protocol
 
 from tandemlift.common.errors import InputError
 from tandemlift.studies.units.columns import Columns
-from tandemlift.studies.units.flying import fly_unit
-from tandemlift.studies.units.unit import Unit, sources_digest
+from tandemlift.studies.units.unit import sources_digest
 
 
 class OtherSources(InputError):
     """A worker has other sources than the study that it is to fly."""
+
+
+Task = Callable[[], Columns]  # flies a unit; can be pickled
 
 
 class Workers(Protocol):
@@ -32,7 +34,7 @@ class Workers(Protocol):
         """How many units are flown at the same time; at least 1."""
         ...
 
-    def submit(self, unit: Unit) -> Future[Any]:
+    def submit(self, task: Task) -> Future[Any]:
         """Hand a unit over."""
         ...
 
@@ -51,9 +53,9 @@ class ThreadWorkers:
     def __init__(self, pool: Executor, count: int) -> None:
         self.count, self._pool = count, pool
 
-    def submit(self, unit: Unit) -> Future[Any]:
+    def submit(self, task: Task) -> Future[Any]:
         """See `Workers`."""
-        return self._pool.submit(fly_unit, unit)
+        return self._pool.submit(task)
 
     def columns(self, future: Future[Any]) -> Columns:
         """See `Workers`."""
@@ -76,14 +78,14 @@ class ExecutorWorkers:
     def __init__(self, executor: Executor, count: int) -> None:
         self.count, self._executor = count, executor
 
-    def submit(self, unit: Unit) -> Future[Any]:
+    def submit(self, task: Task) -> Future[Any]:
         """See `Workers`.
 
         Raises:
             InputError: the executor has ended.
         """
         try:
-            return self._executor.submit(fly_packed, unit.sources, pickle.dumps(unit))
+            return self._executor.submit(fly_packed, sources_digest(), pickle.dumps(task))
         except (BrokenExecutor, RuntimeError) as error:
             raise _ended(error) from None
 
@@ -104,12 +106,12 @@ def _ended(error: Exception) -> InputError:
     return InputError(f"the executor has ended: {error} What is flown stays; start the study again to go on")
 
 
-def fly_packed(sources: str, unit: bytes) -> bytes:
+def fly_packed(sources: str, task: bytes) -> bytes:
     """Fly a unit that was sent here.
 
     Args:
         sources: digest of the sources that are to fly it.
-        unit: the unit, pickled.
+        task: flies the unit, pickled.
 
     Returns:
         The columns of its table, pickled.
@@ -119,7 +121,7 @@ def fly_packed(sources: str, unit: bytes) -> bytes:
     """
     if sources != sources_digest():
         raise other_sources(f"{platform.node()}, process {os.getpid()}", sources_digest(), sources)
-    return pickle.dumps(fly_unit(pickle.loads(unit)))
+    return pickle.dumps(pickle.loads(task)())
 
 
 def other_sources(worker: str, there: str, here: str) -> OtherSources:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.run import chosen_controller, parse_setting, set_option
 from tandemlift.cli.terminal.console import compile_notices, echo
+from tandemlift.cli.terminal.mission_options import chosen_controller, parse_setting, set_option
 from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import InputError
 

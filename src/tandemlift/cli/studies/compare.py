@@ -10,9 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.run import FAILED, chosen_controller, engine_option, load, parse_setting, set_option
 from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
 from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
+from tandemlift.cli.terminal.mission_options import (
+    FAILED,
+    chosen_controller,
+    engine_option,
+    load,
+    parse_setting,
+    set_option,
+)
 from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.run import FAILED, load, set_option
 from tandemlift.cli.terminal.check_table import print_checks
 from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
+from tandemlift.cli.terminal.mission_options import FAILED, load, set_option
 from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import FlightWarning, InputError
 

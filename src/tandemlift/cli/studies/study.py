@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from tandemlift.cli.run import parse_setting
 from tandemlift.cli.terminal.console import compile_notices, echo
+from tandemlift.cli.terminal.mission_options import parse_setting
 
 if TYPE_CHECKING:
     from tandemlift.studies.design.plan import StudyPlan
@@ -28,10 +29,14 @@ if TYPE_CHECKING:
 )
 @click.option("--threads", type=click.IntRange(min=1), help="Threads.  [default: one for each processor]")
 @click.option(
-    "--scheduler", metavar="ADDRESS", help="Fly on the workers of a Dask scheduler, such as tcp://10.0.0.1:8786."
+    "--scheduler", metavar="ADDRESS", help="Fly on the workers of a Dask scheduler, such as tcp://127.0.0.1:8786."
 )
 @click.option("--cluster", metavar="local:N", help="Fly in N processes of this machine, with Dask's dashboard.")
 @click.option("--part", default="1/1", metavar="K/N", help="Fly part K of N only, as in a job array.")
+@click.option(
+    "--for", "metrics", metavar="METRIC", multiple=True, help="Metric that the report shows. Can be repeated."
+)
+@click.option("--no-report", is_flag=True, help="Write no report.")
 @click.option("--dry-run", is_flag=True, help="Fly a few rows only, and say what all would take.")
 @click.option("--template", is_flag=True, help="Print a commented study file.")
 def study(
@@ -42,6 +47,8 @@ def study(
     scheduler: str | None,
     cluster: str | None,
     part: str,
+    metrics: tuple[str, ...],
+    no_report: bool,
     dry_run: bool,
     template: bool,
 ) -> None:
@@ -63,6 +70,7 @@ def study(
       study.toml      what it flies
       study.json      the same, with all missions and controllers
       units/          the table: tl.load_study, or any reader of Parquet files
+      report.html     outcomes, distributions, maps, the worst rows; `tandemlift report DIR` writes it anew
 
     \b
     Exit code:
@@ -85,7 +93,7 @@ def study(
         _print_estimate(plan, threads or os.cpu_count() or 1)
         return
     folder = _fly(plan, out, part, threads=threads, scheduler=scheduler, cluster=cluster)
-    _print_outcomes(folder)
+    _print_outcomes(folder.path, metrics, report=not no_report)
 
 
 def _fly(plan: StudyPlan, out: str | None, part: str, **where: Any) -> StudyFolder:
@@ -124,6 +132,20 @@ def _bytes(size: float) -> str:
     return f"{size / 1e3:.0f} kB"
 
 
-def _print_outcomes(folder: StudyFolder) -> None:
-    """Print how the flights ended, and where the table is."""
-    echo(f"  table: {folder.path}")
+def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> None:
+    """Print how the flights ended, and where the table is; write the report of a whole study."""
+    from tandemlift.report.study.study_report import write_study_report
+    from tandemlift.studies.reading.statistics import share
+    from tandemlift.studies.reading.table import load_study
+
+    study = load_study(folder)
+    counts = Counter(study.read(["outcome"])["outcome"].to_pylist())
+    echo(f"  {'outcome':12}{'rows':>10}   share, and its 95 % interval")
+    for outcome, count in counts.most_common():
+        s = share(count, len(study))
+        echo(f"  {outcome:12}{count:>10,}   {100 * s.value:.4g} % ({100 * s.low:.3g} to {100 * s.high:.3g} %)")
+    if study.missing:
+        echo(f"  {study.missing:,} of {study.plan.count:,} rows are still to be flown")
+    elif report:
+        echo(f"  report: {write_study_report(study, folder / 'report.html', metrics)}")
+    echo(f"  table: tl.load_study({str(folder)!r})")

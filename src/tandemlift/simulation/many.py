@@ -26,7 +26,7 @@ def fly_each(
     """Fly missions: those of the compiled engine in blocks on several threads, those of other engines one by one.
 
     Args:
-        missions: from `load_mission`.
+        missions: from `load_mission`; with one engine also an iterator, as for `fly_many`.
         engine: name of the engine, or one name for each mission.
         keep: "flights" for a `Flight` of each; "metrics" for its metrics.
         threads: for blocks; by default one for each processor.
@@ -39,9 +39,10 @@ def fly_each(
     Raises:
         InputError: an engine is unknown, or a mission cannot be built and `refusals` are not asked for.
     """
-    missions = list(missions)
-    engines = [engine] * len(missions) if isinstance(engine, str) else list(engine)
-    ways = {name: _Engine(name, keep, threads, refusals) for name in ([engine] if isinstance(engine, str) else engines)}
+    if isinstance(engine, str):
+        return _Engine(engine, keep, threads, refusals).flown(missions, progress)
+    missions, engines = list(missions), list(engine)
+    ways = {name: _Engine(name, keep, threads, refusals) for name in engines}
     found, done = [None] * len(missions), 0
 
     def advanced(flown: int, _: int) -> None:
@@ -63,28 +64,15 @@ class _Engine:
         self.name, self.keep, self.threads, self.refusals = name, keep, threads, refusals
         self.in_blocks = engine_named(name).load is None
 
-    def flown(self, missions: list[Mission], progress: Progress) -> list[Any]:
+    def flown(self, missions: Iterable[Mission], progress: Progress | None) -> list[Any]:
         if self.in_blocks:
-            return self._together(missions, progress)
-        found = []
+            return fly_many(missions, self.keep, self.threads, refusals=self.refusals, progress=progress)
+        missions, found = list(missions), list[Any]()
         for mission in missions:
             found.append(self._alone(mission))
-            progress(len(found), len(missions))
+            if progress:
+                progress(len(found), len(missions))
         return found
-
-    def _together(self, missions: list[Mission], progress: Progress) -> list[Any]:
-        """All at once; if one of them is refused, in halves, until it is alone."""
-        try:
-            return fly_many(missions, self.keep, self.threads, progress=progress)
-        except InputError as error:
-            if not self.refusals:
-                raise
-            if len(missions) == 1:
-                progress(1, 1)
-                return [error]
-        middle = len(missions) // 2
-        first = self._together(missions[:middle], progress)
-        return [*first, *self._together(missions[middle:], lambda flown, _: progress(middle + flown, len(missions)))]
 
     def _alone(self, mission: Mission) -> Any:
         try:

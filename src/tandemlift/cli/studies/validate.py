@@ -7,9 +7,9 @@ from pathlib import Path
 
 import click
 
-from tandemlift.cli.run import engine_option
 from tandemlift.cli.terminal.console import compile_notices, echo
 from tandemlift.cli.terminal.findings import exit_if_found, strict_option
+from tandemlift.cli.terminal.mission_options import engine_option
 
 MISSED = 1
 NAMES = "tracking, observers, draws, losses, triggers, persons, yaw or contacts"

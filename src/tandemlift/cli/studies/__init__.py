@@ -1,0 +1,1 @@
+"""Commands that fly many missions: comparisons, studies, tuning, feel, validation."""

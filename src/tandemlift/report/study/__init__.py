@@ -1,0 +1,1 @@
+"""The report of a study: a page of what its rows say together."""

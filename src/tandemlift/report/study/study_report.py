@@ -1,0 +1,84 @@
+"""The report of a study: one HTML file that needs nothing else."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tandemlift.common.errors import InputError
+from tandemlift.common.files import atomic_write
+from tandemlift.missions import format_toml
+from tandemlift.report.controller_comparison import html_figures
+from tandemlift.report.page import STYLE
+from tandemlift.report.study import distributions, maps, sections, sensitivity
+from tandemlift.report.study.commands import html_command
+from tandemlift.report.study.frame import SCRIPT, STUDY, STYLE_OF_STUDIES
+from tandemlift.report.study.worst_table import html_worst
+from tandemlift.studies.reading.study_rows import StudyRows
+from tandemlift.studies.reading.table import Study
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from tandemlift.figures.drawing.figure import Caption
+
+
+def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed]) -> str:
+    """The section of the figures, as far as there is something to draw, and the numbers of the last one."""
+    drawn, captions = dict[str, "Figure"](), dict[str, "Caption"]()
+    if rows.quantities:
+        drawn["distributions"] = distributions.draw_distributions(rows)
+        captions["distributions"] = distributions.CAPTION
+    columns = maps.map_columns(rows, sensitivity.strongest(found))
+    if columns and (rows.quantities or rows.bad.any()):
+        both = len(columns) == 2
+        drawn["maps"] = maps.draw_maps(rows, columns) if both else maps.draw_curves(rows, columns[0])
+        captions["maps"] = maps.CAPTION if both else maps.CURVE_CAPTION
+    if any(one.found for one in found):
+        drawn["sensitivity"], captions["sensitivity"] = sensitivity.draw_sensitivity(found), sensitivity.CAPTION
+    shown = html_figures(drawn, captions) if drawn else ""
+    return f"{shown}\n{sensitivity.html_sensitivity(found)}"
+
+
+def write_study_report(study: Study, path: str | os.PathLike[str], metrics: Sequence[str] = ()) -> Path:
+    """Write the report of a study as one HTML file without references; it appears whole or not at all.
+
+    Args:
+        study: loaded; of one that is not finished, the page says how much is missing.
+        path: of the HTML file; its folder is made if it does not exist.
+        metrics: names of the quantities to show, such as `position_rmse_m` or `position_rmse_m.0`; by default what
+            suits the missions: tracking errors, least clearance, effort of a person.
+
+    Returns:
+        The path.
+
+    Raises:
+        InputError: no row is flown yet, a metric does not exist, or a file is damaged.
+    """
+    if not len(study):
+        raise InputError(f"{study.folder}: no row of the study is flown yet")
+    path, rows = Path(path), StudyRows(study, metrics)
+    varies = bool(rows.varied)
+    found = sensitivity.analysed(rows) if varies else []
+    text = STUDY.format(
+        name=escape(study.name),
+        style=STYLE + STYLE_OF_STUDIES,
+        size=f"{sections.count(len(study))} rows",
+        verdict=sections.verdict(rows),
+        flown=sections.what_was_flown(study),
+        outcomes=sections.outcomes(rows),
+        findings=sections.findings(rows),
+        measured=sections.measured(rows),
+        figures=_figures(rows, found),
+        worst=html_worst(rows),
+        settings=escape(format_toml(study.settings.model_dump(mode="json", exclude_none=True))),
+        again=html_command("study", study.folder / "study.toml", "--out", study.folder),
+        versions=escape(", ".join(f"{name} {value}" for name, value in study.versions.items())),
+        script=SCRIPT,
+    )
+    with atomic_write(path) as partial:
+        partial.write_text(text, "utf-8")
+    return path
