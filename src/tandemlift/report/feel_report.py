@@ -168,9 +168,8 @@ def _checks(checks: Iterable[CheckResult]) -> str:
         margin = DASH if c.margin is None else f"{100.0 * c.margin:.0f} %"
         cells = "".join(f"<td>{cell}</td>" for cell in (*shown, margin.replace("-", "−")))
         said = f"<strong>{c.verdict}</strong>: {_with_code(c.text)}" if c.text else c.verdict
-        rows.append(
-            f'<tr><th scope="row">{escape(f"{c.check} {c.subject}").replace(" ", NO_BREAK)}</th>{cells}<td>{said}</td></tr>'
-        )
+        name = escape(f"{c.check} {c.subject}").replace(" ", NO_BREAK)
+        rows.append(f'<tr><th scope="row">{name}</th>{cells}<td>{said}</td></tr>')
     return html_table(f"<tr>{heads}</tr>", rows, "compared")
 
 

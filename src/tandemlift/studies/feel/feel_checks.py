@@ -148,12 +148,19 @@ def _yaw_check(m: Mission, k: AxisFeel) -> CheckResult:
     return judged("rotors", needed, limit, "N m", text, subject=YAW)
 
 
-def stop_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
-    """The way until it stops after the hand lets go, against the room beside the person's way."""
+def free_room(m: Mission) -> float | None:
+    """The room beside the person's way [m], less the guard of a quadrotor; None without walls or such a way."""
     places = places_of(m) if m.all_walls else None
     if places is None:
+        return None
+    return least_room(m, places)[0] - max(q.guard_radius for q in m.vehicle.quadrotors)
+
+
+def stop_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
+    """The way until it stops after the hand lets go, against the room beside the person's way."""
+    room = free_room(m)
+    if room is None:
         return
-    room = least_room(m, places)[0] - max(q.guard_radius for q in m.vehicle.quadrotors)
     slowest = max(axes[:2], key=lambda k: k.stop_distance)
     text = (
         f"let go at {slowest.final_speed:.3g} m/s along {slowest.axis} it stops within {slowest.stop_distance:.3g} m, "
