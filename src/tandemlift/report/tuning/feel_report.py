@@ -66,7 +66,7 @@ class FeelReport:
 
     def figure(self) -> Figure:
         """The speed over time along each axis, by closed form and flown."""
-        from tandemlift.figures.feel import draw
+        from tandemlift.report.tuning.feel_figure import draw
 
         return draw(self.study)
 
@@ -78,8 +78,8 @@ class FeelReport:
         Returns:
             The files.
         """
-        from tandemlift.figures.feel import CAPTION
         from tandemlift.figures.registry import save_figure
+        from tandemlift.report.tuning.feel_figure import CAPTION
 
         folder, figure = Path(folder), self.figure()
         folder.mkdir(parents=True, exist_ok=True)
