@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from judge.model import GRAVITY, body_of, corridor_walls
 from judge.verdict import judge as judged_record
+from judged_missions import Families, Judged, judged
 from mission_schema import SCHEMA
-from random_missions import Judged, judged_family, report, table
+from random_missions import report, table
 
 import tandemlift as tl
 from tandemlift.missions import tables_of
@@ -23,6 +24,9 @@ from tandemlift.studies.random_missions.generate import (
     random_missions,
     shortened,
 )
+from tandemlift.studies.units.files import UnitFiles
+from tandemlift.studies.units.running import StudyPart, run_units
+from tandemlift.studies.units.workers import thread_workers
 from tandemlift.vehicle import Vehicle
 
 FAMILIES = range(10)  # five missions each
@@ -36,7 +40,7 @@ def pushed():
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_fifty_missions_at_random_end_as_the_judge_says(family):
-    rows = judged_family((16, family, 5))
+    rows = [judged(drawn) for drawn in random_family(16, family, 5)]
     assert len(rows) == 5
     wrong = [f"{r.family}/{r.member} {r.base}: {r.verdict} {r.changes}" for r in rows if not r.confirmed]
     assert wrong == []
@@ -134,8 +138,20 @@ def test_every_key_of_the_schema_may_be_drawn():
 
 
 def test_the_table_counts_silent_failures_and_names_disagreements():
-    good = Judged(0, 0, "iris", {}, "landed", "", "landed", "agreed", [], False, [], 0, 1.0)
+    good = Judged(0, 0, "iris", {}, "landed", "", "landed", "agreed", [], False, [], 0)
     bad = good._replace(outcome="crashed", ending="struck", judged="flying", verdict="crashed struck, judged flying")
     text = report([good, bad], "test")
     assert "1 disagreements outside the bands" in text
     assert "| crashed |  | 1 |  |  |  | 0 | 0 | 1 |" in table([good, bad])
+
+
+def test_families_are_units_of_work_whose_files_are_not_made_again(tmp_path):
+    families, files = Families(16, (3, 4), 1), UnitFiles(tmp_path, {})
+    with thread_workers(1) as workers:
+        assert run_units(families, files, workers, part=StudyPart(2, 2)) == 1
+        second = families.rows(files)
+        assert run_units(families, files, workers) == 1
+    rows = families.rows(files)
+    assert [(r.family, r.member) for r in rows] == [(3, 0), (4, 0)]
+    assert rows[1:] == second == [judged(drawn) for drawn in random_family(16, 4, 1)]
+    assert set(families.names).isdisjoint(Families(17, (3, 4), 1).names)

@@ -22,13 +22,13 @@ class Feel(NamedTuple):
 
 
 FEELS = {  # their damping keeps mean forces near 2 N; less mass than about 1 kg oscillates with a person who sees late
-    "light": Feel(1.0, 0.6, 3.0),  # its acceleration begins with ln 20 · speed/time, 0.6 m/s²
+    "light": Feel(1.0, 0.5, 2.5),  # its acceleration begins with ln 20 · speed/time, 0.6 m/s²
     "firm": Feel(2.0, 0.6, 1.5),  # 1.2 m/s²
     "slow": Feel(1.0, 0.2, 1.5),  # 0.4 m/s²
 }
 TRIED = (
     "chosen: accelerations up to 1.2 m/s², of 2.5 that the tilt of mission iris gives; in `zigzag`, none "
-    "of 200 random persons touches a wall with any of them"
+    "of 400 random persons touches a wall with any of them"
 )
 
 

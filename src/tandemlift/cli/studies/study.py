@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 )
 @click.option("--threads", type=click.IntRange(min=1), help="Threads.  [default: one for each processor]")
 @click.option(
-    "--scheduler", metavar="ADDRESS", help="Fly on the workers of a Dask scheduler, such as tcp://10.0.0.1:8786."
+    "--scheduler", metavar="ADDRESS", help="Fly on the workers of a Dask scheduler, such as tcp://127.0.0.1:8786."
 )
 @click.option("--cluster", metavar="local:N", help="Fly in N processes of this machine, with Dask's dashboard.")
 @click.option("--part", default="1/1", metavar="K/N", help="Fly part K of N only, as in a job array.")

@@ -160,8 +160,8 @@ def _progress() -> Iterator[TuneProgress | None]:
 
 def _write(found: Tuning, folder: Path) -> None:
     from tandemlift.figures.drawing.style import save
-    from tandemlift.report.tuning import write_tuning
-    from tandemlift.report.tuning_figures import drawn_figures
+    from tandemlift.report.tuning.tuning_figures import drawn_figures
+    from tandemlift.report.tuning.tuning_report import write_tuning
 
     found.save(folder)
     for name, figure in drawn_figures(found).items():
@@ -172,7 +172,7 @@ def _write(found: Tuning, folder: Path) -> None:
 
 def _print(found: Tuning, folder: Path) -> None:
     """Print what was done, old against new, and where the files are."""
-    from tandemlift.report.tuning import cost_words, what_was_done
+    from tandemlift.report.tuning.tuning_report import cost_words, what_was_done
 
     echo(f"{found.name}: {what_was_done(found)}")
     if not found.is_finished:

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.common.errors import FlightWarning
 from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
-from tandemlift.missions import Mission, check, load_mission, merge, tables_of
-from tandemlift.missions.values import Tables
-from tandemlift.simulation.fly import fly_many
+from tandemlift.missions import Mission, load_mission
+from tandemlift.simulation.many import fly_each
+from tandemlift.studies.feel.quiet import quietly
 from tandemlift.studies.validation.persons import succeeded
 
 CORRIDOR = "zigzag"
 LOGGED = 0.05  # s: motions of a person are slow against it
+TOGETHER = 64  # flights
 
 
 class Effort(NamedTuple):
@@ -47,33 +46,34 @@ class Effort(NamedTuple):
         return self.clearance is not None and self.clearance < 0.0
 
 
-def corridor_tables(m: Mission) -> Tables:
-    """The tables of mission `zigzag` with the admittance of a mission, whose threshold the person knows."""
-    admittance = {name: value for name, value in tables_of(m)["admittance"].items() if name != "feel"}
-    known = max(m.admittance.threshold[:2])
-    changes: Tables = {
-        "admittance": admittance,
-        "person": {"breakaway_force": known},
-        "mission": {"log_interval": LOGGED},
+def corridor_changes(m: Mission) -> dict[str, Any]:
+    """Changes of mission `zigzag`: the admittance of a mission, whose threshold the person knows."""
+    a = m.admittance
+    return {
+        **{f"admittance.{name}": list(getattr(a, name)) for name in ("mass", "damping", "stiffness", "threshold")},
+        "admittance.gate": a.gate,
+        "admittance.reanchor": a.reanchor,
+        "person.breakaway_force": max(a.threshold[:2]),
+        "mission.log_interval": LOGGED,
     }
-    return merge(tables_of(load_mission(CORRIDOR)), changes)
-
-
-def quietly_checked(tables: Tables, source: str) -> Mission:
-    """A checked mission without warnings: what may fly badly is flown, and judged by how it flew."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
-        return check(tables, source)
 
 
 def effort_in_corridor(m: Mission) -> Effort:
     """The effort of the person of mission `zigzag` with the admittance of a mission."""
-    return efforts([quietly_checked(corridor_tables(m), f"{CORRIDOR}, with the admittance of {m.mission.name}")])[0]
+    with quietly():
+        led = load_mission(CORRIDOR, corridor_changes(m))
+    return efforts([led])[0]
 
 
 def efforts(missions: Sequence[Mission], progress: Progress | None = None) -> list[Effort]:
-    """The efforts of missions with persons, in their order."""
-    return [_effort(m, flight) for m, flight in zip(missions, fly_many(missions, progress=progress), strict=True)]
+    """The efforts of missions with persons, in their order; memory does not grow with their number."""
+    found = list[Effort]()
+    for first in range(0, len(missions), TOGETHER):
+        some = missions[first : first + TOGETHER]
+        found += [_effort(m, flight) for m, flight in zip(some, fly_each(some, keep="flights"), strict=True)]
+        if progress:
+            progress(len(found), len(missions))
+    return found
 
 
 def _effort(m: Mission, flight: Flight) -> Effort:

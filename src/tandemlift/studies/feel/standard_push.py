@@ -7,19 +7,18 @@ of two hands across the beam, which turns with the answer of the closed form.
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.common.errors import FlightWarning
 from tandemlift.common.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, merge, tables_of
 from tandemlift.missions.values import Tables
-from tandemlift.simulation.fly import fly_many
+from tandemlift.simulation.many import fly_each
 from tandemlift.studies.feel.closed_form import AXES, YAW, AxisFeel, axes_of, speed_at
+from tandemlift.studies.feel.quiet import quietly
 from tandemlift.vehicle import Vehicle
 
 RISE = 0.02  # s: spacing and standard deviation of the Gaussians
@@ -100,7 +99,7 @@ def pushed_axes(m: Mission) -> tuple[PushedAxis, ...]:
     """
     axes, start = axes_of(m), start_of(m)
     end = start + 2.0 * max(map(hold_of, axes)) + LEAST_HOLD
-    flights = fly_many([push_mission(m, k, start, end) for k in axes])
+    flights = fly_each([push_mission(m, k, start, end) for k in axes], keep="flights")
     return tuple(_measured(k, flight, start) for k, flight in zip(axes, flights, strict=True))
 
 
@@ -143,8 +142,7 @@ def push_mission(m: Mission, k: AxisFeel, start: float, end: float) -> Mission:
         "person": {"model": "none"},
     }
     tables.pop("person", None)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FlightWarning)
+    with quietly():
         return check(merge(tables, changes), f"{m.mission.name}, pushed along {k.axis}")
 
 

@@ -10,11 +10,11 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from tandemlift.common.errors import InputError
-from tandemlift.missions import Mission, format_toml, merge, tables_of
+from tandemlift.missions import Mission, check, format_toml, merge, tables_of
 from tandemlift.missions.values import Tables
 from tandemlift.settings.admittance import LN_20
 from tandemlift.studies.feel.closed_form import AXES, YAW, axes_of
-from tandemlift.studies.feel.effort import quietly_checked
+from tandemlift.studies.feel.quiet import quietly
 
 FORM = (
     '"1 N gives 0.6 m/s in 1.5 s along x and y; 2 N gives 0.4 m/s in 2 s" or, for yaw, "0.5 N m gives 0.2 rad/s in 6 s"'
@@ -70,7 +70,7 @@ def _clause(text: str, clause: str) -> Wished:
     if (unit == "N m") != (speed_unit == "rad/s") or (axes and unit == "N m"):
         raise InputError(f"--wish {text!r}: {clause!r} mixes forces and moments; the form is {FORM}")
     along = (YAW,) if unit == "N m" else tuple(re.findall("[xyz]", axes or ""))
-    return Wished(*numbers, axes=along)
+    return Wished(numbers[0], numbers[1], numbers[2], along)
 
 
 def proposed(mission: Mission, text: str) -> Tables:
@@ -155,7 +155,8 @@ def with_proposal(mission: Mission, tables: Tables) -> Mission:
     before = tables_of(mission)
     if "feel" in tables.get("admittance", {}):
         before["admittance"].pop("feel", None)
-    return quietly_checked(merge(before, tables), mission.mission.name)
+    with quietly():
+        return check(merge(before, tables), mission.mission.name)
 
 
 def toml_of(mission: Mission, tables: Mapping[str, Any]) -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
+import json
 import os
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import CancelledError, Future
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,6 +26,7 @@ PATIENCE = 10.0  # s, within which a scheduler must answer
 ALLOWED_FAILURES = 10  # workers that may end while they fly a unit, until Dask gives the unit back
 COUNTED = 5.0  # s, after which the workers are counted again
 MOST_PROCESSES = 1024
+WITHOUT_INTERRUPT = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"  # Ctrl-C is for the study alone
 Say = Callable[[str], None]
 
 
@@ -79,7 +82,7 @@ def scheduler_workers(address: str, say: Say) -> Iterator[DaskWorkers]:
     `distributed.scheduler.allowed-failures`, which the scheduler alone can set, are handed over again.
 
     Args:
-        address: of the scheduler, such as tcp://10.0.0.1:8786, or the path of its scheduler file.
+        address: of the scheduler, such as tcp://127.0.0.1:8786, or the path of its scheduler file.
         say: prints a line.
 
     Raises:
@@ -88,12 +91,11 @@ def scheduler_workers(address: str, say: Say) -> Iterator[DaskWorkers]:
     """
     with extra("dask", "--scheduler"):
         from distributed import Client
-    file = Path(address)
-    if file.suffix == ".json" and not file.is_file():
-        raise InputError(f"--scheduler {address}: there is no such scheduler file")
-    where: dict[str, Any] = {"scheduler_file": address} if file.suffix == ".json" else {"address": address}
+    found = _address_in(address) if address.endswith(".json") else address
     try:
-        client = Client(**where, timeout=PATIENCE, set_as_default=False)
+        with ThreadPoolExecutor(1) as pool:  # a notebook's own thread has a loop that runs
+            pool.submit(asyncio.run, _answer(found)).result()
+        client = Client(found, timeout=PATIENCE, set_as_default=False)
     except (OSError, ImportError, ValueError, TypeError, AttributeError) as error:
         raise InputError(
             f"--scheduler {address}: no Dask scheduler answers there within {PATIENCE:.0f} s: {_line(error)}"
@@ -104,6 +106,24 @@ def scheduler_workers(address: str, say: Say) -> Iterator[DaskWorkers]:
         yield DaskWorkers(client)
     finally:
         client.close(timeout=2)
+
+
+def _address_in(file: str) -> str:
+    """The address that a scheduler file says."""
+    try:
+        return str(json.loads(Path(file).read_text("utf-8"))["address"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(f"--scheduler {file}: no scheduler file: {_line(error)}") from None
+
+
+async def _answer(address: str) -> None:
+    """Wait for the answer of a scheduler. A client itself waits forever for a program that listens and is silent."""
+    from distributed import Security
+    from distributed.core import rpc
+
+    async with asyncio.timeout(PATIENCE):
+        async with rpc(address, connection_args=Security().get_connection_args("client")) as scheduler:
+            await scheduler.identity()
 
 
 @contextmanager
@@ -126,6 +146,7 @@ def cluster_workers(processes: int, say: Say) -> Iterator[DaskWorkers]:
             threads_per_worker=1,
             dashboard_address="127.0.0.1:0",
             silence_logs="CRITICAL",
+            preload=[WITHOUT_INTERRUPT],
         )
     with cluster, Client(cluster, set_as_default=False) as client:
         say(f"Dask: {_workers_text(client)}; dashboard: {client.dashboard_link}")

@@ -25,17 +25,17 @@ BEAT = 1.0  # s, after which progress is told although no unit has ended
 MOST_LOST = 5  # times that a unit is handed over again because its worker ended
 
 
-class Part(NamedTuple):
+class StudyPart(NamedTuple):
     """Part `number` of `parts`, from 1: every so many units."""
 
     number: int = 1
     parts: int = 1
 
 
-WHOLE = Part()
+WHOLE = StudyPart()
 
 
-def part_from(text: str) -> Part:
+def part_from(text: str) -> StudyPart:
     """The part that a text such as 3/40 names.
 
     Raises:
@@ -44,7 +44,7 @@ def part_from(text: str) -> Part:
     number, slash, parts = text.partition("/")
     if not (slash and number.isdecimal() and parts.isdecimal() and 1 <= int(number) <= int(parts)):
         raise InputError(f"part = {text!r}: must be K/N with 1 ≤ K ≤ N, such as 3/40")
-    return Part(int(number), int(parts))
+    return StudyPart(int(number), int(parts))
 
 
 class Work(Protocol):
@@ -85,7 +85,7 @@ class StudyWork:
 
 
 def run_units(
-    work: Work, files: UnitFiles, workers: Workers, part: Part = WHOLE, progress: Progress | None = None
+    work: Work, files: UnitFiles, workers: Workers, part: StudyPart = WHOLE, progress: Progress | None = None
 ) -> int:
     """Fly all units of a part that are not flown yet.
 
@@ -108,13 +108,15 @@ def run_units(
 class _Run:
     """A run over the units of a part: those to do, those that others do, and those that are handed over."""
 
-    def __init__(self, work: Work, files: UnitFiles, workers: Workers, part: Part, progress: Progress | None) -> None:
+    def __init__(
+        self, work: Work, files: UnitFiles, workers: Workers, part: StudyPart, progress: Progress | None
+    ) -> None:
         self.work, self.files, self.workers, self.progress = work, files, workers, progress
         self.names = work.names
         own = range(part.number - 1, len(self.names), part.parts)
         self.todo = deque(i for i in own if not files.is_flown(self.names[i]))
         self.others = deque[int]()
-        self.pending = dict[Future[Any], int]()
+        self.pending, self.claimed = dict[Future[Any], int](), set[int]()
         self.lost, self.flown = Counter[int](), 0
         self.total = sum(map(work.size, own))
         self.done = self.total - sum(map(work.size, self.todo))
@@ -129,9 +131,10 @@ class _Run:
                     self._hand_over()
                 self._tell()
         finally:
-            for future, i in self.pending.items():
+            for future in self.pending:
                 future.cancel()
-                self.files.release(self.names[i])
+            for i in list(self.claimed):
+                self._release(i)
         return self.flown
 
     def _tell(self) -> None:
@@ -150,17 +153,22 @@ class _Run:
     def _submit(self, i: int) -> None:
         self.pending[self.workers.submit(self.work.task(i))] = i
 
+    def _release(self, i: int) -> None:
+        self.files.release(self.names[i])
+        self.claimed.discard(i)
+
     def _next(self) -> int | None:
         """The next unit to fly: those that other processes say they fly come last, for these may have been killed."""
         while self.todo:
             i = self.todo.popleft()
             if not self.files.claim(self.names[i]):
                 self.others.append(i)
-            elif self.files.is_flown(self.names[i]):
-                self.files.release(self.names[i])
-                self.done += self.work.size(i)
-            else:
+                continue
+            self.claimed.add(i)
+            if not self.files.is_flown(self.names[i]):
                 return i
+            self._release(i)
+            self.done += self.work.size(i)
         while self.others:
             i = self.others.pop()
             if not self.files.is_flown(self.names[i]):
@@ -180,7 +188,7 @@ class _Run:
             return
         if not self.files.is_flown(self.names[i]):
             self.files.write(self.names[i], columns)
-        self.files.release(self.names[i])
+        self._release(i)
         self.done, self.flown = self.done + self.work.size(i), self.flown + 1
 
     def _fly_again(self, i: int, error: BaseException) -> None:

@@ -11,15 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Progress
-from tandemlift.missions import Mission, format_toml, tables_of
+from tandemlift.missions import Mission, format_toml, tables_of, to_toml
 from tandemlift.missions.flight_checks.result import FAILS, CheckResult
 from tandemlift.report.controller_comparison import html_figures, html_versions
-from tandemlift.report.flight_report import DASH, html_table, number
+from tandemlift.report.flight_report import DASH, NO_BREAK, html_table
 from tandemlift.report.page import FEEL, STYLE
 from tandemlift.studies.feel.feel_study import HEADS, FeelStudy, sentences_of, study_feel, table_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from tandemlift.studies.feel.search import FeelSearch
 
 NOTE = """Closed form → flown: a push that begins at once, lasts, and ends at once, in calm air from hover. The lag is
 the mean delay of the speed against the push; apart is the largest difference between both speeds."""
@@ -31,13 +33,15 @@ class FeelReport:
 
     Args:
         study: from `study_feel`.
+        search: that found the numbers of the study, if one did.
 
     Attributes:
         study: axes under the standard push, effort and checks, as numbers.
+        search: old numbers against new ones; None without a search.
     """
 
-    def __init__(self, study: FeelStudy) -> None:
-        self.study = study
+    def __init__(self, study: FeelStudy, search: FeelSearch | None = None) -> None:
+        self.study, self.search = study, search
 
     @property
     def checks(self) -> tuple[CheckResult, ...]:
@@ -46,7 +50,11 @@ class FeelReport:
 
     def summary(self) -> dict[str, Any]:
         """All numbers in SI units, as in feel.json."""
-        return self.study.summary()
+        return self.study.summary() | ({"search": self.search.evidence()} if self.search else {})
+
+    def sentences(self) -> list[str]:
+        """What the least force does, the effort in the corridor, and what a search found."""
+        return [*sentences_of(self.study), *(self.search.sentences() if self.search else [])]
 
     def __str__(self) -> str:
         """The table, the sentences and what fails."""
@@ -54,28 +62,34 @@ class FeelReport:
         widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
         lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
         failed = [f"{check.verdict}: {check.text}" for check in self.checks if check.verdict == FAILS]
-        return "\n".join([*lines, *sentences_of(self.study), *failed])
+        return "\n".join([*lines, *self.sentences(), *failed])
 
     def figure(self) -> Figure:
         """The speed over time along each axis, by closed form and flown."""
-        from tandemlift.figures.feel import draw
+        from tandemlift.report.tuning.feel_figure import draw
 
         return draw(self.study)
 
     def save(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write feel.json, feel.png, feel.pdf and feel.html into a folder, which is made; each appears whole or not.
+        """Write feel.json, feel.html, feel.png and feel.pdf into a folder, which is made; each appears whole or not.
+
+        After a search, also evidence.json and feel.toml, the mission with the new numbers.
 
         Returns:
             The files.
         """
-        from tandemlift.figures.feel import CAPTION
         from tandemlift.figures.registry import save_figure
+        from tandemlift.report.tuning.feel_figure import CAPTION
 
         folder, figure = Path(folder), self.figure()
         folder.mkdir(parents=True, exist_ok=True)
         files = [folder / f"{FIGURE}.json", folder / f"{FIGURE}.html"]
         _write(files[0], json.dumps(_plain(self.summary()), indent=1, ensure_ascii=False, allow_nan=False))
         _write(files[1], self._page(html_figures({FIGURE: figure}, {FIGURE: CAPTION})))
+        if self.search:
+            files += [folder / "evidence.json", folder / "feel.toml"]
+            _write(files[2], json.dumps(_plain(self.search.evidence()), indent=1, allow_nan=False))
+            _write(files[3], to_toml(self.search.mission).rstrip())
         return [*files, *(save_figure(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]
 
     def _page(self, figures: str) -> str:
@@ -86,7 +100,7 @@ class FeelReport:
             verdict=_verdict(self.checks),
             note=NOTE,
             table=_axes(table_of(self.study)),
-            sentences="\n".join(f"<p>{_with_code(text)}</p>" for text in sentences_of(self.study)),
+            sentences="\n".join(f"<p>{_with_code(text)}</p>" for text in self.sentences()),
             figures=figures,
             checks=_checks(self.checks),
             admittance=escape(format_toml(tables)),
@@ -150,9 +164,18 @@ def _checks(checks: Iterable[CheckResult]) -> str:
     heads = "".join(f'<th scope="col">{head}</th>' for head in ("Check", "Value", "Limit", "Margin", "What to do"))
     rows = []
     for c in checks:
-        shown = [DASH if x is None else f"{number(x)} {'' if c.unit == '1' else c.unit}" for x in (c.value, c.limit)]
+        shown = [_with_unit(x, c.unit) for x in (c.value, c.limit)]
         margin = DASH if c.margin is None else f"{100.0 * c.margin:.0f} %"
         cells = "".join(f"<td>{cell}</td>" for cell in (*shown, margin.replace("-", "−")))
         said = f"<strong>{c.verdict}</strong>: {_with_code(c.text)}" if c.text else c.verdict
-        rows.append(f'<tr><th scope="row">{escape(f"{c.check} {c.subject}")}</th>{cells}<td>{said}</td></tr>')
+        name = escape(f"{c.check} {c.subject}").replace(" ", NO_BREAK)
+        rows.append(f'<tr><th scope="row">{name}</th>{cells}<td>{said}</td></tr>')
     return html_table(f"<tr>{heads}</tr>", rows, "compared")
+
+
+def _with_unit(value: float | None, unit: str) -> str:
+    """A number with its unit, a fraction in percent."""
+    if value is None:
+        return DASH
+    scale, shown = (100.0, "%") if unit == "1" else (1.0, unit)
+    return f"{scale * value:.3g} {shown}".replace("-", "−").replace(" ", NO_BREAK)

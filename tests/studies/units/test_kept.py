@@ -1,0 +1,48 @@
+"""What is to be kept is known before anything flies, and refused if no flight has it."""
+
+import pytest
+from study_runs import TWELVE, fly
+
+import tandemlift as tl
+from tandemlift.common.errors import InputError
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.results import channel_names, metric_names
+
+
+@pytest.mark.parametrize("name", ["one-push", "zigzag", "rotor-loss", "iris"])
+def test_names_of_metrics_and_channels_are_those_of_the_flight(name):
+    mission = tl.load_mission(name, {"mission.duration": 0.1})
+    flight, plan = tl.fly(mission), FlightPlan(mission)
+    assert sorted(metric_names(plan)) == sorted(flight.metrics())
+    assert channel_names(plan) == list(flight.channels)
+
+
+@pytest.mark.parametrize(
+    ("kept", "said"),
+    [
+        ({"metrics": ["human_work"]}, "keep.metrics: metric 'human_work'.* Did you mean 'human_work_j'"),
+        ({"metrics": ["clearance_min_m"]}, "metric 'clearance_min_m'; there are position_rmse_m"),
+        ({"metrics": ["wall_s"]}, "metric 'wall_s'"),
+        ({"channels": ["positon"], "every": 2}, "keep.channels: channel 'positon'.* Did you mean 'position'"),
+        ({"channels": ["phase"], "every": 2}, "channel 'phase'"),
+    ],
+)
+def test_a_name_that_no_flight_has_is_refused_before_anything_flies(kept, said, tmp_path):
+    with pytest.raises(InputError, match=said):
+        fly(TWELVE | {"keep": kept}, tmp_path)
+    assert list(tmp_path.glob("units/*")) == []
+
+
+def test_a_name_that_some_flights_have_is_kept_of_these(tmp_path):
+    both = {
+        "study": {"name": "both", "missions": ["one-push", "zigzag"]},
+        "set": {"mission.duration": 0.5},
+        "keep": {"metrics": ["human_path_m"], "channels": ["phase", "position_error"], "every": 1},
+    }
+    fly(both, tmp_path)
+    table = tl.load_study(tmp_path).read(["human_path_m", "flight.phase", "flight.position_error", "flight.time"])
+    plain, zigzag = table.to_pylist()
+    assert (plain["human_path_m"], plain["flight.phase"]) == (None, None)
+    assert zigzag["human_path_m"] >= 0.0
+    assert len(zigzag["flight.phase"]) == len(zigzag["flight.time"])
+    assert len(plain["flight.position_error"]) == 3 * len(plain["flight.time"])

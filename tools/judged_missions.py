@@ -1,0 +1,188 @@
+"""Missions at random, flown and judged: families of them as units of work, each in a file."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import traceback
+import warnings
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import mujoco
+from judge.verdict import judge
+from pyarrow import parquet
+
+import tandemlift as tl
+from tandemlift.flight.record import Flight
+from tandemlift.missions.files import built_in, path_of
+from tandemlift.simulation.many import fly_each
+from tandemlift.studies import random_missions
+from tandemlift.studies.random_missions.generate import RandomMission, random_family
+from tandemlift.studies.units.columns import Columns
+from tandemlift.studies.units.files import UnitFiles
+from tandemlift.studies.units.unit import sources_digest
+
+BAD = ("not-lifted", "crashed", "diverged")
+SAME_TIME = 0.02  # s, within which record and judge must see a crash
+FREE = 1.0  # s, for which MuJoCo must follow by itself in free flight
+GAIN, GAIN_SHARE = 0.05, 0.002  # J, and fraction of the rotors' work: energy that contact may seem to add
+TOO_SHORT = ("ends in the air", "the person's way")  # in warnings that tell of a late end, not of a bad one
+KINDS = {"tilt": "turned over", "impulse": "struck", "fence": "left fence", "origin": "far"}
+TEXTS = ("changes", "close", "findings")  # fields that are no plain values: JSON in files
+COUNTS = ("family", "member", "restarts")
+
+
+class Judged(NamedTuple):
+    """A mission that was flown and judged.
+
+    `verdict`: "agreed", "in a band", or what is not as it should be. `restarts`: of the judge's replay.
+    """
+
+    family: int
+    member: int
+    base: str
+    changes: dict[str, Any]
+    outcome: str
+    ending: str
+    judged: str
+    verdict: str
+    close: list[str]
+    warned: bool
+    findings: list[str]
+    restarts: int
+
+    @property
+    def confirmed(self) -> bool:
+        """Whether the judge says the same, or would not decide."""
+        return self.verdict in ("agreed", "in a band")
+
+    @property
+    def silent(self) -> bool:
+        """Whether it ended badly, without a warning before or a finding after."""
+        return self.outcome in BAD and not self.warned and not self.findings
+
+
+def flown(drawn: RandomMission) -> Flight:
+    """The flight of a mission, with every step logged."""
+    table = drawn.mission.mission
+    every = table.model_copy(update={"log_interval": table.step})
+    (flight,) = fly_each([drawn.mission.model_copy(update={"mission": every})], keep="flights", threads=1)
+    return flight
+
+
+def judged(drawn: RandomMission) -> Judged:
+    """Fly and judge a mission; what goes wrong in doing so is its verdict."""
+    heard = list(drawn.warnings)
+    try:
+        with warnings.catch_warnings(record=True) as also:
+            warnings.simplefilter("always", tl.FlightWarning)
+            flight = flown(drawn)
+        heard += [str(w.message) for w in also]
+        said = _judged(flight)
+    except Exception:
+        said = ("", "", "", f"error: {traceback.format_exc(limit=-3)}", [], [], 0)
+    outcome, ending, by_judge, verdict, close, findings, restarts = said
+    return Judged(
+        family=drawn.family,
+        member=drawn.member,
+        base=drawn.base,
+        changes=drawn.changes,
+        outcome=outcome,
+        ending=ending,
+        judged=by_judge,
+        verdict=verdict,
+        close=close,
+        warned=any(not any(word in text for word in TOO_SHORT) for text in heard),
+        findings=findings,
+        restarts=restarts,
+    )
+
+
+def _judged(flight: Flight) -> tuple[str, str, str, str, list[str], list[str], int]:
+    verdict = judge(flight.mission, flight.time, flight.channels)
+    ending = flight.ending
+    kind = "" if ending is None else next((k for word, k in KINDS.items() if word in ending.quantity), "finite")
+    outcome = flight.outcome
+    complaint = ""
+    if outcome != verdict.outcome or (outcome == "crashed" and kind != verdict.kind):
+        complaint = _complaint(outcome, kind, verdict)
+    elif ending is not None and abs(ending.time - verdict.at) > SAME_TIME:
+        complaint = f"ended at {ending.time:.3f} s, judged at {verdict.at:.3f} s"
+    starts = [0.0, *(t for t, _, _ in verdict.followed.restarts)]
+    short = [t for t in verdict.unexplained if t - max(s for s in starts if s < t) < FREE]
+    if complaint in ("", "in a band") and short:
+        complaint = f"MuJoCo does not follow in free flight at {short[0]:.3f} s ({len(short)} times)"
+    if complaint in ("", "in a band") and verdict.gained > GAIN + GAIN_SHARE * verdict.work:
+        complaint = f"contact added {verdict.gained:.3f} J"
+    findings = sorted({finding.kind for finding in getattr(flight, "findings", ())})
+    restarts = len(verdict.followed.restarts)
+    return outcome, kind, verdict.outcome, complaint or "agreed", verdict.close, findings, restarts
+
+
+def _complaint(outcome: str, kind: str, verdict: Any) -> str:
+    """What the judge has against an outcome; "in a band" where the measure that decides is too near to its limit."""
+    deciding = {kind, verdict.kind} - {""} if "crashed" in (outcome, verdict.outcome) else set()
+    if not deciding:
+        deciding = {"lifted"} if "not-lifted" in (outcome, verdict.outcome) else {"landed"}
+    near = all(abs(verdict.margins.get(name, 1e9)) <= 1.0 for name in deciding)
+    numbers = {name: round(float(verdict.margins.get(name, 1e9)), 2) for name in deciding}
+    said = f"{outcome} {kind}, judged {verdict.outcome} {verdict.kind} (beyond the limit, in bands: {numbers})"
+    return "in a band" if near else said
+
+
+class Families:
+    """Families of missions as units of work: what `tandemlift.studies.units.running.run_units` flies.
+
+    Args:
+        seed: of all missions.
+        families: their numbers.
+        members: how many each has.
+    """
+
+    def __init__(self, seed: int, families: Sequence[int], members: int) -> None:
+        self._seed, self._families, self._members = seed, families, members
+        self.names = [_hash(f"{_sources()} {seed} {family} {members}".encode()) for family in families]
+
+    def size(self, i: int) -> int:
+        """Number of missions of family i."""
+        return self._members
+
+    def task(self, i: int) -> partial[Columns]:
+        """What flies and judges family i, in any process."""
+        return partial(judged_family, self._seed, self._families[i], self._members)
+
+    def rows(self, files: UnitFiles) -> list[Judged]:
+        """All missions whose families have been judged."""
+        found = [files.file(name) for name in self.names if files.is_flown(name)]
+        return [_row(values) for file in found for values in parquet.read_table(file).to_pylist()]
+
+
+def judged_family(seed: int, family: int, members: int) -> Columns:
+    """All members of a family, flown and judged, as columns."""
+    rows = [judged(drawn) for drawn in random_family(seed, family, members)]
+    return {
+        name: [json.dumps(getattr(row, name)) if name in TEXTS else getattr(row, name) for row in rows]
+        for name in Judged._fields
+    }
+
+
+def _row(values: dict[str, Any]) -> Judged:
+    texts, counts = (
+        {name: made(values[name]) for name in names} for names, made in ((TEXTS, json.loads), (COUNTS, int))
+    )
+    return Judged(**{**values, **texts, **counts})
+
+
+def _sources() -> str:
+    """Digest of all that decides what becomes of a mission: tandemlift, its missions, what draws them, the judge."""
+    folders = [Path(__file__).parent / "judge", *map(Path, random_missions.__path__)]
+    files = [Path(__file__), *(path for folder in folders for path in sorted(folder.glob("*.py")))]
+    parts = [path.read_bytes() for path in [*files, *(path_of(name, Path()) for name in built_in())]]
+    return _hash(b"\0".join([sources_digest().encode(), mujoco.__version__.encode(), *parts]))
+
+
+def _hash(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:32]
