@@ -56,7 +56,8 @@ def test_every_corner_of_the_search_keeps_the_limits_of_guidance_and_rotors(name
     for point in [*corners, *rng.uniform([p.low for p in parameters], [p.high for p in parameters], (5, 4))]:
         found = with_proposal(mission, tables_at(mission, tuple(map(float, point))))
         for k, speed, acceleration in zip(axes_of(found)[:2], point[::2], point[1::2], strict=True):
-            assert k.final_speed == pytest.approx(speed, rel=0.006)
+            assert k.final_speed == pytest.approx(min(speed, np.sqrt(0.95 * 0.625 * acceleration)), rel=0.006)
+            assert k.stop_distance < 0.625  # m, that are free in zigzag
             assert k.acceleration == pytest.approx(acceleration, rel=0.012)
             checks = [*limit_checks(found, k), *rotor_checks(found, [k])]
             assert [c.text for c in checks if c.value > c.limit * 1.006] == []

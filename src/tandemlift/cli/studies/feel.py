@@ -16,7 +16,7 @@ from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import FlightWarning, InputError
 
 if TYPE_CHECKING:
-    from tandemlift.report.feel_report import FeelReport
+    from tandemlift.report.tuning.feel_report import FeelReport
     from tandemlift.settings import Mission
     from tandemlift.studies.feel.search import FeelSearch
 
@@ -89,7 +89,7 @@ def feel(
         raise InputError("--wish, --search: give only one of them")
     if wish is not None:
         loaded = _wished(loaded, wish)
-    from tandemlift.report.feel_report import FeelReport
+    from tandemlift.report.tuning.feel_report import FeelReport
     from tandemlift.studies.feel.feel_study import study_feel
 
     with results_folder(out, Path("out") / loaded.mission.name, FILES) as folder:

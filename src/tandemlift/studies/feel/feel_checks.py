@@ -75,24 +75,37 @@ def _slower(k: AxisFeel, most: float) -> str:
 
 
 def drift_checks(m: Mission) -> Iterator[CheckResult]:
-    """Noise and drift of the joints' sensors at the end of the mission, against the smallest threshold."""
+    """Noise and drift of the joints' sensors against the smallest threshold; in yaw, drift alone."""
     if m.sensors.model == "none" or m.pilot.push == "truth":
         return
-    s, count = m.sensors, len(m.vehicle.quadrotors)
+    joints, count = m.sensors.joints, len(m.vehicle.quadrotors)
     tare = m.estimator.tare == "hover" or m.estimator.tare_start is not None
     tared = (m.estimator.tare_start or 0.0) + m.estimator.tare_duration
     lasting = min(max(m.mission.duration - tared, 0.0), m.compliance.bias_time_constant)
-    of_bias = 0.0 if tare else s.joints.force_bias * math.sqrt(count)
-    drift = math.hypot(s.joints.force_drift * math.sqrt(count * lasting), of_bias)
-    noise, threshold = NOISE_SIGMAS * noise_of(m), min(m.admittance.threshold)
-    value = noise + DRIFT_SIGMAS * drift
-    why = f"drift of {lasting:.3g} s" if tare else "bias, as there is no tare"
+    of_force, of_torque = (
+        math.hypot(drift * math.sqrt(lasting), 0.0 if tare else bias)
+        for drift, bias in ((joints.force_drift, joints.force_bias), (joints.torque_drift, joints.torque_bias))
+    )
+    value, threshold = (
+        NOISE_SIGMAS * noise_of(m) + DRIFT_SIGMAS * of_force * math.sqrt(count),
+        min(m.admittance.threshold),
+    )
+    why = f"of {lasting:.3g} s" if tare else "and bias, as there is no tare,"
+    remedy = "raise the threshold, tare (estimator.tare_start), or lower the drift and bias of sensors.joints"
     text = (
-        f"sensors make {value:.3g} N of noise and {why}, and admittance.threshold = {threshold:g} N: the vehicle "
-        "creeps while nobody pushes; raise the threshold, tare (estimator.tare_start), or lower "
-        "sensors.joints.force_drift and force_bias"
+        f"noise and drift {why} make {value:.3g} N of the measured push, and admittance.threshold = {threshold:g} N: "
+        f"the vehicle creeps while nobody pushes; {remedy}"
     )
     yield judged("drift", value, threshold, "N", text)
+    yaw = m.compliance.yaw
+    if m.pilot.guidance == "hand" and yaw.model == "yielding":
+        arms = Vehicle.from_settings(m.vehicle).lever_arms
+        moment = DRIFT_SIGMAS * math.sqrt(sum(of_force**2 * (x * x + y * y) + of_torque**2 for x, y, _ in arms))
+        text = (
+            f"drift {why} makes {moment:.3g} N m of the measured moment, and compliance.yaw.threshold = "
+            f"{yaw.threshold:g} N m: the vehicle turns while nobody pushes; {remedy}"
+        )
+        yield judged("drift", moment, yaw.threshold, "N m", text, subject=YAW)
 
 
 def rotor_checks(m: Mission, axes: Iterable[AxisFeel]) -> Iterator[CheckResult]:
@@ -135,12 +148,19 @@ def _yaw_check(m: Mission, k: AxisFeel) -> CheckResult:
     return judged("rotors", needed, limit, "N m", text, subject=YAW)
 
 
-def stop_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
-    """The way until it stops after the hand lets go, against the room beside the person's way."""
+def free_room(m: Mission) -> float | None:
+    """The room beside the person's way [m], less the guard of a quadrotor; None without walls or such a way."""
     places = places_of(m) if m.all_walls else None
     if places is None:
+        return None
+    return least_room(m, places)[0] - max(q.guard_radius for q in m.vehicle.quadrotors)
+
+
+def stop_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
+    """The way until it stops after the hand lets go, against the room beside the person's way."""
+    room = free_room(m)
+    if room is None:
         return
-    room = least_room(m, places)[0] - max(q.guard_radius for q in m.vehicle.quadrotors)
     slowest = max(axes[:2], key=lambda k: k.stop_distance)
     text = (
         f"let go at {slowest.final_speed:.3g} m/s along {slowest.axis} it stops within {slowest.stop_distance:.3g} m, "

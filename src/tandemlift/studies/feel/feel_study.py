@@ -130,8 +130,9 @@ def sentences_of(study: FeelStudy) -> list[str]:
     else:
         ended = "it lands at the end" if e.arrived else f"it does not arrive ({e.outcome})"
         clearance = "" if e.clearance is None else f", {e.clearance:.2f} m from the walls at least"
+        work = f"{e.work:.2f}".replace("-", "−")
         effort = (
-            f"In `{CORRIDOR}` a person leads it with {e.force:.2f} N and {e.work:.2f} J/m for {e.time:.1f} s, with "
+            f"In `{CORRIDOR}` a person leads it with {e.force:.2f} N and {work} J/m for {e.time:.1f} s, with "
             f"{e.jerk:.2f} m/s³ of jerk (rms); {ended}{clearance}."
         )
     return [gate_text(first, release, m.compliance.dwell), effort]

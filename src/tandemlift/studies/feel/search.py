@@ -1,7 +1,8 @@
 """A search for a feel of least effort and jerk, for random persons in mission `zigzag`, that touches no wall.
 
 The force of the standard push stays, along x and y: the search is over the speed that it leads to, and over the
-acceleration with which the answer begins, at most what limits and rotors give; so every candidate passes these checks.
+acceleration with which the answer begins, at most what limits, rotors and the room give; so every candidate passes
+these checks.
 By CMA-ES over the logarithms; each candidate flies the same persons. A cost counts who touches a wall or does not
 arrive first, then how near walls come, then mean force and jerk over those of the present numbers.
 """
@@ -16,21 +17,21 @@ import numpy as np
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, load_mission
 from tandemlift.missions.values import Tables
 from tandemlift.settings.admittance import LN_20
 from tandemlift.studies.feel.closed_form import AXES, axes_of
 from tandemlift.studies.feel.effort import CORRIDOR
-from tandemlift.studies.feel.feel_checks import limit_checks, rotor_checks
+from tandemlift.studies.feel.feel_checks import free_room, limit_checks, rotor_checks
 from tandemlift.studies.feel.person_trials import FlightCounter, PersonTrial, person_trials, trial_sentence, trial_table
 from tandemlift.studies.feel.wish import with_proposal
-from tandemlift.studies.tuning.parameters import Parameter
+from tandemlift.studies.tuning.parameters import Tunable
 from tandemlift.studies.tuning.searches import EvolutionSearch, Point
 from tandemlift.vehicle import Vehicle
 
 SLOWEST, FAINTEST = 0.1, 0.2  # m/s, m/s²: least of the search
 MOST_SPEED, MOST_ACCELERATION = 2.0, 3.0  # m/s, m/s²: largest where nothing else limits them
-WITHIN = 0.95  # of the largest acceleration
+WITHIN = 0.95  # of the largest acceleration, and of the room
 CHOSEN, OTHERS = 4, 2  # best candidates, and times the persons that they then fly, before one is taken
 CHOICE_SEED, FRESH_SEED = 10**8, 10**9  # added to the seed of persons for the choice, and of fresh ones
 DIGITS = 3
@@ -134,7 +135,7 @@ def search_feel(
     return FeelSearch(after, tables, old, new, tuple(costs), seed)
 
 
-def parameters_of(mission: Mission) -> Sequence[Parameter]:
+def parameters_of(mission: Mission) -> Sequence[Tunable]:
     """Speed and first acceleration along x and y, with their bounds."""
     found = []
     for i, k in enumerate(axes_of(mission)[:2]):
@@ -149,17 +150,22 @@ def parameters_of(mission: Mission) -> Sequence[Parameter]:
         ):
             if not low < high:
                 raise InputError(f"--search: {key} along {AXES[i]} can be at most {high:.3g}, and {low:g} is the least")
-            found.append(Parameter(key, i, min(max(present, low), high), low, high, is_log=True))
+            found.append(Tunable(key, i, min(max(present, low), high), low, high, is_log=True))
     return found
 
 
 def tables_at(mission: Mission, point: Point) -> Tables:
-    """The numbers of a feel at a point of the search, as in a mission file; z stays as it is."""
+    """The numbers of a feel at a point of the search, as in a mission file; z stays as it is.
+
+    Let go, the vehicle stops within v²/a; a speed that needs more than the room in `zigzag` is lowered.
+    """
+    room = WITHIN * (free_room(load_mission(CORRIDOR)) or math.inf)
     axes = axes_of(mission)
     speeds, times = [k.final_speed for k in axes[:3]], [k.time for k in axes[:3]]
     for i in range(2):
-        speed, acceleration = point[2 * i], point[2 * i + 1]
-        speeds[i], times[i] = speed, LN_20 * speed / acceleration
+        acceleration = point[2 * i + 1]
+        speeds[i] = min(point[2 * i], math.sqrt(room * acceleration))
+        times[i] = LN_20 * speeds[i] / acceleration
     rounded = [[float(f"{value:.{DIGITS}g}") for value in values] for values in (speeds, times)]
     return {"admittance": {"feel": {"force": [k.push for k in axes[:3]], "speed": rounded[0], "time": rounded[1]}}}
 

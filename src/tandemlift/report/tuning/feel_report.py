@@ -14,7 +14,7 @@ from tandemlift.common.types import Progress
 from tandemlift.missions import Mission, format_toml, tables_of, to_toml
 from tandemlift.missions.flight_checks.result import FAILS, CheckResult
 from tandemlift.report.controller_comparison import html_figures, html_versions
-from tandemlift.report.flight_report import DASH, html_table, number
+from tandemlift.report.flight_report import DASH, NO_BREAK, html_table
 from tandemlift.report.page import FEEL, STYLE
 from tandemlift.studies.feel.feel_study import HEADS, FeelStudy, sentences_of, study_feel, table_of
 
@@ -66,7 +66,7 @@ class FeelReport:
 
     def figure(self) -> Figure:
         """The speed over time along each axis, by closed form and flown."""
-        from tandemlift.figures.feel import draw
+        from tandemlift.report.tuning.feel_figure import draw
 
         return draw(self.study)
 
@@ -78,8 +78,8 @@ class FeelReport:
         Returns:
             The files.
         """
-        from tandemlift.figures.feel import CAPTION
         from tandemlift.figures.registry import save_figure
+        from tandemlift.report.tuning.feel_figure import CAPTION
 
         folder, figure = Path(folder), self.figure()
         folder.mkdir(parents=True, exist_ok=True)
@@ -164,9 +164,18 @@ def _checks(checks: Iterable[CheckResult]) -> str:
     heads = "".join(f'<th scope="col">{head}</th>' for head in ("Check", "Value", "Limit", "Margin", "What to do"))
     rows = []
     for c in checks:
-        shown = [DASH if x is None else f"{number(x)} {'' if c.unit == '1' else c.unit}" for x in (c.value, c.limit)]
+        shown = [_with_unit(x, c.unit) for x in (c.value, c.limit)]
         margin = DASH if c.margin is None else f"{100.0 * c.margin:.0f} %"
         cells = "".join(f"<td>{cell}</td>" for cell in (*shown, margin.replace("-", "−")))
         said = f"<strong>{c.verdict}</strong>: {_with_code(c.text)}" if c.text else c.verdict
-        rows.append(f'<tr><th scope="row">{escape(f"{c.check} {c.subject}")}</th>{cells}<td>{said}</td></tr>')
+        name = escape(f"{c.check} {c.subject}").replace(" ", NO_BREAK)
+        rows.append(f'<tr><th scope="row">{name}</th>{cells}<td>{said}</td></tr>')
     return html_table(f"<tr>{heads}</tr>", rows, "compared")
+
+
+def _with_unit(value: float | None, unit: str) -> str:
+    """A number with its unit, a fraction in percent."""
+    if value is None:
+        return DASH
+    scale, shown = (100.0, "%") if unit == "1" else (1.0, unit)
+    return f"{scale * value:.3g} {shown}".replace("-", "−").replace(" ", NO_BREAK)
