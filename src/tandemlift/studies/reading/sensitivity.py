@@ -61,7 +61,7 @@ class Sensitivity(NamedTuple):
 
 
 def analyse(inputs: Mapping[str, Array], values: Array, sampling: str = "random", seed: int = 1) -> Sensitivity:
-    """IntervalEstimate what a quantity depends on.
+    """Estimate what a quantity depends on.
 
     Args:
         inputs: drawn numbers (n,) by name: independent of each other, in the order of the draws.
