@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from tandemlift.linearization.linearize import linearize
     from tandemlift.linearization.mission_check import check
     from tandemlift.missions import load_mission
-    from tandemlift.report.feel_report import feel
+    from tandemlift.report.tuning.feel_report import feel
     from tandemlift.settings import Mission
     from tandemlift.simulation.fly import fly, fly_many
     from tandemlift.simulation.pilot_api import Pilot
@@ -44,7 +44,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Vehicle": "vehicle",
     "check": "linearization.mission_check",
     "compile_mission": "targets.compiling",
-    "feel": "report.feel_report",
+    "feel": "report.tuning.feel_report",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
     "linearize": "linearization.linearize",

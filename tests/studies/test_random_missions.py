@@ -25,7 +25,7 @@ from tandemlift.studies.random_missions.generate import (
     shortened,
 )
 from tandemlift.studies.units.files import UnitFiles
-from tandemlift.studies.units.running import Part, run_units
+from tandemlift.studies.units.running import StudyPart, run_units
 from tandemlift.studies.units.workers import thread_workers
 from tandemlift.vehicle import Vehicle
 
@@ -148,7 +148,7 @@ def test_the_table_counts_silent_failures_and_names_disagreements():
 def test_families_are_units_of_work_whose_files_are_not_made_again(tmp_path):
     families, files = Families(16, (3, 4), 1), UnitFiles(tmp_path, {})
     with thread_workers(1) as workers:
-        assert run_units(families, files, workers, part=Part(2, 2)) == 1
+        assert run_units(families, files, workers, part=StudyPart(2, 2)) == 1
         second = families.rows(files)
         assert run_units(families, files, workers) == 1
     rows = families.rows(files)

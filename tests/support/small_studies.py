@@ -3,11 +3,14 @@
 import shutil
 from pathlib import Path
 
+from tandemlift.studies.design.keys import columns_of
+from tandemlift.studies.design.plan import SEED
 from tandemlift.studies.design.study_files import load_plan
 from tandemlift.studies.reading.table import load_study
 from tandemlift.studies.units.anywhere import fly_study
 from tandemlift.studies.units.store import open_folder
 
+WHO = ("mission", "controller", "engine")
 DRAWN = {"distribution": "uniform", "low": 0.9, "high": 1.2}
 GUSTS = {
     "study": {
@@ -38,4 +41,27 @@ def without_file(study, number: int, folder: Path):
     """A copy of a study in another folder, in which one of its files is missing."""
     shutil.copytree(study.folder, folder)
     (folder / study.files[number].path.relative_to(study.folder)).unlink()
+    return load_study(folder)
+
+
+def made_up(tables, folder: Path, measured):
+    """A study of which nothing is flown.
+
+    `measured(rows)` gives the columns from outcome on, by name, of a list of rows of the plan; each as long as it is.
+    """
+    plan = load_plan(tables)
+    store = open_folder(plan, folder)
+    for i, name in enumerate(store.names()):
+        first = i * store.rows_per_unit
+        rows = plan.rows(first, min(plan.count, first + store.rows_per_unit))
+        varied = [dict(pair for key, value in row.varied.items() for pair in columns_of(key, value)) for row in rows]
+        columns = {
+            "row": [row.number for row in rows],
+            **{name: [getattr(plan.variants[row.variant], name) for row in rows] for name in WHO},
+            "case": [row.case for row in rows],
+            "draw": [row.draw for row in rows],
+            "seed": [row.changes[SEED] for row in rows],
+            **{key: [one.get(key) for one in varied] for key in plan.varied},
+        }
+        store.write(name, {**columns, **measured(rows)})
     return load_study(folder)

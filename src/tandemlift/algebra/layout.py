@@ -14,21 +14,7 @@ def is_value(x: Any) -> bool:
 
 def flat(value: Any) -> list[float]:
     """The numbers of a nested value, depth first."""
-    if not is_value(value):
-        return [float(value)]
-    numbers = list[float]()
-    _extend(numbers, value)
-    return numbers
-
-
-def _extend(numbers: list[float], value: Any) -> None:
-    for part in value:
-        if type(part) is float:  # by far most are
-            numbers.append(part)
-        elif is_value(part):
-            _extend(numbers, part)
-        else:
-            numbers.append(float(part))
+    return [number for part in value for number in flat(part)] if is_value(value) else [float(value)]
 
 
 def numbers_of(value: Any) -> list[Any]:
@@ -48,7 +34,7 @@ def zeroed(value: Any) -> Any:
 
 def unflat(numbers: Any, like: Any) -> Any:
     """A nested value laid out like `like` with these numbers, as Python floats."""
-    return rebuilt(iter(numbers.tolist() if isinstance(numbers, np.ndarray) else map(float, numbers)), like)
+    return rebuilt(iter(np.asarray(numbers, dtype=float).tolist()), like)
 
 
 def rebuilt(leaves: Any, like: Any) -> Any:

@@ -166,9 +166,27 @@ ZERO = Vec3(0.0, 0.0, 0.0)
 
 def layout(value: Any) -> Any:
     """The classes of a nested value, without its numbers: equal for values that hold their numbers alike."""
+    return layout_and_numbers(value)[0]
+
+
+def layout_and_numbers(value: Any) -> tuple[Any, list[Any]]:
+    """The classes of a nested value, and its numbers, depth first, as they are."""
+    numbers = list[Any]()
+    return _classes(value, numbers), numbers
+
+
+def _classes(value: Any, numbers: list[Any]) -> Any:
     if not hasattr(value, "_fields"):
+        numbers.append(value)
         return None
-    return (type(value), *[None if type(part) is float else layout(part) for part in value])
+    classes: list[Any] = [type(value)]
+    for part in value:
+        if type(part) is float:  # by far most are
+            numbers.append(part)
+            classes.append(None)
+        else:
+            classes.append(_classes(part, numbers))
+    return tuple(classes)
 
 
 def vec3(values: Any) -> Vec3:

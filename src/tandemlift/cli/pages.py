@@ -9,7 +9,7 @@ import click
 
 from tandemlift.cli.live import HOST, check_live_installed, port_option, serve_until_interrupt
 from tandemlift.cli.terminal.console import echo
-from tandemlift.cli.terminal.results import flight_file
+from tandemlift.cli.terminal.results import flight_file, html_path
 from tandemlift.common.errors import InputError, unknown
 from tandemlift.common.files import atomic_write
 
@@ -44,7 +44,7 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
     if saved is None:
         raise InputError(f"{flight}: there is no flight.npz; give the file, or the folder that `tandemlift run` wrote")
     if html:
-        _write(_html_path(html), Flight.load(saved))
+        _write(html_path("--html", html), Flight.load(saved))
     else:
         _serve(Flight.load(saved), port, browser=not no_browser)
 
@@ -95,7 +95,7 @@ def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:
     """
     if not out and not html:
         raise InputError("say where the page goes: --html FILE for one file, --out DIR for a web server")
-    one_file = _html_path(html) if html else None
+    one_file = html_path("--html", html) if html else None
     folder = _folder(out) if out else None
     from tandemlift.live.offline import pages
     from tandemlift.live.page_files import page_files
@@ -122,20 +122,6 @@ def _flights(names: tuple[str, ...]) -> list[PackedFlight]:
         if name not in MISSIONS:
             raise unknown("mission of a page", name, MISSIONS)
     return packed_flights(dict.fromkeys(names or MISSIONS), lambda name: echo(f"{name} …"))
-
-
-def _html_path(name: str) -> Path:
-    """The path of a page.
-
-    Raises:
-        InputError: no page can be written there.
-    """
-    path = Path(name)
-    if path.suffix.lower() not in (".html", ".htm"):
-        raise InputError(f"--html {path}: the name of a page must end in .html")
-    if path.is_dir():
-        raise InputError(f"--html {path}: is a folder, not a file")
-    return path
 
 
 def _folder(name: str) -> Path:

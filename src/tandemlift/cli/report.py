@@ -1,4 +1,4 @@
-"""`tandemlift report`: figures and report of a saved flight or of a bag."""
+"""`tandemlift report`: figures and report of a saved flight, of a bag or of a study."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.terminal.console import echo
-from tandemlift.cli.terminal.results import flight_file, results_folder, write_flight
+from tandemlift.cli.terminal.results import flight_file, html_path, results_folder, write_flight
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
@@ -21,20 +21,30 @@ BAGS = (".bag", ".mcap")
 @click.argument("flight")
 @click.option(
     "--out",
-    metavar="DIR",
-    help="Folder for the results.  [default: that of the flight; of a bag out/NAME]",
+    metavar="PATH",
+    help="Folder for the results; of a study the HTML file.  [default: that of the flight; of a bag out/NAME; of a "
+    "study report.html in its folder]",
 )
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
-def report(flight: str, out: str | None, no_figures: bool) -> None:
-    """Draw the figures and write the report of a saved flight or of a bag.
+@click.option(
+    "--for",
+    "metrics",
+    multiple=True,
+    metavar="METRIC",
+    help="Show this metric of a study, such as position_rmse_m. Can be repeated.  [default: what suits its missions]",
+)
+def report(flight: str, out: str | None, no_figures: bool, metrics: tuple[str, ...]) -> None:
+    """Draw the figures and write the report of a saved flight, of a bag or of a study.
 
     FLIGHT is flight.npz or its folder, or a bag of ROS 1 (.bag) or ROS 2 (.mcap, or its folder) with the topics of
-    docs/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`.
+    docs/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`. Or it is
+    the folder of a study, which may still fly: docs/studies.md says what its report shows.
 
     \b
     Examples:
       tandemlift report flight.bag
       tandemlift report out/zigzag --out out/again
+      tandemlift report out/gusts --for human_work_j
 
     \b
     Files in the results folder: those of `tandemlift run`. Other files there are left alone. The metrics of a bag are
@@ -45,11 +55,40 @@ def report(flight: str, out: str | None, no_figures: bool) -> None:
       0   the report was written
       2   bad input: one message, nothing is written
     """
+    if _is_study(Path(flight)):
+        _report_study(Path(flight), out, metrics, no_figures)
+        return
+    if metrics:
+        raise InputError(f"--for {metrics[0]}: {flight} is no study; the report of a flight shows all metrics")
     loaded, default = _load(flight)
     with results_folder(out, default) as folder:
         echo(repr(loaded).strip("<>"))
         write_flight(loaded, folder, figures=not no_figures)
         echo(f"  report: {folder / 'report.html'}")
+
+
+def _is_study(path: Path) -> bool:
+    """Whether a folder is that of a study, be it damaged."""
+    from tandemlift.studies.units.store import PLAN, STUDY
+
+    return (path / PLAN).is_file() or (path / STUDY).is_file()
+
+
+def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], no_figures: bool) -> None:
+    """Write the report of a study.
+
+    Raises:
+        InputError: an option does not suit a study, or the study cannot be read.
+    """
+    if no_figures:
+        raise InputError("--no-figures: the report of a study has its figures in it")
+    path = folder / "report.html" if out is None else html_path("--out", out)
+    from tandemlift.report.study.study_report import write_study_report
+    from tandemlift.studies.reading.table import load_study
+
+    loaded = load_study(folder)
+    echo(repr(loaded).strip("<>"))
+    echo(f"  report: {write_study_report(loaded, path, metrics)}")
 
 
 def _load(given: str) -> tuple[Flight, Path]:
@@ -69,6 +108,7 @@ def _load(given: str) -> tuple[Flight, Path]:
     folder, saved = flight_file(given)
     if saved is None:
         raise InputError(
-            f"{given}: must be flight.npz, its folder, or a bag (.bag, .mcap, or the folder of a ROS 2 bag)"
+            f"{given}: must be flight.npz, its folder, a bag (.bag, .mcap, or the folder of a ROS 2 bag), or the "
+            "folder of a study"
         )
     return Flight.load(saved), folder

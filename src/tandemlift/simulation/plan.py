@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.algebra.layout import flat
-from tandemlift.algebra.vector import ZERO, each, layout
+from tandemlift.algebra.vector import ZERO, each, layout, layout_and_numbers
 from tandemlift.assembly.traced_assembly import assembled_flight
 from tandemlift.controllers import NoMemory, control
 from tandemlift.engines.registry import engine_named
@@ -63,7 +62,12 @@ class FlightPlan:
     @cached_property
     def variant(self) -> Any:
         """The key of the compiled loop: the types, not the values, of its members and inputs; and its rounding."""
-        return layout(self.model), layout(self.given), self.mission.mission.fused
+        return self._parts[0], layout(self.given), self.mission.mission.fused
+
+    @cached_property
+    def _parts(self) -> tuple[Any, list[float]]:
+        """The classes of the flight at t = 0, and its numbers."""
+        return layout_and_numbers(self.model)
 
     @property
     def sample(self) -> Any:
@@ -86,7 +90,7 @@ class FlightPlan:
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""
-        numbers = np.array(flat(self.model))
+        numbers = np.array(self._parts[1], dtype=float)
         return FlightStart(numbers, self.tables, self._delay_lines(numbers), self.seeds)
 
     def grid(self, rows: int, every: int) -> TimeGrid:

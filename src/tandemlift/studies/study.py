@@ -14,6 +14,7 @@ from tandemlift.settings import Mission
 from tandemlift.studies.design.study_files import load_plan
 from tandemlift.studies.reading.table import Study, load_study
 from tandemlift.studies.units.anywhere import fly_study
+from tandemlift.studies.units.progress import progress_or_own
 from tandemlift.studies.units.running import part_from
 from tandemlift.studies.units.store import StudyFolder, open_folder
 
@@ -24,6 +25,8 @@ def study(
     *,
     threads: int | None = None,
     executor: Executor | None = None,
+    scheduler: str | None = None,
+    cluster: str | None = None,
     part: str = "1/1",
     progress: Progress | None = None,
 ) -> Study:
@@ -34,8 +37,10 @@ def study(
         out: folder of the study; by default out/NAME.
         threads: number of threads; by default one for each processor.
         executor: flies the units in place of threads of this process; `threads` is then the number of its workers.
+        scheduler: address of a Dask scheduler, whose workers fly the units; see docs/scaling.md.
+        cluster: "local:N" for N processes of this machine, under Dask.
         part: "K/N" to fly part K of N only; the parts may run at the same time, on machines that share the folder.
-        progress: called with (rows flown, rows in all).
+        progress: called with (rows flown, rows in all); by default, a notebook shows a line.
 
     Returns:
         The study: its table, and the mission of each row.
@@ -45,14 +50,10 @@ def study(
     """
     plan = load_plan(study)
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
-    fly_study(
-        plan,
-        folder,
-        threads=threads,
-        executor=executor,
-        part=part_from(part),
-        progress=progress,
-    )
+    where: dict[str, Any] = {"threads": threads, "executor": executor, "scheduler": scheduler, "cluster": cluster}
+    chosen = part_from(part)
+    with progress_or_own(plan.settings.study.name, progress) as shown:
+        fly_study(plan, folder, part=chosen, progress=shown, say=print, **where)
     return load_study(folder.path)
 
 

@@ -10,7 +10,7 @@ from scipy.stats import beta
 
 import tandemlift as tl
 from tandemlift.cli.main import cli
-from tandemlift.report.feel_report import FeelReport
+from tandemlift.report.tuning.feel_report import FeelReport
 from tandemlift.studies.feel.closed_form import axes_of
 from tandemlift.studies.feel.effort import Effort
 from tandemlift.studies.feel.feel_checks import limit_checks, rotor_checks

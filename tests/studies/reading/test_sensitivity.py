@@ -109,7 +109,7 @@ def test_what_takes_few_values_is_not_confused_by_the_order_of_its_draws():
 
 def test_of_very_many_rows_some_are_taken():
     numbers = np.random.default_rng(0)
-    found = analyse({"x": numbers.random(10 * MOST), "y": numbers.random(10 * MOST)}, numbers.random(10 * MOST))
+    found = analyse({"x": numbers.random(2 * MOST), "y": numbers.random(2 * MOST)}, numbers.random(2 * MOST))
     assert found.rows == MOST
 
 
@@ -133,6 +133,7 @@ def with_holes():
         (lambda: analyse({"x": np.arange(200.0)}, np.ones(200)), "the same in all rows"),
         (lambda: analyse({"x": np.arange(200.0)}, np.full(200, math.nan)), "the same in all rows"),
         (lambda: analyse({"x": np.arange(50.0)}, np.arange(50.0)), f"50 rows have a value; needs at least {FEWEST}"),
+        (lambda: analyse({"x": np.arange(999.0)}, 1.0 * (np.arange(999) == 7)), "differs in too few rows"),
         (lambda: analyse({}, np.arange(50.0)), "no number is drawn"),
     ],
 )

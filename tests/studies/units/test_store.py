@@ -12,7 +12,8 @@ from study_runs import TWELVE, assert_same_rows, files_of, fly, started
 
 from tandemlift.common.errors import InputError
 from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.units.store import LEFT_OVER, open_folder
+from tandemlift.studies.units.files import LEFT_OVER
+from tandemlift.studies.units.store import open_folder
 
 
 @pytest.fixture(scope="module")
@@ -106,7 +107,7 @@ def locked(whole):
 
 def test_a_read_only_folder_is_one_clear_line(locked):
     there = stamps(locked)
-    with pytest.raises(InputError, match=r"/twelve: cannot be written to: Permission denied$"):
+    with pytest.raises(InputError, match=r"/twelve/units: cannot be written to: Permission denied$"):
         fly(TWELVE, locked, threads=1)
     with pytest.raises(InputError, match=r"/inner: cannot be made or written to: Permission denied$"):
         fly(TWELVE, locked / "inner", threads=1)

@@ -16,7 +16,7 @@ from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import FlightWarning, InputError
 
 if TYPE_CHECKING:
-    from tandemlift.report.feel_report import FeelReport
+    from tandemlift.report.tuning.feel_report import FeelReport
     from tandemlift.settings import Mission
     from tandemlift.studies.feel.search import FeelSearch
 
@@ -117,7 +117,7 @@ def _searched(mission: Mission, size: tuple[int, int, int], seed: int) -> FeelSe
 
 def _studied(mission: Mission, found: FeelSearch | None) -> FeelReport:
     """Study a mission's keys, which a search may have found, and print what they feel like."""
-    from tandemlift.report.feel_report import FeelReport
+    from tandemlift.report.tuning.feel_report import FeelReport
     from tandemlift.studies.feel.feel_study import study_feel
 
     with progress_bar("Flying", 2, shown=sys.stderr.isatty()) as progress:

@@ -58,15 +58,10 @@ def tune(
     goals: tuple[str, ...],
     over: tuple[str, ...],
     draws: str,
-    fresh: int,
-    budget: int | None,
-    optimiser: str | None,
-    aim: str,
-    seed: int,
-    threads: int | None,
     controller: str | None,
     settings: tuple[str, ...],
     out: str | None,
+    **how: Any,
 ) -> None:
     """Search values of MISSION that make metrics small, then fly old and new on draws that the search never saw.
 
@@ -95,25 +90,12 @@ def tune(
       130  Ctrl-C: the best so far is written, marked as unfinished
     """
     from tandemlift.missions import load_mission
-    from tandemlift.studies.tuning.tune import tune as search
 
     changes, chosen = dict(map(parse_setting, settings)), controller and chosen_controller(controller).name
     name = load_mission(mission, changes, controller=chosen).mission.name
-    given: dict[str, Any] = {
-        "over": dict(_range_of(text) for text in over),
-        "draws": _draws_of(draws),
-        "fresh": fresh,
-        "budget": budget,
-        "optimiser": optimiser,
-        "aim": aim,
-        "seed": seed,
-        "threads": threads,
-        "changes": changes,
-        "controller": chosen,
-    }
+    how |= {"over": dict(map(_range_of, over)), "draws": _draws_of(draws), "changes": changes, "controller": chosen}
     with results_folder(out, Path("out") / f"{name}-tuned", FILES) as folder:
-        with compile_notices.together(), _progress() as progress:
-            found = search(mission, dict(_goal_of(text) for text in goals), **given, progress=progress)
+        found = _search(mission, dict(map(_goal_of, goals)), how)
         _write(found, folder)
     _print(found, folder)
     if not found.is_finished:
@@ -121,6 +103,13 @@ def tune(
         sys.exit(INTERRUPTED)
     if not found.is_better:
         sys.exit(NOT_BETTER)
+
+
+def _search(mission: str, goals: dict[str, Any], how: dict[str, Any]) -> Tuning:
+    from tandemlift.studies.tuning.tune import tune
+
+    with compile_notices.together(), _progress() as progress:
+        return tune(mission, goals, **how, progress=progress)
 
 
 def _goal_of(text: str) -> tuple[str, Any]:
@@ -171,8 +160,8 @@ def _progress() -> Iterator[TuneProgress | None]:
 
 def _write(found: Tuning, folder: Path) -> None:
     from tandemlift.figures.drawing.style import save
-    from tandemlift.report.tuning import write_tuning
-    from tandemlift.report.tuning_figures import drawn_figures
+    from tandemlift.report.tuning.tuning_figures import drawn_figures
+    from tandemlift.report.tuning.tuning_report import write_tuning
 
     found.save(folder)
     for name, figure in drawn_figures(found).items():
@@ -183,7 +172,7 @@ def _write(found: Tuning, folder: Path) -> None:
 
 def _print(found: Tuning, folder: Path) -> None:
     """Print what was done, old against new, and where the files are."""
-    from tandemlift.report.tuning import cost_words, what_was_done
+    from tandemlift.report.tuning.tuning_report import cost_words, what_was_done
 
     echo(f"{found.name}: {what_was_done(found)}")
     if not found.is_finished:

@@ -95,3 +95,17 @@ def flight_file(given: str) -> tuple[Path, Path | None]:
     if path.suffix == ".npz":
         return path.parent, path
     return Path("out") / path.stem, None
+
+
+def html_path(option: str, name: str) -> Path:
+    """The path of a page that an option names.
+
+    Raises:
+        InputError: no page can be written there.
+    """
+    path = Path(name)
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"{option} {path}: the name of a page must end in .html")
+    if path.is_dir():
+        raise InputError(f"{option} {path}: is a folder, not a file")
+    return path

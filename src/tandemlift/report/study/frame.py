@@ -4,7 +4,8 @@ from __future__ import annotations
 
 STYLE_OF_STUDIES = """
 .counts td:last-child, .counts thead th:last-child { text-align: right; }
-.counts th:first-child { min-width: 8rem; }
+.counts th:first-child { min-width: 7rem; }
+.meaning { color: var(--soft); }
 .worst thead th { text-align: left; }
 .worst td, .worst td:last-child { white-space: normal; text-align: left; min-width: 9rem; }
 .worst td:last-child { width: 40%; }
@@ -17,7 +18,7 @@ STYLE_OF_STUDIES = """
   border-radius: .3rem; background: var(--page); color: var(--ink); font: inherit; font-size: .8rem; cursor: pointer; }
 .command button:hover { border-color: var(--soft); }
 .command button:focus-visible { outline: 2px solid var(--good); outline-offset: 2px; }
-@media (max-width: 40rem) { .worst thead { display: none; }
+@media (max-width: 40rem) { .worst thead, .meaning { display: none; }
   .worst tr { display: block; padding: .5rem 0; border-bottom: 1px solid var(--line); }
   .worst td, .worst td:last-child, .worst td.number { display: block; width: auto; min-width: 0; padding: .1rem 0;
     border: 0; text-align: left; }

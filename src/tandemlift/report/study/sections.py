@@ -146,10 +146,10 @@ def outcomes(rows: StudyRows) -> str:
     for group in groups if len(rows.groups) == 1 else [*groups, everything]:
         numbers = np.bincount(codes[group.places], minlength=len(names))
         bad = share(int(rows.bad[group.places].sum()), len(group.places))
-        cells = [count(len(group.places)), *[count(int(numbers[i])) for i in known], html_share(bad)]
+        cells = [count(len(group.places)), html_share(bad), *[count(int(numbers[i])) for i in known]]
         lines.append(_row(escape(group.name), cells))
     bad_names = ", ".join([*FAILURES, *([REFUSED] if rows.refused.any() else [])])
-    head = _head("", "rows", *[escape(names[i]) for i in known], "bad<br><small>95 % interval</small>")
+    head = _head("", "rows", "bad<br><small>95 % interval</small>", *[escape(names[i]) for i in known])
     said = f'<p class="soft">Bad: {bad_names}. Intervals are those of Clopper and Pearson.</p>'
     return f"{said}\n{html_table(head, lines, 'counts')}{note}{_refusals(rows)}"
 
@@ -184,7 +184,7 @@ def findings(rows: StudyRows) -> str:
         parts = [share(int(has[g.places].sum()), int(flown[g.places].sum())) for g in groups]
         whole = share(int(has.sum()), int(flown.sum()))
         cells = [count(int(has.sum())), html_share(whole), *map(html_share, parts)]
-        lines.append(_row(f'{escape(kind)}<br><small class="soft">{with_keys(meaning)}</small>', cells))
+        lines.append(_row(f'{escape(kind)}<br><small class="meaning">{with_keys(meaning)}</small>', cells))
     head = _head("kind", "rows", "share<br><small>95 % interval</small>", *[escape(g.name) for g in groups])
     return html_table(head, lines, "counts")
 

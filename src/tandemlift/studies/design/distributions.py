@@ -84,7 +84,8 @@ class LogUniform(_Between):
 
     def at(self, u: Array) -> Array:
         """Values (n,) at points u (n,)."""
-        return np.exp(np.log(self.low) + (np.log(self.high) - np.log(self.low)) * u)
+        values = np.exp(np.log(self.low) + (np.log(self.high) - np.log(self.low)) * u)
+        return np.clip(values, self.low, self.high)  # which rounding may leave
 
     @model_validator(mode="after")
     def _positive(self) -> LogUniform:

@@ -11,7 +11,7 @@ from tandemlift.common.types import Array
 from tandemlift.missions.refusals import problems_in
 from tandemlift.missions.values import Place, Tables, shown
 from tandemlift.studies.design.distributions import DISTRIBUTIONS, Distribution
-from tandemlift.studies.design.keys import key_at, leaves_of
+from tandemlift.studies.design.keys import by_key, key_at, leaves_of
 
 Drawn = dict[str, Distribution]
 
@@ -22,10 +22,8 @@ def drawn_keys(tables: Tables) -> Drawn:
     Raises:
         InputError: an entry is no distribution, or one that holds nothing.
     """
-    found = {}
-    for place, given in leaves_of(tables.get("draw", {}), lambda table: "distribution" in table):
-        found[key_at(place)] = _distribution(given, tables, ("draw", *place))
-    return found
+    leaves = leaves_of(tables.get("draw", {}), lambda table: "distribution" in table)
+    return by_key(((place, _distribution(given, tables, ("draw", *place))) for place, given in leaves), "draw")
 
 
 def _distribution(given: Any, tables: Tables, place: Place) -> Distribution:

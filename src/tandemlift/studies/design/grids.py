@@ -12,7 +12,7 @@ from tandemlift.missions.refusals import problems_in
 from tandemlift.missions.values import Place, Tables, shown
 from tandemlift.settings.key_description import key
 from tandemlift.settings.value_types import Table, must
-from tandemlift.studies.design.keys import key_at, leaves_of
+from tandemlift.studies.design.keys import by_key, key_at, leaves_of
 
 MOST_VALUES = 1_000_000  # of one key
 
@@ -48,19 +48,20 @@ def grid_axes(tables: Tables) -> dict[str, list[Any]]:
     Raises:
         InputError: an entry is neither a list of different values nor a range.
     """
-    axes = {}
-    for place, given in leaves_of(tables.get("grid", {}), lambda table: "count" in table or "low" in table):
-        where = f"grid.{key_at(place)}"
-        if isinstance(given, dict) and given:
-            axes[key_at(place)] = _range(tables, ("grid", *place)).values
-        elif isinstance(given, list) and given:
-            if any(value in given[:i] for i, value in enumerate(given)):
-                raise InputError(f"{where} = {shown(given)}: must be without repetition")
-            axes[key_at(place)] = given
-        else:
-            allowed = "a list of at least one value, or a table such as {low = 1.0, high = 8.0, count = 8}"
-            raise InputError(f"{where} = {shown(given)}: must be {allowed}")
-    return axes
+    leaves = leaves_of(tables.get("grid", {}), lambda table: "count" in table or "low" in table)
+    return by_key(((place, _axis(tables, place, given)) for place, given in leaves), "grid")
+
+
+def _axis(tables: Tables, place: Place, given: Any) -> list[Any]:
+    where = f"grid.{key_at(place)}"
+    if isinstance(given, dict) and given:
+        return _range(tables, ("grid", *place)).values
+    if not isinstance(given, list) or not given:
+        allowed = "a list of at least one value, or a table such as {low = 1.0, high = 8.0, count = 8}"
+        raise InputError(f"{where} = {shown(given)}: must be {allowed}")
+    if any(value in given[:i] for i, value in enumerate(given)):
+        raise InputError(f"{where} = {shown(given)}: must be without repetition")
+    return given
 
 
 def _range(tables: Tables, place: Place) -> Range:

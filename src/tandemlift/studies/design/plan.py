@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -14,7 +14,7 @@ from tandemlift.missions.values import MISSING, Tables, value_at
 from tandemlift.settings import Mission
 from tandemlift.studies.design.draws import Drawn, dimensions_of, drawn_keys, values_at
 from tandemlift.studies.design.grids import grid_axes
-from tandemlift.studies.design.keys import changes_in, columns_of
+from tandemlift.studies.design.keys import changes_in, columns_of, with_keys
 from tandemlift.studies.design.persons import check_has_person, person_changes, random_person
 from tandemlift.studies.design.sampling import point_count, points
 from tandemlift.studies.design.settings import MAX_ROWS, CaseTable, StudySettings, default_rows_per_unit
@@ -56,15 +56,15 @@ class StudyPlan:
     """
 
     def __init__(self, settings: StudySettings, variants: Sequence[Variant]) -> None:
-        tables = settings.model_dump(mode="json", exclude_none=True)
+        tables = {"grid": settings.grid, "draw": settings.draw}
         self.settings, self.variants = settings, tuple(variants)
         self.common = changes_in(settings.set)
         self.cases: tuple[CaseTable, ...] = settings.cases or (CaseTable.model_construct(name="", set={}),)
         self.grid, self.drawn = grid_axes(tables), drawn_keys(tables)
         self.persons: Drawn = {}
-        self._check_said_once()
+        said = self._said()
         if settings.study.persons == "random":
-            self._add_persons()
+            self._add_persons(said)
         study = settings.study
         self.point_count = point_count(study.sampling, study.draws, dimensions_of(self.drawn))
         self.count = (
@@ -73,27 +73,31 @@ class StudyPlan:
         if self.count > MAX_ROWS:
             raise InputError(f"the study has {self.count:.3g} rows ({self.sizes}); it must have at most {MAX_ROWS:.0e}")
 
-    def _check_said_once(self) -> None:
-        said: dict[str, str] = {}
-        names = [c.name for c in self.settings.cases]
+    def _said(self) -> dict[str, str]:
+        """The keys that the study says, each by its table; a case may say anew those of `[set]`."""
+        names = [case.name for case in self.settings.cases]
         if len(set(names)) < len(names):
             raise InputError(f"cases: names {', '.join(names)} must be without repetition")
-        parts = {"set": self.common, "grid": self.grid, "draw": self.drawn}
-        for part, keys in parts.items():
-            for key in keys:
-                if key in said:
-                    raise InputError(f"{part}.{key}: the key is in [{said[key]}] already; give it once")
-                said[key] = part
+        said = common = with_keys({}, self.common, "set")
         for case in self.cases:
-            for key in changes_in(case.set):
-                if said.get(key, "set") != "set":
-                    raise InputError(f"cases: {case.name} sets {key}, which is in [{said[key]}] already; give it once")
+            table = f"cases: {case.name}"
+            own = changes_in(case.set, f"{table}: set")
+            said = {**said, **with_keys({key: by for key, by in common.items() if key not in own}, own, table)}
+        said = with_keys(said, self.grid, "grid")
+        relative = {key for key, drawn in self.drawn.items() if drawn.relative}  # to what [set] says, if it says it
+        said = with_keys(
+            {key: by for key, by in said.items() if (key in relative, by) != (True, "set")}, self.drawn, "draw"
+        )
+        seeds = self.settings.study.seeds
+        if SEED in said and seeds > 1:
+            raise InputError(f"study.seeds = {seeds}: must be 1, because [{said[SEED]}] says {SEED}")
+        return said
 
-    def _add_persons(self) -> None:
+    def _add_persons(self, said: Mapping[str, str]) -> None:
+        """Draw persons, too, apart from what the study says of them."""
         for variant in self.variants:
             check_has_person(variant.template(self.common).mission({}))
-        own = random_person()
-        self.persons = {key: distribution for key, distribution in own.items() if key not in self.drawn}
+        self.persons = {key: distribution for key, distribution in random_person().items() if key not in said}
         self.drawn = {**self.drawn, **self.persons}
 
     @property

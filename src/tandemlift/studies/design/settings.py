@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field
+import numpy as np
+from pydantic import AfterValidator, BeforeValidator, Field
 
 from tandemlift.common.outcomes import OUTCOMES
 from tandemlift.settings.key_description import key
@@ -37,6 +40,25 @@ def _different(values: tuple[Any, ...]) -> tuple[Any, ...]:
     return values
 
 
+def _some(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    if not values:
+        raise must("some", "be a list of at least one")
+    return values
+
+
+def _plain(value: Any, place: str = "") -> Any:
+    """What TOML and JSON can hold of a value, with NumPy's numbers and tuples as plain ones."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(inner, f"{place}.{key}" if place else str(key)) for key, inner in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return _plain(value.tolist(), place)
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner, f"{place}.{i}") for i, inner in enumerate(value)]
+    if isinstance(value, (bool, int, str)) or (isinstance(value, float) and math.isfinite(value)):
+        return value
+    raise must("plain", f"hold finite numbers, true, false, texts, lists and tables only; {place} is {value!r}")
+
+
 def _outcomes(values: tuple[str, ...]) -> tuple[str, ...]:
     if not set(values) <= set(OUTCOME_NAMES):
         raise must("outcomes", f"be a list of outcomes: {', '.join(OUTCOME_NAMES)}")
@@ -45,6 +67,7 @@ def _outcomes(values: tuple[str, ...]) -> tuple[str, ...]:
 
 Name = Annotated[str, AfterValidator(_name)]
 Names = Annotated[tuple[str, ...], AfterValidator(_different)]
+MissionKeys = Annotated[dict[str, Any], BeforeValidator(_plain)]
 Count = Annotated[int, Field(ge=1, le=MAX_ROWS)]
 
 
@@ -52,13 +75,13 @@ class StudyTable(Table):
     """`[study]`: what flies, and how many random draws there are."""
 
     name: Name = key(..., None, "name of the study; its folder is out/NAME", example="gusts")
-    missions: Annotated[Names, Field(min_length=1)] = key(
+    missions: Annotated[Names, AfterValidator(_some)] = key(
         ..., None, "missions to fly: built-in names, or paths from the folder of this file", example=["hover"]
     )
     controllers: Names = key(
         (), None, "controllers to fly each mission with: names or .py files; empty: the mission's own", example=[]
     )
-    engines: Annotated[Names, Field(min_length=1)] = key(
+    engines: Annotated[Names, AfterValidator(_some)] = key(
         ("compiled",), None, "engines to fly each of these in", example=["compiled"]
     )
     draws: Count = key(
@@ -108,7 +131,7 @@ class CaseTable(Table):
     """`[[cases]]`: a named set of changes of the mission."""
 
     name: Annotated[str, AfterValidator(_words)] = key(..., None, "name of the case", example="calm")
-    set: dict[str, Any] = key({}, None, "changes of the mission, as in `[set]`")
+    set: MissionKeys = key({}, None, "changes of the mission, as in `[set]`")
     targets: dict[str, Any] = key(
         {}, None, "for `tandemlift tune`: what metrics should come to in this case, by their names in metrics.json"
     )
@@ -134,8 +157,8 @@ class StudySettings(Table):
     """A study file; `[set]`, `[grid]` and `[draw]` hold keys of missions."""
 
     study: StudyTable
-    set: dict[str, Any] = Field({})
+    set: MissionKeys = Field({})
     cases: tuple[CaseTable, ...] = ()
-    grid: dict[str, Any] = Field({})
-    draw: dict[str, Any] = Field({})
+    grid: MissionKeys = Field({})
+    draw: MissionKeys = Field({})
     keep: KeepTable = KeepTable()

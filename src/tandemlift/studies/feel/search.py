@@ -25,7 +25,7 @@ from tandemlift.studies.feel.effort import CORRIDOR
 from tandemlift.studies.feel.feel_checks import free_room, limit_checks, rotor_checks
 from tandemlift.studies.feel.person_trials import FlightCounter, PersonTrial, person_trials, trial_sentence, trial_table
 from tandemlift.studies.feel.wish import with_proposal
-from tandemlift.studies.tuning.parameters import Parameter
+from tandemlift.studies.tuning.parameters import Tunable
 from tandemlift.studies.tuning.searches import EvolutionSearch, Point
 from tandemlift.vehicle import Vehicle
 
@@ -135,7 +135,7 @@ def search_feel(
     return FeelSearch(after, tables, old, new, tuple(costs), seed)
 
 
-def parameters_of(mission: Mission) -> Sequence[Parameter]:
+def parameters_of(mission: Mission) -> Sequence[Tunable]:
     """Speed and first acceleration along x and y, with their bounds."""
     found = []
     for i, k in enumerate(axes_of(mission)[:2]):
@@ -150,7 +150,7 @@ def parameters_of(mission: Mission) -> Sequence[Parameter]:
         ):
             if not low < high:
                 raise InputError(f"--search: {key} along {AXES[i]} can be at most {high:.3g}, and {low:g} is the least")
-            found.append(Parameter(key, i, min(max(present, low), high), low, high, is_log=True))
+            found.append(Tunable(key, i, min(max(present, low), high), low, high, is_log=True))
     return found
 
 

@@ -12,7 +12,10 @@ from tandemlift.common.errors import unknown
 from tandemlift.common.types import Array
 
 LOW_IS_BAD = ("clearance_min_m", "thrust_min_after_10s_n")  # of all others, high values are bad
-NO_METRICS = ("row", "mission", "controller", "engine", "case", "draw", "seed", "steps")
+NO_METRICS = (
+    *("row", "mission", "controller", "engine", "case", "draw", "seed", "steps"),
+    *("outcome", "reason", "findings", "finding_kinds", "events"),
+)
 TRACKING = ("position_rmse_after_10s_m", "position_rmse_m")  # the first that there is
 CLEARANCE = "clearance_min_m"
 EFFORTS = ("human_work_per_path_j_m", "human_work_j")  # of a person who guides it; of any push
@@ -63,10 +66,10 @@ def quantity_named(name: str, columns: Sequence[str]) -> Quantity:
         InputError: there is no such metric.
     """
     found = _metrics(columns)
-    if name in columns and name not in NO_METRICS:
-        return Quantity(name, (name,))
     if name in found:
         return Quantity(name, found[name])
+    if any(name in entries for entries in found.values()):
+        return Quantity(name, (name,))
     raise unknown("metric", name, found)
 
 

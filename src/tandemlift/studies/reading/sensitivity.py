@@ -10,11 +10,14 @@ intervals by resampling. Spearman's rank correlation says in which direction an 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
@@ -22,9 +25,9 @@ from tandemlift.common.types import Array
 from tandemlift.studies.reading.statistics import CONFIDENCE, Estimate
 
 FEWEST = 100  # rows of a first-order estimate from rows as they are: ten for each of its ten harmonics
-MOST = 20_000  # rows that such an estimate uses, drawn at random from more
-RESAMPLES, FEWEST_RESAMPLES = 200, 40
-MOST_RESAMPLED = 2_500_000  # base points times resamples, which SALib holds in memory at once
+MOST = 40_000  # rows that estimates from rows as they are use, drawn at random from more
+RESAMPLES = (40, 200)  # least and most
+MOST_RESAMPLED = 2_500_000  # rows, or base points, times resamples: memory and time
 SALTELLI = "Sobol' indices of a Saltelli design"
 RBD_FAST = "first-order indices by RBD-FAST"
 
@@ -75,8 +78,9 @@ def analyse(inputs: Mapping[str, Array], values: Array, sampling: str = "random"
         raise InputError("sensitivity: no number is drawn at random")
     if known.sum() < 2 or np.ptp(values[known]) <= 1e-12 * np.abs(values[known]).max():
         raise InputError("sensitivity: the quantity is the same in all rows that have it")
-    ranks = {name: _rank_correlation(x[known], values[known]) for name, x in inputs.items()}
-    found = _saltelli(inputs, values, seed) if sampling == "saltelli" else _as_they_are(inputs, values, seed)
+    rows = np.random.default_rng(seed).permutation(np.flatnonzero(known))[:MOST]
+    found = _saltelli(inputs, values, seed) if sampling == "saltelli" else _as_they_are(inputs, values, rows, seed)
+    ranks = {name: _rank_correlation(x[rows], values[rows]) for name, x in inputs.items()}
     return found._replace(ranks=ranks, left_out=int((~known).sum()))
 
 
@@ -97,9 +101,9 @@ def _saltelli(inputs: Mapping[str, Array], values: Array, seed: int) -> Sensitiv
     with extra("study", "sensitivity"):
         from SALib.analyze import sobol
     base = len(values) // step
-    resamples = int(np.clip(MOST_RESAMPLED // base, FEWEST_RESAMPLES, RESAMPLES))
-    options = {"calc_second_order": True, "num_resamples": resamples, "conf_level": CONFIDENCE, "seed": seed}
-    found = sobol.analyze(_problem(inputs), np.asarray(values, np.float64), **options)
+    options = {"calc_second_order": True, "num_resamples": _resamples(base), "conf_level": CONFIDENCE, "seed": seed}
+    with _quiet():
+        found = sobol.analyze(_problem(inputs), np.asarray(values, np.float64), **options)
 
     def one(kind: str, *at: int) -> Estimate:
         value, half = float(found[kind][at]), float(found[f"{kind}_conf"][at])
@@ -117,21 +121,34 @@ def _saltelli(inputs: Mapping[str, Array], values: Array, seed: int) -> Sensitiv
     )
 
 
-def _as_they_are(inputs: Mapping[str, Array], values: Array, seed: int) -> Sensitivity:
-    """First-order indices from any independent draws; rows without a value are left out."""
-    rows = np.flatnonzero(np.isfinite(values))
+def _as_they_are(inputs: Mapping[str, Array], values: Array, rows: NDArray[np.intp], seed: int) -> Sensitivity:
+    """First-order indices from some rows of any independent draws, in no order: else equal inputs would keep one."""
     if len(rows) < FEWEST:
         raise InputError(f"sensitivity: {len(rows)} rows have a value; needs at least {FEWEST}")
     with extra("study", "sensitivity"):
         from SALib.analyze import rbd_fast
-    rows = np.random.default_rng(seed).permutation(rows)[:MOST]  # in no order, else equal inputs would keep one
     points = np.column_stack([x[rows] for x in inputs.values()])
-    found = rbd_fast.analyze(
-        _problem(inputs), points, values[rows], num_resamples=RESAMPLES, conf_level=CONFIDENCE, seed=seed
-    )
+    options = {"num_resamples": _resamples(len(rows)), "conf_level": CONFIDENCE, "seed": seed}
+    with _quiet():
+        found = rbd_fast.analyze(_problem(inputs), points, values[rows], **options)
+    if not np.isfinite([found["S1"], found["S1_conf"]]).all():
+        raise InputError("sensitivity: the quantity differs in too few rows for intervals by resampling")
     pairs = zip(inputs, found["S1"], found["S1_conf"], strict=True)
     first = {name: Estimate(float(v), float(v - half), float(v + half)) for name, v, half in pairs}
     return Sensitivity(RBD_FAST, len(rows), 0, first, total={}, second={}, ranks={})
+
+
+def _resamples(rows: int) -> int:
+    """How often so many rows are resampled."""
+    return int(np.clip(MOST_RESAMPLED // rows, *RESAMPLES))
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Leave out SALib's warnings of resamples in which the quantity does not vary."""
+    with np.errstate(invalid="ignore", divide="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        yield
 
 
 def _rank_correlation(x: Array, y: Array) -> float:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Collection, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
 CHANNEL = "flight."  # begins the name of a kept channel's column
 CODED = ("mission", "controller", "engine", "case", "outcome", "finding_kinds")  # few different texts in many rows
 ABOUT = "tandemlift."  # begins what a file says of itself
+THREADS = 4  # that read files; PyArrow reads without Python
 MARK = b"PAR1"  # begins and ends a whole Parquet file
 
 
@@ -60,7 +63,9 @@ def _opened(file: UnitFile, coded: Collection[str] = ()) -> Any:
 
 def columns_in(files: Iterable[UnitFile]) -> tuple[str, ...]:
     """The columns of all files together, in the order in which they first come."""
-    return tuple(dict.fromkeys(name for file in files for name in _opened(file).schema_arrow.names))
+    with ThreadPoolExecutor(THREADS) as pool:
+        names = pool.map(lambda file: _opened(file).schema_arrow.names, files)
+        return tuple(dict.fromkeys(itertools.chain.from_iterable(names)))
 
 
 def about(file: UnitFile) -> dict[str, str]:
@@ -78,7 +83,8 @@ def _read_file(file: UnitFile, names: Sequence[str], coded: Collection[str]) -> 
     with extra("study", "load_study"):
         import pyarrow
     opened = _opened(file, coded)
-    here = [name for name in names if name in opened.schema_arrow.names]
+    known = set(opened.schema_arrow.names)
+    here = [name for name in names if name in known]
     try:
         table = opened.read(columns=here, use_threads=False)
     except (OSError, pyarrow.ArrowInvalid) as error:
@@ -100,7 +106,8 @@ def read(files: Sequence[UnitFile], names: Sequence[str], *, coded: bool = False
         InputError: there is no such column, a file is damaged, or PyArrow is not installed (extra: study).
     """
     codes = [name for name in names if name in CODED] if coded else []
-    parts = [_read_file(file, names, codes) for file in files]
+    with ThreadPoolExecutor(THREADS) as pool:
+        parts = list(pool.map(lambda file: _read_file(file, names, codes), files))
     known = {name for part in parts for name in part.column_names}
     if files and any(name not in known for name in names):
         missing = next(name for name in names if name not in known)

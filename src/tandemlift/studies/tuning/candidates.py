@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from tandemlift.simulation.fly import fly_many
 from tandemlift.studies.design.settings import REFUSED
 from tandemlift.studies.tuning.draws import Draw
 from tandemlift.studies.tuning.goals import Goal
-from tandemlift.studies.tuning.source import Source
+from tandemlift.studies.tuning.source import MissionSource
 
 NO_NUMBER = "no number"
 TIE = 0.1  # weight of the mean beside the worst, so that what is not the worst does not drift
@@ -61,6 +61,25 @@ class Trial(NamedTuple):
         return trial._replace(values=values)
 
 
+def joined(trial: Trial, more: Trial) -> Trial:
+    """A trial on some draws, and on more of them."""
+    values = tuple(np.concatenate(pair) for pair in zip(trial.values, more.values, strict=True))
+    return Trial(
+        outcomes=trial.outcomes + more.outcomes,
+        reasons=trial.reasons + more.reasons,
+        flown=np.concatenate([trial.flown, more.flown]),
+        metrics=trial.metrics + more.metrics,
+        values=values,
+    )
+
+
+def repeated(trial: Trial, more: int) -> Trial:
+    """A trial in which all draws fail, and more draws with the outcome of the first, flown as far as the mean."""
+    values = tuple(np.full((more, column.shape[1]), np.nan) for column in trial.values)
+    far = np.full(more, trial.flown.mean())
+    return joined(trial, Trial(trial.outcomes[:1] * more, trial.reasons[:1] * more, far, ({},) * more, values))
+
+
 class Cost(NamedTuple):
     """Number of bad outcomes, and what the goals come to over all other draws; of all bad, the fraction not flown."""
 
@@ -92,48 +111,32 @@ def cost_of(trial: Trial, goals: Sequence[Goal], scales: Sequence[Array], aim: A
 
 
 def fly_candidates(
-    source: Source, candidates: Sequence[Changes], draws: Sequence[Draw], threads: int | None = None
+    source: MissionSource, candidates: Sequence[Changes], draws: Sequence[Draw], threads: int | None = None
 ) -> list[Trial]:
     """Fly every candidate on every draw, all at once, so that blocks of flights fill."""
     rows = [_loaded(source, draw.changes, candidate) for candidate in candidates for draw in draws]
     missions = [row for row in rows if isinstance(row, Mission)]
-    flown = iter(_flown(missions, threads))
-    results = [row if isinstance(row, str) else (row, next(flown)) for row in rows]
+    flown = iter(fly_many(missions, keep="metrics", threads=threads, refusals=True))
+    results = [(row, row if isinstance(row, InputError) else next(flown)) for row in rows]
     count = len(draws)
     return [_trial(results[i * count : (i + 1) * count]) for i in range(len(candidates))]
 
 
-def _loaded(source: Source, *changes: Changes) -> Mission | str:
+def _loaded(source: MissionSource, *changes: Changes) -> Mission | InputError:
     """A mission, or why it is refused."""
     try:
         return source.load(*changes)
     except InputError as error:
-        return str(error)
+        return error
 
 
-def _flown(missions: Sequence[Mission], threads: int | None) -> Iterable[Mapping[str, Any] | str]:
-    """The metrics of missions, or why one is refused as it is prepared."""
-    try:
-        return fly_many(missions, keep="metrics", threads=threads)
-    except InputError:
-        if len(missions) == 1:
-            raise
-    found: list[Mapping[str, Any] | str] = []
-    for mission in missions:
-        try:
-            found += fly_many([mission], keep="metrics", threads=1)
-        except InputError as error:
-            found.append(str(error))
-    return found
-
-
-def _trial(rows: Sequence[Any]) -> Trial:
-    outcomes, reasons, shares, metrics = [], [], [], []
-    for row in rows:
-        reason = row if isinstance(row, str) else row[1] if isinstance(row[1], str) else ""
-        found = {} if reason else row[1]
-        outcomes.append(REFUSED if reason else found["outcome"])
-        reasons.append(reason)
-        shares.append(0.0 if reason else found["steps"] / row[0].mission.steps)
-        metrics.append(found)
-    return Trial(tuple(outcomes), tuple(reasons), np.array(shares), tuple(metrics))
+def _trial(rows: Sequence[tuple[Any, Mapping[str, Any] | InputError]]) -> Trial:
+    """A trial from missions and their metrics, or why there are none."""
+    refusals = [str(found) if isinstance(found, InputError) else "" for _, found in rows]
+    metrics = [{} if isinstance(found, InputError) else found for _, found in rows]
+    outcomes = [found.get("outcome", REFUSED) for found in metrics]
+    shares = [
+        found["steps"] / mission.mission.steps if found else 0.0
+        for (mission, _), found in zip(rows, metrics, strict=True)
+    ]
+    return Trial(tuple(outcomes), tuple(refusals), np.array(shares), tuple(metrics))

@@ -16,7 +16,7 @@ from tandemlift.common.errors import InputError
 from tandemlift.settings import Mission
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.study_files import load_plan
-from tandemlift.studies.tuning.source import Source
+from tandemlift.studies.tuning.source import MissionSource
 
 Study = str | os.PathLike[str] | Mapping[str, Any]
 CHOICE_SEED, FRESH_SEED = 10**8, 10**9  # from which on seeds of draws for the choice, and of fresh draws, are counted
@@ -94,7 +94,7 @@ def _named(study: Study) -> str:
     return "" if isinstance(study, Mapping) else os.fspath(study)
 
 
-def default_study(mission: Mission, source: Source, count: int, seed: int) -> dict[str, Any]:
+def default_study(mission: Mission, source: MissionSource, count: int, seed: int) -> dict[str, Any]:
     """The tables of a study that draws what the pilot of a mission does not know; what its changes set is not drawn.
 
     Args:

@@ -9,21 +9,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.types import Array
-from tandemlift.studies.reading.statistics import quantile
+from tandemlift.studies.reading.statistics import finite, quantile
 from tandemlift.studies.tuning.candidates import Aim, Cost, Trial, cost_of
 from tandemlift.studies.tuning.goals import Goal
 
 
 class Comparison(NamedTuple):
-    """One component of a goal, over all draws that went well with both.
+    """One component of a goal; NaN where there are no draws for a number.
 
     Attributes:
         label: its name.
-        old: median and worst of the old values.
-        new: those of the new values.
-        difference: median of new minus old, one for each draw.
+        old: median and worst of the old values, over draws that went well with them.
+        new: those of the new values, over draws that went well with these.
+        difference: median of new minus old, one for each draw that went well with both.
         interval: of that median, with 95 % confidence; None for fewer than six draws.
-        improved: fraction of draws in which it improved.
+        improved: fraction of these draws in which it improved.
     """
 
     label: str
@@ -71,10 +71,9 @@ def evidence_of(old: Trial, new: Trial, goals: Sequence[Goal], scales: Sequence[
     costs = (cost_of(old, goals, scales, aim), cost_of(new, goals, scales, aim))
     both = ~old.bad & ~new.bad
     comparisons = [
-        _compared(label, goal, a[both, i], b[both, i])
+        _compared(label, goal, a[:, i], b[:, i])
         for goal, a, b in zip(goals, old.values, new.values, strict=True)
         for i, label in enumerate(goal.labels(a.shape[1]))
-        if both.any()
     ]
     differences = _scores(new, goals, scales, aim)[both] - _scores(old, goals, scales, aim)[both]
     score = median_interval(differences)
@@ -83,16 +82,22 @@ def evidence_of(old: Trial, new: Trial, goals: Sequence[Goal], scales: Sequence[
 
 
 def _compared(label: str, goal: Goal, old: Array, new: Array) -> Comparison:
-    worst = np.min if goal.ratios(np.array([[2.0]]), np.array([[1.0]])) < 1.0 else np.max
-    improved = new < old if worst is np.max else new > old
+    differences = finite(new - old)
     return Comparison(
         label,
-        (float(np.median(old)), float(worst(old))),
-        (float(np.median(new)), float(worst(new))),
-        float(np.median(new - old)),
-        median_interval(new - old),
-        float(improved.mean()),
+        _median_and_worst(goal, old),
+        _median_and_worst(goal, new),
+        float(np.median(differences)) if len(differences) else math.nan,
+        median_interval(differences),
+        float(((differences > 0.0) == goal.is_larger_better).mean()) if len(differences) else math.nan,
     )
+
+
+def _median_and_worst(goal: Goal, values: Array) -> tuple[float, float]:
+    known = finite(values)
+    if not len(known):
+        return math.nan, math.nan
+    return float(np.median(known)), float(known.min() if goal.is_larger_better else known.max())
 
 
 def _scores(trial: Trial, goals: Sequence[Goal], scales: Sequence[Array], aim: Aim) -> Array:
@@ -133,13 +138,13 @@ def as_table(evidence: Evidence, draws: Sequence[Any], goals: Sequence[Goal]) ->
         "comparisons": [
             {
                 "metric": c.label,
-                "old_median": c.old[0],
-                "old_worst": c.old[1],
-                "new_median": c.new[0],
-                "new_worst": c.new[1],
-                "median_difference": c.difference,
+                "old_median": _or_null(c.old[0]),
+                "old_worst": _or_null(c.old[1]),
+                "new_median": _or_null(c.new[0]),
+                "new_worst": _or_null(c.new[1]),
+                "median_difference": _or_null(c.difference),
                 "median_difference_interval": c.interval,
-                "improved_fraction": c.improved,
+                "improved_fraction": _or_null(c.improved),
             }
             for c in evidence.comparisons
         ],
@@ -159,10 +164,14 @@ def _cost(cost: Cost) -> dict[str, Any]:
     return {"bad_outcomes": cost.bad, "ratio": cost.ratio}
 
 
+def _or_null(value: float) -> float | None:
+    return None if math.isnan(value) else value
+
+
 def _row(trial: Trial, i: int, goals: Sequence[Goal]) -> dict[str, Any]:
     """The outcome and the values of a draw; null where there are none."""
     values = {
-        label: None if math.isnan(x) else float(x)
+        label: _or_null(float(x))
         for goal, column in zip(goals, trial.values, strict=True)
         for label, x in zip(goal.labels(column.shape[1]), column[i], strict=True)
     }

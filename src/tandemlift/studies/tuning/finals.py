@@ -7,17 +7,18 @@ from collections.abc import Sequence
 from tandemlift.studies.tuning.candidates import Cost
 from tandemlift.studies.tuning.draws import Draw
 from tandemlift.studies.tuning.hunt import Hunt
-from tandemlift.studies.tuning.searches import Search
+from tandemlift.studies.tuning.searches import Optimiser
 from tandemlift.studies.tuning.task import Task, Values
 
-FINALISTS = 8  # candidates, and the present values
-TIMES = 4  # draws, for each draw of the search
+FINALISTS = 8  # of each kind
+TIMES = 8  # draws, for each draw of the search
 
 
-def choose(hunt: Hunt, search: Search, draws: Sequence[Draw]) -> tuple[Values, tuple[Cost, Cost]]:
+def choose(hunt: Hunt, search: Optimiser, draws: Sequence[Draw]) -> tuple[Values, tuple[Cost, Cost]]:
     """The best of the best candidates, and the costs of the present values and of its own, on draws for the choice.
 
-    The finalists are the candidates of the lowest cost and the point about which the search was trying in the end.
+    The finalists are the candidates of the lowest cost, those that were the best in their time, which are often farther
+    from where flights fail, and the point about which the search was trying in the end.
 
     Args:
         hunt: after the search.
@@ -27,13 +28,14 @@ def choose(hunt: Hunt, search: Search, draws: Sequence[Draw]) -> tuple[Values, t
     task, present = hunt.task.for_draws(draws), hunt.tried[0]
     ranked = sorted(hunt.tried[1:], key=lambda tried: tried.cost.rank)
     finalists = list(dict.fromkeys(tried.values for tried in ranked))[:FINALISTS]
-    finalists += _centre(task, search)
+    once_best = [values for _, values in hunt.records[-FINALISTS:]]
+    finalists = list(dict.fromkeys([*finalists, *once_best, *_centre(task, search)]))
     old, *others = (task.cost(trial) for trial in task.fly([{}, *map(task.changes, finalists)], draws))
     chosen, lowest = min(zip(finalists, others, strict=True), key=lambda pair: pair[1].rank)
     return (chosen, (old, lowest)) if lowest.rank < old.rank else (present.values, (old, old))
 
 
-def _centre(task: Task, search: Search) -> list[Values]:
+def _centre(task: Task, search: Optimiser) -> list[Values]:
     point = search.centre
     if point is None:
         return []

@@ -8,16 +8,21 @@ import numpy as np
 
 from tandemlift.studies.tuning.hunt import Tried
 from tandemlift.studies.tuning.result import FrontPoint
+from tandemlift.studies.tuning.task import Values
 
 MOST = 12  # points that are shown, and flown on fresh draws
 
 
-def front_of(tried: Sequence[Tried]) -> tuple[FrontPoint, ...]:
-    """The candidates that no other one beats, in the order of their first goal; at most `MOST`, evenly spread."""
+def front_of(tried: Sequence[Tried], chosen: Values) -> tuple[FrontPoint, ...]:
+    """The candidates that no other one beats, in the order of their first goal; at most `MOST`, evenly spread.
+
+    The chosen one is among them, unless another one beats it.
+    """
     ranks = np.array([[cost.rank for cost in t.apart] for t in tried])
     kept: list[int] = []
     for i in sorted(range(len(tried)), key=lambda i: (*ranks[i], i)):
         if not any(np.all(ranks[j] <= ranks[i]) for j in kept):
             kept.append(i)
     places = np.unique(np.linspace(0, len(kept) - 1, min(len(kept), MOST)).round().astype(int))
-    return tuple(FrontPoint(tried[kept[k]].values, tried[kept[k]].apart) for k in places)
+    shown = [k for k in range(len(kept)) if k in places or tried[kept[k]].values == chosen]
+    return tuple(FrontPoint(tried[kept[k]].values, tried[kept[k]].apart) for k in shown)

@@ -56,13 +56,18 @@ class Goal(NamedTuple):
             return None
         return [float(v) for v in (values if self.place is None else values[self.place : self.place + 1])]
 
+    @property
+    def is_larger_better(self) -> bool:
+        """Whether more of the metric is better."""
+        return self.metric in LARGER
+
     def labels(self, count: int) -> list[str]:
         """The names of its `count` components, as columns of a study."""
         return [self.name] if count == 1 else [f"{self.name}.{i}" for i in range(count)]
 
     def ratios(self, values: Array, scales: Array) -> Array:
         """Values (draws, components) over scales of the same shape; of a metric that must be large, the inverse."""
-        if self.metric in LARGER:
+        if self.is_larger_better:
             return np.minimum(scales / np.maximum(values, scales / CAP), CAP)
         return values / scales
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from tandemlift.studies.tuning.candidates import Cost, Trial
 from tandemlift.studies.tuning.draws import Draw
-from tandemlift.studies.tuning.searches import Search
+from tandemlift.studies.tuning.searches import Optimiser
 from tandemlift.studies.tuning.task import Task, Values
 
 TuneProgress = Callable[[int, int, Cost], None]
@@ -52,7 +52,17 @@ class Hunt:
     def _judged(self, values: Values, trial: Trial) -> Tried:
         return Tried(values, self.task.cost(trial), tuple(self.task.costs_apart(trial)))
 
-    def run(self, search: Search, *, is_front: bool) -> None:
+    @property
+    def records(self) -> tuple[tuple[int, Values], ...]:
+        """The candidates that were better than all before them, with their numbers in the order of the search."""
+        found, lowest = [], self.tried[0].cost.rank
+        for number, tried in enumerate(self.tried[1:], 1):
+            if tried.cost.rank < lowest:
+                lowest = tried.cost.rank
+                found.append((number, tried.values))
+        return tuple(found)
+
+    def run(self, search: Optimiser, *, is_front: bool) -> None:
         """Search until the budget is spent, the search converges, or Ctrl-C, which keeps what there is.
 
         Args:
@@ -69,10 +79,10 @@ class Hunt:
         except KeyboardInterrupt:
             self.ended = INTERRUPTED
 
-    def _try_population(self, search: Search, is_front: bool) -> None:
+    def _try_population(self, search: Optimiser, is_front: bool) -> None:
         task, points = self.task, search.ask()
         values = [tuple(p.as_flown(x) for p, x in zip(task.parameters, point, strict=True)) for point in points]
-        trials = task.fly([task.changes(v) for v in values], self.draws)
+        trials = task.fly_while_hopeful([task.changes(v) for v in values], self.draws)
         tried = [self._judged(v, trial) for v, trial in zip(values, trials, strict=True)]
         search.tell(points, np.array([[c.rank for c in (t.apart if is_front else (t.cost,))] for t in tried]))
         self.tried += tried

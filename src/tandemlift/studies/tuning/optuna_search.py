@@ -8,7 +8,7 @@ from typing import Any
 
 from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
-from tandemlift.studies.tuning.parameters import Parameter
+from tandemlift.studies.tuning.parameters import Tunable
 from tandemlift.studies.tuning.searches import BLOCK, Point
 
 
@@ -31,7 +31,7 @@ class EstimatorSearch:
     ended = ""
     centre = None
 
-    def __init__(self, parameters: Sequence[Parameter], seed: int, goals: int = 1) -> None:
+    def __init__(self, parameters: Sequence[Tunable], seed: int, goals: int = 1) -> None:
         with extra("tune", "a search by Optuna"):
             import optuna
         optuna.logging.set_verbosity(optuna.logging.WARNING)
@@ -57,7 +57,7 @@ class EstimatorSearch:
             self._study.tell(trial, [float(c) for c in cost])
 
 
-def _space(optuna: Any, p: Parameter) -> Any:
+def _space(optuna: Any, p: Tunable) -> Any:
     spaces = optuna.distributions
     if p.choices:
         return spaces.CategoricalDistribution(p.choices)

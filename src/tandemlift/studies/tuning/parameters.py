@@ -30,7 +30,7 @@ Range = Sequence[Any] | None
 Value = float | int | bool | str
 
 
-class Parameter(NamedTuple):
+class Tunable(NamedTuple):
     """A number or a word that a search changes.
 
     Attributes:
@@ -93,7 +93,7 @@ def _leaves(model: BaseModel, above: str) -> Iterator[_Leaf]:
             yield _Leaf(key, field.annotation, tuple(field.metadata), value)
 
 
-def parameters_of(mission: Mission, over: Mapping[str, Range], factor: float) -> tuple[Parameter, ...]:
+def parameters_of(mission: Mission, over: Mapping[str, Range], factor: float) -> tuple[Tunable, ...]:
     """The parameters of a search.
 
     Args:
@@ -106,7 +106,7 @@ def parameters_of(mission: Mission, over: Mapping[str, Range], factor: float) ->
         InputError: a key is unknown, is no number or choice, or its range is empty.
     """
     leaves = {leaf.key: leaf for leaf in _leaves(mission, "")}
-    found: dict[str, Parameter] = {}
+    found: dict[str, Tunable] = {}
     for asked, limits in (over or {"controller": None}).items():
         _check_range(asked, limits)
         for leaf, place in _matching(asked, leaves):
@@ -153,9 +153,9 @@ def _check_range(asked: str, limits: Range) -> None:
         )
 
 
-def _parameters(leaf: _Leaf, limits: Range, factor: float) -> Iterator[Parameter]:
+def _parameters(leaf: _Leaf, limits: Range, factor: float) -> Iterator[Tunable]:
     if (choices := _choices(leaf, limits)) is not None:
-        yield Parameter(leaf.key, None, leaf.value, choices=choices)
+        yield Tunable(leaf.key, None, leaf.value, choices=choices)
         return
     whole = plain(leaf.annotation) is int
     if leaf.value is None and limits is not None:
@@ -190,7 +190,7 @@ def _choices(leaf: _Leaf, limits: Range) -> tuple[Any, ...] | None:
     return (given or allowed) if allowed else None
 
 
-def _number(leaf: _Leaf, place: int | None, value: Any, limits: Range, factor: float, *, whole: bool) -> Parameter:
+def _number(leaf: _Leaf, place: int | None, value: Any, limits: Range, factor: float, *, whole: bool) -> Tunable:
     """A number between the bounds of its key and its range."""
     low, high = _bounds_of(leaf)
     if limits is not None:
@@ -205,7 +205,7 @@ def _number(leaf: _Leaf, place: int | None, value: Any, limits: Range, factor: f
     is_log = low > 0.0
     if value is None:
         value = math.sqrt(low * high) if is_log else 0.5 * (low + high)
-    return Parameter(leaf.key, place, min(max(value, low), high), low, high, is_log, whole)
+    return Tunable(leaf.key, place, min(max(value, low), high), low, high, is_log, whole)
 
 
 def _bounds_of(leaf: _Leaf) -> tuple[float, float]:
@@ -223,7 +223,7 @@ def _bounds_of(leaf: _Leaf) -> tuple[float, float]:
     return float(low), float(high) if "lt" in found or "le" in found else math.inf
 
 
-def changes_at(parameters: Sequence[Parameter], values: Sequence[Any], mission: Mission) -> dict[str, Any]:
+def changes_at(parameters: Sequence[Tunable], values: Sequence[Any], mission: Mission) -> dict[str, Any]:
     """The values of parameters as changes of the mission by dotted key; other components of a vector stay."""
     changes: dict[str, Any] = {}
     for p, value in zip(parameters, values, strict=True):

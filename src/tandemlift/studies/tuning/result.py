@@ -45,9 +45,10 @@ class Tuning(NamedTuple):
         fresh: draws that the search never saw.
         old: the present values.
         new: the best values found.
-        costs: of old and new, on the draws for the choice among the best candidates; interrupted, on those of the search.
+        costs: of old and new, on the draws for the choice among the best; of an interrupted search, on its own draws.
         history: the cost of every candidate in the order of the search, the present values first.
         apart: the same for each goal alone.
+        records: the candidates that were better than all before them, with their numbers in the history.
         ended: why the search ended.
         is_finished: whether it was not interrupted.
         evidence: what fresh draws say; None of a search that was interrupted.
@@ -65,6 +66,7 @@ class Tuning(NamedTuple):
     costs: tuple[Cost, Cost]
     history: tuple[Cost, ...]
     apart: tuple[tuple[Cost, ...], ...]
+    records: tuple[tuple[int, Values], ...]
     ended: str
     is_finished: bool
     evidence: Evidence | None = None
@@ -147,6 +149,7 @@ class Tuning(NamedTuple):
             "search": {
                 "draws": [draw._asdict() for draw in self.draws],
                 "history": [[cost.bad, cost.ratio] for cost in self.history],
+                "records": [[number, *values] for number, values in self.records],
             },
             "front": [
                 {

@@ -11,15 +11,16 @@ import numpy as np
 from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
-from tandemlift.studies.tuning.parameters import Parameter
+from tandemlift.studies.tuning.parameters import Tunable
 
 BLOCK = 8  # candidates: as many as fly in one block
-FIRST_STEP = 0.35  # of a coordinate: standard deviation of the first candidates
+FIRST_STEP, FAR_STEP = 0.35, 1.0  # of a coordinate: standard deviation of the first candidates; from a bad start
+TOGETHER = 0.7  # correlation of the components of a vector in the first candidates
 PARTS = 6.0  # of a narrow range, or of one that is not logarithmic, that make one unit of its coordinate
 Point = tuple[Any, ...]
 
 
-class Search(Protocol):
+class Optimiser(Protocol):
     """Proposes values of parameters, and learns from their costs."""
 
     @property
@@ -44,27 +45,35 @@ class Search(Protocol):
 class EvolutionSearch:
     """CMA-ES: samples of a normal distribution that moves, grows and turns towards the better half of them.
 
+    At first the components of one vector mostly change together, because gains that are too high are so on all axes.
+
     Source: Hansen, The CMA Evolution Strategy: A Tutorial, arXiv 1604.00772; by the package `cma`. It uses nothing of a
     cost but the order of candidates.
 
     Args:
         parameters: numbers; the search begins at their present values.
         seed: of its random numbers; equal seeds give equal candidates to the last bit.
+        step: standard deviation of its first candidates; of a positive number, about the logarithm of a factor.
 
     Raises:
         InputError: a parameter is a choice, or the package is missing.
     """
 
-    def __init__(self, parameters: Sequence[Parameter], seed: int) -> None:
+    def __init__(self, parameters: Sequence[Tunable], seed: int, step: float = FIRST_STEP) -> None:
         for p in parameters:
             if p.choices:
                 raise InputError(f"--optimiser cma: {p.name} is a choice, for which there is --optimiser optuna")
-        self.coordinates = [_Coordinate(p) for p in parameters]
-        start = [c.of(p.present) for c, p in zip(self.coordinates, parameters, strict=True)]
+        with extra("tune", "CMA-ES"):
+            from cma.boundary_handler import BoundTransform
         usual = 4 + int(3.0 * math.log(len(parameters)))
         self.size = BLOCK * max(1, -(-usual // BLOCK))
+        self._coordinates = [_Coordinate(p) for p in parameters]
+        ends = [[0.0] * len(parameters), [c.of(c.parameter.high) for c in self._coordinates]]
+        self._bounds = BoundTransform(ends)
+        self._start = np.array(self._bounds.inverse([c.of(c.parameter.present) for c in self._coordinates]))
+        self._together = _together([p.key for p in parameters])
+        self._strategy = _strategy(len(parameters), self.size, seed, step)
         self._asked: list[Array] = []
-        self._strategy = _strategy(start, self.coordinates, self.size, seed)
 
     @property
     def ended(self) -> str:
@@ -83,17 +92,25 @@ class EvolutionSearch:
         return [self._values(point) for point in self._asked]
 
     def _values(self, point: Array) -> Point:
-        return tuple(c.value(x) for c, x in zip(self.coordinates, point, strict=True))
+        inside = self._bounds.transform(self._start + self._together @ point)
+        return tuple(c.value(float(x)) for c, x in zip(self._coordinates, inside, strict=True))
 
     def tell(self, points: Sequence[Point], costs: Array) -> None:
         """Learn from the costs (candidates, 1) of the candidates that were asked for last."""
         self._strategy.tell(self._asked, [float(cost) for cost in costs[:, 0]])
 
 
+def _together(keys: Sequence[str]) -> Array:
+    """Root (d, d) of the covariance of the first candidates: components of one key are correlated by `TOGETHER`."""
+    same = np.array([[a == b for b in keys] for a in keys])
+    root = np.linalg.cholesky(np.where(same, TOGETHER, 0.0) + (1.0 - TOGETHER) * np.eye(len(keys)))
+    return np.asarray(root, np.float64)
+
+
 class _Coordinate:
     """A parameter as a coordinate in which a step of one is about as large for all of them."""
 
-    def __init__(self, p: Parameter) -> None:
+    def __init__(self, p: Tunable) -> None:
         self.parameter = p
         width = math.log(p.high / p.low) if p.is_log else p.high - p.low
         self.unit = min(1.0, width / PARTS) if p.is_log else width / PARTS
@@ -110,13 +127,12 @@ class _Coordinate:
         return min(max(value, p.low), p.high)
 
 
-def _strategy(start: Sequence[float], coordinates: Sequence[_Coordinate], size: int, seed: int) -> Any:
-    """The strategy of the package `cma`, silent, without files, with random numbers of its own."""
-    with extra("tune", "CMA-ES"):
-        import cma
+def _strategy(dimensions: int, size: int, seed: int, step: float) -> Any:
+    """The strategy of the package `cma` from zero, silent, without files, with random numbers of its own."""
+    import cma
+
     rng = np.random.default_rng(seed)
     options = {
-        "bounds": [[0.0] * len(start), [c.of(c.parameter.high) for c in coordinates]],
         "popsize": size,
         "randn": lambda *shape: rng.standard_normal(shape),
         "seed": math.nan,  # NumPy's own random numbers are left alone
@@ -124,4 +140,4 @@ def _strategy(start: Sequence[float], coordinates: Sequence[_Coordinate], size: 
         "verb_log": 0,
         "verb_disp": 0,
     }
-    return cma.CMAEvolutionStrategy(list(start), FIRST_STEP, options)
+    return cma.CMAEvolutionStrategy([0.0] * dimensions, step, options)

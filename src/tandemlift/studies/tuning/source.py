@@ -9,7 +9,7 @@ from tandemlift.missions.loading import MissionTemplate
 from tandemlift.settings import Mission
 
 
-class Source:
+class MissionSource:
     """A mission with changes that all flights have.
 
     Args:

@@ -12,13 +12,14 @@ from tandemlift.common.types import Array
 from tandemlift.loop.running_metrics import EMPTY, summary
 from tandemlift.settings import Mission
 from tandemlift.studies.design.settings import REFUSED
-from tandemlift.studies.tuning.candidates import Aim, Changes, Cost, Trial, cost_of, fly_candidates
+from tandemlift.studies.tuning.candidates import Aim, Changes, Cost, Trial, cost_of, fly_candidates, joined, repeated
 from tandemlift.studies.tuning.draws import Draw
 from tandemlift.studies.tuning.goals import Goal, check_goals, scales_of
-from tandemlift.studies.tuning.parameters import Parameter, Value, changes_at
-from tandemlift.studies.tuning.source import Source
+from tandemlift.studies.tuning.parameters import Tunable, Value, changes_at
+from tandemlift.studies.tuning.source import MissionSource
 
 Values = tuple[Value, ...]
+FIRST = 4  # draws in which a candidate must not always fail to be flown on the others
 
 
 class Task(NamedTuple):
@@ -35,9 +36,9 @@ class Task(NamedTuple):
         threads: that fly; None for one for each processor.
     """
 
-    source: Source
+    source: MissionSource
     mission: Mission
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[Tunable, ...]
     goals: tuple[Goal, ...]
     sizes: tuple[int, ...]
     scales: tuple[Array, ...]
@@ -52,6 +53,14 @@ class Task(NamedTuple):
         """The trials of candidates on draws."""
         trials = fly_candidates(self.source, candidates, draws, self.threads)
         return [trial.measured(self.goals, self.sizes) for trial in trials]
+
+    def fly_while_hopeful(self, candidates: Sequence[Changes], draws: Sequence[Draw]) -> list[Trial]:
+        """As `fly`; a candidate that fails in all of the first draws flies no others, and counts as failing there."""
+        first = self.fly(candidates, draws[:FIRST])
+        hopeful = [i for i, trial in enumerate(first) if not trial.bad.all()]
+        rest = dict(zip(hopeful, self.fly([candidates[i] for i in hopeful], draws[FIRST:]), strict=True))
+        more = len(draws) - len(draws[:FIRST])
+        return [joined(trial, rest[i]) if i in rest else repeated(trial, more) for i, trial in enumerate(first)]
 
     def cost(self, trial: Trial) -> Cost:
         """The cost of a trial, all goals together."""
@@ -85,9 +94,9 @@ def started(task: Task, draws: Sequence[Draw]) -> tuple[Task, Trial]:
     (trial,) = fly_candidates(task.source, [{}], draws, task.threads)
     if all(outcome == REFUSED for outcome in trial.outcomes):
         raise InputError(f"no draw can be flown; the first is refused: {trial.reasons[0]}")
-    flown = [{**_shapes(), **metrics} for metrics in trial.metrics if metrics]
+    flown = [_shapes() | {k: v for k, v in m.items() if v is not None} for m in trial.metrics if m]
     fine = [metrics for metrics, bad in zip(trial.metrics, trial.bad, strict=True) if not bad]
-    check_goals(task.goals, fine or [{**_shapes(), **{k: v for k, v in m.items() if v is not None}} for m in flown])
+    check_goals(task.goals, fine or flown)
     sizes = tuple(max(_size(goal, metrics) for metrics in flown) for goal in task.goals)
     trial = trial.measured(task.goals, sizes)
     cases = [draw.case for draw in draws]

@@ -15,10 +15,10 @@ from tandemlift.studies.tuning.finals import TIMES, choose
 from tandemlift.studies.tuning.front import front_of
 from tandemlift.studies.tuning.goals import Goal, goals_from
 from tandemlift.studies.tuning.hunt import INTERRUPTED, Hunt, TuneProgress
-from tandemlift.studies.tuning.parameters import Parameter, Range, parameters_of
+from tandemlift.studies.tuning.parameters import Range, Tunable, parameters_of
 from tandemlift.studies.tuning.result import Tuning, present_values
-from tandemlift.studies.tuning.searches import EvolutionSearch, Search
-from tandemlift.studies.tuning.source import Source
+from tandemlift.studies.tuning.searches import FAR_STEP, FIRST_STEP, EvolutionSearch, Optimiser
+from tandemlift.studies.tuning.source import MissionSource
 from tandemlift.studies.tuning.task import Task, started
 
 FACTORS = {"cma": 1000.0, "optuna": 10.0}  # by which a number may differ: a search that moves can go far
@@ -82,31 +82,29 @@ def tune(
     """
     if strange := set(how) - set(How._fields):
         raise unknown("argument of tune", min(strange), How._fields)
-    source = Source(os.fspath(mission), dict(changes or {}), controller)
+    source = MissionSource(os.fspath(mission), dict(changes or {}), controller)
     return _tuned(source, goals_from(goals), How(**how), progress)
 
 
-def _tuned(source: Source, goals: tuple[Goal, ...], how: How, progress: TuneProgress | None) -> Tuning:
+def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: TuneProgress | None) -> Tuning:
     if how.aim not in ("mean", "worst"):
         raise unknown("aim", how.aim, ("mean", "worst"))
+    _check_count("--fresh", how.fresh)
     loaded = source.load()
     kind, parameters = _parameters(loaded, goals, how)
-    _check_count("--fresh", how.fresh)
     drawn = _drawn(loaded, source, how)
-    goals = tuple(goal.with_targets(drawn.targets) for goal in goals)
     compared, unseen = drawn.search_draws(), drawn.other_draws(how.fresh, FRESH_SEED)
     _check_apart(compared, parameters)
-    search = _search(kind, parameters, how.seed, len(goals))
-    allowed = POPULATIONS * search.size if how.budget is None else how.budget
-    if allowed != 0 and allowed < search.size:
-        raise InputError(f"--budget {allowed}: must be at least {search.size}, which are tried at a time, or 0")
+    goals = tuple(goal.with_targets(drawn.targets) for goal in goals)
     task, trial = started(Task(source, loaded, parameters, goals, (), (), how.aim, how.threads), compared)
-    hunt = Hunt(task, compared, allowed, (present_values(task), trial), progress)
-    is_front = len(goals) > 1 and kind == "optuna"
-    hunt.run(search, is_front=is_front)
-    present = hunt.tried[0]
-    new, costs = hunt.best.values, (present.cost, hunt.best.cost)
-    if allowed and hunt.ended != INTERRUPTED:
+    search = _search(kind, task, how.seed, step=FAR_STEP if trial.bad.all() else FIRST_STEP)
+    budget = POPULATIONS * search.size if how.budget is None else how.budget
+    if budget != 0 and budget < search.size:
+        raise InputError(f"--budget {budget}: must be at least {search.size}, which are tried at a time, or 0")
+    hunt = Hunt(task, compared, budget, (present_values(task), trial), progress)
+    hunt.run(search, is_front=kind == "optuna")
+    new, costs = hunt.best.values, (hunt.tried[0].cost, hunt.best.cost)
+    if budget and hunt.ended != INTERRUPTED:
         try:
             new, costs = choose(hunt, search, drawn.other_draws(TIMES * len(compared), CHOICE_SEED))
         except KeyboardInterrupt:
@@ -115,17 +113,18 @@ def _tuned(source: Source, goals: tuple[Goal, ...], how: How, progress: TuneProg
         task=task,
         optimiser=kind,
         seed=how.seed,
-        budget=allowed,
+        budget=budget,
         draws=tuple(compared),
         fresh=tuple(unseen),
-        old=present.values,
+        old=hunt.tried[0].values,
         new=new,
         costs=costs,
         history=tuple(t.cost for t in hunt.tried),
         apart=tuple(t.apart for t in hunt.tried),
+        records=hunt.records,
         ended=hunt.ended,
         is_finished=hunt.ended != INTERRUPTED,
-        front=front_of(hunt.tried) if is_front else (),
+        front=front_of(hunt.tried, new) if kind == "optuna" and len(goals) > 1 else (),
     )
     return _with_evidence(found) if found.is_finished else found
 
@@ -142,7 +141,7 @@ def _with_evidence(found: Tuning) -> Tuning:
     return found._replace(evidence=evidence_of(old, new, task.goals, task.scales, task.aim), front=tuple(points))
 
 
-def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str, tuple[Parameter, ...]]:
+def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str, tuple[Tunable, ...]]:
     """The optimiser, and the parameters that it searches."""
     if how.optimiser is not None and how.optimiser not in FACTORS:
         raise unknown("optimiser", how.optimiser, FACTORS)
@@ -155,15 +154,15 @@ def _parameters(mission: Mission, goals: Sequence[Goal], how: How) -> tuple[str,
     return kind, found
 
 
-def _search(kind: str, parameters: Sequence[Parameter], seed: int, goals: int) -> Search:
+def _search(kind: str, task: Task, seed: int, *, step: float) -> Optimiser:
     if kind == "cma":
-        return EvolutionSearch(parameters, seed)
+        return EvolutionSearch(task.parameters, seed, step)
     from tandemlift.studies.tuning.optuna_search import EstimatorSearch
 
-    return EstimatorSearch(parameters, seed, goals)
+    return EstimatorSearch(task.parameters, seed, len(task.goals))
 
 
-def _drawn(mission: Mission, source: Source, how: How) -> DrawSource:
+def _drawn(mission: Mission, source: MissionSource, how: How) -> DrawSource:
     """Where draws come from: the study that is given, or the default one."""
     given = how.draws
     if not isinstance(given, int):
@@ -177,7 +176,7 @@ def _check_count(option: str, count: int) -> None:
         raise InputError(f"{option} {count}: must be from 1 to {MOST_DRAWS}")
 
 
-def _check_apart(draws: Sequence[Draw], parameters: Sequence[Parameter]) -> None:
+def _check_apart(draws: Sequence[Draw], parameters: Sequence[Tunable]) -> None:
     """Refuse draws that change what is searched."""
     for key in sorted({key for draw in draws for key in draw.changes}):
         for p in parameters:

@@ -12,7 +12,7 @@ from tandemlift.common.types import Progress
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.units.dask import cluster_workers, processes_of, scheduler_workers
 from tandemlift.studies.units.kept import check_kept
-from tandemlift.studies.units.running import WHOLE, Part, StudyWork, run_units
+from tandemlift.studies.units.running import WHOLE, StudyPart, StudyWork, run_units
 from tandemlift.studies.units.store import StudyFolder
 from tandemlift.studies.units.workers import ExecutorWorkers, Workers, thread_workers
 
@@ -25,7 +25,7 @@ def fly_study(
     executor: Executor | None = None,
     scheduler: str | None = None,
     cluster: str | None = None,
-    part: Part = WHOLE,
+    part: StudyPart = WHOLE,
     progress: Progress | None = None,
     say: Callable[[str], None] = lambda line: None,
 ) -> int:
@@ -40,7 +40,7 @@ def fly_study(
         cluster: local:N for N processes of this machine, under Dask.
         part: of the units to fly.
         progress: called with (rows flown, rows of the part).
-        say: prints a line: the address of Dask's dashboard.
+        say: prints a line: the address of Dask's dashboard, or how to go on after Ctrl-C.
 
     Returns:
         Number of units flown.
@@ -50,8 +50,12 @@ def fly_study(
             stays.
     """
     check_kept(plan)
-    with _workers(threads, executor, scheduler, cluster, say) as workers:
-        return run_units(StudyWork(plan, folder.names()), folder.files, workers, part, progress)
+    try:
+        with _workers(threads, executor, scheduler, cluster, say) as workers:
+            return run_units(StudyWork(plan, folder.names()), folder.files, workers, part, progress)
+    except KeyboardInterrupt:
+        say(f"stopped: what is flown stays in {folder.path}; start the same study again to go on")
+        raise
 
 
 @contextmanager

@@ -19,7 +19,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.studies.design.keys import columns_of
 from tandemlift.studies.design.plan import SEED, StudyRow
 from tandemlift.studies.design.settings import REFUSED
-from tandemlift.studies.units.unit import Unit
+from tandemlift.studies.units.unit import StudyUnit
 
 Columns = dict[str, list[Any]]
 Result = tuple[StudyRow, Mapping[str, Any] | None, str]  # a row, its metrics, or why it was refused
@@ -30,7 +30,7 @@ CHANNEL = "flight."  # begins the name of a channel's column
 WHOLE = ("row", "draw", "seed", "steps")  # columns of whole numbers
 
 
-def columns_of_rows(unit: Unit, results: Sequence[Result], flights: Mapping[int, Flight]) -> Columns:
+def columns_of_rows(unit: StudyUnit, results: Sequence[Result], flights: Mapping[int, Flight]) -> Columns:
     """The columns of a unit's table; what a row does not have is None.
 
     Args:
@@ -45,7 +45,7 @@ def columns_of_rows(unit: Unit, results: Sequence[Result], flights: Mapping[int,
     return {name: [row.get(name) for row in rows] for name in names}
 
 
-def _row(unit: Unit, row: StudyRow, metrics: Mapping[str, Any] | None, refusal: str) -> dict[str, Any]:
+def _row(unit: StudyUnit, row: StudyRow, metrics: Mapping[str, Any] | None, refusal: str) -> dict[str, Any]:
     variant = unit.variants[row.variant]
     found: dict[str, Any] = {
         "row": row.number,

@@ -26,6 +26,7 @@ PATIENCE = 10.0  # s, within which a scheduler must answer
 ALLOWED_FAILURES = 10  # workers that may end while they fly a unit, until Dask gives the unit back
 COUNTED = 5.0  # s, after which the workers are counted again
 MOST_PROCESSES = 1024
+WITHOUT_INTERRUPT = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"  # Ctrl-C is for the study alone
 Say = Callable[[str], None]
 
 
@@ -145,6 +146,7 @@ def cluster_workers(processes: int, say: Say) -> Iterator[DaskWorkers]:
             threads_per_worker=1,
             dashboard_address="127.0.0.1:0",
             silence_logs="CRITICAL",
+            preload=[WITHOUT_INTERRUPT],
         )
     with cluster, Client(cluster, set_as_default=False) as client:
         say(f"Dask: {_workers_text(client)}; dashboard: {client.dashboard_link}")

@@ -11,10 +11,10 @@ from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.settings import BLOCK
 from tandemlift.studies.units.columns import write_columns
 from tandemlift.studies.units.flying import fly_unit
-from tandemlift.studies.units.unit import Unit, unit_count
+from tandemlift.studies.units.unit import StudyUnit, unit_count
 
 
-class Estimate(NamedTuple):
+class StudyEstimate(NamedTuple):
     """What a study will take: rows, units, computing time of one thread [s], and bytes of all its files."""
 
     rows: int
@@ -23,7 +23,7 @@ class Estimate(NamedTuple):
     size: int
 
 
-def estimate(plan: StudyPlan) -> Estimate:
+def estimate(plan: StudyPlan) -> StudyEstimate:
     """What a study will take, from the first block of each variant, flown twice: the first time compiles."""
     per_variant = plan.count // len(plan.variants)
     seconds, size, units = 0.0, 0.0, unit_count(plan)
@@ -42,10 +42,10 @@ def estimate(plan: StudyPlan) -> Estimate:
                 sizes.append(path.stat().st_size)
             per_row = max(0.0, sizes[1] - sizes[0]) / len(block.rows)
             size += (sizes[0] * units + per_row * plan.count) / len(plan.variants)
-    return Estimate(plan.count, units, seconds, round(size))
+    return StudyEstimate(plan.count, units, seconds, round(size))
 
 
-def _sample(plan: StudyPlan, first: int, last: int) -> Unit:
+def _sample(plan: StudyPlan, first: int, last: int) -> StudyUnit:
     rows = tuple(plan.rows(first, last))
     variants = {row.variant: plan.variants[row.variant] for row in rows}
-    return Unit("sample", first, last, rows, variants, plan.settings.keep)
+    return StudyUnit("sample", first, last, rows, variants, plan.settings.keep)

@@ -12,10 +12,10 @@ from tandemlift.simulation.many import Keep, fly_each
 from tandemlift.studies.design.plan import StudyRow
 from tandemlift.studies.design.settings import REFUSED, KeepTable
 from tandemlift.studies.units.columns import Columns, columns_of_rows
-from tandemlift.studies.units.unit import Unit
+from tandemlift.studies.units.unit import StudyUnit
 
 
-def fly_unit(unit: Unit) -> Columns:
+def fly_unit(unit: StudyUnit) -> Columns:
     """Fly the rows of a unit, on one thread.
 
     Returns:
@@ -54,7 +54,7 @@ class _Result:
         return REFUSED if self.metrics is None else self.metrics["outcome"]
 
 
-def _flown(results: Sequence[_Result], unit: Unit, keep: Keep) -> list[Any]:
+def _flown(results: Sequence[_Result], unit: StudyUnit, keep: Keep) -> list[Any]:
     """The flights or metrics of rows that have missions, or why they are refused; the same to the last bit again."""
     missions = [result.mission for result in results if result.mission is not None]
     engines = [unit.variants[result.row.variant].engine for result in results]

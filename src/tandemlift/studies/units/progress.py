@@ -96,5 +96,15 @@ def shown_progress(label: str, stream: TextIO | None = None) -> Iterator[Progres
         line.close()
 
 
+@contextmanager
+def progress_or_own(label: str, progress: Progress | None) -> Iterator[Progress | None]:
+    """Progress as the caller wants it; if nothing is said, a notebook shows it and a script does not."""
+    if progress is None and _is_notebook(sys.stdout):
+        with shown_progress(label) as shown:
+            yield shown
+    else:
+        yield progress
+
+
 def _is_notebook(stream: TextIO) -> bool:
     return type(stream).__module__.partition(".")[0] == KERNEL

@@ -25,17 +25,17 @@ BEAT = 1.0  # s, after which progress is told although no unit has ended
 MOST_LOST = 5  # times that a unit is handed over again because its worker ended
 
 
-class Part(NamedTuple):
+class StudyPart(NamedTuple):
     """Part `number` of `parts`, from 1: every so many units."""
 
     number: int = 1
     parts: int = 1
 
 
-WHOLE = Part()
+WHOLE = StudyPart()
 
 
-def part_from(text: str) -> Part:
+def part_from(text: str) -> StudyPart:
     """The part that a text such as 3/40 names.
 
     Raises:
@@ -44,7 +44,7 @@ def part_from(text: str) -> Part:
     number, slash, parts = text.partition("/")
     if not (slash and number.isdecimal() and parts.isdecimal() and 1 <= int(number) <= int(parts)):
         raise InputError(f"part = {text!r}: must be K/N with 1 ≤ K ≤ N, such as 3/40")
-    return Part(int(number), int(parts))
+    return StudyPart(int(number), int(parts))
 
 
 class Work(Protocol):
@@ -85,7 +85,7 @@ class StudyWork:
 
 
 def run_units(
-    work: Work, files: UnitFiles, workers: Workers, part: Part = WHOLE, progress: Progress | None = None
+    work: Work, files: UnitFiles, workers: Workers, part: StudyPart = WHOLE, progress: Progress | None = None
 ) -> int:
     """Fly all units of a part that are not flown yet.
 
@@ -108,7 +108,9 @@ def run_units(
 class _Run:
     """A run over the units of a part: those to do, those that others do, and those that are handed over."""
 
-    def __init__(self, work: Work, files: UnitFiles, workers: Workers, part: Part, progress: Progress | None) -> None:
+    def __init__(
+        self, work: Work, files: UnitFiles, workers: Workers, part: StudyPart, progress: Progress | None
+    ) -> None:
         self.work, self.files, self.workers, self.progress = work, files, workers, progress
         self.names = work.names
         own = range(part.number - 1, len(self.names), part.parts)

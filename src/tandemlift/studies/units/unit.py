@@ -21,7 +21,7 @@ SHOWING = (  # rooms that no row of a study depends on
 ROWS = ("studies/design/", "studies/units/columns.py", "studies/units/flying.py")  # what does, of `studies`
 
 
-class Unit(NamedTuple):
+class StudyUnit(NamedTuple):
     """Rows first ≤ number < last of a study.
 
     Attributes:
@@ -82,13 +82,13 @@ def unit_names(digest: str, count: int, rows_per_unit: int) -> Iterator[str]:
         yield hashlib.sha256(f"{digest} {first} {last}".encode()).hexdigest()[:32]
 
 
-def unit_of(plan: StudyPlan, index: int, name: str) -> Unit:
+def unit_of(plan: StudyPlan, index: int, name: str) -> StudyUnit:
     """A unit of a study, ready to be flown anywhere."""
     first = index * plan.rows_per_unit
     last = min(plan.count, first + plan.rows_per_unit)
     rows = tuple(plan.rows(first, last))
     used = sorted({row.variant for row in rows})
-    return Unit(
+    return StudyUnit(
         name=name,
         first=first,
         last=last,

@@ -71,7 +71,7 @@ class FeelReport:
 
     def figure(self) -> Figure:
         """The speed over time along each axis, by closed form and flown."""
-        from tandemlift.report.feel_figure import draw
+        from tandemlift.report.tuning.feel_figure import draw
 
         return draw(self.study)
 
@@ -84,7 +84,7 @@ class FeelReport:
             The files.
         """
         from tandemlift.figures.registry import save_figure
-        from tandemlift.report.feel_figure import CAPTION
+        from tandemlift.report.tuning.feel_figure import CAPTION
 
         folder, figure = Path(folder), self.figure()
         folder.mkdir(parents=True, exist_ok=True)

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
 
 from tandemlift.common.files import atomic_write
 from tandemlift.missions.values import shown
-from tandemlift.report import tuning_figures
 from tandemlift.report.controller_comparison import html_figures
 from tandemlift.report.flight_report import DASH, html_table, number
 from tandemlift.report.page import STYLE
-from tandemlift.report.tuning_figures import axis_label, shown_scale
+from tandemlift.report.tuning import tuning_figures
+from tandemlift.report.tuning.tuning_figures import axis_label, shown_scale
 from tandemlift.simulation.results import versions
 from tandemlift.studies.tuning.candidates import Cost
 from tandemlift.studies.tuning.result import MISSION_FILE, Tuning
@@ -119,18 +120,19 @@ def _evidence(found: Tuning) -> str:
     rows = []
     for c in found.evidence.comparisons:
         words, unit = axis_label(c.label)
-        scale, unit = shown_scale(unit, max(abs(x) for x in (*c.old, *c.new)))
+        scale, unit = shown_scale(unit, max((abs(x) for x in (*c.old, *c.new) if not math.isnan(x)), default=0.0))
         interval = DASH if c.interval is None else f"{number(c.interval[0] * scale)} to {number(c.interval[1] * scale)}"
-        cells = [number(x * scale) for x in (*c.old, *c.new, c.difference)]
-        cells += [interval, f"{100.0 * c.improved:.0f} %", unit]
+        cells = [DASH if math.isnan(x) else number(x * scale) for x in (*c.old, *c.new, c.difference)]
+        cells += [interval, DASH if math.isnan(c.improved) else f"{100.0 * c.improved:.0f} %", unit]
         rows.append(_row(f"{escape(words)}<br><code>{escape(c.label)}</code>", cells))
     count = len(found.fresh)
     rows.append(_bad_row(found, count))
     of_values = ("Present<br>median", "<br>worst", "New<br>median", "<br>worst")
     heads = ("", *of_values, "Difference<br>median", "<br>95 %", "Improved", "Unit")
     note = (
-        f"On {count} fresh draws, which the search never saw; both fly the same draws. The difference is new minus "
-        "present, draw by draw, over draws that went well with both; its interval holds for any distribution."
+        f"On {count} fresh draws, which the search never saw; both fly the same draws. Medians and worst values are over "
+        "draws that went well. The difference is new minus present, draw by draw, over draws that went well with "
+        "both; its interval holds for any distribution."
     )
     table = html_table(_head(heads), rows, "compared part")
     return f'<section>\n<h2>Evidence</h2>\n<p class="soft">{note}</p>\n{table}\n</section>'
@@ -192,16 +194,19 @@ def _draws(found: Tuning) -> str:
     listed = found.draws[:FEW_DRAWS]
     rows = [
         f'<tr><th scope="row">{i}{f" {escape(draw.case)}" if draw.case else ""}</th>'
-        f"<td><code>{escape(', '.join(f'{key} = {shown(_short(value))}' for key, value in draw.changes.items()))}</code>"
-        "</td></tr>"
+        f"<td><code>{escape(_words(draw.changes))}</code></td></tr>"
         for i, draw in enumerate(listed, 1)
     ]
     more = f"; the first {len(listed)} are listed" if len(found.draws) > len(listed) else ""
     note = (
-        f"Every candidate flew the same {len(found.draws)} draws{more}. <code>evidence.json</code> lists all draws, fresh "
-        "ones too, with outcomes and values."
+        f"Every candidate flew the same {len(found.draws)} draws{more}. <code>evidence.json</code> lists all "
+        "draws, fresh ones too, with outcomes and values."
     )
     return f'<p class="soft">{note}</p>\n{html_table("", rows, "setup")}'
+
+
+def _words(changes: Mapping[str, Any]) -> str:
+    return ", ".join(f"{key} = {shown(_short(value))}" for key, value in changes.items())
 
 
 def _short(value: Any) -> Any:

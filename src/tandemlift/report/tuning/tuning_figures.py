@@ -44,7 +44,7 @@ WIDE = 30.0  # ratio of costs from which an axis is logarithmic
 def drawn_figures(found: Tuning) -> dict[str, Figure]:
     """The figures of a tuning by name."""
     drawn = {"search": draw_search(found)} if len(found.history) > 1 else {}
-    if found.evidence is not None and found.evidence.comparisons:
+    if found.evidence is not None and not (found.evidence.old.bad.all() and found.evidence.new.bad.all()):
         drawn["evidence"] = draw_evidence(found)
     if found.front:
         drawn["front"] = draw_front(found)

@@ -1,0 +1,1 @@
+"""Pages about gains: a tuning, and the feel of an admittance."""
