@@ -14,8 +14,8 @@ from tandemlift.missions.values import shown
 from tandemlift.report.controller_comparison import html_figures
 from tandemlift.report.flight_report import DASH, html_table, number
 from tandemlift.report.page import STYLE
+from tandemlift.report.tuning import tuning_figures
 from tandemlift.report.tuning.tuning_figures import axis_label, shown_scale
-from tandemlift.report.tuning.tuning_report import tuning_figures
 from tandemlift.simulation.results import versions
 from tandemlift.studies.tuning.candidates import Cost
 from tandemlift.studies.tuning.result import MISSION_FILE, Tuning
