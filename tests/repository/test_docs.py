@@ -15,8 +15,8 @@ DOCUMENTS = [path for folder in (".", "docs") for path in sorted((ROOT / folder)
 CODE = [
     ROOT / "README.md",
     *[
-        ROOT / "docs" / name
-        for name in ("checks.md", "feel.md", "flights.md", "linearize.md", "simulation.md", "tuning.md")
+        ROOT / "docs" / f"{name}.md"
+        for name in ("checks", "feel", "flights", "linearize", "simulation", "studies", "tuning")
     ],
 ]  # docs/controllers.md has tests of its own
 
