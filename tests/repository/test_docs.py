@@ -14,7 +14,7 @@ from tandemlift.cli.main import cli
 DOCUMENTS = [path for folder in (".", "docs") for path in sorted((ROOT / folder).glob("*.md"))]
 CODE = [
     ROOT / "README.md",
-    *[ROOT / "docs" / name for name in ("checks.md", "feel.md", "flights.md", "linearize.md", "simulation.md")],
+    *[ROOT / "docs" / f"{name}.md" for name in ("checks", "feel", "flights", "linearize", "simulation", "studies")],
 ]  # docs/controllers.md has tests of its own
 
 
@@ -37,7 +37,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     lines = [line for block in blocks(ROOT / "README.md", "sh") for line in block.splitlines()]
     commands = [shlex.split(line, comments=True) for line in lines if line.startswith("tandemlift")]
-    elsewhere = ("live", "ros", "gazebo")  # which go on until they are stopped, or need Gazebo
+    elsewhere = ("live", "ros", "gazebo", "tune")  # which go on until they are stopped, need Gazebo, or take minutes
     commands = [c for c in commands if c[1] not in elsewhere]
     assert len(commands) == 15
     for _, *arguments in commands:

@@ -14,8 +14,8 @@ from tandemlift.missions.values import shown
 from tandemlift.report.controller_comparison import html_figures
 from tandemlift.report.flight_report import DASH, html_table, number
 from tandemlift.report.page import STYLE
-from tandemlift.report.tuning import tuning_figures
 from tandemlift.report.tuning.tuning_figures import axis_label, shown_scale
+from tandemlift.report.tuning.tuning_report import tuning_figures
 from tandemlift.simulation.results import versions
 from tandemlift.studies.tuning.candidates import Cost
 from tandemlift.studies.tuning.result import MISSION_FILE, Tuning
@@ -130,7 +130,7 @@ def _evidence(found: Tuning) -> str:
     of_values = ("Present<br>median", "<br>worst", "New<br>median", "<br>worst")
     heads = ("", *of_values, "Difference<br>median", "<br>95 %", "Improved", "Unit")
     note = (
-        f"On {count} fresh draws, which the search never saw; both fly the same draws. Medians and worst values are over "
+        f"On {count} fresh draws, which the search never saw; both fly the same draws. Medians and worst values are of "
         "draws that went well. The difference is new minus present, draw by draw, over draws that went well with "
         "both; its interval holds for any distribution."
     )

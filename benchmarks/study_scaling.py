@@ -1,0 +1,335 @@
+"""Where a study runs, and what that costs: `python benchmarks/study_scaling.py overhead` and others. Prints Markdown.
+
+- `overhead`: a study of `paper` against `fly_many` with the same missions loaded, on one and two threads, in turns;
+  what each part of a unit takes; bytes of a row.
+- `dask`: a study of about a minute on two workers of one thread against two threads, in turns.
+- `tasks`: 10,000 units that do nothing, through Dask: the scheduler's share.
+- `kills`: a study is killed by SIGKILL at 50 random moments, each time resumed; only units in work fly again.
+- `workers`: Dask's workers are killed 20 times at random moments in one study.
+- `processes`: two processes on one folder.
+- `disk`: a disk of 1 MB that gets full, and a read-only one (needs root: it mounts them).
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import multiprocessing
+import os
+import pickle
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import pyarrow.parquet as pq
+from machine import describe, heading, number, save, table
+
+import tandemlift as tl
+from tandemlift.common.errors import InputError
+from tandemlift.studies.design.plan import StudyPlan
+from tandemlift.studies.design.study_files import load_plan
+from tandemlift.studies.units.anywhere import fly_study
+from tandemlift.studies.units.columns import write_columns
+from tandemlift.studies.units.dask import cluster_workers
+from tandemlift.studies.units.files import UnitFiles
+from tandemlift.studies.units.flying import fly_unit
+from tandemlift.studies.units.running import StudyWork, run_units
+from tandemlift.studies.units.store import StudyFolder, open_folder
+from tandemlift.studies.units.unit import unit_of
+
+PACKAGES = ("tandemlift", "numpy", "llvmlite", "pyarrow", "distributed")
+SEED = 17
+PROGRAM = "from study_scaling import child; child()"  # of a process that is killed or shares a folder
+
+
+def study_of(mission: str, rows: int, duration: float | None = None, rows_per_unit: int = 256) -> dict[str, Any]:
+    """A study of one mission with two numbers drawn."""
+    drawn = {"distribution": "uniform", "low": 0.9, "high": 1.1}
+    return {
+        "study": {"name": "scaling", "missions": [mission], "draws": rows, "rows_per_unit": rows_per_unit},
+        "set": {} if duration is None else {"mission.duration": duration},
+        "draw": {"plant.mass_scale": drawn, "admittance.damping": {**drawn, "relative": True}},
+    }
+
+
+def seconds(call: Callable[[], Any]) -> float:
+    began = time.perf_counter()
+    call()
+    return time.perf_counter() - began
+
+
+def flown(tables: dict[str, Any], path: Path, **where: Any) -> int:
+    plan = load_plan(tables)
+    return fly_study(plan, open_folder(plan, path), **where)
+
+
+def loaded(plan: StudyPlan) -> list[tl.Mission]:
+    template = plan.variants[0].template()
+    return [template.mission(row.changes) for row in plan.rows(0, plan.count)]
+
+
+def overhead(rounds: int, root: Path) -> dict[str, Any]:
+    plan = load_plan(study_of("paper", 1024))
+    missions = loaded(plan)
+    tl.fly_many(missions[:64], "metrics", 1)
+    results: dict[str, Any] = {}
+    for threads in (1, 2):
+        turns = []
+        for i in range(rounds):
+            folder = open_folder(plan, root / f"{threads}-{i}")
+            bare = seconds(partial(tl.fly_many, missions, "metrics", threads))
+            turns.append((bare, seconds(partial(fly_study, plan, folder, threads=threads))))
+        results[f"{threads}"] = turns
+    rows = [
+        [
+            n,
+            *(number(1e3 * median(t[i] for t in turns) / plan.count) for i in (0, 1)),
+            number(median(s / b for b, s in turns)),
+        ]
+        for n, turns in results.items()
+    ]
+    print("`paper`, ms a flight:\n", table(("threads", "fly_many, missions loaded", "study", "ratio"), rows), sep="\n")
+    results["parts"] = parts(plan, root / "one.parquet")
+    return results
+
+
+def parts(plan: StudyPlan, file: Path) -> dict[str, float]:
+    """What is done for a unit of 256 rows, one after the other: ms, and bytes."""
+    unit = unit_of(plan, 0, "one")
+    template = plan.variants[0].template()
+    columns = fly_unit(unit)
+    steps: dict[str, Callable[[], Any]] = {
+        "rows of the plan": lambda: unit_of(plan, 0, "one"),
+        "template": lambda: plan.variants[0].template(),
+        "missions": lambda: [template.mission(row.changes) for row in unit.rows],
+        "unit flown, columns formed": lambda: fly_unit(unit),
+        "unit sent: pickled and read": lambda: pickle.loads(pickle.dumps(partial(fly_unit, unit))),
+        "columns sent: pickled and read": lambda: pickle.loads(pickle.dumps(columns)),
+        "file written": lambda: write_columns(columns, file, {}),
+    }
+    found = {name: 1e3 * median(seconds(step) for _ in range(7)) for name, step in steps.items()}
+    found["bytes of the unit"], found["bytes of the columns"] = len(pickle.dumps(unit)), len(pickle.dumps(columns))
+    found["bytes of the file"] = file.stat().st_size
+    print(
+        "\nA unit of 256 rows, ms or bytes:\n",
+        table(("what", ""), [[k, number(v)] for k, v in found.items()]),
+        sep="\n",
+    )
+    return found
+
+
+def dask(rounds: int, root: Path) -> dict[str, Any]:
+    tables = study_of("one-push", 8192, 60.0, 128)
+    plan, turns = load_plan(tables), []
+    flown(study_of("one-push", 16, 60.0, 8), root / "warm", threads=2)
+    for i in range(rounds):
+        folders = [open_folder(plan, root / f"{name}-{i}") for name in ("threads", "dask")]
+        threads = seconds(partial(fly_study, plan, folders[0], threads=2))
+        whole = time.perf_counter()
+        with cluster_workers(2, print) as workers:
+            run_warm(workers, root / f"warm-{i}")
+            alone = seconds(partial(fly_on, plan, folders[1], workers))
+        turns.append((threads, alone, time.perf_counter() - whole))
+        assert same(*folders)
+    cells = [number(median(t[i] for t in turns)) for i in range(3)] + [number(median(t[0] / t[1] for t in turns))]
+    header = ("two threads [s]", "Dask, 2 workers [s]", "with their start [s]", "threads over Dask")
+    print(table(header, [cells], texts=0))
+    return {"turns": turns}
+
+
+def fly_on(plan: StudyPlan, folder: StudyFolder, workers: Any) -> int:
+    return run_units(StudyWork(plan, folder.names()), folder.files, workers)
+
+
+def run_warm(workers: Any, path: Path) -> None:
+    """Load the compiled loop into each worker."""
+    plan = load_plan(study_of("one-push", 64, 60.0, 8))
+    fly_on(plan, open_folder(plan, path), workers)
+
+
+class NoWork:
+    """Units that do nothing."""
+
+    def __init__(self, count: int) -> None:
+        self.names = [f"{i}" for i in range(count)]
+
+    def size(self, i: int) -> int:
+        return 1
+
+    def task(self, i: int) -> Callable[[], Any]:
+        return dict
+
+
+class NoFiles(UnitFiles):
+    """Files that nobody writes."""
+
+    def is_flown(self, name: str) -> bool:
+        return False
+
+    def claim(self, name: str) -> bool:
+        return True
+
+    def write(self, name: str, columns: Any) -> None:
+        pass
+
+
+def tasks(rounds: int, root: Path) -> dict[str, Any]:
+    count = 10_000
+    with cluster_workers(2, print) as workers:
+        run_units(NoWork(100), NoFiles(root, {}), workers)
+        taken = [seconds(lambda: run_units(NoWork(count), NoFiles(root, {}), workers)) for _ in range(rounds)]
+    print(f"{count:,} units that do nothing: {1e3 * median(taken) / count:.2f} ms each (median of {rounds})")
+    return {"seconds": taken}
+
+
+def tables_of(folder: StudyFolder) -> dict[str, Any]:
+    return {name: pq.read_table(folder.files.file(name)) for name in folder.names()}
+
+
+def same(one: StudyFolder, other: StudyFolder) -> bool:
+    """Whether two folders have all rows, the same bit for bit."""
+    first, second = tables_of(one), tables_of(other)
+    return all(first[name].equals(second[name]) for name in first)
+
+
+LONG = study_of("one-push", 2048, 60.0, 16)  # 128 units of some 0.1 s
+
+
+def child() -> None:
+    """The process that is killed: flies `LONG` into a folder on two threads, and prints how many units it flew."""
+    plan = load_plan(LONG)
+    folder = open_folder(plan, Path(sys.argv[1]))
+    print("begun", flush=True)
+    print(json.dumps(fly_study(plan, folder, threads=2)))
+
+
+def started(path: Path) -> subprocess.Popen[str]:
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path[1:]])}
+    return subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, str(path)], stdout=subprocess.PIPE, text=True, env=environment
+    )
+
+
+def whole_of(root: Path) -> StudyFolder:
+    flown(LONG, root / "whole", threads=2)
+    return StudyFolder(root / "whole")
+
+
+def kills(rounds: int, root: Path) -> dict[str, Any]:
+    whole, moments, path = whole_of(root), random.Random(SEED), root / "killed"
+    kept, again, runs, count = [], 0, 0, 50
+    for _ in range(count):
+        if len(kept) >= 120:  # all but done: start anew
+            shutil.rmtree(path)
+            kept = []
+        process = started(path)
+        assert process.stdout
+        assert process.stdout.readline() == "begun\n"
+        time.sleep(moments.expovariate(1 / 0.7))
+        process.kill()
+        process.wait()
+        files = UnitFiles(path / "units", {})
+        there = [name for name in whole.names() if files.file(name).exists()]
+        assert all(pq.read_table(files.file(name)).equals(pq.read_table(whole.files.file(name))) for name in there)
+        assert set(kept) <= set(there), "a unit that was flown is gone"
+        kept, runs = there, runs + 1
+        again = max(again, len(list(path.glob("units/.*.claim"))))
+    left = len(whole.names()) - len(kept)
+    assert flown(LONG, path, threads=2) == left
+    assert same(whole, StudyFolder(path))
+    print(f"killed {runs} times; each time the files were whole; {left} missing units flown at the end; rows equal")
+    return {"kills": runs, "claims": again}
+
+
+def workers(rounds: int, root: Path) -> dict[str, Any]:
+    whole, moments, killed = whole_of(root), random.Random(SEED), list[int]()
+    going = threading.Event()
+
+    def kill() -> None:
+        while len(killed) < 20 and not going.wait(moments.uniform(0.5, 2.5)):
+            pids = [p.pid for p in multiprocessing.active_children() if "Dask Worker" in p.name]
+            if pids:
+                killed.append(moments.choice(sorted(pids)))
+                os.kill(killed[-1], signal.SIGKILL)
+
+    plan = load_plan(LONG)
+    folder = open_folder(plan, root / "dask")
+    thread = threading.Thread(target=kill)
+    with cluster_workers(2, print) as dask_workers:
+        thread.start()
+        taken = seconds(lambda: fly_on(plan, folder, dask_workers))
+        going.set()
+        thread.join()
+    assert same(whole, folder)
+    print(f"{len(killed)} workers killed in {taken:.0f} s; rows equal")
+    return {"killed": len(killed), "seconds": taken}
+
+
+def processes(rounds: int, root: Path) -> dict[str, Any]:
+    whole, path = whole_of(root), root / "both"
+    both = [started(path) for _ in range(2)]
+    counts = [json.loads(process.communicate()[0].split()[-1]) for process in both]
+    assert same(whole, StudyFolder(path))
+    print(f"two processes flew {counts[0]} and {counts[1]} of {len(whole.names())} units; rows equal")
+    return {"units": counts}
+
+
+def disk(rounds: int, root: Path) -> dict[str, Any]:
+    there, said = root / "small", dict[str, str]()
+    there.mkdir()
+    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", there], check=True)
+    try:
+        said["full"] = refusal(there)
+        done = len(list(there.glob("study/units/*.parquet")))
+        next(there.glob("study/units/*.parquet")).unlink()
+        subprocess.run(["mount", "-o", "remount,ro", there], check=True)
+        said["read-only"] = refusal(there)
+        subprocess.run(["mount", "-o", "remount,rw,size=100m", there], check=True)
+        left = flown(LONG, there / "study", threads=2)
+        assert same(whole_of(root), StudyFolder(there / "study"))
+        assert left == 128 - done + 1
+    finally:
+        subprocess.run(["umount", there], check=True)
+    for what, line in said.items():
+        print(f"- {what}: {line.replace(str(root), '…')}")
+    print(f"- space made: {left} units flown, {done - 1} kept; rows equal")
+    return said
+
+
+def refusal(there: Path) -> str:
+    try:
+        flown(LONG, there / "study", threads=2)
+    except InputError as error:
+        return str(error)
+    raise SystemExit("it was not refused")
+
+
+MEASUREMENTS = {f.__name__: f for f in (overhead, dask, tasks, kills, workers, processes, disk)}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=MEASUREMENTS)
+    parser.add_argument("--rounds", type=int, default=5, help="turns that a median is taken over")
+    parser.add_argument("--json", metavar="FILE", help="write the results to this file too")
+    options = parser.parse_args()
+    about = describe(PACKAGES)
+    print(heading(about), end="\n\n")
+    with tempfile.TemporaryDirectory() as root:
+        results = MEASUREMENTS[options.what](options.rounds, Path(root))
+    print(f"\nLoad at the end {os.getloadavg()[0]:.2f}.")
+    save(options.json, {"machine": about, "results": results})
+
+
+if __name__ == "__main__":
+    main()
