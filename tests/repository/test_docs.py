@@ -14,7 +14,7 @@ from tandemlift.cli.main import cli
 DOCUMENTS = [path for folder in (".", "docs") for path in sorted((ROOT / folder).glob("*.md"))]
 CODE = [
     ROOT / "README.md",
-    *[ROOT / "docs" / name for name in ("checks.md", "feel.md", "flights.md", "linearize.md", "simulation.md")],
+    *[ROOT / "docs" / f"{name}.md" for name in ("checks", "feel", "flights", "linearize", "simulation", "studies")],
 ]  # docs/controllers.md has tests of its own
 
 

@@ -63,5 +63,5 @@ def made_up(tables, folder: Path, measured):
             "seed": [row.changes[SEED] for row in rows],
             **{key: [one.get(key) for one in varied] for key in plan.varied},
         }
-        store.write(name, {**columns, **measured(rows)})
+        store.files.write(name, {**columns, **measured(rows)})
     return load_study(folder)

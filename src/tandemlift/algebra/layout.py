@@ -19,7 +19,27 @@ def flat(value: Any) -> list[float]:
 
 def numbers_of(value: Any) -> list[Any]:
     """The numbers of a nested value, depth first, as they are: symbols, too."""
-    return [leaf for part in value for leaf in numbers_of(part)] if is_value(value) else [value]
+    return layout_and_numbers(value)[1]
+
+
+def layout_and_numbers(value: Any) -> tuple[Any, list[Any]]:
+    """The classes of a nested value, and its numbers, depth first, as they are."""
+    numbers = list[Any]()
+    return _classes(value, numbers), numbers
+
+
+def _classes(value: Any, numbers: list[Any]) -> Any:
+    if not is_value(value):
+        numbers.append(value)
+        return None
+    classes: list[Any] = [type(value)]
+    for part in value:
+        if type(part) is float:  # by far most are
+            numbers.append(part)
+            classes.append(None)
+        else:
+            classes.append(_classes(part, numbers))
+    return tuple(classes)
 
 
 def leaves(value: Any) -> int:

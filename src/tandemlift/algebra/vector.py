@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from tandemlift.algebra.law import Nothing as Nothing
 from tandemlift.algebra.law import law
+from tandemlift.algebra.layout import layout_and_numbers
 from tandemlift.algebra.types import number
 
 C = TypeVar("C", bound=type)
@@ -167,26 +168,6 @@ ZERO = Vec3(0.0, 0.0, 0.0)
 def layout(value: Any) -> Any:
     """The classes of a nested value, without its numbers: equal for values that hold their numbers alike."""
     return layout_and_numbers(value)[0]
-
-
-def layout_and_numbers(value: Any) -> tuple[Any, list[Any]]:
-    """The classes of a nested value, and its numbers, depth first, as they are."""
-    numbers = list[Any]()
-    return _classes(value, numbers), numbers
-
-
-def _classes(value: Any, numbers: list[Any]) -> Any:
-    if not hasattr(value, "_fields"):
-        numbers.append(value)
-        return None
-    classes: list[Any] = [type(value)]
-    for part in value:
-        if type(part) is float:  # by far most are
-            numbers.append(part)
-            classes.append(None)
-        else:
-            classes.append(_classes(part, numbers))
-    return tuple(classes)
 
 
 def vec3(values: Any) -> Vec3:

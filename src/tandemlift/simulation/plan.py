@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.algebra.vector import ZERO, each, layout, layout_and_numbers
+from tandemlift.algebra.layout import layout_and_numbers
+from tandemlift.algebra.vector import ZERO, each, layout
 from tandemlift.assembly.traced_assembly import assembled_flight
 from tandemlift.controllers import NoMemory, control
 from tandemlift.engines.registry import engine_named

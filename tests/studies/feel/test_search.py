@@ -10,9 +10,11 @@ from scipy.stats import beta
 
 import tandemlift as tl
 from tandemlift.cli.main import cli
+from tandemlift.report.tuning.feel_report import FeelReport
 from tandemlift.studies.feel.closed_form import axes_of
 from tandemlift.studies.feel.effort import Effort
 from tandemlift.studies.feel.feel_checks import limit_checks, rotor_checks
+from tandemlift.studies.feel.feel_study import study_feel
 from tandemlift.studies.feel.person_trials import trial_of
 from tandemlift.studies.feel.search import parameters_of, tables_at
 from tandemlift.studies.feel.wish import with_proposal
@@ -41,7 +43,7 @@ def test_a_touch_costs_more_than_any_effort_and_its_bound_is_that_of_clopper_and
 
 def test_who_comes_near_a_wall_costs_without_a_touch():
     near, far = trial_of([person(clearance=0.05)] * 4), trial_of([person()] * 4)
-    assert near.cost(far) == pytest.approx(far.cost(far) + 2.0 / 3.0)
+    assert near.cost(far) == pytest.approx(far.cost(far) + 2.0 * 0.75)
 
 
 @pytest.mark.parametrize("name", ["iris", "zigzag", "one-push"])
@@ -75,6 +77,8 @@ def test_a_short_search_writes_the_mission_and_the_evidence_on_fresh_persons(tmp
     mission = tl.load_mission(tmp_path / "feel.toml")
     assert mission.admittance.feel is not None
     assert "fresh persons touch a wall" in (tmp_path / "feel.html").read_text("utf-8")
+    FeelReport(study_feel(tl.load_mission("one-push"))).save(tmp_path)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["feel.html", "feel.json", "feel.pdf", "feel.png"]
 
 
 @pytest.mark.parametrize(

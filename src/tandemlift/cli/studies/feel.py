@@ -51,11 +51,8 @@ def feel(
 ) -> None:
     """Show what a push does with the keys of MISSION, and check whether the vehicle can answer so.
 
-    The standard push is the force of `[admittance.feel]`, or 1 N. Along each axis it is held until the speed is steady,
-    and let go: by the closed form of the admittance, and flown with filters, delays, limits and rotors. A person then
-    leads the vehicle through mission zigzag with this admittance.
-
-    With --wish, the keys that fulfil the wish are printed as TOML, and studied in place of the mission's. With
+    A standard push along each axis, by the closed form of the admittance and flown; then a person in mission zigzag.
+    With --wish, the keys that fulfil the wish are printed as TOML, and studied in place of the mission's; with
     --search, those of least effort and jerk with which no random person touches a wall.
 
     \b
@@ -64,39 +61,32 @@ def feel(
       tandemlift feel iris --set admittance.feel.preset=firm
       tandemlift feel iris --wish "1 N gives 0.6 m/s in 0.5 s"
       tandemlift feel iris --wish "2 N gives 0.6 m/s in 1 s along x and y; 1 N gives 0.3 m/s in 2 s"
-
       tandemlift feel iris --search
 
     \b
     Files in the results folder (other files there are left alone):
-      feel.html   table, figure and checks on one page that needs no network
-      feel.json   all numbers in SI units
-      feel.png    speed over time along each axis; and feel.pdf
-      feel.toml   with --search: the mission with the new numbers; `tandemlift run` flies it
+      feel.html      table, figure and checks on one page that needs no network
+      feel.json      all numbers in SI units; feel.png, feel.pdf: the figure
+      feel.toml      with --search: the mission with the new numbers; `tandemlift run` flies it
       evidence.json  with --search: old against new on persons that the search never saw
 
     \b
     Exit code:
-      0   the keys were studied; with --search, the new ones are better on fresh persons
-      1   with --search: they are not; everything is written
+      0   the keys were studied
+      1   with --search: the new keys are not better on fresh persons; everything is written
       2   bad input: one message, nothing is written
       3   with --strict: a check fails
     """
+    if wish is not None and search:
+        raise InputError("--wish, --search: give only one of them")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FlightWarning)  # of pushes that are not flown here
         loaded = load(mission, settings)
-    if wish is not None and search:
-        raise InputError("--wish, --search: give only one of them")
     if wish is not None:
         loaded = _wished(loaded, wish)
-    from tandemlift.report.tuning.feel_report import FeelReport
-    from tandemlift.studies.feel.feel_study import study_feel
-
     with results_folder(out, Path("out") / loaded.mission.name, FILES) as folder:
         found = _searched(loaded, (generations, persons, fresh), seed) if search else None
-        with progress_bar("Flying", 2, shown=sys.stderr.isatty()) as progress:
-            report = FeelReport(study_feel(found.mission if found else loaded, progress), found)
-        _print(report)
+        report = _studied(found.mission if found else loaded, found)
         report.save(folder)
         echo(f"  page: {folder / 'feel.html'}")
     if strict and report.study.fails:
@@ -125,15 +115,15 @@ def _searched(mission: Mission, size: tuple[int, int, int], seed: int) -> FeelSe
     return found
 
 
-def _print(report: FeelReport) -> None:
-    from tandemlift.studies.feel.feel_study import HEADS, table_of
+def _studied(mission: Mission, found: FeelSearch | None) -> FeelReport:
+    """Study a mission's keys, which a search may have found, and print what they feel like."""
+    from tandemlift.report.tuning.feel_report import FeelReport
+    from tandemlift.studies.feel.feel_study import study_feel
 
-    study = report.study
-    echo(f"{study.mission.mission.name}: the answer to a standard push, closed form → flown")
-    rows = [("", *HEADS), *table_of(study)]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    for row in rows:
-        echo("  " + "  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip())
-    for sentence in report.sentences():
-        echo(f"  {sentence}")
-    print_checks(study.checks)
+    with progress_bar("Flying", 2, shown=sys.stderr.isatty()) as progress:
+        report = FeelReport(study_feel(mission, progress), found)
+    echo(f"{mission.mission.name}: the answer to a standard push, closed form → flown")
+    for line in report.lines():
+        echo(f"  {line}")
+    print_checks(report.checks)
+    return report

@@ -19,7 +19,7 @@ from tandemlift.report.study.commands import html_row_command
 from tandemlift.report.study.words import Shown, shown_column, shown_quantity
 from tandemlift.studies.design.keys import changes_in
 from tandemlift.studies.design.settings import REFUSED
-from tandemlift.studies.reading.statistics import Estimate, Share, finite, quantile, share, upper_bound
+from tandemlift.studies.reading.statistics import IntervalEstimate, Share, finite, quantile, share, upper_bound
 from tandemlift.studies.reading.study_rows import RowGroup, StudyRows
 from tandemlift.studies.reading.table import Study
 
@@ -221,7 +221,7 @@ def _quantiles(values: Any, look: Shown, low_is_bad: bool) -> Sequence[str]:
     return [count(len(known)), html_estimate(median), *[number(float(v)) for v in (low, high, worst)]]
 
 
-def html_estimate(estimate: Estimate) -> str:
+def html_estimate(estimate: IntervalEstimate) -> str:
     """A number over its interval."""
     bounds = [number(v) if np.isfinite(v) else DASH for v in (estimate.low, estimate.high)]
     return f"{number(estimate.value)}<br><small>{bounds[0]} to {bounds[1]}</small>"

@@ -18,7 +18,7 @@ from tandemlift.report.study.curves import compared
 from tandemlift.report.study.words import shown_quantity
 from tandemlift.studies.reading.influence import influence
 from tandemlift.studies.reading.sensitivity import Sensitivity
-from tandemlift.studies.reading.statistics import Estimate
+from tandemlift.studies.reading.statistics import IntervalEstimate
 from tandemlift.studies.reading.study_rows import StudyRows
 
 MOST_GROUPS = 3
@@ -139,7 +139,7 @@ def _table(one: Analysed, found: Sensitivity, many: bool) -> str:
     return f"<h3>{escape(_title(one, many))}</h3>\n{method}\n{html_table(head, lines, 'counts')}{second}"
 
 
-def _estimate(estimate: Estimate | None, flat: bool = False) -> str:
+def _estimate(estimate: IntervalEstimate | None, flat: bool = False) -> str:
     if estimate is None:
         return DASH
     value, low, high = (f"{v:.3f}".replace("-", "−") for v in estimate)

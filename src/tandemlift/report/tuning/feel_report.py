@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 NOTE = """Closed form → flown: a push that begins at once, lasts, and ends at once, in calm air from hover. The lag is
 the mean delay of the speed against the push; apart is the largest difference between both speeds."""
 FIGURE = "feel"
+SEARCHED = ("evidence.json", "feel.toml")
 
 
 class FeelReport:
@@ -56,13 +57,17 @@ class FeelReport:
         """What the least force does, the effort in the corridor, and what a search found."""
         return [*sentences_of(self.study), *(self.search.sentences() if self.search else [])]
 
-    def __str__(self) -> str:
-        """The table, the sentences and what fails."""
+    def lines(self) -> list[str]:
+        """The table and the sentences."""
         rows = [("", *HEADS), *table_of(self.study)]
         widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-        lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+        table = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+        return [*table, *self.sentences()]
+
+    def __str__(self) -> str:
+        """The table, the sentences and what fails."""
         failed = [f"{check.verdict}: {check.text}" for check in self.checks if check.verdict == FAILS]
-        return "\n".join([*lines, *self.sentences(), *failed])
+        return "\n".join([*self.lines(), *failed])
 
     def figure(self) -> Figure:
         """The speed over time along each axis, by closed form and flown."""
@@ -86,8 +91,11 @@ class FeelReport:
         files = [folder / f"{FIGURE}.json", folder / f"{FIGURE}.html"]
         _write(files[0], json.dumps(_plain(self.summary()), indent=1, ensure_ascii=False, allow_nan=False))
         _write(files[1], self._page(html_figures({FIGURE: figure}, {FIGURE: CAPTION})))
+        found = [folder / name for name in SEARCHED]
+        for old in found:  # of an earlier search
+            old.unlink(missing_ok=True)
         if self.search:
-            files += [folder / "evidence.json", folder / "feel.toml"]
+            files += found
             _write(files[2], json.dumps(_plain(self.search.evidence()), indent=1, allow_nan=False))
             _write(files[3], to_toml(self.search.mission).rstrip())
         return [*files, *(save_figure(figure, folder / f"{FIGURE}.{kind}") for kind in ("png", "pdf"))]

@@ -130,7 +130,7 @@ def _evidence(found: Tuning) -> str:
     of_values = ("Present<br>median", "<br>worst", "New<br>median", "<br>worst")
     heads = ("", *of_values, "Difference<br>median", "<br>95 %", "Improved", "Unit")
     note = (
-        f"On {count} fresh draws, which the search never saw; both fly the same draws. Medians and worst values are over "
+        f"On {count} fresh draws, which the search never saw; both fly the same draws. Medians and worst values are of "
         "draws that went well. The difference is new minus present, draw by draw, over draws that went well with "
         "both; its interval holds for any distribution."
     )

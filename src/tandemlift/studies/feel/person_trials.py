@@ -15,7 +15,8 @@ from tandemlift.studies.feel.quiet import quietly
 from tandemlift.studies.reading.statistics import upper_bound
 from tandemlift.studies.validation.persons import random_persons
 
-ROOM = 0.15  # m: clearance below which a wall is near
+ROOM = 0.2  # m: clearance below which a wall is near
+NEAR = 2.0  # cost of walls that all persons come up to
 BAD = 10.0  # cost of persons who touch a wall or do not arrive, times their share
 
 
@@ -57,7 +58,7 @@ class PersonTrial(NamedTuple):
         if self.arrived == 0:
             return 2.0 * BAD
         bad = BAD * self.failed / self.persons
-        return bad + self.near + 0.5 * (self.force / scale.force + self.jerk / scale.jerk)
+        return bad + NEAR * self.near + 0.5 * (self.force / scale.force + self.jerk / scale.jerk)
 
 
 def person_trials(

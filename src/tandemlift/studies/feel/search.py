@@ -32,7 +32,7 @@ from tandemlift.vehicle import Vehicle
 SLOWEST, FAINTEST = 0.1, 0.2  # m/s, m/s²: least of the search
 MOST_SPEED, MOST_ACCELERATION = 2.0, 3.0  # m/s, m/s²: largest where nothing else limits them
 WITHIN = 0.95  # of the largest acceleration, and of the room
-CHOSEN, OTHERS = 4, 2  # best candidates, and times the persons that they then fly, before one is taken
+CHOSEN, OTHERS = 6, 4  # best candidates, and times the persons that they then fly, before one is taken
 CHOICE_SEED, FRESH_SEED = 10**8, 10**9  # added to the seed of persons for the choice, and of fresh ones
 DIGITS = 3
 

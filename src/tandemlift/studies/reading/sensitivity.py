@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from tandemlift.common.errors import InputError
 from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
-from tandemlift.studies.reading.statistics import CONFIDENCE, Estimate
+from tandemlift.studies.reading.statistics import CONFIDENCE, IntervalEstimate
 
 FEWEST = 100  # rows of a first-order estimate from rows as they are: ten for each of its ten harmonics
 MOST = 40_000  # rows that estimates from rows as they are use, drawn at random from more
@@ -48,9 +48,9 @@ class Sensitivity(NamedTuple):
     method: str
     rows: int
     left_out: int
-    first: dict[str, Estimate]
-    total: dict[str, Estimate]
-    second: dict[tuple[str, str], Estimate]
+    first: dict[str, IntervalEstimate]
+    total: dict[str, IntervalEstimate]
+    second: dict[tuple[str, str], IntervalEstimate]
     ranks: dict[str, float]
 
     @property
@@ -105,9 +105,9 @@ def _saltelli(inputs: Mapping[str, Array], values: Array, seed: int) -> Sensitiv
     with _quiet():
         found = sobol.analyze(_problem(inputs), np.asarray(values, np.float64), **options)
 
-    def one(kind: str, *at: int) -> Estimate:
+    def one(kind: str, *at: int) -> IntervalEstimate:
         value, half = float(found[kind][at]), float(found[f"{kind}_conf"][at])
-        return Estimate(value, value - half, value + half)
+        return IntervalEstimate(value, value - half, value + half)
 
     names = list(inputs)
     return Sensitivity(
@@ -134,7 +134,7 @@ def _as_they_are(inputs: Mapping[str, Array], values: Array, rows: NDArray[np.in
     if not np.isfinite([found["S1"], found["S1_conf"]]).all():
         raise InputError("sensitivity: the quantity differs in too few rows for intervals by resampling")
     pairs = zip(inputs, found["S1"], found["S1_conf"], strict=True)
-    first = {name: Estimate(float(v), float(v - half), float(v + half)) for name, v, half in pairs}
+    first = {name: IntervalEstimate(float(v), float(v - half), float(v + half)) for name, v, half in pairs}
     return Sensitivity(RBD_FAST, len(rows), 0, first, total={}, second={}, ranks={})
 
 

@@ -33,7 +33,7 @@ class Share(NamedTuple):
         return self.number / self.total if self.total else math.nan
 
 
-class Estimate(NamedTuple):
+class IntervalEstimate(NamedTuple):
     """A number with its interval; NaN where there is too little to form it."""
 
     value: float
@@ -84,7 +84,7 @@ def finite(values: Array) -> Array:
     return values[np.isfinite(values)]
 
 
-def quantile(values: Array, at: float = 0.5, confidence: float = CONFIDENCE) -> Estimate:
+def quantile(values: Array, at: float = 0.5, confidence: float = CONFIDENCE) -> IntervalEstimate:
     """A quantile of the finite values, with an interval between two of them.
 
     Args:
@@ -103,8 +103,8 @@ def quantile(values: Array, at: float = 0.5, confidence: float = CONFIDENCE) -> 
     ordered = np.sort(finite(values))
     count, beyond = len(ordered), (1.0 - confidence) / 2.0
     if not count:
-        return Estimate(math.nan, math.nan, math.nan)
+        return IntervalEstimate(math.nan, math.nan, math.nan)
     first, last = int(binom.ppf(beyond, count, at)), int(binom.ppf(1.0 - beyond, count, at)) + 1  # numbers from 1
     low = float(ordered[first - 1]) if first >= 1 else math.nan
     high = float(ordered[last - 1]) if last <= count else math.nan
-    return Estimate(float(np.quantile(ordered, at)), low, high)
+    return IntervalEstimate(float(np.quantile(ordered, at)), low, high)
