@@ -210,6 +210,10 @@ def test_a_study_of_another_mission_is_refused(tmp_path):
 
 def test_a_study_that_sets_the_seed_has_no_fresh_draws(tmp_path):
     file = tmp_path / "fixed.toml"
-    file.write_text("study = {name = 'fixed', missions = ['hover']}\n[set]\nmission.seed = 3\n", "utf-8")
+    file.write_text(
+        "study = {name = 'fixed', missions = ['hover'], draws = 4}\nset.mission.seed = 3\n"
+        "draw.plant.mass_scale = {distribution = 'choice', among = [1.0, 1.01]}\n",
+        "utf-8",
+    )
     with pytest.raises(InputError, match=r"sets mission\.seed"):
         quick(draws=file)

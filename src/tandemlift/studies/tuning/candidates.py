@@ -18,7 +18,7 @@ from tandemlift.studies.tuning.goals import Goal
 from tandemlift.studies.tuning.source import MissionSource
 
 NO_NUMBER = "no number"
-TIE = 0.1  # weight of the mean beside the worst, so that what is not the worst does not drift
+ASIDE = 0.1  # weight of the worst beside the mean, so that no draw comes near to failing; of the mean beside the worst
 Aim = Literal["mean", "worst"]
 Changes = dict[str, Any]
 
@@ -99,7 +99,8 @@ def cost_of(trial: Trial, goals: Sequence[Goal], scales: Sequence[Array], aim: A
         trial: with its values.
         goals: that count, with their scales.
         scales: of each goal (draws, components).
-        aim: "mean" of all ratios of value to scale, or the "worst" and a little of their mean.
+        aim: the "mean" of all ratios of value to scale and a little of the worst, or the "worst" and a little of the
+            mean, so that the others do not drift.
     """
     good = ~trial.bad
     if not good.any():
@@ -107,7 +108,7 @@ def cost_of(trial: Trial, goals: Sequence[Goal], scales: Sequence[Array], aim: A
     ratios = [goal.ratios(v[good], s[good]) for goal, v, s in zip(goals, trial.values, scales, strict=True)]
     mean = float(np.mean([r.mean() for r in ratios]))
     worst = max(float(r.max()) for r in ratios)
-    return Cost(int((~good).sum()), mean if aim == "mean" else worst + TIE * mean)
+    return Cost(int((~good).sum()), mean + ASIDE * worst if aim == "mean" else worst + ASIDE * mean)
 
 
 def fly_candidates(

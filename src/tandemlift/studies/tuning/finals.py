@@ -11,7 +11,8 @@ from tandemlift.studies.tuning.searches import Optimiser
 from tandemlift.studies.tuning.task import Task, Values
 
 FINALISTS = 8  # of each kind
-TIMES = 8  # draws, for each draw of the search
+TIMES = 16  # draws, for each draw of the search
+EARLY, LAST = 4, 4  # a quarter of the draws first; then the best four fly the others
 
 
 def choose(hunt: Hunt, search: Optimiser, draws: Sequence[Draw]) -> tuple[Values, tuple[Cost, Cost]]:
@@ -30,8 +31,12 @@ def choose(hunt: Hunt, search: Optimiser, draws: Sequence[Draw]) -> tuple[Values
     finalists = list(dict.fromkeys(tried.values for tried in ranked))[:FINALISTS]
     once_best = [values for _, values in hunt.records[-FINALISTS:]]
     finalists = list(dict.fromkeys([*finalists, *once_best, *_centre(task, search)]))
-    old, *others = (task.cost(trial) for trial in task.fly([{}, *map(task.changes, finalists)], draws))
-    chosen, lowest = min(zip(finalists, others, strict=True), key=lambda pair: pair[1].rank)
+    early = draws[: len(draws) // EARLY]
+    judge = hunt.task.for_draws(early)
+    costs = [judge.cost(trial) for trial in judge.fly([task.changes(values) for values in finalists], early)]
+    last = [values for _, values in sorted(zip(costs, finalists, strict=True), key=lambda pair: pair[0].rank)[:LAST]]
+    old, *others = (task.cost(trial) for trial in task.fly([{}, *map(task.changes, last)], draws))
+    chosen, lowest = min(zip(last, others, strict=True), key=lambda pair: pair[1].rank)
     return (chosen, (old, lowest)) if lowest.rank < old.rank else (present.values, (old, old))
 
 

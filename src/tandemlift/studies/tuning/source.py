@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from tandemlift.missions.loading import MissionTemplate
 from tandemlift.settings import Mission
 
@@ -22,7 +24,8 @@ class MissionSource:
     """
 
     def __init__(self, name: str, changes: Mapping[str, Any], controller: str | None = None) -> None:
-        self.name, self.changes, self.controller = name, dict(changes), controller
+        self.name, self.controller = name, controller
+        self.changes = {key: _plain(value) for key, value in changes.items()}
         self._template = MissionTemplate.read(name, self.changes, controller=controller, quiet=True)
 
     def load(self, *more: Mapping[str, Any]) -> Mission:
@@ -32,3 +35,12 @@ class MissionSource:
             InputError: there is no such mission.
         """
         return self._template.mission({key: value for changes in more for key, value in changes.items()})
+
+
+def _plain(value: Any) -> Any:
+    """A value as TOML and JSON have it: lists in place of tuples and arrays."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, Mapping):
+        return {key: _plain(part) for key, part in value.items()}
+    return [_plain(part) for part in value] if isinstance(value, (list, tuple)) else value
