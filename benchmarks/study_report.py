@@ -57,16 +57,20 @@ def main():
     path = Path(sys.argv[2] if len(sys.argv) > 2 else tempfile.mkdtemp(prefix="tandemlift-study-"))
     if not (path / "study.json").exists():
         write_rows(open_folder(plan_of(rows), path), np.random.default_rng(1))
-    began = time.perf_counter()
+    began, spent = time.perf_counter(), time.process_time()
     study = tl.load_study(path)
     loaded = time.perf_counter()
     study.read(["human_work_j", "outcome"])
     read = time.perf_counter()
     page = write_study_report(study, path / "report.html")
     written = time.perf_counter()
+    spent = time.process_time() - spent
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     print(f"{len(study):,} rows x {len(study.columns)} columns in {len(study.files):,} files, {path}")
-    print(f"load {loaded - began:.1f} s, two columns {read - loaded:.1f} s, report {written - read:.1f} s")
+    print(
+        f"load {loaded - began:.1f} s, two columns {read - loaded:.1f} s, report {written - read:.1f} s; "
+        f"{spent:.1f} s of processor time in all"
+    )
     print(f"page {page.stat().st_size / 1e6:.2f} MB, most memory {memory:.2f} GB")
 
 

@@ -2,8 +2,8 @@
 
 - `overhead`: a study of `paper` against `fly_many` with the same missions loaded, on one and two threads, in turns;
   what each part of a unit takes; bytes of a row.
-- `dask`: a study of about a minute on two workers of one thread against two threads, in turns.
-- `tasks`: 10,000 units that do nothing, through Dask: the scheduler's share.
+- `dask`: a study of 8,192 flights on two workers of one thread against two threads, in turns.
+- `tasks`: 10,000 units that do nothing, through Dask: the share of the scheduler, which runs in this process.
 - `kills`: a study is killed by SIGKILL at 50 random moments, each time resumed; only units in work fly again.
 - `workers`: Dask's workers are killed 20 times at random moments in one study.
 - `processes`: two processes on one folder.
@@ -78,28 +78,41 @@ def loaded(plan: StudyPlan) -> list[tl.Mission]:
     return [template.mission(row.changes) for row in plan.rows(0, plan.count)]
 
 
+def times(call: Callable[[], Any]) -> tuple[float, float]:
+    """Wall time and processor time of all threads [s]; the latter minds little what else the machine does."""
+    began, spent = time.perf_counter(), time.process_time()
+    call()
+    return time.perf_counter() - began, time.process_time() - spent
+
+
 def overhead(rounds: int, root: Path) -> dict[str, Any]:
-    plan = load_plan(study_of("paper", 1024))
-    missions = loaded(plan)
-    tl.fly_many(missions[:64], "metrics", 1)
-    results: dict[str, Any] = {}
-    for threads in (1, 2):
-        turns = []
-        for i in range(rounds):
-            folder = open_folder(plan, root / f"{threads}-{i}")
-            bare = seconds(partial(tl.fly_many, missions, "metrics", threads))
-            turns.append((bare, seconds(partial(fly_study, plan, folder, threads=threads))))
-        results[f"{threads}"] = turns
-    rows = [
-        [
-            n,
-            *(number(1e3 * median(t[i] for t in turns) / plan.count) for i in (0, 1)),
-            number(median(s / b for b, s in turns)),
-        ]
-        for n, turns in results.items()
-    ]
-    print("`paper`, ms a flight:\n", table(("threads", "fly_many, missions loaded", "study", "ratio"), rows), sep="\n")
-    results["parts"] = parts(plan, root / "one.parquet")
+    results, rows = dict[str, Any](), list[list[str]]()
+    for name, duration in (("paper", None), ("one-push", 20.0)):
+        plan = load_plan(study_of(name, 512, duration))
+        missions = loaded(plan)
+        tl.fly_many(missions[:64], "metrics", 1)
+        for threads in (1, 2):
+            turns = []
+            for i in range(rounds):
+                folder = open_folder(plan, root / f"{name}-{threads}-{i}")
+                bare = times(partial(tl.fly_many, missions, "metrics", threads))
+                turns.append((bare, times(partial(fly_study, plan, folder, threads=threads))))
+            results[f"{name}, {threads}"] = turns
+            cells = [median(t[which][kind] for t in turns) * 1e3 / plan.count for kind in (0, 1) for which in (0, 1)]
+            ratios = [median(t[1][kind] / t[0][kind] for t in turns) for kind in (0, 1)]
+            rows.append([f"`{name}`", str(threads), *map(number, cells), *map(number, ratios)])
+        results[f"parts of {name}"] = parts(plan, root / f"{name}.parquet")
+    header = (
+        "mission",
+        "threads",
+        "fly_many",
+        "study",
+        "fly_many, processor",
+        "study, processor",
+        "ratio",
+        "of processor time",
+    )
+    print("\nMilliseconds a flight:\n", table(header, rows, texts=2), sep="\n")
     return results
 
 
@@ -129,9 +142,9 @@ def parts(plan: StudyPlan, file: Path) -> dict[str, float]:
 
 
 def dask(rounds: int, root: Path) -> dict[str, Any]:
-    tables = study_of("one-push", 8192, 60.0, 128)
+    tables = study_of("one-push", 8192, 20.0, 128)
     plan, turns = load_plan(tables), []
-    flown(study_of("one-push", 16, 60.0, 8), root / "warm", threads=2)
+    flown(study_of("one-push", 16, 20.0, 8), root / "warm", threads=2)
     for i in range(rounds):
         folders = [open_folder(plan, root / f"{name}-{i}") for name in ("threads", "dask")]
         threads = seconds(partial(fly_study, plan, folders[0], threads=2))
@@ -153,7 +166,7 @@ def fly_on(plan: StudyPlan, folder: StudyFolder, workers: Any) -> int:
 
 def run_warm(workers: Any, path: Path) -> None:
     """Load the compiled loop into each worker."""
-    plan = load_plan(study_of("one-push", 64, 60.0, 8))
+    plan = load_plan(study_of("one-push", 64, 20.0, 8))
     fly_on(plan, open_folder(plan, path), workers)
 
 
@@ -187,8 +200,9 @@ def tasks(rounds: int, root: Path) -> dict[str, Any]:
     count = 10_000
     with cluster_workers(2, print) as workers:
         run_units(NoWork(100), NoFiles(root, {}), workers)
-        taken = [seconds(lambda: run_units(NoWork(count), NoFiles(root, {}), workers)) for _ in range(rounds)]
-    print(f"{count:,} units that do nothing: {1e3 * median(taken) / count:.2f} ms each (median of {rounds})")
+        taken = [times(lambda: run_units(NoWork(count), NoFiles(root, {}), workers)) for _ in range(rounds)]
+    wall, processor = (1e3 * median(column) / count for column in zip(*taken, strict=True))
+    print(f"{count:,} units that do nothing: {wall:.2f} ms each, {processor:.2f} ms of them on a processor here")
     return {"seconds": taken}
 
 
@@ -202,7 +216,7 @@ def same(one: StudyFolder, other: StudyFolder) -> bool:
     return all(first[name].equals(second[name]) for name in first)
 
 
-LONG = study_of("one-push", 2048, 60.0, 16)  # 128 units of some 0.1 s
+LONG = study_of("one-push", 1024, 20.0, 8)  # 128 units of some 20 ms
 
 
 def child() -> None:
@@ -235,7 +249,7 @@ def kills(rounds: int, root: Path) -> dict[str, Any]:
         process = started(path)
         assert process.stdout
         assert process.stdout.readline() == "begun\n"
-        time.sleep(moments.expovariate(1 / 0.7))
+        time.sleep(moments.expovariate(1 / 0.5))
         process.kill()
         process.wait()
         files = UnitFiles(path / "units", {})

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import tandemlift as tl
 from tandemlift.common.outcomes import FAILURES
+from tandemlift.simulation.many import fly_each
 from tandemlift.studies.random_missions.generate import shortened
 
 AXES = st.integers(0, 2)
@@ -51,10 +52,10 @@ def silent_failure(base, changes):
         warnings.simplefilter("error", tl.FlightWarning)
         try:
             mission = tl.load_mission(base, {**shortened(base, 12.0), **BASES[base], **changes})
-            flight = tl.fly(mission)
+            (metrics,) = fly_each([mission])
         except (tl.InputError, tl.FlightWarning):
             return None
-    return flight.outcome in FAILURES and not flight.findings
+    return metrics["outcome"] in FAILURES and not metrics["findings"]
 
 
 @pytest.mark.parametrize("base", BASES)

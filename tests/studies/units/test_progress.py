@@ -82,6 +82,7 @@ def test_a_notebook_and_a_terminal_show_one_line(stream):
         for done in (0, 4, 8):
             progress(done, 8)
     assert stream.getvalue().startswith("\rgusts: 0 of 8")
+    assert shown(stream.getvalue())[0] == "gusts: 8 of 8 rows (100 %)"
     assert stream.getvalue().count("\n") == 1
 
 

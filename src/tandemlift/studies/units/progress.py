@@ -40,7 +40,7 @@ class ProgressLine:
         self._known.append((now, done))
         while len(self._known) > 2 and self._known[1][0] < now - WINDOW:
             self._known.popleft()
-        if now >= self._next:
+        if now >= self._next or (self._rewrites and done == total):
             self._next = now + (REWRITTEN if self._rewrites else ADDED)
             self._write(done, total)
 
