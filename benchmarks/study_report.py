@@ -68,7 +68,8 @@ def main():
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     print(f"{len(study):,} rows x {len(study.columns)} columns in {len(study.files):,} files, {path}")
     print(
-        f"load {loaded - began:.1f} s, two columns {read - loaded:.1f} s, report {written - read:.1f} s; {spent:.1f} s of processor time in all"
+        f"load {loaded - began:.1f} s, two columns {read - loaded:.1f} s, report {written - read:.1f} s; "
+        f"{spent:.1f} s of processor time in all"
     )
     print(f"page {page.stat().st_size / 1e6:.2f} MB, most memory {memory:.2f} GB")
 

@@ -14,7 +14,10 @@ from tandemlift.cli.main import cli
 DOCUMENTS = [path for folder in (".", "docs") for path in sorted((ROOT / folder).glob("*.md"))]
 CODE = [
     ROOT / "README.md",
-    *[ROOT / "docs" / f"{name}.md" for name in ("checks", "feel", "flights", "linearize", "simulation", "studies")],
+    *[
+        ROOT / "docs" / f"{name}.md"
+        for name in ("checks", "feel", "flights", "linearize", "simulation", "studies", "tuning")
+    ],
 ]  # docs/controllers.md has tests of its own
 
 

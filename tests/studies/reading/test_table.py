@@ -163,15 +163,17 @@ def test_what_is_not_there_is_said(gusts, ask, answer):
 
 
 @pytest.mark.parametrize(
-    ("package", "ask"),
+    ("package", "extra", "ask"),
     [
-        ("pyarrow", lambda study: load_study(study.folder)),
-        ("pandas", lambda study: study.to_pandas()),
-        ("polars", lambda study: study.to_polars()),
-        ("xarray", lambda study: study.to_xarray()),
+        ("pyarrow", "study", lambda study: load_study(study.folder)),
+        ("pandas", "pandas", lambda study: study.to_pandas()),
+        ("polars", "polars", lambda study: study.to_polars()),
+        ("xarray", "xarray", lambda study: study.to_xarray()),
     ],
 )
-def test_a_package_that_is_not_installed_is_named_with_the_command_that_installs_it(gusts, monkeypatch, package, ask):
+def test_a_package_that_is_not_installed_is_named_with_the_command_that_installs_it(
+    gusts, monkeypatch, package, extra, ask
+):
     real = builtins.__import__
 
     def importing(name, *rest, **named):
@@ -180,7 +182,7 @@ def test_a_package_that_is_not_installed_is_named_with_the_command_that_installs
         return real(name, *rest, **named)
 
     monkeypatch.setattr(builtins, "__import__", importing)
-    with pytest.raises(tl.InputError, match=rf"needs {package}: pip install 'tandemlift\[study\]'"):
+    with pytest.raises(tl.InputError, match=rf"needs {package}: pip install 'tandemlift\[{extra}\]'"):
         ask(gusts)
 
 

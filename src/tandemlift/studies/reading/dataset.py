@@ -26,7 +26,7 @@ def to_xarray(plan: StudyPlan, table: pyarrow.Table, varied: pyarrow.Table) -> x
         table: columns of all rows, to be variables.
         varied: the columns `seed` and what varies, of all rows.
     """
-    with extra("study", "to_xarray"):
+    with extra("xarray", "to_xarray"):
         import xarray
     sizes, coordinates = _dimensions(plan)
     kept = {name: size for name, size in sizes.items() if size > 1}

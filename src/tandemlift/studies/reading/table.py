@@ -137,7 +137,7 @@ class Study:
         Raises:
             InputError: there is no such column, or pandas is not installed.
         """
-        with extra("study", "to_pandas"):
+        with extra("pandas", "to_pandas"):
             import pandas  # noqa: F401
         return self.read(columns).to_pandas()
 
@@ -147,7 +147,7 @@ class Study:
         Raises:
             InputError: there is no such column, or polars is not installed.
         """
-        with extra("study", "to_polars"):
+        with extra("polars", "to_polars"):
             import polars
         return polars.from_arrow(self.read(columns))
 
