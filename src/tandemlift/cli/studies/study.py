@@ -88,7 +88,8 @@ def study(
     from tandemlift.studies.design.study_files import load_plan
 
     plan = load_plan(file, dict(map(parse_setting, settings)))
-    echo(f"{plan.settings.study.name}: {plan.count:,} rows = {plan.sizes}")
+    rows = f"{plan.count:,} rows = {plan.sizes}" if plan.count > 1 else plan.sizes
+    echo(f"{plan.settings.study.name}: {rows}")
     if dry_run:
         _print_estimate(plan, threads or os.cpu_count() or 1)
         return

@@ -11,7 +11,6 @@ from tandemlift.common.errors import InputError
 from tandemlift.common.types import Progress
 from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.units.dask import cluster_workers, processes_of, scheduler_workers
-from tandemlift.studies.units.kept import check_kept
 from tandemlift.studies.units.running import WHOLE, StudyPart, StudyWork, run_units
 from tandemlift.studies.units.store import StudyFolder
 from tandemlift.studies.units.workers import ExecutorWorkers, Workers, thread_workers
@@ -46,10 +45,9 @@ def fly_study(
         Number of units flown.
 
     Raises:
-        InputError: what is to be kept does not exist, it cannot be flown there, or it cannot be written; what is done
+        InputError: it cannot be flown there, or it cannot be written; what is done
             stays.
     """
-    check_kept(plan)
     try:
         with _workers(threads, executor, scheduler, cluster, say) as workers:
             return run_units(StudyWork(plan, folder.names()), folder.files, workers, part, progress)

@@ -23,9 +23,9 @@ def check_kept(plan: StudyPlan) -> None:
         return
     flights = list(_samples(plan))
     metrics = [name for name in _together(map(metric_names, flights)) if name not in NOT_KEPT]
-    _check("keep.metrics: metric", keep.metrics, metrics)
+    _check("metric of keep.metrics", keep.metrics, metrics)
     if keep.channels:
-        _check("keep.channels: channel", keep.channels, [*_together(map(channel_names, flights)), *DERIVED])
+        _check("channel of keep.channels", keep.channels, [*_together(map(channel_names, flights)), *DERIVED])
 
 
 def _check(what: str, chosen: Iterable[str], known: Sequence[str]) -> None:

@@ -16,6 +16,7 @@ from tandemlift.studies.design.plan import StudyPlan
 from tandemlift.studies.design.study_files import checked_settings
 from tandemlift.studies.design.variants import variant_from
 from tandemlift.studies.units.files import UnitFiles
+from tandemlift.studies.units.kept import check_kept
 from tandemlift.studies.units.unit import sources_digest, study_digest, unit_names
 
 STUDY, PLAN, UNITS = "study.toml", "study.json", "units"
@@ -60,10 +61,11 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     """The folder of a study, made if it is not there.
 
     Raises:
-        InputError: the folder holds another study, or cannot be made or written to.
+        InputError: what is to be kept does not exist, the folder holds another study, or it cannot be made or written to.
     """
     with extra("study", "a study"):  # before anything flies
         import pyarrow  # noqa: F401
+    check_kept(plan)
     digest = study_digest(plan)
     if (path / PLAN).exists():
         folder = StudyFolder(path)
