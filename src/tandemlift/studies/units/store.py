@@ -61,7 +61,7 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     """The folder of a study, made if it is not there.
 
     Raises:
-        InputError: what is to be kept does not exist, the folder holds another study, or it cannot be made or written to.
+        InputError: what is to be kept does not exist, or the folder holds another study or cannot be written to.
     """
     with extra("study", "a study"):  # before anything flies
         import pyarrow  # noqa: F401
