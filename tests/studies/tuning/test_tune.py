@@ -130,6 +130,15 @@ def test_a_bad_start_is_left_because_bad_outcomes_count_first():
     assert np.isnan(found.evidence.comparisons[0].difference)  # no draw went well with both
 
 
+def test_findings_are_bad_outcomes_if_strict():
+    """The start is farther from the reference than the mission promises."""
+    far = {**QUICK, "promise.settling_time": 0.0, "promise.distance": 0.05}
+    lax, strict = (quick(changes=far, budget=0, strict=strict) for strict in (False, True))
+    assert lax.evidence.costs[0].bad == 0
+    assert strict.evidence.costs[0].bad == 6
+    assert set(strict.evidence.old.outcomes) == {"findings"}
+
+
 def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):
     def interrupt(tried, budget, lowest):
         if tried >= 16:

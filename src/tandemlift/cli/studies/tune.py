@@ -51,6 +51,7 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of search and draws.")
 @click.option("--threads", type=click.IntRange(min=1), help="Threads that fly.  [default: one for each processor]")
 @click.option("--controller", metavar="NAME|FILE", help="Tune this controller: a registered one, or your own .py file.")
+@click.option("--strict", is_flag=True, help="A flight with findings counts as a bad outcome, too.")
 @set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-tuned]")
 def tune(

@@ -17,7 +17,7 @@ from tandemlift.studies.tuning.draws import Draw
 from tandemlift.studies.tuning.goals import Goal
 from tandemlift.studies.tuning.source import MissionSource
 
-NO_NUMBER = "no number"
+NO_NUMBER, FOUND = "no number", "findings"
 ASIDE = 0.1  # weight of the worst beside the mean, so that no draw comes near to failing; of the mean beside the worst
 Aim = Literal["mean", "worst"]
 Changes = dict[str, Any]
@@ -27,7 +27,7 @@ class Trial(NamedTuple):
     """What became of a candidate on some draws.
 
     Attributes:
-        outcomes: of each draw; also "refused", or "no number" where a goal has none.
+        outcomes: of each draw; also "refused", "no number" where a goal has none, or "findings" where these are bad.
         reasons: why a draw was refused, "" for others.
         flown: fraction of the mission that was flown, (draws,).
         metrics: of each draw; none of one that was refused.
@@ -43,14 +43,19 @@ class Trial(NamedTuple):
     @property
     def bad(self) -> Any:
         """Mask (draws,) of bad outcomes."""
-        return np.array([outcome in FAILURES or outcome in (REFUSED, NO_NUMBER) for outcome in self.outcomes])
+        return np.array([outcome in FAILURES or outcome in (REFUSED, NO_NUMBER, FOUND) for outcome in self.outcomes])
+
+    def strictly(self) -> Trial:
+        """The same, but a flight with findings is bad."""
+        pairs = zip(self.outcomes, self.metrics, self.bad, strict=True)
+        return self._replace(outcomes=tuple(FOUND if m.get("findings") and not bad else o for o, m, bad in pairs))
 
     def measured(self, goals: Sequence[Goal], sizes: Sequence[int]) -> Trial:
         """The same with the values of goals, of so many components each."""
         found = [[goal.measured(m) for goal in goals] for m in self.metrics]
         outcomes = [
-            NO_NUMBER if outcome not in FAILURES and outcome != REFUSED and None in row else outcome
-            for outcome, row in zip(self.outcomes, found, strict=True)
+            NO_NUMBER if not bad and None in row else outcome
+            for outcome, row, bad in zip(self.outcomes, found, self.bad, strict=True)
         ]
         trial = self._replace(outcomes=tuple(outcomes))
         values = tuple(np.full((len(outcomes), size), np.nan) for size in sizes)

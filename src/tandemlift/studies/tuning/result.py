@@ -135,6 +135,7 @@ class Tuning(NamedTuple):
             "seed": self.seed,
             "budget": self.budget,
             "aim": task.aim,
+            "strict": task.strict,
             "finished": self.is_finished,
             "ended": self.ended,
             "goals": [

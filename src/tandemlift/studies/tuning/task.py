@@ -34,6 +34,7 @@ class Task(NamedTuple):
         scales: what each goal is measured against, the same for every draw but for targets of cases.
         aim: "mean" or "worst".
         threads: that fly; None for one for each processor.
+        strict: whether a flight with findings is bad.
     """
 
     source: MissionSource
@@ -44,6 +45,7 @@ class Task(NamedTuple):
     scales: tuple[Array, ...]
     aim: Aim
     threads: int | None
+    strict: bool = False
 
     def changes(self, values: Values) -> Changes:
         """The values of parameters as changes of the mission."""
@@ -52,7 +54,11 @@ class Task(NamedTuple):
     def fly(self, candidates: Sequence[Changes], draws: Sequence[Draw]) -> list[Trial]:
         """The trials of candidates on draws."""
         trials = fly_candidates(self.source, candidates, draws, self.threads)
-        return [trial.measured(self.goals, self.sizes) for trial in trials]
+        return [self.judged(trial).measured(self.goals, self.sizes) for trial in trials]
+
+    def judged(self, trial: Trial) -> Trial:
+        """A trial by what this task calls bad."""
+        return trial.strictly() if self.strict else trial
 
     def fly_while_hopeful(self, candidates: Sequence[Changes], draws: Sequence[Draw]) -> list[Trial]:
         """As `fly`; a candidate that fails in all of the first draws flies no others, and counts as failing there."""
@@ -91,7 +97,7 @@ def started(task: Task, draws: Sequence[Draw]) -> tuple[Task, Trial]:
     Raises:
         InputError: no draw can be flown, or a goal is unknown or has no number.
     """
-    (trial,) = fly_candidates(task.source, [{}], draws, task.threads)
+    trial = task.judged(*fly_candidates(task.source, [{}], draws, task.threads))
     if all(outcome == REFUSED for outcome in trial.outcomes):
         raise InputError(f"no draw can be flown; the first is refused: {trial.reasons[0]}")
     flown = [_shapes() | {k: v for k, v in m.items() if v is not None} for m in trial.metrics if m]

@@ -37,6 +37,7 @@ class How(NamedTuple):
     aim: Aim = "mean"
     seed: int = 0
     threads: int | None = None
+    strict: bool = False
 
 
 def tune(
@@ -73,6 +74,7 @@ def tune(
             aim: whether the "mean" over draws counts, or the "worst"; the mean.
             seed: of search and draws; 0.
             threads: that fly; by default one for each processor.
+            strict: whether a flight with findings counts as a bad outcome.
 
     Returns:
         What was found, whether it is better or not.
@@ -96,7 +98,7 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
     compared, unseen = drawn.search_draws(), drawn.other_draws(how.fresh, FRESH_SEED)
     _check_apart(compared, parameters)
     goals = tuple(goal.with_targets(drawn.targets) for goal in goals)
-    task, trial = started(Task(source, loaded, parameters, goals, (), (), how.aim, how.threads), compared)
+    task, trial = started(Task(source, loaded, parameters, goals, (), (), how.aim, how.threads, how.strict), compared)
     search = _search(kind, task, how.seed, step=FAR_STEP if trial.bad.all() else FIRST_STEP)
     budget = POPULATIONS * search.size if how.budget is None else how.budget
     if budget != 0 and budget < search.size:

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,10 +21,13 @@ from tandemlift.studies.units.unit import sources_digest
 from tandemlift.studies.units.workers import ExecutorWorkers, Task, other_sources
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from distributed import Client, LocalCluster
 
 PATIENCE = 10.0  # s, within which a scheduler must answer
-ALLOWED_FAILURES = 10  # workers that may end while they fly a unit, until Dask gives the unit back
+SETTINGS = {
+    "distributed.scheduler.allowed-failures": 10,  # workers that may end while they fly a unit, until it is given back
+    "distributed.deploy.lost-worker-timeout": "20 s",  # until a process that does not come back is given up
+}
 COUNTED = 5.0  # s, after which the workers are counted again
 MOST_PROCESSES = 1024
 WITHOUT_INTERRUPT = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"  # Ctrl-C is for the study alone
@@ -35,10 +39,11 @@ class DaskWorkers:
 
     Args:
         client: of the scheduler.
+        mend: called now and then; brings back workers that ended.
     """
 
-    def __init__(self, client: Client) -> None:
-        self._client, self._count, self._counted = client, 1, float("-inf")
+    def __init__(self, client: Client, mend: Callable[[], None] = lambda: None) -> None:
+        self._client, self._mend, self._count, self._counted = client, mend, 1, float("-inf")
         self._workers = ExecutorWorkers(client.get_executor(pure=False), 1)
 
     @property
@@ -46,6 +51,7 @@ class DaskWorkers:
         """See `Workers`."""
         if time.monotonic() - self._counted > COUNTED:
             self._counted = time.monotonic()
+            self._mend()
             with contextlib.suppress(OSError):  # the connection is lost: `submit` tells whether it comes back
                 self._count = max(1, sum(self._client.nthreads().values()))
         return self._count
@@ -140,17 +146,24 @@ def cluster_workers(processes: int, say: Say) -> Iterator[DaskWorkers]:
     with extra("dask", "--cluster"):
         import dask
         from distributed import Client, LocalCluster
-    with dask.config.set({"distributed.scheduler.allowed-failures": ALLOWED_FAILURES}):
-        cluster = LocalCluster(
-            n_workers=processes,
-            threads_per_worker=1,
-            dashboard_address="127.0.0.1:0",
-            silence_logs="CRITICAL",
-            preload=[WITHOUT_INTERRUPT],
-        )
-    with cluster, Client(cluster, set_as_default=False) as client:
+    options = {"threads_per_worker": 1, "dashboard_address": "127.0.0.1:0", "preload": [WITHOUT_INTERRUPT]}
+    with (
+        dask.config.set(SETTINGS),
+        LocalCluster(n_workers=processes, silence_logs="CRITICAL", **options) as cluster,
+        Client(cluster, set_as_default=False) as client,
+    ):
         say(f"Dask: {_workers_text(client)}; dashboard: {client.dashboard_link}")
-        yield DaskWorkers(client)
+        yield DaskWorkers(client, partial(_mend, cluster, processes))
+
+
+def _mend(cluster: LocalCluster, processes: int) -> None:
+    """Start processes anew that Dask has given up: it does so with one that is killed while it starts."""
+    from distributed import Status
+
+    for name, nanny in list(cluster.workers.items()):
+        if nanny.status in (Status.closed, Status.failed):
+            cluster.workers.pop(name, None)
+    cluster.scale(processes)
 
 
 def processes_of(cluster: str) -> int:

@@ -129,6 +129,7 @@ class _Run:
                 for future in wait(self.pending, BEAT, FIRST_COMPLETED).done:
                     self._take(future)
                     self._hand_over()
+                self._hand_over()  # to workers that have joined, although no unit has ended
                 self._tell()
         finally:
             for future in self.pending:
