@@ -42,7 +42,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     commands = [shlex.split(line, comments=True) for line in lines if line.startswith("tandemlift")]
     elsewhere = ("live", "ros", "gazebo", "tune")  # which go on until they are stopped, need Gazebo, or take minutes
     commands = [c for c in commands if c[1] not in elsewhere]
-    assert len(commands) == 15
+    assert len(commands) == 16
     for _, *arguments in commands:
         target = None
         if ">" in arguments:
