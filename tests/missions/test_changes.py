@@ -71,9 +71,20 @@ def test_a_setting_of_no_such_form_is_refused(text):
         parse_setting(text)
 
 
+def test_one_number_for_all_axes_and_a_default_have_an_entry_for_each_axis():
+    changes = {"admittance.mass.1": 2.0, "plant.inertia_scale.2": 1.1, "vehicle.quadrotors.1.drag_area.0": 0.2}
+    mission = tl.load_mission("paper", {**changes, "controller.gains.xi.5": 0.7})
+    assert mission.admittance.mass == (1.0, 2.0, 1.0)
+    assert mission.plant.inertia_scale == (1.0, 1.0, 1.1)
+    assert mission.vehicle.quadrotors[1].drag_area[0] == 0.2
+    assert mission.vehicle.quadrotors[1].drag_area[1:] == mission.vehicle.quadrotors[0].drag_area[1:]
+    assert mission.controller.gains.xi[5] == 0.7
+
+
 REFUSED = {
     "into a value": ({"mission.step.size": 1}, "mission.step = 0.001 has no keys of its own"),
-    "into one number for all axes": ({"admittance.mass.1": 2.0}, "admittance.mass = 1.0 has no keys of its own"),
+    "into one number without axes": ({"mission.duration.1": 2.0}, "mission.duration = 90.0 has no keys of its own"),
+    "beyond the axes": ({"admittance.mass.3": 2.0}, "'3' must be a number from 0 to 2"),
     "index out of range": ({"pushes.8.sigma": 1.0}, "'8' must be a number from 0 to 7"),
     "negative index": ({"pushes.-1.sigma": 1.0}, "'-1' must be a number from 0 to 7"),
     "enormous index": ({f"pushes.{'9' * 5000}.sigma": 1.0}, "must be a number from 0 to 7"),

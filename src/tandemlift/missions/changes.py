@@ -9,9 +9,13 @@ from typing import Any
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.controllers import CONTROLLERS
 from tandemlift.flight.old_names import renamed_setting, warn_of_old_names
+from tandemlift.missions.bounds import table_in
 from tandemlift.missions.values import Tables, merge, shown, value_at
+from tandemlift.settings import Mission, PerAxis
 from tandemlift.settings.admittance import with_feel
+from tandemlift.settings.value_types import is_number
 
 
 def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:
@@ -31,6 +35,35 @@ def _with(at: Any, parts: list[str], value: Any, key: str) -> Any:
     return merge(at, {part: value})
 
 
+def _axis_by_axis(tables: Tables, parts: list[str]) -> Tables:
+    """Tables in which a leaf that is given for all axes at once, or left out, is a list if `parts` name an entry."""
+    *above, last = parts
+    if not (above and re.fullmatch("[0-9]", last)):
+        return tables
+    model: Any = Mission
+    at: Any = tables
+    field: Any = None
+    for part in above:
+        if isinstance(at, list):
+            at = at[int(part)] if part.isascii() and part.isdecimal() and int(part) < len(at) else None
+            continue
+        if model is None or part not in model.model_fields or not isinstance(at, dict):
+            return tables
+        field = model.model_fields[part]
+        at = at.get(part, {} if table_in(field.annotation) else field.default)
+        model = _controller_of(at) if part == "controller" else table_in(field.annotation)
+    axes = next((mark for mark in getattr(field, "metadata", ()) if isinstance(mark, PerAxis)), None)
+    if axes is None or not (isinstance(at, tuple) or (axes.single and is_number(at))):
+        return tables
+    return _with(tables, above, list(at) if isinstance(at, tuple) else [at] * axes.count, "")
+
+
+def _controller_of(table: Any) -> Any:
+    """The model of a controller's settings, if the controller is known."""
+    name = table.get("name") if isinstance(table, dict) else None
+    return CONTROLLERS[name].settings if name in CONTROLLERS else None
+
+
 def _without_feel(tables: Tables) -> Tables:
     """Tables with the mass and damping of a feel in its place, for one of them that is set now counts."""
     tables = with_feel(tables)
@@ -42,7 +75,10 @@ def _without_feel(tables: Tables) -> Tables:
 
 
 def changed_tables(tables: Tables, key: Any, value: Any, source: str) -> Tables:
-    """Tables with a dotted key set; a number in it picks an entry of a list. NumPy's values become plain ones."""
+    """Tables with a dotted key set; a number in it picks an entry of a list. NumPy's values become plain ones.
+
+    A leaf that is given for all axes at once, such as `admittance.mass = 1.0`, has an entry for each axis, too.
+    """
     if not isinstance(key, str) or not all(key.split(".")):
         raise InputError(f"{source}: {key!r} is not a dotted key such as controller.gains.xi")
     value = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else copy.deepcopy(value)
@@ -53,6 +89,7 @@ def changed_tables(tables: Tables, key: Any, value: Any, source: str) -> Tables:
     warn_of_old_names(source, notices)
     if re.match(r"admittance\.(mass|damping)\b", key):
         tables = _without_feel(tables)
+    tables = _axis_by_axis(tables, key.split("."))
     after = _with(tables, key.split("."), value, f"{source}: {key}")
     names = [value_at(t, ("controller", "name")) for t in (tables, after)]
     if names[0] != names[1] and key in ("controller", "controller.name"):
