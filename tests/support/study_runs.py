@@ -54,7 +54,21 @@ def assert_same_rows(one, other):
     assert {path.name for path in (other / "units").iterdir()} == second.keys()
 
 
-def started(tables, folder, **options):
-    """A process of its own that flies a study on two threads; it prints the rows flown, and last the units."""
-    command = [sys.executable, "-c", PROGRAM, json.dumps(tables), str(folder)]
+def started(tables, folder, largest_file=None, **options):
+    """A process of its own that flies a study on two threads; it prints the rows flown, and last the units.
+
+    `largest_file`: bytes that a file of it may have.
+    """
+    limit = (
+        ""
+        if largest_file is None
+        else f"import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, {(largest_file,) * 2})\n"
+    )
+    command = [
+        sys.executable,
+        "-c",
+        PROGRAM if largest_file is None else limits + PROGRAM,
+        json.dumps(tables),
+        str(folder),
+    ]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)

@@ -1,7 +1,6 @@
 """The folder of a study when something is wrong with it: files cut short, no space, no rights, another study."""
 
 import os
-import resource
 import shutil
 import tempfile
 from pathlib import Path
@@ -115,10 +114,10 @@ def test_a_read_only_folder_is_one_clear_line(locked):
 
 
 def test_a_full_disk_is_one_clear_line_and_what_was_flown_stays(whole, tmp_path):
-    limits = (12_000, 12_000)  # bytes of a file: fewer than one of results has, more than the study's own files have
+    limit = 12_000  # bytes of a file: fewer than one of results has, more than the study's own files have
     sizes = [path.stat().st_size for path in files_of(whole).values()]
-    assert min(sizes) > limits[0] > (whole / "study.json").stat().st_size
-    process = started(TWELVE, tmp_path, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, limits))
+    assert min(sizes) > limit > (whole / "study.json").stat().st_size
+    process = started(TWELVE, tmp_path, largest_file=limit)
     _, errors = process.communicate(timeout=300)
     assert errors.splitlines()[-1].startswith("tandemlift.common.errors.InputError: ")
     assert errors.splitlines()[-1].endswith("cannot be written: File too large; what is done so far stays")

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator
 
 from tandemlift.common.errors import InputError
-from tandemlift.missions.flight_checks.result import CLOSE, CheckResult, judged, noted
+from tandemlift.missions.flight_checks.result import CLOSE, FAILS, CheckResult, judged, noted
 from tandemlift.settings import Mission
 from tandemlift.settings.world import PushTable
 
@@ -41,8 +41,11 @@ def lifted(m: Mission) -> float:
 
 
 def lift_checks(m: Mission) -> Iterator[CheckResult]:
-    """A lift after the flight's end is noted."""
-    p, end = m.phases, m.mission.duration
+    """A lift after the flight's end is noted; one that can hardly be told from none fails."""
+    p, end, least = m.phases, m.mission.duration, m.outcome.lifted_height
+    if 0.0 < p.height < least:
+        text = f"phases.height = {p.height:g} m is a lift that can hardly be told from none: raise it to {least:g} m"
+        yield noted("schedule", f"{text} (outcome.lifted_height)", verdict=FAILS, subject="lift")
     if p.height and lifted(m) > end:
         when = f"phases.lift_start = {p.lift_start:g} s and phases.lift_duration = {p.lift_duration:g} s"
         yield noted(

@@ -105,7 +105,7 @@ CHECKS = (
     ),
     FlightCheck(
         "schedule",
-        "end of the landing, of a person's way, of lift and tare before a push",
+        "end of the landing, of a person's way, of lift and tare before a push; a lift below `outcome.lifted_height`",
         "the end of the mission; the time of the push",
         "s",
         "",
