@@ -59,16 +59,7 @@ def started(tables, folder, largest_file=None, **options):
 
     `largest_file`: bytes that a file of it may have.
     """
-    limit = (
-        ""
-        if largest_file is None
-        else f"import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, {(largest_file,) * 2})\n"
-    )
-    command = [
-        sys.executable,
-        "-c",
-        PROGRAM if largest_file is None else limits + PROGRAM,
-        json.dumps(tables),
-        str(folder),
-    ]
+    limits = f"import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, {(largest_file, largest_file)})\n"
+    program = PROGRAM if largest_file is None else limits + PROGRAM
+    command = [sys.executable, "-c", program, json.dumps(tables), str(folder)]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
