@@ -6,11 +6,11 @@ import hashlib
 import inspect
 import json
 from collections.abc import Callable, Sequence
-from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.assembly.traced_assembly import TracedAssembly, trace_assembly
+from tandemlift.common.version import __version__
 from tandemlift.machine_code import store
 from tandemlift.settings import Mission
 from tandemlift.simulation.plan import FlightPlan
@@ -72,7 +72,7 @@ def module_of(mission: Mission, target: str, functions: Functions = _nothing_mor
         store.write(key, entry)
     manifest = {
         "format": 1,
-        "version": metadata.version("tandemlift"),
+        "version": __version__,
         "mission": mission.mission.name,
         "target": target,
         "sha256": hashlib.sha256(entry.code).hexdigest(),

@@ -1,6 +1,6 @@
 """A study that is killed, stopped, or flown by two processes at once gives the same rows.
 
-At length, it is killed and shared by `python benchmarks/studies.py kills`.
+At length, it is killed and shared by `python benchmarks/study_scaling.py kills`.
 """
 
 import random

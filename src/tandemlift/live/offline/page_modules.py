@@ -12,12 +12,12 @@ import hashlib
 import json
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.common.errors import FlightWarning
 from tandemlift.common.files import atomic_write
+from tandemlift.common.version import __version__
 from tandemlift.live.offline.page_functions import page_functions
 from tandemlift.live.offline.page_manifest import page_manifest
 from tandemlift.live.session.interactive_mission import interactive_mission
@@ -60,7 +60,7 @@ def flight_manifest(mission: Mission) -> tuple[dict[str, Any], bytes]:
         warnings.simplefilter("ignore", FlightWarning)
         module = module_of(mission, "wasm32", page_functions)
         page = page_manifest(FlightPlan(mission))
-    manifest = {"format": FORMAT, "version": metadata.version("tandemlift"), "module": module.manifest, "page": page}
+    manifest = {"format": FORMAT, "version": __version__, "module": module.manifest, "page": page}
     return manifest, module.code
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import base64
 from collections.abc import Mapping, Sequence
 from functools import cache
-from importlib import metadata
 from typing import Any
 
+from tandemlift.common.version import __version__
 from tandemlift.live.offline.page_modules import ENDING, FORMAT, PackedFlight
 from tandemlift.live.replay import replay_element
 from tandemlift.live.self_contained import (
@@ -66,7 +66,7 @@ def _entry(flight: PackedFlight) -> dict[str, Any]:
 def _with_flights(html: str, entries: list[dict[str, Any]]) -> str:
     index = {
         "format": FORMAT,
-        "version": metadata.version("tandemlift"),
+        "version": __version__,
         "missions": entries,
         "only_server": ONLY_SERVER,
         "no_module": NO_MODULE,

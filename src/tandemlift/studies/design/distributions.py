@@ -6,6 +6,7 @@ A number that is uniform in [0, 1) then becomes one of the distribution, and eve
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -31,14 +32,22 @@ class Distribution(Table):
         """Numbers in [0, 1) that a draw needs."""
         return self.numbers * (self.count or 1)
 
+    @abstractmethod
+    def values(self, u: Array) -> list[Any]:
+        """Plain values of draws at points u (n, dimensions) in [0, 1)."""
+
+
+class _OneByOne(Distribution):
+    """A distribution whose values need one number each."""
+
+    @abstractmethod
     def at(self, u: Array) -> Any:
-        """Values (n,) at points u in [0, 1): (n,), or (n, numbers) where a value needs several."""
-        raise NotImplementedError
+        """Values (n,) at points u (n,)."""
 
     def values(self, u: Array) -> list[Any]:
         """Plain values of draws at points u (n, dimensions): numbers or strings, or lists of `count` of them."""
-        parts = [self.at(u[:, i]) for i in range(u.shape[1])]
-        return np.stack(parts, axis=1).tolist() if self.count else _plain(parts[0])
+        parts = [_plain(self.at(column)) for column in u.T]
+        return [list(row) for row in zip(*parts, strict=True)] if self.count else parts[0]
 
 
 def _plain(values: Any) -> list[Any]:
@@ -56,7 +65,7 @@ class _Between(Distribution):
         return self
 
 
-class Uniform(_Between):
+class Uniform(_OneByOne, _Between):
     """Every value between `low` and `high` is equally likely."""
 
     distribution: Literal["uniform"]
@@ -77,7 +86,7 @@ class Uniform(_Between):
         return self
 
 
-class LogUniform(_Between):
+class LogUniform(_OneByOne, _Between):
     """The logarithm is uniform between those of `low` and `high`."""
 
     distribution: Literal["log-uniform"]
@@ -94,7 +103,7 @@ class LogUniform(_Between):
         return self
 
 
-class Normal(Distribution):
+class Normal(_OneByOne):
     """A normal distribution, cut off at `low` and `high` where these are given."""
 
     distribution: Literal["normal"]
@@ -127,7 +136,7 @@ class Normal(Distribution):
         return self
 
 
-class Integer(Distribution):
+class Integer(_OneByOne):
     """Every whole number from `low` to `high` is equally likely."""
 
     distribution: Literal["integer"]
@@ -145,7 +154,7 @@ class Integer(Distribution):
         return self
 
 
-class Among(Distribution):
+class Among(_OneByOne):
     """One of some values, all equally likely."""
 
     distribution: Literal["choice"]
@@ -154,11 +163,6 @@ class Among(Distribution):
     def at(self, u: Array) -> list[Any]:
         """Values (n,) at points u (n,)."""
         return [self.among[min(int(x * len(self.among)), len(self.among) - 1)] for x in u]
-
-    def values(self, u: Array) -> list[Any]:
-        """Plain values of draws at points u (n, dimensions)."""
-        parts = [self.at(u[:, i]) for i in range(u.shape[1])]
-        return [list(row) for row in zip(*parts, strict=True)] if self.count else parts[0]
 
     @model_validator(mode="after")
     def _is_given(self) -> Among:
