@@ -1,7 +1,12 @@
-"""The build of the wheel: it compiles the flights that the page carries, so that users need not."""
+"""The build of the distributions.
+
+A wheel has the flights that the page carries, compiled, so that users need not. The description is README.md without
+what leads nowhere outside the repository.
+"""
 
 from __future__ import annotations
 
+import re
 import shutil
 import sys
 from concurrent.futures import ProcessPoolExecutor
@@ -11,8 +16,21 @@ from pathlib import Path
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from hatchling.metadata.plugin.interface import MetadataHookInterface
 
 FLIGHTS = "build/flights"
+REPOSITORY_ONLY = r"<!-- begin: only in the repository -->.*?<!-- end: only in the repository -->\s*"
+PICTURE, RELATIVE_LINK = r"!\[[^\]]*\]\([^)]*\)\s*", r"\[([^\]]*)\]\((?!https?:)[^)]*\)"
+
+
+class Description(MetadataHookInterface):
+    """Gives the distributions README.md as their description."""
+
+    def update(self, metadata: dict[str, Any]) -> None:
+        """Leave out pictures and what is marked as only in the repository; relative links become plain text."""
+        text = (Path(self.root) / "README.md").read_text("utf-8")
+        text = re.sub(PICTURE, "", re.sub(REPOSITORY_ONLY, "", text, flags=re.S))
+        metadata["readme"] = {"content-type": "text/markdown", "text": re.sub(RELATIVE_LINK, r"\1", text)}
 
 
 class CompiledFlights(BuildHookInterface):  # type: ignore[type-arg]
