@@ -44,7 +44,7 @@ imports: .venv/dev  ## imports go downward only
 	$(BIN)/lint-imports
 
 tests: .venv/dev ## all tests
-	$(BIN)/pytest -n auto
+	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto  # a process for each core: threads of linear algebra would only wait
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons
