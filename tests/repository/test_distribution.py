@@ -94,3 +94,9 @@ def test_extras_that_a_command_names_exist(file):
     for one in [p for p in path.rglob("*") if p.suffix in (".py", ".md")] if path.is_dir() else [path]:
         for given in re.findall(r"(?:tandemlift|\.)\[([a-z0-9,]+)\]'", one.read_text("utf-8")):
             assert set(given.split(",")) <= EXTRAS.keys(), one
+
+
+def test_the_page_of_the_installation_has_a_row_for_each_extra():
+    text = (ROOT / "docs" / "start" / "install.md").read_text("utf-8")
+    cells = re.findall(r"^\| (`.*?) \|", text, flags=re.M)
+    assert {name for cell in cells for name in re.findall(r"`(\w+)`", cell)} == EXTRAS.keys() - {"all"}
