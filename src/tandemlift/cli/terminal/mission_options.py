@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.cli.terminal.completion import names, settings
 from tandemlift.common.errors import InputError
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quo
 engine_option = click.option(
     "--engine",
     default="compiled",
+    shell_complete=names("engine"),
     show_default=True,
     help="Engine that simulates the vehicle; see `tandemlift engines`.",
 )
@@ -28,6 +30,7 @@ set_option = click.option(
     "settings",
     multiple=True,
     metavar="KEY=VALUE",
+    shell_complete=settings,
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
 )
 after_crash_option = click.option(
