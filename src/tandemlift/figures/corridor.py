@@ -18,10 +18,11 @@ from matplotlib.patches import FancyArrowPatch
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.clearances import clearances, grips
 from tandemlift.figures.drawing.figure import Caption, with_walls
+from tandemlift.figures.drawing.figure_style import current_style
 from tandemlift.figures.drawing.panels import extent, line, value_ticks
 from tandemlift.figures.drawing.series import decimate, drawable
 from tandemlift.figures.drawing.skeleton import skeleton
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, VERMILLION, journal
+from tandemlift.figures.drawing.style import BLUE, GREY, INK, VERMILLION, journal, page_figure, points
 from tandemlift.figures.path import pushes
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
@@ -44,7 +45,6 @@ MOST, TALLEST, LEAST = 14, 5.0, 1.5  # vehicles; in, of the view from above
 BELOW, AROUND = 1.25, 0.75  # in: height of the lower panel, and of what is around them
 NEWTON = 0.75  # m of the view, for a newton
 WEAK = 0.05  # N: a weaker push is not drawn
-FAINT = "#9aa0a6"
 BEAM: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (5, 1.5))}
 
 
@@ -113,10 +113,10 @@ def _bounds(flight: Flight, shown: list[int]) -> Array:
 
 def _from_above(ax: Any, flight: Flight, shown: list[int], found: list[tuple[Array, Array]]) -> None:
     for w in wall_tables(flight.mission):
-        ax.plot(*np.array([w["start"], w["end"]]).T, color=BLACK, lw=1.6, solid_capstyle="round", zorder=3, gid="wall")
+        ax.plot(*np.array([w["start"], w["end"]]).T, color=INK, lw=1.6, solid_capstyle="round", zorder=3, gid="wall")
     ax.plot(*_desired(flight).T, color=GREY, lw=0.7, ls=(0, (4, 3)), zorder=1, gid="desired")
     for k in shown:
-        _vehicle(ax, flight, k, BLACK if k in (shown[0], shown[-1]) else FAINT)
+        _vehicle(ax, flight, k, INK if k in (shown[0], shown[-1]) else GREY)
     path = flight["position"]
     thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path[:, :2].T]))]
     ax.plot(*thin[:, :2].T, color=BLUE, lw=1.2, zorder=5, gid="path")
@@ -134,15 +134,15 @@ def _clearance(ax: Any, flight: Flight) -> None:
     for values, look in known:
         line(ax, way, values, zorder=3, **look)
     least, k = min((float(np.nanmin(v)), int(np.nanargmin(v))) for v, _ in known)
-    ax.plot(way[k], least, marker="o", ms=3.5, color=BLACK, zorder=4, gid="least")
+    ax.plot(way[k], least, marker="o", ms=3.5, color=INK, zorder=4, gid="least")
     text = f"{least:.2f} m"
     right = way[k] < 0.85 * way[-1]
     offset, side = ((5, -3), "left") if right else ((-5, -3), "right")
-    ax.annotate(text, (way[k], least), offset, textcoords="offset points", ha=side, va="top", fontsize=7.5)
+    ax.annotate(text, (way[k], least), offset, textcoords="offset points", ha=side, va="top", fontsize=points(7.5))
     high = 1.08 * min(extent(*[v for v, _ in known])[1], 4.0 * max(least, 0.3))
     ax.set_ylim(min(0.0, least) - 0.12 * high, high)
     ax.yaxis.set_major_locator(value_ticks())
-    ax.axhline(0.0, color=BLACK, lw=1.2, zorder=2)
+    ax.axhline(0.0, color=INK, lw=1.2, zorder=2)
     ax.set_xlim(-0.012 * max(way[-1], 0.1), max(way[-1], 0.1))
     ax.set_xlabel("distance flown (m)")
     ax.set_ylabel("clearance (m)")
@@ -158,15 +158,17 @@ def draw(flight: Flight) -> Figure:
     shown = instants(flight)
     found, (low, high) = arrows(flight, shown), _bounds(flight, shown)
     size = high - low
-    tall = float(np.clip((PAGE - 0.5) * size[1] / size[0], LEAST, TALLEST))
-    figure = Figure(figsize=(PAGE, tall + BELOW + AROUND), layout="constrained")
+    style = current_style()
+    most = style.height - BELOW - AROUND if style.height else TALLEST
+    tall = float(np.clip((style.page - 0.5) * size[1] / size[0], LEAST, most))
+    figure = page_figure(tall + BELOW + AROUND)
     above, below = figure.subplots(2, 1, height_ratios=[tall, BELOW])
     _from_above(above, flight, shown, found)
     above.set_xlim(low[0], high[0])
     above.set_ylim(low[1], high[1])
     _clearance(below, flight)
     handles: list[Any] = [
-        Line2D([], [], color=BLACK, lw=1.6),
+        Line2D([], [], color=INK, lw=1.6),
         Line2D([], [], color=BLUE, lw=1.2),
         Line2D([], [], color=GREY, lw=0.7, ls=(0, (4, 3))),
         Line2D([], [], color=VERMILLION, lw=1.2, marker=">", ms=3.5),

@@ -23,8 +23,8 @@ from tandemlift.figures.drawing.ground import floor_height
 from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.figures.drawing.series import decimate, drawable
 from tandemlift.figures.drawing.skeleton import Skeleton, skeleton
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, VERMILLION, journal
-from tandemlift.figures.drawing.walls import EDGE, GLASS, WallOutline, draw_walls, walls_near
+from tandemlift.figures.drawing.style import BLUE, DIM, EDGE, GLASS, GREY, INK, PAPER, VERMILLION, journal
+from tandemlift.figures.drawing.walls import WallOutline, draw_walls, walls_near
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
 from tandemlift.vehicle import Vehicle
@@ -45,7 +45,6 @@ SPACING = 1.2  # vehicle spans of path from one vehicle drawn to the next, at le
 VISIBLE = 0.02  # of the longest side of the scene: a smaller vehicle would be a blot
 LONGEST = 0.13  # of the longest side of the scene: the longest arrow
 DEEP = 0.5  # of the longest side of the scene: a floor farther below is not drawn
-FAINT = "#6e6e6e"
 
 
 class PushArrow(NamedTuple):
@@ -80,9 +79,7 @@ def instants(path: Array, span: float) -> list[int]:
 def _draw_vehicle(scene: Scene3D, body: Skeleton, color: str, order: float) -> None:
     """Draw one vehicle: rotor discs, arms, struts and payload."""
     common: dict[str, Any] = {"zorder": order, "clip_on": False}
-    discs = PolyCollection(
-        list(on_paper(body.rotors)), facecolor="white", edgecolor=color, lw=0.5, alpha=0.85, **common
-    )
+    discs = PolyCollection(list(on_paper(body.rotors)), facecolor=PAPER, edgecolor=color, lw=0.5, alpha=0.85, **common)
     bars = LineCollection(list(on_paper([*body.arms, *body.struts])), colors=color, lw=0.7, **common)
     scene.axes.add_collection(discs)
     scene.axes.add_collection(bars)
@@ -117,7 +114,7 @@ def _draw_path(scene: Scene3D, path: Array) -> list[Any]:
     """Draw the path (T, 3) [m], its shadow, start and end; returns the handles for the legend."""
     thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path.T]))]
     shadow = np.column_stack([thin[:, :2], np.full(len(thin), scene.box[2, 0])])
-    ends: Any = {"color": BLUE, "mfc": "white", "ms": 4, "ls": "none", "zorder": 41}
+    ends: Any = {"color": BLUE, "mfc": PAPER, "ms": 4, "ls": "none", "zorder": 41}
     return [
         scene.line(thin, color=BLUE, lw=1.3, zorder=3, gid="path"),
         scene.line(shadow, color=GREY, lw=0.8, zorder=1),
@@ -154,7 +151,7 @@ def draw(flight: Flight) -> Figure:
     scene = Scene3D(reach, _floor(flight, around))
     handles = _draw_path(scene, path)
     for order, k in enumerate(sorted(range(len(shown)), key=lambda k: float(path[shown[k]] @ NEAR))):
-        _draw_vehicle(scene, vehicles[k], BLACK if shown[k] in (0, len(path) - 1) else FAINT, 4.0 + order)
+        _draw_vehicle(scene, vehicles[k], INK if shown[k] in (0, len(path) - 1) else DIM, 4.0 + order)
     _draw_pushes(scene, found, tips)
     walls = draw_walls(scene, tables, path if len(path) else around)
     _legend(scene, found, walls, handles)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import fit, line, time_axis
 from tandemlift.figures.drawing.series import drawable, normalised
-from tandemlift.figures.drawing.style import ACTUAL, GREY, PAGE, VERMILLION, journal
+from tandemlift.figures.drawing.style import ACTUAL, GREY, VERMILLION, journal, page_figure
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption(
@@ -31,7 +31,7 @@ ROWS = (
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw the push (normalised, world axes) and T_r with its rate; columns are x, y and z."""
-    figure = Figure(figsize=(PAGE, 3.5), layout="constrained")
+    figure = page_figure(3.5)
     axes = figure.subplots(3, 3, sharex=True, squeeze=False)
     for axis, name in enumerate("xyz"):
         push, _ = normalised(drawable(flight["push_force"][:, axis]))
