@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from tandemlift.figures.diagrams.canvas import Canvas
 from tandemlift.figures.drawing.figure import Caption
-from tandemlift.figures.drawing.style import BLUE, GREY, PAGE, VERMILLION, styled
+from tandemlift.figures.drawing.style import BLUE, DIM, GREEN, GREY, TAN, VERMILLION, styled
 
 CAPTION = Caption(
     "Control loop",
@@ -25,12 +25,12 @@ CAPTION = Caption(
     "allocation, vehicle; with the state fed back to both laws.",
 )
 
-SIZE = (PAGE, 3.3)
+HEIGHT = 3.3  # in
 WIDE, TALL = 1.12, 0.66
 TOP, BOTTOM, MIDDLE, FEEDBACK = 2.45, 1.05, 1.77, 0.3
 GUIDE = dict(zip(("person", "sensors", "gate", "admittance", "phases"), np.linspace(0.66, 6.1, 5), strict=True))
 PILOT = {"position": 0.76, "attitude": 2.75, "allocation": 4.55, "vehicle": 6.2}
-TINTS = {"human": "#fbe9df", "guide": "#e5f0f8", "control": "#e4f3ee", "body": "#f1eee7"}
+TINTS = {"human": VERMILLION, "guide": BLUE, "control": GREEN, "body": TAN}
 
 
 class Block(NamedTuple):
@@ -54,8 +54,8 @@ def blocks(mission: Mapping[str, Any]) -> dict[str, Block]:
         "gate": ("Gate", f"|F| > {numbers['threshold']:g} N", "guide"),
         "admittance": ("Admittance", tuned, "guide"),
         "phases": ("Lift, landing", "by the clock", "guide"),
-        "position": ("Position law", f"{law}: pos_cont_equ", "control"),
-        "attitude": ("Attitude law", f"{law}: orient_cont_equ", "control"),
+        "position": (f"Position {law}", "pos_cont_equ", "control"),
+        "attitude": (f"Attitude {law}", "orient_cont_equ", "control"),
         "allocation": ("Allocation", "optim_cont_final_equ", "control"),
         "vehicle": ("Vehicle", "trans_rot_sys_equ", "body"),
     }
@@ -76,8 +76,9 @@ def _guidance(canvas: Canvas) -> None:
     down = [(x[4], TOP - TALL / 2), (x[4], MIDDLE), (PILOT["position"], MIDDLE), (PILOT["position"], BOTTOM + TALL / 2)]
     canvas.route(down, color=BLUE)
     canvas.text((2.0, MIDDLE + 0.12), r"$x_d, y_d, z_d$ and their rates", fontsize=8, color=BLUE)
-    over = SIZE[1] - 0.2
-    push = [(x[0], TOP + TALL / 2), (x[0], over), (6.98, over), (6.98, BOTTOM + 0.16), (PILOT["vehicle"] + WIDE / 2, BOTTOM + 0.16)]
+    over = HEIGHT - 0.2
+    side, at = 6.98, BOTTOM + 0.16
+    push = [(x[0], TOP + TALL / 2), (x[0], over), (side, over), (side, at), (PILOT["vehicle"] + WIDE / 2, at)]
     canvas.route(push, color=VERMILLION)
     canvas.text((3.5, over - 0.12), "the push also acts on the vehicle", fontsize=8, color=VERMILLION)
 
@@ -97,16 +98,16 @@ def _control(canvas: Canvas) -> None:
     body = x["vehicle"]
     for law in ("attitude", "position"):
         back = [(body, BOTTOM - TALL / 2), (body, FEEDBACK), (x[law], FEEDBACK), (x[law], BOTTOM - TALL / 2)]
-        canvas.route(back, color="#444444")
+        canvas.route(back, color=DIM)
     canvas.text((5.0, FEEDBACK - 0.12), r"state: $p, v, \phi, \theta, \psi, \omega$", fontsize=8)
 
 
 @styled
 def draw(mission: Mapping[str, Any]) -> Figure:
     """Draw the loop of a mission that is guided by the clock, as the paper's is."""
-    canvas = Canvas(*SIZE)
+    canvas = Canvas(HEIGHT)
     for block in blocks(mission).values():
-        canvas.box(block.centre, (WIDE, TALL), block.title, block.below, facecolor=TINTS[block.tint])
+        canvas.box(block.centre, (WIDE, TALL), block.title, block.below, facecolor=(TINTS[block.tint], 0.12))
     _guidance(canvas)
     _control(canvas)
     return canvas.figure

@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tandemlift.common.types import Array
-from tandemlift.figures.diagrams.canvas import Canvas
+from tandemlift.figures.diagrams.canvas import WIDTH, Canvas
 from tandemlift.figures.diagrams.solids import View, draw_axes, draw_beam, draw_quadrotor
 from tandemlift.figures.drawing.figure import Caption
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, GREY, PAGE, VERMILLION, styled
+from tandemlift.figures.drawing.style import BLUE, DIM, GREEN, GREY, INK, VERMILLION, styled
 from tandemlift.vehicle import Vehicle
 
 CAPTION = Caption(
@@ -27,8 +27,7 @@ CAPTION = Caption(
 APART = 0.66  # m by which the quadrotors are raised above their place
 UP, OUT = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
 BELOW = 0.03  # m below a quadrotor's centre, where the joint holds it
-SIZE = (PAGE, 4.35)
-SOFT = "#5b6470"
+HEIGHT = 4.35  # in
 
 
 def joint_force(side: float) -> Array:
@@ -57,7 +56,7 @@ def _quadrotor(canvas: Canvas, view: View, vehicle: Vehicle, number: int) -> Non
     spot = view.on_paper(centre - 0.17 * UP)
     canvas.turn(spot, (-0.15, 0.0), (0.0, 0.055), color=GREEN, lw=1.2)
     canvas.text(spot + [-0.36 * side, -0.02], rf"$-\tau_{i}$", color=GREEN)
-    canvas.text(view.on_paper(centre) + [0.0, 1.12], f"quadrotor {i}", fontsize=8, color=SOFT)
+    canvas.text(view.on_paper(centre) + [0.0, 1.12], f"quadrotor {i}", fontsize=8, color=DIM)
 
 
 def _joint(canvas: Canvas, view: View, place: Array, i: int) -> None:
@@ -67,7 +66,7 @@ def _joint(canvas: Canvas, view: View, place: Array, i: int) -> None:
     _force(canvas, view, foot, joint_force(side), f"$F_{i}$", VERMILLION, (-0.14 * side, 0.06))
     canvas.turn(view.on_paper(foot + 0.17 * UP), (0.15, 0.0), (0.0, 0.055), color=GREEN, lw=1.2)
     canvas.text(view.on_paper(foot + 0.17 * UP) + [0.3 * side, 0.0], rf"$\tau_{i}$", color=GREEN)
-    canvas.arrow(view.on_paper((0.0, 0.0, 0.0)), view.on_paper(place), color=BLACK, lw=0.8, linestyle=(0, (4, 2)))
+    canvas.arrow(view.on_paper((0.0, 0.0, 0.0)), view.on_paper(place), color=INK, lw=0.8, linestyle=(0, (4, 2)))
     canvas.text(view.on_paper(0.55 * place) + [0.0, 0.24], f"$d_{i}$")
     start, end = view.on_paper(place), view.on_paper(place + APART * UP)
     canvas.line([start, end], color=GREY, lw=0.6, ls=(0, (1, 2)), zorder=1)
@@ -77,8 +76,8 @@ def _joint(canvas: Canvas, view: View, place: Array, i: int) -> None:
 def draw(mission: Mapping[str, Any]) -> Figure:
     """Draw the free bodies of a mission's vehicle."""
     vehicle = Vehicle.from_mission(mission)
-    canvas = Canvas(*SIZE)
-    view = View(np.radians(20.0), np.radians(21.0), 2.25, (SIZE[0] / 2, 1.2))
+    canvas = Canvas(HEIGHT)
+    view = View(np.radians(20.0), np.radians(21.0), 2.25, (WIDTH / 2, 1.2))
     draw_beam(canvas, view, vehicle)
     for number, quadrotor in enumerate(vehicle.quadrotors):
         _joint(canvas, view, np.array(quadrotor.position), number + 1)
@@ -87,8 +86,8 @@ def draw(mission: Mapping[str, Any]) -> Figure:
     push = np.array([0.7, 0.0, 0.0])
     _force(canvas, view, (0.0, -0.42, 0.0) + push, -push, "", VERMILLION)
     canvas.text(view.on_paper((0.0, -0.42, 0.0) + push) + [0.0, -0.12], "push $F_{ext}$", color=VERMILLION)
-    draw_axes(canvas, view, (0.0, 0.0, 0.0), 0.34, ("$x_L$", "$y_L$", "$z_L$"), color="#333333")
-    canvas.text(view.on_paper((0.0, 0.62, 0.0)) - [0.0, 0.3], "payload: a beam along $y_L$", fontsize=8, color=SOFT)
+    draw_axes(canvas, view, (0.0, 0.0, 0.0), 0.34, ("$x_L$", "$y_L$", "$z_L$"))
+    canvas.text(view.on_paper((0.0, 0.62, 0.0)) - [0.0, 0.3], "payload: a beam along $y_L$", fontsize=8, color=DIM)
     world = view._replace(origin=(0.62, 0.45))
     draw_axes(canvas, world, (0.0, 0.0, 0.0), 0.24, ("$X$", "$Y$", "$Z$"))
     canvas.text((0.62, 0.27), "$O$", fontsize=8)

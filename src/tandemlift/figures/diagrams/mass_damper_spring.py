@@ -13,7 +13,7 @@ from matplotlib.patches import Rectangle
 from tandemlift.common.types import Array
 from tandemlift.figures.diagrams.canvas import Canvas
 from tandemlift.figures.drawing.figure import Caption
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, GREY, PAGE, VERMILLION, styled
+from tandemlift.figures.drawing.style import BLUE, DIM, GREEN, GREY, INK, LIGHT_BLUE, PALE, PAPER, VERMILLION, points, styled
 
 CAPTION = Caption(
     "Virtual mass, damper and spring",
@@ -24,10 +24,9 @@ CAPTION = Caption(
     "block over time.",
 )
 
-SIZE = (PAGE, 2.25)
+HEIGHT = 2.25  # in
 PUSHED, SHOWN = 3.0, 8.0  # s
 STEP = 1e-3  # s
-INK = "#333333"
 
 
 def response(mass: float, damping: float, stiffness: float) -> tuple[Array, Array, Array]:
@@ -62,12 +61,12 @@ def _mechanics(canvas: Canvas, numbers: tuple[float, float, float]) -> None:
     """The mass on its floor, tied to the place T_d."""
     mass, damping, stiffness = numbers
     wall, left, right, floor = 0.5, 1.75, 2.75, 0.62
-    canvas.axes.add_patch(Rectangle((wall - 0.12, floor), 0.12, 1.1, facecolor="#e4e7eb", hatch="////", lw=0.0))
+    canvas.axes.add_patch(Rectangle((wall - 0.12, floor), 0.12, 1.1, facecolor=PALE, edgecolor=DIM, hatch="////", lw=0.0))
     canvas.line([(wall, floor), (wall, floor + 1.1)], lw=1.2)
     canvas.line([(wall - 0.12, floor), (3.55, floor)], lw=1.0)
-    canvas.axes.add_patch(Rectangle((left, floor + 0.1), right - left, 0.85, facecolor="#dfeaf3", edgecolor=INK, lw=0.9))
+    canvas.axes.add_patch(Rectangle((left, floor + 0.1), right - left, 0.85, facecolor=(LIGHT_BLUE, 0.4), edgecolor=INK, lw=0.9))
     for x in (left + 0.2, right - 0.2):
-        canvas.axes.plot(x, floor + 0.05, "o", ms=6.5, mfc="white", mec=INK, mew=0.9)
+        canvas.axes.plot(x, floor + 0.05, "o", ms=6.5, mfc=PAPER, mec=INK, mew=0.9)
     canvas.text(((left + right) / 2, floor + 0.52), rf"$\mathbb{{M}}$ = {mass:g} kg")
     _damper(canvas, wall, left, floor + 0.76)
     _spring(canvas, wall, left, floor + 0.3)
@@ -85,13 +84,13 @@ def _mechanics(canvas: Canvas, numbers: tuple[float, float, float]) -> None:
 def _answer(canvas: Canvas, numbers: tuple[float, float, float]) -> None:
     """Position and velocity over time."""
     time, position, velocity = response(*numbers)
-    left = canvas.figure.add_axes((0.61, 0.2, 0.3, 0.66))
+    left = canvas.panel((4.3, 0.48), (2.1, 1.45))
     right = left.twinx()
-    left.axvspan(0.0, PUSHED, color="#ececec", lw=0.0, zorder=0)
-    left.text(PUSHED / 2.0, 1.03 * position.max() + 0.06, "1 N", ha="center", va="bottom", fontsize=8, color=VERMILLION)
+    left.axvspan(0.0, PUSHED, color=(PALE, 0.6), lw=0.0, zorder=0)
+    left.text(PUSHED / 2.0, 1.03 * position.max() + 0.06, "1 N", ha="center", va="bottom", fontsize=points(8), color=VERMILLION)
     left.plot(time, position, color=BLUE, lw=1.3)
     right.plot(time, velocity, color=GREEN, lw=1.1, ls=(0, (5, 1.5)))
-    right.axhline(1.0 / numbers[1], color=BLACK, lw=0.6, ls=(0, (1, 2)))
+    right.axhline(1.0 / numbers[1], color=INK, lw=0.6, ls=(0, (1, 2)))
     right.annotate(r"$F/\mathbb{C}$, the steady rate", (SHOWN, 1.0 / numbers[1]), (-2, 2), textcoords="offset points", ha="right", va="bottom")
     left.set(xlim=(0.0, SHOWN), ylim=(0.0, 1.25 * position.max()), xlabel="time (s)")
     right.set_ylim(0.0, 1.7 / numbers[1])
@@ -108,7 +107,7 @@ def draw(mission: Mapping[str, Any]) -> Figure:
     """Draw the admittance of a mission along x."""
     table = mission["admittance"]
     numbers = tuple(float(np.ravel(table[name])[0]) for name in ("mass", "damping", "stiffness"))
-    canvas = Canvas(*SIZE)
+    canvas = Canvas(HEIGHT)
     _mechanics(canvas, (numbers[0], numbers[1], numbers[2]))
     _answer(canvas, (numbers[0], numbers[1], numbers[2]))
     return canvas.figure

@@ -12,12 +12,12 @@ from matplotlib.patches import Polygon
 
 from tandemlift.common.types import Array
 from tandemlift.figures.diagrams.canvas import Canvas
-from tandemlift.figures.drawing.style import BLUE, VERMILLION
+from tandemlift.figures.drawing.style import BLUE, DIM, EDGE, GROUND, INK, LIGHT_BLUE, TAN, VERMILLION
 from tandemlift.vehicle import Vehicle
 
 CORNERS = 72
-EDGE = {"edgecolor": "#22303c", "lw": 0.7, "joinstyle": "round"}
-WOOD, DARK, ARM, DISC = "#e8cfa0", "#3b4a57", "#6d7c89", "#dfeaf3"
+OUTLINE: dict[str, Any] = {"edgecolor": EDGE, "lw": 0.7, "joinstyle": "round"}
+DISC = 0.45  # opacity of a rotor
 HUB = 0.035  # m, radius of a motor
 BODY = 0.075  # m, radius of a quadrotor's body
 SPIN_COLORS = {1: BLUE, -1: VERMILLION}
@@ -75,12 +75,12 @@ def _left_of(a: Any, b: Any, c: Any) -> float:
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
-def _fill(canvas: Canvas, points: Array, color: str, order: float, **look: Any) -> None:
-    canvas.axes.add_patch(Polygon(points, closed=True, facecolor=color, zorder=order, **{**EDGE, **look}))
+def _fill(canvas: Canvas, points: Array, color: Any, order: float, **look: Any) -> None:
+    canvas.axes.add_patch(Polygon(points, closed=True, facecolor=color, zorder=order, **{**OUTLINE, **look}))
 
 
 def _bar(canvas: Canvas, view: View, start: Any, end: Any, order: float) -> None:
-    canvas.line(view.on_paper([start, end]), color=ARM, lw=2.6, zorder=order)
+    canvas.line(view.on_paper([start, end]), color=DIM, lw=2.6, zorder=order)
 
 
 def draw_beam(canvas: Canvas, view: View, vehicle: Vehicle, centre: Any = (0.0, 0.0, 0.0), order: float = 2.0) -> None:
@@ -88,9 +88,9 @@ def draw_beam(canvas: Canvas, view: View, vehicle: Vehicle, centre: Any = (0.0, 
     length, radius = vehicle.beam or (0.0, 0.1)
     half = np.array([0.0, length / 2.0, 0.0])
     ends = [view.on_paper(_ring(np.asarray(centre) + s * half, radius, 1)) for s in (1.0, -1.0)]
-    _fill(canvas, _hull(np.concatenate(ends)), WOOD, order)
+    _fill(canvas, _hull(np.concatenate(ends)), TAN, order, alpha=0.75)
     nearer = ends[0] if view.directions[2][1] > 0.0 else ends[1]
-    _fill(canvas, nearer, "#f4e6c8", order + 0.1)
+    _fill(canvas, nearer, GROUND, order + 0.1)
 
 
 def draw_quadrotor(canvas: Canvas, view: View, vehicle: Vehicle, number: int, centre: Any, order: float = 3.0) -> None:
@@ -102,13 +102,13 @@ def draw_quadrotor(canvas: Canvas, view: View, vehicle: Vehicle, number: int, ce
         _bar(canvas, view, middle, hub * [1.0, 1.0, 0.0] + middle * [0.0, 0.0, 1.0], order)
     top = middle + np.array([0.0, 0.0, 0.03])
     body = np.concatenate([view.on_paper(_ring(c, BODY, 2)) for c in (middle, top)])
-    _fill(canvas, _hull(body), DARK, order + 0.1)
+    _fill(canvas, _hull(body), EDGE, order + 0.1)
     far_first = sorted(zip(hubs, quadrotor.spins, strict=True), key=lambda one: float(one[0] @ view.directions[2]))
     for k, (hub, spin) in enumerate(far_first):
         post = np.concatenate([view.on_paper(_ring(hub - [0.0, 0.0, 0.02], HUB, 2)), view.on_paper(_ring(hub, HUB, 2))])
         disc = view.on_paper(_ring(hub, quadrotor.rotor_radius, 2))
-        _fill(canvas, disc, DISC, order + 0.2 + 0.01 * k, alpha=0.75, lw=0.8, edgecolor=SPIN_COLORS[int(np.sign(spin))])
-        _fill(canvas, _hull(post), DARK, order + 0.205 + 0.01 * k)
+        _fill(canvas, disc, (LIGHT_BLUE, DISC), order + 0.2 + 0.01 * k, lw=0.8, edgecolor=SPIN_COLORS[int(np.sign(spin))])
+        _fill(canvas, _hull(post), EDGE, order + 0.205 + 0.01 * k)
 
 
 def draw_strut(canvas: Canvas, view: View, vehicle: Vehicle, number: int, order: float = 2.5) -> None:
@@ -125,4 +125,4 @@ def draw_axes(canvas: Canvas, view: View, origin: Any, size: float, names: tuple
         reach = view.along(size * axis)
         canvas.arrow(start, start + reach, **{"lw": 0.9, "zorder": 12, **look})
         beside = reach + 0.11 * reach / np.linalg.norm(reach)
-        canvas.text(start + beside, name, color=look.get("color", "black"), fontsize=8)
+        canvas.text(start + beside, name, color=look.get("color", INK), fontsize=8)
