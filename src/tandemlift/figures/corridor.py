@@ -19,10 +19,10 @@ from tandemlift.common.types import Array
 from tandemlift.figures.drawing.clearances import clearances, grips
 from tandemlift.figures.drawing.figure import Caption, with_walls
 from tandemlift.figures.drawing.figure_style import current_style
-from tandemlift.figures.drawing.panels import extent, line, value_ticks
+from tandemlift.figures.drawing.panels import extent, legend_above, line, value_ticks
 from tandemlift.figures.drawing.series import decimate, drawable
 from tandemlift.figures.drawing.skeleton import skeleton
-from tandemlift.figures.drawing.style import BLUE, GREY, INK, VERMILLION, journal, page_figure, points
+from tandemlift.figures.drawing.style import BEHIND_TEXT, BLUE, GREY, INK, VERMILLION, journal, page_figure, points
 from tandemlift.figures.path import pushes
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
@@ -32,7 +32,8 @@ CAPTION = Caption(
     "Walls and clearance",
     "Top: view from above of the walls, the path of the centre of mass and the path that the person was to follow, "
     "with the vehicle to scale at equal distances, black at the start and at the end: its beam, and the guards around "
-    "its quadrotors. Arrows show the horizontal push of the person at these instants. Bottom: distance of guards and "
+    "its quadrotors. Arrows show the horizontal push of the person at these instants; the largest has its "
+    "size beside it. Bottom: distance of guards and "
     "beam from the nearest wall, over the distance flown, and its minimum; they touch a wall below zero.",
     "Two panels: view from above of walls, path, vehicle and pushes; clearance of guards and beam over the distance "
     "flown.",
@@ -94,6 +95,13 @@ def _pushes(ax: Any, found: list[tuple[Array, Array]]) -> None:
     for point, force in found:
         ends = (tuple(point), tuple(point + NEWTON * force))
         ax.add_patch(FancyArrowPatch(*ends, color=VERMILLION, lw=1.2, zorder=6, gid="push", **look))
+    if found:
+        point, force = max(found, key=lambda push: float(np.linalg.norm(push[1])))
+        sides: Any = {"ha": "left" if force[0] >= 0.0 else "right", "va": "bottom" if force[1] >= 0.0 else "top"}
+        text = f"{np.linalg.norm(force):.3g} N"
+        ax.annotate(
+            text, point + NEWTON * force, color=VERMILLION, fontsize=points(7.5), zorder=7, bbox=BEHIND_TEXT, **sides
+        )
 
 
 def _desired(flight: Flight) -> Array:
@@ -158,9 +166,7 @@ def draw(flight: Flight) -> Figure:
     shown = instants(flight)
     found, (low, high) = arrows(flight, shown), _bounds(flight, shown)
     size = high - low
-    style = current_style()
-    most = style.height - BELOW - AROUND if style.height else TALLEST
-    tall = float(np.clip((style.page - 0.5) * size[1] / size[0], LEAST, most))
+    tall = float(np.clip((current_style().page - 0.5) * size[1] / size[0], LEAST, TALLEST))
     figure = page_figure(tall + BELOW + AROUND)
     above, below = figure.subplots(2, 1, height_ratios=[tall, BELOW])
     _from_above(above, flight, shown, found)
@@ -175,5 +181,5 @@ def draw(flight: Flight) -> Figure:
         Line2D([], [], **BEAM),
     ]
     names = ["wall", "centre of mass; guards", "desired path", f"push (1 N: {NEWTON:g} m)", "beam"]
-    figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.4)
+    legend_above(figure, handles, names)
     return figure

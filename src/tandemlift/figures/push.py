@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.figure import Caption, with_any_of
-from tandemlift.figures.drawing.panels import fit, line, shade, time_axis
+from tandemlift.figures.drawing.panels import fit, legend_above, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLUE, GREY, INK, LIGHT_BLUE, PALE, TAN, VERMILLION, journal, page_figure
 from tandemlift.figures.drawing.vehicle import true_payload_mass
 from tandemlift.flight.record import Flight
@@ -108,7 +108,7 @@ def _disagreement(ax: Any, flight: Flight, limit: float) -> None:
     line(ax, flight.time, values, zorder=4, **ESTIMATE | {"ls": "-"})
     ax.axhline(limit, zorder=1, **LIMIT)
     fit(ax, values, np.array([0.0, limit]), least=LEAST_FORCE)
-    ax.set_ylabel("disagreement (N)")
+    ax.set_ylabel("sensors\ndisagree (N)")
 
 
 @journal
@@ -133,5 +133,5 @@ def draw(flight: Flight) -> Figure:
     handles.append(Patch(facecolor=PALE))
     if estimator.tare_start is not None:
         handles, names = [*handles, Patch(facecolor=LIGHT_BLUE)], [*names, "tare"]
-    figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.2)
+    legend_above(figure, handles, names)
     return figure

@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.ground import clearance, floor_height
-from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
+from tandemlift.figures.drawing.panels import components, fit, legend_above, line, shade, time_axis
 from tandemlift.figures.drawing.style import BLUE, COMPONENTS, GREY, INK, PALE, journal, page_figure
 from tandemlift.figures.drawing.vehicle import true_weight
 from tandemlift.flight.record import Flight
@@ -61,7 +61,7 @@ def _legend(figure: Figure, touching: bool) -> None:
     if touching:
         handles += [Line2D([], [], color=INK, lw=0.7, ls=(0, (5, 3))), Patch(facecolor=PALE)]
         names += ["weight", "in contact"]
-    figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.6)
+    legend_above(figure, handles, names)
 
 
 @journal

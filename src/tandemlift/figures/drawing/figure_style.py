@@ -17,7 +17,9 @@ from typing import NamedTuple
 from tandemlift.common.errors import unknown
 
 MM = 1.0 / 25.4  # in
-FULL_HD = 1920  # pixels across
+DOTS = 300.0  # of a PNG in an inch
+FULL_HD = 1920  # pixels across a slide
+ROOMY = 4.4  # in: the height of a figure for a page that a slide has room for
 
 
 class Palette(NamedTuple):
@@ -72,8 +74,7 @@ class FigureStyle(NamedTuple):
         type: size of the text [pt].
         family: of the text; it comes with the drawing library, so that figures are the same on every machine.
         mathematics: the set of type for symbols that suits it.
-        height: of every figure [in]; None for each figure's own.
-        dots: of a PNG in an inch.
+        height: of a slide [in]; None if each figure has its own.
         palette: the colours.
     """
 
@@ -83,7 +84,6 @@ class FigureStyle(NamedTuple):
     family: str = "STIXGeneral"
     mathematics: str = "stix"
     height: float | None = None
-    dots: float = 300.0
     palette: Palette = Palette()
 
     @property
@@ -96,6 +96,20 @@ class FigureStyle(NamedTuple):
         """Width of the widest figure [in]."""
         return self.widths[-1]
 
+    def size(self, width: float, height: float) -> tuple[float, float]:
+        """Size [in] of a figure of a width and a height for a page; all slides have one shape.
+
+        A figure that is too high for a slide is drawn on a larger one, on which its type is smaller.
+        """
+        if self.height is None:
+            return width, height
+        scale = max(1.0, height / ROOMY)
+        return scale * self.page, scale * self.height
+
+    def dots(self, width: float) -> float:
+        """Dots in an inch of a PNG of a width [in]."""
+        return DOTS if self.height is None else FULL_HD / width
+
     def width_for(self, width: float) -> float:
         """The narrowest width that is no less than another [in], or that of the page."""
         return min((w for w in self.widths if w >= width - 1e-9), default=self.page)
@@ -106,11 +120,10 @@ ELSEVIER = FigureStyle("elsevier", (90.0 * MM, 140.0 * MM, 190.0 * MM))
 SLIDES = FigureStyle(
     "slides",
     (160.0 * MM,),
-    type=9.0,
+    type=8.0,
     family="DejaVu Sans",
     mathematics="dejavusans",
     height=90.0 * MM,
-    dots=FULL_HD / (160.0 * MM),
 )
 STYLES = {style.name: style for style in (IEEE, ELSEVIER, SLIDES, SLIDES._replace(name="dark", palette=DARK))}
 """The styles by name; `dark` are slides on dark paper."""

@@ -50,6 +50,7 @@ COMPONENTS: tuple[dict[str, Any], ...] = (  # dashes distinguish them in grey pr
     {"color": VERMILLION, "lw": 1.0, "ls": (0, (5, 1.5))},
     {"color": GREEN, "lw": 1.1, "ls": (0, (1.2, 1.2))},
 )
+BEHIND_TEXT: dict[str, Any] = {"facecolor": PAPER, "alpha": 0.75, "lw": 0.0, "pad": 0.8}
 
 SETTINGS: dict[str, Any] = {
     "axes.linewidth": 0.6,
@@ -106,7 +107,7 @@ class StyledFigure(Figure):
 
     def __init__(self, width: float, height: float, layout: Any = "constrained") -> None:
         self.style = current_style()
-        super().__init__(figsize=(width, self.style.height or height), layout=layout)
+        super().__init__(figsize=self.style.size(width, height), layout=layout)
 
     def draw(self, renderer: Any) -> None:
         """Draw it, its colours from the style's palette."""
@@ -115,12 +116,12 @@ class StyledFigure(Figure):
 
 
 def page_figure(height: float) -> StyledFigure:
-    """A figure as wide as a page of the style, and as high as given [in], unless the style has a height."""
+    """A figure as wide as a page of the style and as high as given [in]; a slide if that is the style."""
     return StyledFigure(current_style().page, height)
 
 
 def column_figure(height: float) -> StyledFigure:
-    """A figure as wide as a column of the style, and as high as given [in], unless the style has a height."""
+    """A figure as wide as a column of the style and as high as given [in]; a slide if that is the style."""
     return StyledFigure(current_style().column, height)
 
 
@@ -170,5 +171,5 @@ def save(figure: Figure, path: Path) -> Path:
     style = figure.style if isinstance(figure, StyledFigure) else current_style()
     date = {"CreationDate": None} if kind == "pdf" else None
     with atomic_write(path) as partial, matplotlib.style.context(["default", settings(style)]):
-        figure.savefig(partial, format=kind, dpi=style.dots, metadata=date)
+        figure.savefig(partial, format=kind, dpi=style.dots(figure.get_figwidth()), metadata=date)
     return path
