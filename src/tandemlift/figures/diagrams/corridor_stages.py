@@ -28,9 +28,9 @@ CAPTION = Caption(
 )
 
 STAGES = ("standing before the corridor", "on the way", "at the end of the corridor", "landed")
-AROUND = np.array([3.4, 2.9])  # m of the corridor shown around the vehicle, along x and y
+AROUND = np.array([3.6, 3.5])  # m of the corridor shown around the vehicle, along x and y
 NEWTON = 0.75  # m of the view, for a newton
-FLYING = 0.9  # of the height: what is lower is lifting or landing
+FLYING = 0.97  # of the height: what is lower is lifting or landing
 WEAK = 0.05  # N: a weaker push is not drawn
 
 
