@@ -9,7 +9,7 @@ import click
 
 from tandemlift.cli.terminal.console import echo
 from tandemlift.cli.terminal.mission_options import style_option
-from tandemlift.cli.terminal.results import flight_file, html_path, results_folder, write_flight
+from tandemlift.cli.terminal.results import FIGURES, flight_file, html_path, results_folder, write_flight
 from tandemlift.common.errors import InputError
 from tandemlift.figures.drawing.figure_style import figure_style
 
@@ -94,7 +94,7 @@ def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no
 
     loaded = load_study(folder)
     echo(repr(loaded).strip("<>"))
-    echo(f"  report: {write_study_report(loaded, path, metrics)}")
+    echo(f"  report: {write_study_report(loaded, path, metrics, path.parent / FIGURES if keep else None)}")
 
 
 def _load(given: str) -> tuple[Flight, Path]:
