@@ -28,7 +28,7 @@ CAPTION = Caption(
 )
 
 STAGES = ("standing before the corridor", "on the way", "at the end of the corridor", "landed")
-AROUND = np.array([3.6, 3.5])  # m of the corridor shown around the vehicle, along x and y
+AROUND = np.array([3.8, 4.2])  # m of the corridor shown around the vehicle, along x and y
 NEWTON = 0.75  # m of the view, for a newton
 FLYING = 0.97  # of the height: what is lower is lifting or landing
 WEAK = 0.05  # N: a weaker push is not drawn
@@ -85,7 +85,7 @@ def _stage(ax: Any, flight: Flight, k: int) -> None:
         ax.annotate("", tip, tail, arrowprops={**arrow, "shrinkB": 0}, zorder=30)
     seen = on_paper([*ground, *(point for rim in rims for point in rim)])
     low, high = seen.min(axis=0), seen.max(axis=0)
-    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal", anchor="N")
     ax.set_axis_off()
 
 

@@ -95,7 +95,7 @@ def _of_tracking(paper: Flight) -> Iterator[Claim]:
     )
     yaw = float(np.degrees(np.abs(paper["euler"])[late, 2].max()))
     attitude = float(np.degrees(np.abs(paper["attitude_error"])[late].max()))
-    yield Claim("Figure 6", "Yaw is kept at zero.", f"After {CALM:g} s yaw stays within {yaw:.3f}°.", YES if yaw < 0.1 else NO)
+    yield Claim("Figure 6", "Yaw is kept at zero.", f"After {CALM:g} s yaw stays within {max(yaw, 0.001):.3f}°.", YES if yaw < 0.1 else NO)
     yield Claim(
         "Figure 6",
         "Orientation errors fluctuate when pushes start and stop, and are bounded.",
@@ -181,4 +181,4 @@ def _of_the_corridor(corridor: Flight) -> Iterator[Claim]:
 
 
 def _list(values: Any, digits: int) -> str:
-    return ", ".join(f"{value + 0.0:.{digits}f}" for value in values)
+    return ", ".join(f"{value + 0.0:.{digits}f}" for value in values).replace("-", "−")
