@@ -25,8 +25,8 @@ OUT = "out/paper.pdf"
 def paper(out: str, style: str | None, no_pdf: bool) -> None:
     """Put the figures and tables of the paper beside ours, in one PDF.
 
-    The missions `paper` and `zigzag` are flown, and `paper` once more with each setting that the paper leaves open chosen
-    otherwise. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, everything else is written.
+    The missions `paper` and `zigzag` are flown, and `paper` once more for each setting that the paper leaves open, with
+    another choice. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, everything else is written.
 
     \b
     Examples:

@@ -1,4 +1,4 @@
-"""A sheet for diagrams: one unit is an inch on a page of `WIDTH`; arrows, turning arrows, boxes and texts in one look."""
+"""A sheet for diagrams: one unit is an inch on a page of `WIDTH`; arrows, boxes and texts in one look."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Point = Any
 
 
 class Canvas:
-    """A figure as wide as a page of the style, drawn on in inches from its lower left corner as if it were `WIDTH` wide.
+    """A figure as wide as a page of the style, drawn on in inches from its lower left corner, as if `WIDTH` wide.
 
     Args:
         height: of the drawing [in], at that width.

@@ -18,9 +18,9 @@ from tandemlift.figures.drawing.style import BLUE, DIM, GREEN, GREY, TAN, VERMIL
 
 CAPTION = Caption(
     "Control loop",
-    "The push acts on the vehicle and, beyond the threshold, on the admittance. Its reference, with lift and landing, is "
-    "what the position law tracks. That law gives the thrust U₁, and the roll and pitch that the attitude law tracks. "
-    "The allocation divides thrust and moments among the rotors. Below a title stands the label of the equation.",
+    "The push acts on the vehicle and, beyond the threshold, on the admittance. Its reference, with lift and landing, "
+    "is what the position law tracks. That law gives the thrust U₁, and the roll and pitch that the attitude law "
+    "tracks. The allocation divides thrust and moments among the rotors. A title stands above its equation’s label.",
     "Block diagram in two rows: person, sensors, gate, admittance, lift and landing; position law, attitude law, "
     "allocation, vehicle; with the state fed back to both laws.",
 )

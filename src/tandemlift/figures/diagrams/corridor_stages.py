@@ -14,7 +14,18 @@ from tandemlift.figures.drawing.figure import Caption
 from tandemlift.figures.drawing.ground import floor_height
 from tandemlift.figures.drawing.scene import NEAR, on_paper
 from tandemlift.figures.drawing.skeleton import Skeleton, skeleton
-from tandemlift.figures.drawing.style import BLUE, EDGE, GLASS, GROUND, INK, PAPER, VERMILLION, page_figure, points, styled
+from tandemlift.figures.drawing.style import (
+    BLUE,
+    EDGE,
+    GLASS,
+    GROUND,
+    INK,
+    PAPER,
+    VERMILLION,
+    page_figure,
+    points,
+    styled,
+)
 from tandemlift.figures.drawing.walls import walls_in
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
@@ -53,7 +64,8 @@ def _vehicle(ax: Any, body: Skeleton) -> None:
 
 def _walls(ax: Any, flight: Flight, place: Array, floor: float) -> list[Array]:
     """Draw the walls around a place (3) [m], before the vehicle or behind it. Returns their rims (2, 3) [m]."""
-    rims, low, high = [], place - [*AROUND, 10.0], place + [*AROUND, 10.0]
+    reach = np.append(AROUND, 10.0)
+    rims, low, high = [], place - reach, place + reach
     for wall in walls_in(wall_tables(flight.mission), low, high):
         foot = np.column_stack([wall.rim[:, :2], np.full(2, floor)])
         nearer = (wall.rim.mean(axis=0) - place)[:2] @ NEAR[:2] > 0.0

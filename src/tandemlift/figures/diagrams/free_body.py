@@ -19,8 +19,8 @@ from tandemlift.vehicle import Vehicle
 CAPTION = Caption(
     "Free bodies",
     "Payload and quadrotors, drawn apart, with the forces and moments on each: rotor thrusts, weights, and the joint's "
-    "force and torque, which act on quadrotor and payload in opposite directions. The person's push acts on the payload. "
-    "Rings in blue turn the quadrotor about +z, rings in red about −z.",
+    "force and torque, which act on quadrotor and payload in opposite directions. The person's push acts on the "
+    "payload. Rings in blue turn the quadrotor about +z, rings in red about −z.",
     "A beam below two quadrotors, with arrows for rotor thrusts, weights, joint forces, joint torques and the push.",
 )
 
@@ -55,8 +55,8 @@ def _quadrotor(canvas: Canvas, view: View, vehicle: Vehicle, number: int) -> Non
     _force(canvas, view, centre - BELOW * UP, -joint_force(side), f"$-F_{i}$", VERMILLION, (0.14 * side, -0.1))
     spot = view.on_paper(centre - 0.17 * UP)
     canvas.turn(spot, (-0.15, 0.0), (0.0, 0.055), color=GREEN, lw=1.2)
-    canvas.text(spot + [-0.36 * side, -0.02], rf"$-\tau_{i}$", color=GREEN)
-    canvas.text(view.on_paper(centre) + [0.0, 1.12], f"quadrotor {i}", fontsize=8, color=DIM)
+    canvas.text(np.add(spot, (-0.36 * side, -0.02)), rf"$-\tau_{i}$", color=GREEN)
+    canvas.text(np.add(view.on_paper(centre), (0.0, 1.12)), f"quadrotor {i}", fontsize=8, color=DIM)
 
 
 def _joint(canvas: Canvas, view: View, place: Array, i: int) -> None:
@@ -65,9 +65,9 @@ def _joint(canvas: Canvas, view: View, place: Array, i: int) -> None:
     foot = np.array([0.0, place[1], 0.0])
     _force(canvas, view, foot, joint_force(side), f"$F_{i}$", VERMILLION, (-0.14 * side, 0.06))
     canvas.turn(view.on_paper(foot + 0.17 * UP), (0.15, 0.0), (0.0, 0.055), color=GREEN, lw=1.2)
-    canvas.text(view.on_paper(foot + 0.17 * UP) + [0.3 * side, 0.0], rf"$\tau_{i}$", color=GREEN)
+    canvas.text(np.add(view.on_paper(foot + 0.17 * UP), (0.3 * side, 0.0)), rf"$\tau_{i}$", color=GREEN)
     canvas.arrow(view.on_paper((0.0, 0.0, 0.0)), view.on_paper(place), color=INK, lw=0.8, linestyle=(0, (4, 2)))
-    canvas.text(view.on_paper(0.55 * place) + [0.0, 0.24], f"$d_{i}$")
+    canvas.text(np.add(view.on_paper(0.55 * place), (0.0, 0.24)), f"$d_{i}$")
     start, end = view.on_paper(place), view.on_paper(place + APART * UP)
     canvas.line([start, end], color=GREY, lw=0.6, ls=(0, (1, 2)), zorder=1)
 
@@ -84,8 +84,9 @@ def draw(mission: Mapping[str, Any]) -> Figure:
         _quadrotor(canvas, view, vehicle, number)
     _force(canvas, view, (0.0, 0.0, 0.0), -0.36 * UP, "$m_L g$", GREY, (0.0, -0.1))
     push = np.array([0.7, 0.0, 0.0])
-    _force(canvas, view, (0.0, -0.42, 0.0) + push, -push, "", VERMILLION)
-    canvas.text(view.on_paper((0.0, -0.42, 0.0) + push) + [0.0, -0.12], "push $F_{ext}$", color=VERMILLION)
+    hand = np.add(push, (0.0, -0.42, 0.0))
+    _force(canvas, view, hand, -push, "", VERMILLION)
+    canvas.text(np.add(view.on_paper(hand), (0.0, -0.12)), "push $F_{ext}$", color=VERMILLION)
     draw_axes(canvas, view, (0.0, 0.0, 0.0), 0.34, ("$x_L$", "$y_L$", "$z_L$"))
     canvas.text(view.on_paper((0.0, 0.62, 0.0)) - [0.0, 0.3], "payload: a beam along $y_L$", fontsize=8, color=DIM)
     world = view._replace(origin=(0.62, 0.45))

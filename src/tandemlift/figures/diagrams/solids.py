@@ -24,7 +24,7 @@ SPIN_COLORS = {1: BLUE, -1: VERMILLION}
 
 
 class View(NamedTuple):
-    """A parallel projection: the eye's azimuth and elevation [rad], inches for a metre, and where the origin is [in]."""
+    """A parallel projection: the eye's azimuth and elevation [rad], inches for a metre, the origin's place [in]."""
 
     azimuth: float
     elevation: float
@@ -107,7 +107,9 @@ def draw_quadrotor(canvas: Canvas, view: View, vehicle: Vehicle, number: int, ce
     for k, (hub, spin) in enumerate(far_first):
         post = np.concatenate([view.on_paper(_ring(hub - [0.0, 0.0, 0.02], HUB, 2)), view.on_paper(_ring(hub, HUB, 2))])
         disc = view.on_paper(_ring(hub, quadrotor.rotor_radius, 2))
-        _fill(canvas, disc, (LIGHT_BLUE, DISC), order + 0.2 + 0.01 * k, lw=0.8, edgecolor=SPIN_COLORS[int(np.sign(spin))])
+        _fill(
+            canvas, disc, (LIGHT_BLUE, DISC), order + 0.2 + 0.01 * k, lw=0.8, edgecolor=SPIN_COLORS[int(np.sign(spin))]
+        )
         _fill(canvas, _hull(post), EDGE, order + 0.205 + 0.01 * k)
 
 

@@ -40,7 +40,7 @@ def _dimension(canvas: Canvas, ends: tuple[Point, Point], offset: Point, words: 
 
 def _masses(canvas: Canvas, view: View, vehicle: Vehicle) -> None:
     for i, quadrotor in enumerate(vehicle.quadrotors, 1):
-        place = view.on_paper(np.array(quadrotor.position)) + [0.0, 0.68]
+        place = np.add(view.on_paper(quadrotor.position), (0.0, 0.68))
         above = f"{1e3 * quadrotor.position[2]:g} mm above the beam's axis"
         canvas.text(place, f"quadrotor {i}: {quadrotor.mass:g} kg,\n{above}", fontsize=8)
 
@@ -66,7 +66,7 @@ def draw(mission: Mapping[str, Any]) -> Figure:
     canvas.axes.plot(*centre, marker="x", ms=6, mew=1.6, color=VERMILLION, zorder=15)
     words = f"centre of mass: {vehicle.mass:g} kg, {1e3 * vehicle.center_of_mass[2]:.1f} mm above the beam's axis"
     canvas.text((WIDTH / 2.0 + 0.2, HEIGHT - 0.25), words, fontsize=8, color=VERMILLION)
-    canvas.line([(WIDTH / 2.0, HEIGHT - 0.36), centre + [0.0, 0.07]], color=VERMILLION, lw=0.5)
+    canvas.line([(WIDTH / 2.0, HEIGHT - 0.36), np.add(centre, (0.0, 0.07))], color=VERMILLION, lw=0.5)
     draw_axes(canvas, view._replace(origin=(0.55, 0.42)), (0.0, 0.0, 0.0), 0.2, ("$x$", "$y$", "$z$"))
     return canvas.figure
 

@@ -17,7 +17,7 @@ CALM = 10.0  # s, from which on the disturbed start is over
 UNTIL = 20.0  # s, before the pushes along x and y
 WITHIN = 0.01  # m, of the position's error: the start is recovered
 YES, PARTLY, NO = "agrees", "in part", "differs"
-TABLE = {"mass": "3.5", "inertia": ("3.227327", "0.061286", "3.277117")}  # Table II
+MASS, INERTIA = "3.5", ("3.227327", "0.061286", "3.277117")  # kg, kg m2; Table II
 
 
 class Claim(NamedTuple):
@@ -41,13 +41,13 @@ def claims(paper: Flight, corridor: Flight) -> list[Claim]:
 
 def _of_the_vehicle(paper: Flight) -> Iterator[Claim]:
     vehicle = Vehicle.from_mission(paper.mission)
-    same = agrees(TABLE["mass"], vehicle.mass) and all(map(agrees, TABLE["inertia"], np.diag(vehicle.inertia)))
-    height = 1e3 * vehicle.quadrotors[0].position[2]
+    same = agrees(MASS, vehicle.mass) and all(map(agrees, INERTIA, np.diag(vehicle.inertia)))
+    inertia, height = ", ".join(f"{J:.6f}" for J in np.diag(vehicle.inertia)), 1e3 * vehicle.quadrotors[0].position[2]
     yield Claim(
         "Table II",
-        f"Total mass {TABLE['mass']} kg; total inertia {', '.join(TABLE['inertia'])} kg m².",
-        f"{vehicle.mass:g} kg; {', '.join(f'{J:.6f}' for J in np.diag(vehicle.inertia))} kg m², the sum of the parts if "
-        f"the quadrotors are {height:g} mm above the beam's axis.",
+        f"Total mass {MASS} kg; total inertia {', '.join(INERTIA)} kg m².",
+        f"{vehicle.mass:g} kg; {inertia} kg m², the sum of the parts if the quadrotors "
+        f"are {height:g} mm above the beam's axis.",
         YES if same else NO,
     )
     moment, most = np.abs(paper["moment"]), _most_moments(vehicle)
@@ -95,7 +95,12 @@ def _of_tracking(paper: Flight) -> Iterator[Claim]:
     )
     yaw = float(np.degrees(np.abs(paper["euler"])[late, 2].max()))
     attitude = float(np.degrees(np.abs(paper["attitude_error"])[late].max()))
-    yield Claim("Figure 6", "Yaw is kept at zero.", f"After {CALM:g} s yaw stays within {max(yaw, 0.001):.3f}°.", YES if yaw < 0.1 else NO)
+    yield Claim(
+        "Figure 6",
+        "Yaw is kept at zero.",
+        f"After {CALM:g} s yaw stays within {max(yaw, 0.001):.3f}°.",
+        YES if yaw < 0.1 else NO,
+    )
     yield Claim(
         "Figure 6",
         "Orientation errors fluctuate when pushes start and stop, and are bounded.",
@@ -174,8 +179,8 @@ def _of_the_corridor(corridor: Flight) -> Iterator[Claim]:
     yield Claim(
         "Figure 9",
         "Pushed through a zigzag corridor, the vehicle lands at its end.",
-        f"{corridor.outcome.capitalize()} after {_way(corridor):.1f} m, {clear:.2f} m clear of the walls at least, with a "
-        f"mean push of {force:.1f} N.",
+        f"{corridor.outcome.capitalize()} after {_way(corridor):.1f} m, {clear:.2f} m clear of the walls at least, "
+        f"with a mean push of {force:.1f} N.",
         YES if sound else NO,
     )
 

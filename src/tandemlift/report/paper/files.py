@@ -12,12 +12,12 @@ from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Progress
 from tandemlift.figures.registry import save_figure
-from tandemlift.report.latex import latex_table
 from tandemlift.report.paper.contents import paper_figures
 from tandemlift.report.paper.document import PaperFlights, document
 from tandemlift.report.paper.drawings import drawing_for, file_of
 from tandemlift.report.paper.errata import DATA
-from tandemlift.report.paper.tables import LATEX_COLUMNS, as_csv, latex_head, latex_rows, paper_tables
+from tandemlift.report.paper.table_files import as_csv, as_latex
+from tandemlift.report.paper.tables import paper_tables
 
 SOURCE = "report.typ"
 
@@ -45,10 +45,8 @@ def write_paper_files(
         if progress:
             progress(done, len(parts))
     for table in paper_tables(flights.paper.mission):
-        stem = f"tables/table-{table.number}"
-        _write(folder / f"{stem}.csv", as_csv(table))
-        note = f"Table {table.number} of the paper beside the mission paper"
-        _write(folder / f"{stem}.tex", latex_table(LATEX_COLUMNS, latex_head(), latex_rows(table), note))
+        for suffix, written in (("csv", as_csv), ("tex", as_latex)):
+            _write(folder / "tables" / f"table-{table.number}.{suffix}", written(table))
     text = json.dumps(document(flights, command, gazebo), indent=1, ensure_ascii=False, allow_nan=False)
     _write(folder / "report.json", text + "\n")
     _write(folder / SOURCE, (DATA / SOURCE).read_text("utf-8"))

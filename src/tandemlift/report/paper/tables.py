@@ -1,10 +1,7 @@
-"""The paper's tables beside the numbers of the mission `paper`, as data, CSV and LaTeX."""
+"""The paper's tables beside the numbers of the mission `paper`, as data."""
 
 from __future__ import annotations
 
-import csv
-import io
-import re
 import tomllib
 from collections.abc import Mapping
 from decimal import Decimal
@@ -14,7 +11,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.algebra.constants import GRAVITY
-from tandemlift.report.latex import latex_text
 from tandemlift.report.paper.errata import DATA, errata
 from tandemlift.vehicle import Vehicle
 
@@ -25,7 +21,6 @@ DERIVED = {
     "payload inertia": lambda vehicle: vehicle.payload.moments,
     "gravity": lambda vehicle: GRAVITY,
 }
-HEADINGS = ("symbol", "meaning", "printed", "unit", "here", "unit here", "from", "agrees")
 
 
 class TableRow(NamedTuple):
@@ -129,47 +124,3 @@ def _row(row: Mapping[str, Any], mission: Mapping[str, Any]) -> TableRow:
 def _plain(printed: str) -> str:
     """A printed number without a power of ten."""
     return format(Decimal(printed), "f")
-
-
-def as_csv(table: PaperTable) -> str:
-    """A table as CSV."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(HEADINGS)
-    writer.writerows([*row[:-1], row.mark or "yes"] for row in table.rows)
-    return text.getvalue().replace("`", "")
-
-
-LATEX_COLUMNS = "lllllll"
-
-
-def latex_head() -> list[str]:
-    """The cells of the first row in LaTeX."""
-    return [latex_text(heading) for heading in HEADINGS if heading != "from"]
-
-
-def latex_rows(table: PaperTable) -> list[list[str]]:
-    """The rows of a table in LaTeX."""
-    return [
-        [latex_symbol(row.symbol), *map(_latex_unit, (row.meaning, row.printed, row.unit, row.ours, row.right))]
-        + [row.mark or "yes"]
-        for row in table.rows
-    ]
-
-
-GREEK = {letter: f"\\{name}" for letter, name in zip("ξηλφθψμΩωτχ", (
-    "xi", "eta", "lambda", "phi", "theta", "psi", "mu", "Omega", "omega", "tau", "chi"), strict=True)}
-SUBSCRIPTS = {"₁": "_1", "₂": "_2"}
-
-
-def latex_symbol(text: str) -> str:
-    """Symbols such as ξ_φ or J_tx in LaTeX's mathematics."""
-    found = re.sub(r"_(\w+)", lambda match: "_{" + match[1] + "}", text)
-    for character, name in (GREEK | SUBSCRIPTS).items():
-        found = found.replace(character, name + (" " if character in GREEK else ""))
-    return re.sub(r"[^,\s][^,]*", lambda match: f"${match[0].strip()}$", found)
-
-
-def _latex_unit(text: str) -> str:
-    """Text in LaTeX with powers and Greek letters."""
-    return "".join(f"${GREEK[c]}$" if c in GREEK else "$^2$" if c == "²" else latex_text(c) for c in text)
