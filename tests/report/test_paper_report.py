@@ -15,15 +15,18 @@ from tandemlift.cli import paper as command
 from tandemlift.cli.main import cli
 from tandemlift.figures.diagrams.mass_damper_spring import response
 from tandemlift.missions.writing import tables_of
+from tandemlift.report.paper import files
 from tandemlift.report.paper.claims import claims, gaussian_displacement
 from tandemlift.report.paper.contents import open_settings, paper_figures
 from tandemlift.report.paper.document import PaperFlights
+from tandemlift.report.paper.drawings import drawing_for
 from tandemlift.report.paper.errata import errata
 from tandemlift.report.paper.files import typeset
 from tandemlift.report.paper.tables import agrees, nomenclature, paper_tables, value_at
 
 PAPER = ROOT.parent / "shared" / "paper.tex"
 SHORT = {"mission.duration": 16.0, "mission.log_interval": 0.05}
+SLOW = ("reference", "tracking", "inputs", "interaction")  # have tests of their own; another stands for them
 TABLES = ["I", "II", "III"]
 
 
@@ -47,6 +50,7 @@ def without_typst(flights, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(sys.modules, "typst", None)
         patch.setattr(command, "fly_paper", lambda: flights)
+        patch.setattr(files, "drawing_for", lambda name: drawing_for("path" if name in SLOW else name))
         result = CliRunner().invoke(cli, ["paper", "--out", str(path)])
     return str(result.exception), path
 

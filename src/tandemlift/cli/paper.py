@@ -26,7 +26,7 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
     """Put the figures and tables of the paper beside ours, in one PDF.
 
     The missions `paper` and `zigzag` are flown, and `paper` once more for each setting that the paper leaves open, with
-    another choice. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, everything else is written.
+    another choice. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, all else is written.
 
     \b
     Examples:
