@@ -4,7 +4,7 @@ import io
 
 import pytest
 
-from tandemlift.studies.units.progress import ProgressLine, duration, shown_progress
+from tandemlift.common.progress import ProgressLine, duration, shown_progress
 
 
 class OutStream(io.StringIO):
