@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page test lint types imports tests test-pythons test-gazebo test-targets random-missions bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs test lint types imports tests test-pythons test-gazebo test-targets random-missions bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -28,6 +28,10 @@ web/node_modules/.package-lock.json: web/package-lock.json
 	@echo 'Installing what the page is built with (once): some 10 s …'
 	@npm --prefix web ci --silent
 	touch $@
+
+docs: .venv/docs  ## the site, into out/site: runs the tutorials, draws the gallery, checks every link within it
+	$(BIN)/sphinx-build -b html -W --keep-going -j auto docs out/site
+	@echo 'The site: out/site/index.html'
 
 lint: .venv/dev  ## format and lint
 	$(BIN)/ruff format --check .
@@ -54,7 +58,7 @@ test-targets: .venv/dev  ## every target on every mission: cross compilers, QEMU
 	tools/test-packages --targets
 	TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -n 2 -m targets
 
-random-missions: .venv/dev  ## a thousand missions at random, each outcome confirmed by a judge; into docs/validation.md
+random-missions: .venv/dev  ## a thousand missions at random, each outcome confirmed by a judge; into docs/explanation/validation.md
 	$(BIN)/python tools/random_missions.py --write
 
 bench: .venv/dev ## speed of everything, printed
@@ -86,6 +90,11 @@ bench-peers: .venv-peers/ready  ## speed beside other simulators, printed
 .venv/dev: .venv/run lock/dev.txt
 	@echo 'Installing what tests and linters need (once): 600 MB to fetch, then some 40 s …'
 	@$(PIP) -r lock/dev.txt
+	@touch $@
+
+.venv/docs: .venv/run lock/docs.txt
+	@echo 'Installing what the site is built with (once): 200 MB to fetch, then some 20 s …'
+	@$(PIP) -r lock/docs.txt
 	@touch $@
 
 lock:            ## pin the newest versions of everything

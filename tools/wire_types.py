@@ -1,4 +1,4 @@
-"""Write what follows from the wire's definitions: the page's TypeScript types and the tables of docs/live.md.
+"""Write what follows from the wire's definitions: the page's TypeScript types and the tables of docs/how-to/live.md.
 
 Usage: python tools/wire_types.py (`make page` calls it). The definitions are in src/tandemlift/live/wire/.
 """
@@ -33,7 +33,7 @@ from tandemlift.live.wire.server_messages import SERVER_MESSAGES, SHOWN_PARAMETE
 
 ROOT = Path(__file__).resolve().parent.parent
 TYPESCRIPT = ROOT / "web" / "src" / "wire" / "messages.generated.ts"
-DOCUMENT = ROOT / "docs" / "live.md"
+DOCUMENT = ROOT / "docs" / "how-to" / "live.md"
 HUGE = 1e6  # a bound that only keeps numbers finite
 WORDS = {float: "number", int: "number", str: "string", bool: "boolean", type(None): "null"}
 HEAD = """\

@@ -85,14 +85,14 @@ faults.ALARM_TEXTS = faults._alarm_texts()
 
 import tandemlift as tl
 from tandemlift.laws.guidance.fault_detection import ActiveFaults, strongest_reaction
-from tandemlift.missions.key_reference.markdown import keys_page
+from tandemlift.missions.key_reference.markdown import key_tables
 from tandemlift.live.session.scene_builder import scene_of
 
 mission = tl.load_mission("iris", {"pilot.guidance": "hand", "supervision.model": "watch",
                                    "supervision.reactions.battery": "land"})
 assert mission.supervision.reactions.battery == "land"
-assert "| `supervision.reactions.battery` |" in keys_page()
-assert "reaction when the battery is low" in keys_page()
+assert "| `supervision.reactions.battery` |" in key_tables()
+assert "reaction when the battery is low" in key_tables()
 assert scene_of(mission, "compiled")["alarms"][10 * NEXT] == "battery low"
 none = ActiveFaults(*[0.0] * len(faults.FAULTS))
 assert strongest_reaction(none._replace(battery=1.0), none._replace(battery=3.0)) == (3.0, 10.0 * NEXT)

@@ -14,7 +14,7 @@ import tandemlift as tl
 from tandemlift.controllers import CONTROLLERS, controller, load_controller, register
 from tandemlift.settings import ControllerTable
 
-GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
+GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
 LAW, PLAIN = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
 REGISTERED = sorted(CONTROLLERS)
 AWAY = {"mission.duration": 1.0, "initial.position": [0.1, 0.0, 0.0]}

@@ -1,4 +1,4 @@
-"""Every registered controller, and the guide to one's own: docs/controllers.md is run, not only read."""
+"""Every registered controller, and the guide to one's own: docs/reference/controllers.md is run, not only read."""
 
 import re
 
@@ -10,8 +10,9 @@ import tandemlift as tl
 from tandemlift.algebra.layout import flat
 from tandemlift.controllers import CONTROLLERS, controller, load_controller
 from tandemlift.controllers import control as control_law
+from tandemlift.missions.key_reference.markdown import key_tables
 
-GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
+GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
 FILES = dict(re.findall(r"<!-- (\S+) -->\n```python\n(.*?)```", GUIDE, re.DOTALL))
 REGISTERED = sorted(CONTROLLERS)
 
@@ -140,7 +141,7 @@ def test_metrics_around_ten_seconds_are_those_of_the_law_compiled(duration, law,
 @pytest.mark.parametrize("name", [name for name in REGISTERED if name != "nftsmc"])
 def test_every_key_of_a_baseline_is_in_the_page_of_keys_and_has_a_default(name):
     fields = CONTROLLERS[name].settings.model_fields
-    page = (ROOT / "docs" / "keys.md").read_text("utf-8")
+    page = key_tables()
     section = page.partition(f"## `[controller]` of `{name}`\n")[2].partition("\n## ")[0]
     assert [key for key in fields if key != "name" and f"`controller.{key}`" not in section] == []
     assert [key for key, field in fields.items() if key != "name" and field.is_required()] == []

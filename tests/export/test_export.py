@@ -15,7 +15,7 @@ import tandemlift as tl
 from tandemlift.export.write import export
 from tandemlift.missions import tables_of
 
-DOCUMENT = ROOT / "docs" / "export.md"
+DOCUMENT = ROOT / "docs" / "reference" / "export.md"
 MD5 = {  # as ROS Noetic's own packages have them
     "diagnostic_msgs/DiagnosticArray": "60810da900de1dd6ddd437c3503511da",
     "geometry_msgs/PointStamped": "c63aecb41bfdfd6b7e1fac37c7cbe7bf",

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
 from tandemlift.algebra.vector import Nothing
-from tandemlift.flight.channel_tables import with_tables
+from tandemlift.flight.channel_tables import channel_tables
 from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.laws.guidance.hand_guidance import HandGuidanceChannels
@@ -60,10 +59,8 @@ def test_a_channel_says_its_unit_its_meaning_and_in_which_frame_a_vector_is():
     assert {channel.per for channel in CHANNELS.values()} == {"", "rotor", "quadrotor"}
 
 
-def test_the_tables_of_the_documents_are_made_from_the_record():
-    page = (ROOT / "docs" / "flights.md").read_text("utf-8")
-    assert page == with_tables(page), "run: python -m tandemlift.flight.channel_tables docs/flights.md"
-    assert all(f"| `{name}` |" in page for name in CHANNELS)
+def test_the_tables_of_the_documents_name_every_channel():
+    assert [name for name in CHANNELS if f"| `{name}` |" not in channel_tables()] == []
 
 
 def unflown(changes, count=2):

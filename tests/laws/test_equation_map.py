@@ -87,7 +87,7 @@ SPAN = re.compile(r"`([^`]+)`")
 
 def rows() -> list[list[str]]:
     """The cells of the map's rows."""
-    lines = (ROOT / "docs" / "equations.md").read_text("utf-8").splitlines()
+    lines = (ROOT / "docs" / "explanation" / "equations.md").read_text("utf-8").splitlines()
     cells = [re.split(r"(?<!\\)\|", line)[1:-1] for line in lines if line.startswith("|")]
     return [[cell.strip() for cell in row] for row in cells[2:]]
 
@@ -166,13 +166,13 @@ def test_every_label_in_the_source_is_in_the_map():
 
 def sections() -> dict[str, str]:
     """The text of each erratum by what it is about."""
-    text = (ROOT / "docs" / "errata.md").read_text("utf-8")
+    text = (ROOT / "docs" / "explanation" / "errata.md").read_text("utf-8")
     parts = re.split(r"^### `([^`]+)`", text, flags=re.MULTILINE)[1:]
     return dict(zip(parts[::2], parts[1::2], strict=True))
 
 
 def test_every_erratum_has_one_section():
-    text = (ROOT / "docs" / "errata.md").read_text("utf-8")
+    text = (ROOT / "docs" / "explanation" / "errata.md").read_text("utf-8")
     assert set(sections()) == ERRATA
     assert text.count("\n### ") == len(ERRATA)
 

@@ -1,4 +1,4 @@
-"""docs/architecture.md draws what stands: its floors are those of the import contracts, and each name in it exists."""
+"""architecture.md draws what stands: its floors are those of the import contracts, and each name in it exists."""
 
 import importlib
 import re
@@ -9,7 +9,7 @@ from repository import ROOT
 
 import tandemlift as tl
 
-TEXT = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+TEXT = (ROOT / "docs" / "explanation" / "architecture.md").read_text("utf-8")
 PACKAGE = ROOT / "src" / "tandemlift"
 CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]["contracts"]
 DRAWINGS = re.findall(r"^```\n(.*?)^```", TEXT, flags=re.M | re.S)

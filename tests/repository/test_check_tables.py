@@ -1,11 +1,11 @@
-"""docs/checks.md has every check as the code says it."""
+"""docs/reference/checks.md has every check as the code says it."""
 
 from repository import ROOT
 
 from tandemlift.linearization.mission_check import LOOP_CHECKS
 from tandemlift.missions.flight_checks.table import CHECKS
 
-TEXT = (ROOT / "docs" / "checks.md").read_text("utf-8")
+TEXT = (ROOT / "docs" / "reference" / "checks.md").read_text("utf-8")
 
 
 def rows(columns):

@@ -1,4 +1,4 @@
-"""docs/outcomes.md and the settings name every kind of finding, and every key that a kind names exists."""
+"""docs/reference/outcomes.md and the settings name every kind of finding, and every key that a kind names exists."""
 
 from repository import ROOT
 
@@ -7,7 +7,7 @@ from tandemlift.missions.key_reference.sections import sections
 
 
 def test_the_table_of_kinds_is_that_of_the_code():
-    assert finding_kinds_markdown() in (ROOT / "docs" / "outcomes.md").read_text("utf-8")
+    assert finding_kinds_markdown() in (ROOT / "docs" / "reference" / "outcomes.md").read_text("utf-8")
 
 
 def test_each_name_has_a_kind_of_its_own():

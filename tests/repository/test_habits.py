@@ -8,7 +8,7 @@ from fnmatch import fnmatch
 import pytest
 from repository import ROOT
 
-DOCS = sorted(f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md"))
+DOCS = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").rglob("*.md"))
 MADE = "src/tandemlift/data/page/*"  # by `make page`
 
 

@@ -1,10 +1,10 @@
-"""docs/outcomes.md names every outcome and every reason to stop a flight."""
+"""docs/reference/outcomes.md names every outcome and every reason to stop a flight."""
 
 from repository import ROOT
 
 from tandemlift.common.outcomes import ENDINGS, OUTCOMES
 
-TEXT = (ROOT / "docs" / "outcomes.md").read_text("utf-8")
+TEXT = (ROOT / "docs" / "reference" / "outcomes.md").read_text("utf-8")
 
 
 def rows(columns):

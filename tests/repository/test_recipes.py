@@ -45,7 +45,7 @@ KEY: Edits = {"settings/guided.py": [(SPIN_UP, NEW_KEY + SPIN_UP)]}
 KEY_IS_KNOWN = """
 import tandemlift as tl
 from tandemlift.missions.key_reference.explaining import explained
-from tandemlift.missions.key_reference.markdown import keys_page
+from tandemlift.missions.key_reference.markdown import key_tables
 from tandemlift.missions.key_reference.schema import mission_schema
 from tandemlift.missions.key_reference.template import template_text
 
@@ -55,7 +55,7 @@ assert explained(name).split() == (
 said = mission_schema()["properties"]["compliance"]["properties"]["idle_time"]
 assert (said["minimum"], said["default"]) == (0, 0.2) and meaning in said["description"]
 assert any("idle_time = 0.2" in line and meaning in line for line in template_text().splitlines())
-assert f"| `{name}` | s | `0.2` | a number ≥ 0 | {meaning} | chosen: short |" in keys_page()
+assert f"| `{name}` | s | `0.2` | a number ≥ 0 | {meaning} | chosen: short |" in key_tables()
 changes = [{"time": 1.0, "key": name, "value": 0.3}]
 mission = tl.load_mission("iris", {name: 0.1, "changes": changes, "pilot.guidance": "hand"})
 assert mission.compliance.idle_time == 0.1
@@ -120,7 +120,7 @@ def test_a_variant_of_a_law_touches_its_law_its_key_and_where_it_is_chosen(with_
     with_edits(LAW, LAW_FLIES)
 
 
-GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
+GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
 LIST = "from tandemlift.controllers import geometric"
 CONTROLLER: Edits = {
     "controllers/my_pd.py": [("", re.findall(r"<!-- my_pd.py -->\n```python\n(.*?)```", GUIDE, re.DOTALL)[0])],
@@ -128,11 +128,11 @@ CONTROLLER: Edits = {
 }
 CONTROLLER_FLIES = """
 import tandemlift as tl
-from tandemlift.missions.key_reference.markdown import keys_page
+from tandemlift.missions.key_reference.markdown import key_tables
 
 metrics = tl.fly(tl.load_mission("hover", {"controller.name": "my-pd", "controller.stiffness": 9.0})).metrics()
 assert abs(metrics["final_position_m"][2] - metrics["final_reference_m"][2]) < 0.01
-assert "## `[controller]` of `my-pd`" in keys_page()
+assert "## `[controller]` of `my-pd`" in key_tables()
 """
 
 

@@ -59,8 +59,8 @@ def test_rviz_shows_topics_that_there_are(trial):
 
 
 def test_the_document_names_every_topic_request_and_parameter(trial):
-    text = (ROOT / "docs" / "ros.md").read_text("utf-8")
-    bags = (ROOT / "docs" / "export.md").read_text("utf-8")
+    text = (ROOT / "docs" / "how-to" / "ros.md").read_text("utf-8")
+    bags = (ROOT / "docs" / "reference" / "export.md").read_text("utf-8")
     for topic in trial.middleware.kinds:
         name = re.sub(r"joint_\d", "joint_N", topic.removeprefix("/tandemlift/"))
         assert f"`{topic}`" in text or f"`{name}`" in bags, topic

@@ -1,4 +1,4 @@
-"""docs/safety.md is what happens: every row of its table of faults is flown, in one compiled loop."""
+"""docs/explanation/safety.md is what happens: every row of its table of faults is flown, in one compiled loop."""
 
 import re
 import tomllib
@@ -17,7 +17,7 @@ from tandemlift.laws.guidance.guidance import PilotInput, checked_input, guide
 from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.settings.supervision import SupervisionTable
 
-TEXT = (ROOT / "docs" / "safety.md").read_text("utf-8")
+TEXT = (ROOT / "docs" / "explanation" / "safety.md").read_text("utf-8")
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle
 QUIET = [{"sensor": "position", "kind": "bias", "time": 1000.0}]  # no fault, in the same compiled loop
 FLOWN = {

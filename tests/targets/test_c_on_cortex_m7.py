@@ -1,4 +1,4 @@
-"""The pilot of `iris` in C on a Cortex-M7 under QEMU: the same bits, and what docs/c-target.md says of a sample."""
+"""The pilot of `iris` in C on a Cortex-M7 under QEMU: the same bits, and what flight-computer.md says of a sample."""
 
 import re
 
@@ -19,7 +19,7 @@ def test_a_sample_has_the_bits_of_the_native_pilot_and_costs_what_the_guide_says
     mission = unfused(tl.load_mission(name))
     vectors = closed_loop(mission, 40)
     span = np.ptp([thrusts for *_, thrusts in vectors])
-    guide = (ROOT / "docs" / "c-target.md").read_text("utf-8")
+    guide = (ROOT / "docs" / "how-to" / "flight-computer.md").read_text("utf-8")
     for precision in ("double", "single"):
         found = measured(mission, vectors, tmp_path / precision, precision == "single")
         if precision == "double":

@@ -16,7 +16,7 @@ from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.targets.c.write import code_texts, write_c, written
 from tools import need
 
-GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
+GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
 LAW, _ = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
 SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g")
 

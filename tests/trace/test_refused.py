@@ -16,7 +16,7 @@ from tandemlift.controllers import load_controller
 from tandemlift.machine_code.functions import compiled, written
 from tandemlift.trace import TraceError, graph
 
-GUIDE = (ROOT / "docs" / "controllers.md").read_text("utf-8")
+GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
 LAW, _ = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
 HERE = "    attitude = euler_from_quaternion(state.attitude)\n"
 LINE = LAW[: LAW.index(HERE)].count("\n") + 1

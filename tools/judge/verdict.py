@@ -1,7 +1,7 @@
 """What became of a flight, from MuJoCo's own trajectory and from Newton's laws, by the written definitions.
 
-The definitions are those of docs/outcomes.md, written again here from their words. The impulse of a contact is what the
-vehicle's momentum changes beyond thrust, weight, pushes and air: so no model of contact enters it.
+The definitions are those of docs/reference/outcomes.md, written again here from their words. The impulse of a contact
+is what the vehicle's momentum changes beyond thrust, weight, pushes and air: so no model of contact enters it.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ def compile(mission: str, target: str, out: str | None, single: bool, settings: 
     cortex-m7  NAME.o for microcontrollers with double precision
 
     The code takes the numbers of a mission file: masses, gains, pushes. NAME.json, the manifest, lists them with unit
-    and bounds, and the channels of a flight. docs/targets.md shows how to call the code.
+    and bounds, and the channels of a flight. docs/how-to/compile.md shows how to call the code.
 
     \b
     Examples:

@@ -34,7 +34,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
     A flight or a mission:  .sdf   Gazebo world  .xml  MuJoCo model
 
     FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder) or a mission. Bags need the package rosbags
-    (pip install 'tandemlift[export]'), MuJoCo models the package mujoco. docs/export.md describes the files.
+    (pip install 'tandemlift[export]'), MuJoCo models the package mujoco. docs/reference/export.md describes the files.
 
     \b
     Examples:

@@ -31,7 +31,7 @@ def template() -> None:
 @click.command()
 @click.argument("key", required=False)
 @controller_option
-@click.option("--markdown", is_flag=True, help="Print the reference of all keys (docs/keys.md) instead.")
+@click.option("--markdown", is_flag=True, help="Print the reference of all keys in Markdown instead.")
 def explain(key: str | None, controller: str | None, markdown: bool) -> None:
     """Explain a mission KEY: unit, meaning, bounds, default and its source.
 
@@ -45,12 +45,12 @@ def explain(key: str | None, controller: str | None, markdown: bool) -> None:
       tandemlift explain controller.stiffness --controller my_pd.py
     """
     from tandemlift.missions.key_reference.explaining import explained, index
-    from tandemlift.missions.key_reference.markdown import keys_page
+    from tandemlift.missions.key_reference.markdown import key_tables
 
     if controller is not None:
         chosen_controller(controller)
     if markdown:
-        echo(keys_page(), nl=False)
+        echo(key_tables(), nl=False)
     else:
         echo(index() if key is None else explained(key))
 

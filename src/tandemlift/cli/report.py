@@ -37,8 +37,8 @@ def report(flight: str, out: str | None, no_figures: bool, metrics: tuple[str, .
     """Draw the figures and write the report of a saved flight, of a bag or of a study.
 
     FLIGHT is flight.npz or its folder, or a bag of ROS 1 (.bag) or ROS 2 (.mcap, or its folder) with the topics of
-    docs/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`. Or it is
-    the folder of a study, which may still fly: docs/studies.md says what its report shows.
+    docs/reference/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`.
+    Or it is the folder of a study, which may still fly: docs/reference/studies.md says what its report shows.
 
     \b
     Examples:

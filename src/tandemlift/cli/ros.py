@@ -49,7 +49,7 @@ def ros(
     MISSION is a built-in mission (see `tandemlift missions`) or the path of a .toml file. The default is zigzag, the
     paper's corridor. The mission's own pushes and person are left out: messages on /tandemlift/push push the vehicle.
     ROS 1 needs rospy and a running roscore. ROS 2 needs no installed ROS, only pip install 'tandemlift[ros2]'.
-    docs/ros.md describes topics, services and parameters. Ctrl-C ends the flight.
+    docs/how-to/ros.md describes topics, services and parameters. Ctrl-C ends the flight.
 
     \b
     Examples:

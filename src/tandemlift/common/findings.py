@@ -1,8 +1,8 @@
 """What a flight's record is searched for, beside its outcome: every kind of finding in one record.
 
 A finding says what went badly in a flight that may have ended well: with time, place and number. The choices of the
-key `findings.ignore` and the table in docs/outcomes.md come from here. `loop.detectors` has the laws that watch every
-step, `simulation.findings` forms findings from what they hold.
+key `findings.ignore` and the table in docs/reference/outcomes.md come from here. `loop.detectors` has the laws that
+watch every step, `simulation.findings` forms findings from what they hold.
 """
 
 from __future__ import annotations
@@ -87,8 +87,8 @@ KINDS = (
     ),
     FindingKind(
         "cannot-follow",
-        'the pilot ignored pushes because the vehicle could not follow them, phase "limited"; docs/safety.md has the '
-        "reasons",
+        'the pilot ignored pushes because the vehicle could not follow them, phase "limited"; '
+        "docs/explanation/safety.md has the reasons",
         "remove the cause that it names: use stronger rotors or a lighter payload, or fly in less wind",
         ("compliance.following.time", "compliance.following.max_error", "compliance.following.recovery_time"),
     ),
@@ -105,7 +105,7 @@ KINDS = (
     FindingKind(
         "lift-refused",
         "a lift was requested, and a check before the flight refused it",
-        "see the failed check in docs/safety.md, and its keys in `supervision.checks`",
+        "see the failed check in docs/explanation/safety.md, and its keys in `supervision.checks`",
     ),
 )
 KIND_OF = {kind.name: kind for kind in KINDS}
@@ -157,7 +157,7 @@ def finding_from(table: dict[str, Any]) -> Finding:
 
 
 def finding_kinds_markdown() -> str:
-    """The kinds as a table for docs/outcomes.md."""
+    """The kinds as a table for docs/reference/outcomes.md."""
     lines = ["| kind | what it means | what to do | keys |", "|---|---|---|---|"]
     lines += [f"| {k.name} | {k.meaning} | {k.remedy} | {', '.join(f'`{key}`' for key in k.keys)} |" for k in KINDS]
     return "\n".join(lines)

@@ -57,7 +57,7 @@ def root() -> Path | None:
     if shutil.which("gzserver") is None:
         raise InputError(
             "engine 'gazebo' needs Gazebo 11: install it, or make a Debian 11 root that has it by "
-            f"tools/gazebo-root ROOT (as root, 2.4 GB) and set {ROOT}=ROOT; docs/gazebo.md"
+            f"tools/gazebo-root ROOT (as root, 2.4 GB) and set {ROOT}=ROOT; docs/how-to/gazebo.md"
         )
     return None
 
@@ -122,7 +122,7 @@ class GazeboServer:
             raise ConnectionError(f"engine 'gazebo': gzserver has ended (exit code {code}){self.last_output()}")
         for line in self._lines():
             if any(failing in line for failing in FAILING):
-                raise InputError(f"engine 'gazebo' needs its plugin (docs/gazebo.md), and gzserver says: {line}")
+                raise InputError(f"engine 'gazebo' needs its plugin (docs/how-to/gazebo.md), and gzserver says: {line}")
 
     def _lines(self) -> list[str]:
         text = COLORS.sub("", (self.folder / "log").read_text("utf-8", "replace"))

@@ -216,7 +216,7 @@ class Wire:
         if version != VERSION:
             raise InputError(
                 f"engine 'gazebo': the plugin speaks version {version} of the protocol, this is version {VERSION}: "
-                "build the plugin of this tandemlift (docs/gazebo.md)"
+                "build the plugin of this tandemlift (docs/how-to/gazebo.md)"
             )
         if count != self.count:
             raise InputError(

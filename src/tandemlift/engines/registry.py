@@ -129,13 +129,13 @@ ENGINES = {
         ),
         Engine(
             "gazebo",
-            "Separate bodies on fixed joints in Gazebo 11 (ODE), driven over UDP (docs/gazebo.md).",
+            "Separate bodies on fixed joints in Gazebo 11 (ODE), driven over UDP (docs/how-to/gazebo.md).",
             _gazebo,
             pushable=True,
         ),
         Engine(
             "gazebo-ros",
-            "The same, driven over topics of ROS 1 (docs/gazebo.md#over-ros).",
+            "The same, driven over topics of ROS 1 (docs/how-to/gazebo.md#over-ros).",
             _gazebo_over_ros,
             pushable=True,
         ),

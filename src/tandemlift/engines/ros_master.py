@@ -114,7 +114,7 @@ class RosMaster:
         if not ((inside / "usr/bin/rosmaster").exists() if inside else shutil.which("rosmaster")):
             raise InputError(
                 "engine 'gazebo-ros' needs ROS 1 beside Gazebo: on Debian apt-get install python3-roslaunch; "
-                "a root is brought up to date by running tools/gazebo-root again (docs/gazebo.md)"
+                "a root is brought up to date by running tools/gazebo-root again (docs/how-to/gazebo.md)"
             )
         self._folder = tempfile.mkdtemp(prefix="tandemlift-", dir=inside / "tmp" if inside else None)
         logs = f"/tmp/{Path(self._folder).name}" if inside else self._folder

@@ -1,21 +1,11 @@
-"""The tables of channels in docs/flights.md, made from `flight.channels`.
-
-    python -m tandemlift.flight.channel_tables docs/flights.md
-
-rewrites them; a test compares.
-"""
+"""The tables of channels in docs/reference/channels.md, made from `flight.channels`."""
 
 from __future__ import annotations
 
-import re
-import sys
 import textwrap
-from pathlib import Path
 
 from tandemlift.flight.channels import GROUPS, Channel, ChannelGroup
 
-BEGIN = "<!-- made by: python -m tandemlift.flight.channel_tables docs/flights.md -->"
-END = "<!-- end of what is made -->"
 HEAD = "| name | columns | unit | frame | meaning |\n|---|---|---|---|---|"
 PER = {"": "{}", "rotor": "{} per rotor", "quadrotor": "{} per quadrotor"}
 
@@ -34,13 +24,3 @@ def _table(group: ChannelGroup) -> str:
 def _row(name: str, channel: Channel) -> str:
     columns = PER[channel.per].format(channel.width)
     return f"| `{name}` | {columns} | {channel.unit} | {channel.frame} | {channel.meaning} |"
-
-
-def with_tables(page: str) -> str:
-    """A page with the tables as they are now between `BEGIN` and `END`."""
-    return re.sub(f"(?s){re.escape(BEGIN)}.*{re.escape(END)}", f"{BEGIN}\n\n{channel_tables()}\n\n{END}", page)
-
-
-if __name__ == "__main__":
-    for path in map(Path, sys.argv[1:]):
-        path.write_text(with_tables(path.read_text("utf-8")), "utf-8")

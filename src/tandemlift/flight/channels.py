@@ -1,7 +1,7 @@
 """The channels of a flight: what each holds, its unit, its frame, its width, and the missions that have it.
 
-This is the only list of channels. Tables, bags, CSV files and the tables in docs/flights.md are made from it. The laws
-in `loop.log_sample` give the values, in the same order. CONTRIBUTING.md says how to add a channel.
+This is the only list of channels. Data frames, bags, CSV files and docs/reference/channels.md are made from it. The
+laws in `loop.log_sample` give the values, in the same order. CONTRIBUTING.md says how to add a channel.
 
 Frames: `world` is inertial with z up; `body` is fixed to the vehicle; `zxy` are Euler angles roll, pitch, yaw.
 """
@@ -170,8 +170,10 @@ GROUPS: tuple[ChannelGroup, ...] = (
     ChannelGroup(
         'Guided by hand under supervision (`supervision.model = "watch"`)',
         {
-            "alarm": Channel("1", "", "number of the fault reacted to, as in docs/safety.md; 0 for none", 1),
-            "failed_check": Channel("1", "", "number of the check that fails, as in docs/safety.md; 0 for none", 1),
+            "alarm": Channel("1", "", "number of the fault reacted to, 0 for none; see docs/explanation/safety.md", 1),
+            "failed_check": Channel(
+                "1", "", "number of the failed check, 0 for none; see docs/explanation/safety.md", 1
+            ),
         },
     ),
     ChannelGroup(

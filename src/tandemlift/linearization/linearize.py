@@ -62,7 +62,7 @@ def linearize(
         kink_tolerance: the largest distance of the point from a kink that is reported, in the unit of a state or input.
 
     Returns:
-        The model; see `LinearModel`, and docs/linearize.md for what it assumes.
+        The model; see `LinearModel`, and docs/reference/linearize.md for what it assumes.
 
     Raises:
         InputError: an argument is not allowed; the flight is lost before `at`; the controller is plain Python; the step

@@ -1,6 +1,7 @@
 """What a mission key is, said once, where the key is defined: its unit, its meaning, and where its default is from.
 
-Bounds are in the key's type. Template, docs/keys.md, `tandemlift explain` and `tandemlift schema` are made from both.
+Bounds are in the key's type. The template, the reference of keys, `tandemlift explain` and `tandemlift schema` are made
+from both.
 """
 
 from __future__ import annotations

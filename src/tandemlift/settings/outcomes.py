@@ -17,7 +17,7 @@ Periods = Annotated[int, Field(ge=2, le=1000)]
 
 
 class CrashTable(Table):
-    """`[crash]`: what ends a flight as crashed; see docs/outcomes.md."""
+    """`[crash]`: what ends a flight as crashed; see docs/reference/outcomes.md."""
 
     tilt: Annotated[float, Field(gt=0.0, le=3.2)] = key(
         1.5533430342749532,
@@ -51,7 +51,7 @@ class CrashTable(Table):
 
 
 class OutcomeTable(Table):
-    """`[outcome]`: what counts as a lift and as a landing; see docs/outcomes.md."""
+    """`[outcome]`: what counts as a lift and as a landing; see docs/reference/outcomes.md."""
 
     lifted_height: Positive = key(
         0.05,
@@ -68,7 +68,7 @@ class OutcomeTable(Table):
 class PromiseTable(Table):
     """`[promise]`: how closely the vehicle follows its reference; where it does not, the flight has a finding.
 
-    It holds in flight, from the settling time on. See docs/outcomes.md.
+    It holds in flight, from the settling time on. See docs/reference/outcomes.md.
     """
 
     distance: Positive | None = key(
@@ -136,7 +136,7 @@ def promise_of(p: PromiseTable, guidance: str) -> Promise:
 
 
 class FindingsTable(Table):
-    """`[findings]`: from where on a flight has findings; see docs/outcomes.md."""
+    """`[findings]`: from where on a flight has findings; see docs/reference/outcomes.md."""
 
     ignore: tuple[FindingName, ...] = key(
         (),

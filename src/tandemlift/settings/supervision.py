@@ -119,7 +119,7 @@ class ReactionsTable(create_model("Reactions", __base__=Table, **_REACTION_KEYS)
 
 
 class SupervisionTable(Table):
-    """`[supervision]`: checks, watchdogs, limits and reactions of a flight by hand; see docs/safety.md."""
+    """`[supervision]`: checks, watchdogs, limits and reactions of a flight by hand; see docs/explanation/safety.md."""
 
     model: Literal["none", "watch"] = key(
         "none",
@@ -152,7 +152,7 @@ class ContactTable(Table):
     """`[contact]`: how a touch of a wall is told from a hand and from a broken sensor, and the reaction to it.
 
     It needs `pilot.guidance = "hand"`, `pilot.push` other than "truth", and rotors that push along body z alone, as all
-    do here. See docs/safety.md.
+    do here. See docs/explanation/safety.md.
     """
 
     model: Literal["none", "watch"] = key(

@@ -37,7 +37,7 @@ def study(
         out: folder of the study; by default out/NAME.
         threads: number of threads; by default one for each processor.
         executor: flies the units in place of threads of this process; `threads` is then the number of its workers.
-        scheduler: address of a Dask scheduler, whose workers fly the units; see docs/scaling.md.
+        scheduler: address of a Dask scheduler, whose workers fly the units; see docs/how-to/scaling.md.
         cluster: "local:N" for N processes of this machine, under Dask.
         part: "K/N" to fly part K of N only; the parts may run at the same time, on machines that share the folder.
         progress: called with (rows flown, rows in all); by default, a notebook shows a bar.

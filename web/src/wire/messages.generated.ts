@@ -174,7 +174,7 @@ export interface StatusRefusals {
 
 /** Something that went badly in the flight so far. */
 export interface StatusFinding {
-  kind: string; // as in docs/outcomes.md
+  kind: string; // as in docs/reference/outcomes.md
   time: number; // when it began; s
   text: string;
 }

@@ -67,7 +67,7 @@ def tune(
     """Search values of MISSION that make metrics small, then fly old and new on draws that the search never saw.
 
     Every candidate flies the same draws. A bad outcome counts first; then the metrics, each over its target, or over
-    its present value. docs/tuning.md says how.
+    its present value. docs/how-to/tuning.md says how.
 
     \b
     Examples:

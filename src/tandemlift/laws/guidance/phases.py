@@ -2,7 +2,7 @@
 
 idle on the ground → lift → hold ⇄ guided ⇄ contact, limited → land → idle; from each of them → stopped, which is final.
 `next_phase` has the transitions, `PhaseOutput` what a phase allows. The laws have no branches: every condition is a
-number, 1 or 0. The diagram is in docs/safety.md; `common.phases` has names and numbers.
+number, 1 or 0. The diagram is in docs/explanation/safety.md; `common.phases` has names and numbers.
 """
 
 from typing import Any, NamedTuple

@@ -30,7 +30,7 @@ class StatusRefusals(TypedDict):
 class StatusFinding(TypedDict):
     """Something that went badly in the flight so far."""
 
-    kind: Annotated[str, "as in docs/outcomes.md"]
+    kind: Annotated[str, "as in docs/reference/outcomes.md"]
     time: Annotated[Seconds, "when it began"]
     text: str
 

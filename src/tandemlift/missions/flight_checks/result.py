@@ -14,7 +14,7 @@ class CheckResult(NamedTuple):
     """A check of a mission.
 
     Attributes:
-        check: its name, as in docs/checks.md.
+        check: its name, as in docs/reference/checks.md.
         subject: what was checked, such as an axis or a key; "" for the whole mission.
         value: the number; None where a sentence says it all.
         limit: the largest that is allowed; None likewise.

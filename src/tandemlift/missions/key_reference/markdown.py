@@ -1,4 +1,4 @@
-"""docs/keys.md: the tables of all keys, made from the tables of a mission."""
+"""The reference of all keys in Markdown, made from the tables of a mission."""
 
 from __future__ import annotations
 
@@ -7,22 +7,14 @@ from collections.abc import Iterator
 from tandemlift.missions.key_reference.sections import EXTENDS, Key, Section, default_words, is_of_the_package, sections
 from tandemlift.missions.values import shown
 
-HEAD = """\
-# All mission keys
-
-This page is made by `tandemlift explain --markdown > docs/keys.md`; [missions.md](missions.md) says how a mission is
-written. SI units, angles in rad. World axes have z up; body axes are fixed to the vehicle. Six-vectors run x, y, z,
-roll, pitch, yaw. In dotted keys a number picks an entry of a list, 0 the first. All numbers are finite. A key that is
-not required may be left out, and so may a table with nothing but such keys.
-"""
 COLUMNS = "| key | unit | default | allowed | meaning | source of the default |\n|---|---|---|---|---|---|"
 
 
-def keys_page() -> str:
-    """The page: a table of keys for each table of a mission."""
-    extends = f"\n`extends` (before all tables): {EXTENDS.meaning}.\n"
+def key_tables() -> str:
+    """A section with a table of keys for each table of a mission."""
+    extends = f"`extends` (before all tables): {EXTENDS.meaning}.\n"
     ours = (section for section in sections() if is_of_the_package(section.controller))
-    return HEAD + extends + "".join(_section(section) for section in ours)
+    return extends + "".join(_section(section) for section in ours)
 
 
 def _section(section: Section) -> str:

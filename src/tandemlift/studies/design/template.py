@@ -3,7 +3,7 @@
 TEMPLATE = """\
 # A study of tandemlift: many flights in one table. `tandemlift study FILE.toml` flies it, `--dry-run` counts it first.
 # Rows are: missions x controllers x engines x cases x grid points x draws x seeds. What is left out has its default.
-# Only [study] with name and missions is required. docs/studies.md explains every table.
+# Only [study] with name and missions is required. docs/reference/studies.md explains every table.
 
 [study]
 name = "gusts"                  # its folder is out/NAME

@@ -1,0 +1,61 @@
+"""The site: `make docs` writes out/site. It is built without a network, and a warning ends the build."""
+
+import sys
+from pathlib import Path
+
+import tandemlift
+
+sys.path.insert(0, str(Path(__file__).parent / "_extensions"))
+
+project = "tandemlift"
+author = "The tandemlift contributors"
+copyright = "2026, the tandemlift contributors"
+release = version = tandemlift.__version__
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx_click",
+    "sphinx_copybutton",
+    "sphinx_design",
+    "generated_markdown",
+    "live_page",
+    "mathml",
+]
+exclude_patterns = ["_extensions"]
+pygments_style = "friendly"
+pygments_dark_style = "monokai"
+highlight_language = "none"
+
+html_theme = "furo"
+html_title = f"tandemlift {release}"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_show_sphinx = False
+html_copy_source = False
+html_math_renderer = "mathml"
+html_theme_options = {"navigation_with_keys": True}
+
+# Markdown
+myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 4  # as GitHub makes them, so that one link works on both
+myst_links_external_new_tab = False
+copybutton_prompt_text = r"\$ |>>> "
+copybutton_prompt_is_regexp = True
+
+# Tutorials run when the site is built; a cell that fails ends the build.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300  # s
+nb_execution_in_temp = True
+nb_merge_streams = True
+nb_mime_priority_overrides = [("html", "text/html", 0)]
+
+# The interface of Python
+default_role = "code"  # docstrings write names in single backticks
+autodoc_typehints = "signature"
+autodoc_member_order = "bysource"
+napoleon_google_docstring = True
+napoleon_numpy_docstring = False
+napoleon_attr_annotations = True
