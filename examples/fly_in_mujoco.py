@@ -25,5 +25,7 @@ apart.plot(compiled.time, 1e3 * distance)
 apart.set(xlabel="time [s]", ylabel="distance of the two [mm]")
 figure.savefig("fly_in_mujoco.png", dpi=150)
 
-steps = {name: flight.metrics()["wall_s"] / flight.metrics()["steps"] for name, flight in flights.items()}
+steps = {
+    name: flight.metrics()["wall_s"] / flight.metrics()["steps"] for name, flight in flights.items()
+}
 assert steps["mujoco"] > 5 * steps["compiled"]

@@ -1,4 +1,4 @@
-"""Write a flight as a ROS 2 bag, read it with a library that knows nothing of tandemlift, and plot it."""
+"""Write a flight as a ROS 2 bag, read it by a library that knows nothing of it, and plot it."""
 
 from pathlib import Path
 
@@ -15,17 +15,17 @@ export(flight, "iris.mcap")
 
 
 def series(bag, topic):
-    """Times [s] and forces [N] (n, 3) of a topic."""
+    """Times [s] and forces along x [N] of a topic."""
     found = [c for c in bag.connections if c.topic == f"/tandemlift/{topic}"]
-    messages = [(time, bag.deserialize(raw, c.msgtype).wrench.force) for c, time, raw in bag.messages(found)]
-    return np.array([t for t, _ in messages]) * 1e-9, np.array([[f.x, f.y, f.z] for _, f in messages])
+    read = [(time, bag.deserialize(raw, c.msgtype)) for c, time, raw in bag.messages(found)]
+    return [1e-9 * time for time, _ in read], [message.wrench.force.x for _, message in read]
 
 
 figure, axes = plt.subplots(figsize=(7, 2.6), layout="constrained")
 with AnyReader([Path("iris.mcap")]) as bag:
     for topic, style in (("push/measured", "0.8"), ("push/true", "k"), ("push/gated", "C1")):
         times, forces = series(bag, topic)
-        axes.plot(times, forces[:, 0], style, label=topic)
+        axes.plot(times, forces, style, label=topic)
 axes.set(xlabel="time of the message [s]", ylabel="force along x [N]", ylim=(-1, 4))
 axes.legend()
 figure.savefig("from_flight_to_bag_to_plot.png", dpi=150)

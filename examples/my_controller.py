@@ -10,7 +10,7 @@ from tandemlift.settings import Positive3, key
 class Settings(tc.CascadeTable):
     """The keys of `[controller]`: one number for all axes, or three."""
 
-    bandwidth: Positive3 = key(2.0, "rad/s", "bandwidth of the position loop, along x, y, z")
+    bandwidth: Positive3 = key(2.0, "rad/s", "of the position loop, along x, y, z")
 
 
 class Gains(NamedTuple):
@@ -23,13 +23,13 @@ class Gains(NamedTuple):
 @tc.control.register(Gains)
 def my_pd(k, memory, measured, reference):
     """One sample: from what is measured and wanted to a thrust and three moments."""
-    state, wanted, angles = measured.state, reference.trajectory, tc.euler_from_quaternion(measured.state.attitude)
-    e, de, w = wanted.position - state.position, wanted.velocity - state.velocity, k.bandwidth
-    feedback = e * w * w + de * w * 2.0
-    force = tc.limit_tilt(k.vehicle.tilt, tc.wanted_force(k.vehicle, feedback, measured, reference))
+    state, wanted, w = measured.state, reference.trajectory, k.bandwidth
+    e, de = wanted.position - state.position, wanted.velocity - state.velocity
+    wish = tc.wanted_force(k.vehicle, e * w * w + de * w * 2.0, measured, reference)
+    force, angles = tc.limit_tilt(k.vehicle.tilt, wish), tc.euler_from_quaternion(state.attitude)
     tilt, memory = tc.tracked_attitude(k.vehicle, memory, angles, force, reference)
     rates = tc.euler_rates_from_rates(angles, state.rates)
-    turn = (tilt.angles - angles.angles) * 36.0 + (tilt.rates - rates) * 12.0 + tilt.accelerations
+    turn = tilt.accelerations + (tilt.angles - angles.angles) * 36.0 + (tilt.rates - rates) * 12.0
     return tc.command_from(k.vehicle, angles, force, turn, tilt.angles, measured), memory
 
 

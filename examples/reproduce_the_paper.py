@@ -1,4 +1,4 @@
-"""Fly the mission of the paper, read its numbers, and ask whether real rotors could have flown it."""
+"""Fly the mission of the paper, read its numbers, and ask whether real rotors could fly it."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,10 +16,10 @@ bound = metrics["human_impulse_n_s"][0] / mission.admittance.damping[0]
 assert np.allclose([way, bound], [10.9, 11.3], atol=0.05)  # m
 
 figure, (above, errors) = plt.subplots(1, 2, figsize=(7, 2.6), layout="constrained")
-above.plot(*flight["reference_position"][:, :2].T, "--", label="reference")
 above.plot(*flight["position"][:, :2].T, label="flown")
+above.plot(*flight["reference_position"][:, :2].T, "--", label="reference")
 above.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
-above.legend()
+above.legend(loc="lower left", fontsize=7)
 errors.plot(flight.time, 1e3 * flight["position_error"], label=["x", "y", "z"])
 errors.set(xlabel="time [s]", ylabel="position error [mm]", ylim=(-60, 60))
 errors.legend(ncols=3)

@@ -1,4 +1,4 @@
-"""What a push feels like: from words to virtual mass and damping, by closed form and in flight."""
+"""What a push feels like: from words to virtual mass and damping, computed and flown."""
 
 import math
 
@@ -31,7 +31,6 @@ assert np.allclose([e["force"] for e in effort.values()], [2.2, 1.5], atol=0.05)
 assert min(e["clearance"] for e in effort.values()) > 0.4  # m
 assert effort["light"]["jerk"] > effort["firm"]["jerk"]
 
-mine = tl.load_mission(
-    "iris", {"admittance.feel.force": 1.0, "admittance.feel.speed": 0.4, "admittance.feel.time": 2.0}
-)
+wish = {"force": 1.0, "speed": 0.4, "time": 2.0}  # N, m/s, s
+mine = tl.load_mission("iris", {f"admittance.feel.{key}": value for key, value in wish.items()})
 assert np.allclose([mine.admittance.damping[0], mine.admittance.mass[0]], [1.75, 1.17], atol=0.005)

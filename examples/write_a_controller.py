@@ -1,4 +1,4 @@
-"""Fly the controller of my_controller.py, check it against a closed form, and compare it in a study."""
+"""Fly my_controller.py, check it against a closed form, and compare it in a study."""
 
 import matplotlib.pyplot as plt
 
@@ -23,14 +23,14 @@ study = tl.study(
             "draws": 16,
         },
         "draw": {"plant.mass_scale": {"distribution": "uniform", "low": 0.9, "high": 1.1}},
-    },
-    out="out/masses",
+    }
 )
 table = study.to_pandas()
 figure, axes = plt.subplots(figsize=(7, 2.6), layout="constrained")
 for name, rows in table.groupby("controller"):
-    axes.semilogy(rows["plant.mass_scale"], 1e3 * rows["position_rmse_after_10s_m.2"], "o", label=name)
-axes.set(xlabel="real mass / mass that the pilot believes", ylabel="RMS error of z [mm]")
+    error = 1e3 * rows["position_rmse_after_10s_m.2"]
+    axes.semilogy(rows["plant.mass_scale"], error, "o", label=name)
+axes.set(xlabel="real mass over that of the pilot's model", ylabel="RMS error of z [mm]")
 axes.legend()
 figure.savefig("write_a_controller.png", dpi=150)
 

@@ -169,9 +169,12 @@ def shown_progress(label: str, unit: str = "rows", stream: TextIO | None = None)
         stream: where it goes.
     """
     pace = Pace(label, unit)
-    is_bar = stream is None and in_notebook()
-    stream = stream or sys.stderr
-    line = NotebookBar(pace) if is_bar else ProgressLine(pace, stream, rewrites=stream.isatty())
+    line: NotebookBar | ProgressLine
+    if stream is None and in_notebook():
+        line = NotebookBar(pace)
+    else:
+        stream = stream or sys.stderr
+        line = ProgressLine(pace, stream, rewrites=stream.isatty())
     try:
         yield line
     finally:

@@ -153,7 +153,6 @@ class Mission(Table):
         """What a notebook shows: the choices that make the mission what it is."""
         payload, quadrotors = self.vehicle.payload, self.vehicle.quadrotors
         mass = payload.mass + sum(q.mass for q in quadrotors)
-        person = "none" if self.person.model == "none" else f"a simulated person ({self.person.model})"
         rows = {
             "mission": f"{self.mission.name}, {self.mission.duration:g} s in steps of {1e3 * self.mission.step:g} ms",
             "vehicle": f"{len(quadrotors)} quadrotors on a payload of {payload.mass:g} kg; {mass:g} kg in all",
@@ -161,7 +160,7 @@ class Mission(Table):
             "guidance": self.pilot.guidance,
             "rotors": f"{self.actuators.model}, {self.allocation.method}",
             "sensors": self.sensors.model,
-            "pushes": f"{len(self.pushes)} of the mission; {person}",
+            "pushes": f"{len(self.pushes)}; simulated person: {self.person.model}",
             "around": f"wind: {self.wind.model}; ground: {self.ground.model}; walls: {len(self.all_walls)}",
         }
         cells = (f"<tr><th style='text-align:left'>{k}</th><td>{escape(v)}</td></tr>" for k, v in rows.items())
