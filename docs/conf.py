@@ -20,6 +20,7 @@ extensions = [
     "sphinx_copybutton",
     "sphinx_design",
     "api_entries",
+    "drawn",
     "generated_markdown",
     "live_page",
     "mathml",
