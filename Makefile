@@ -30,7 +30,7 @@ web/node_modules/.package-lock.json: web/package-lock.json
 	touch $@
 
 docs: .venv/docs  ## the site, into out/site: runs the tutorials, draws the gallery, checks every link within it
-	$(BIN)/sphinx-build -b html -W --keep-going -j auto docs out/site
+	$(BIN)/sphinx-build -b html -d out/doctrees -W --keep-going -j auto docs out/site
 	@echo 'The site: out/site/index.html'
 
 lint: .venv/dev  ## format and lint
