@@ -30,7 +30,7 @@ web/node_modules/.package-lock.json: web/package-lock.json
 	touch $@
 
 docs: .venv/docs  ## the site, into out/site: runs the tutorials, draws the gallery, checks every link within it
-	$(BIN)/sphinx-build -b html -W --keep-going -j auto docs out/site
+	$(BIN)/sphinx-build -b html -d out/doctrees -W --keep-going -j auto docs out/site
 	@echo 'The site: out/site/index.html'
 
 lint: .venv/dev  ## format and lint
@@ -44,7 +44,7 @@ imports: .venv/dev  ## imports go downward only
 	$(BIN)/lint-imports
 
 tests: .venv/dev ## all tests
-	$(BIN)/pytest -n auto
+	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto  # a process for each core: threads of linear algebra would only wait
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons

@@ -19,6 +19,7 @@ extensions = [
     "sphinx_click",
     "sphinx_copybutton",
     "sphinx_design",
+    "drawn",
     "generated_markdown",
     "live_page",
     "mathml",

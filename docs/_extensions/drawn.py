@@ -1,0 +1,76 @@
+"""The directive `drawn`: a command, and the pictures that it writes.
+
+    ```{drawn} tandemlift run zigzag
+    out/zigzag/figures/corridor.png
+    out/zigzag/picture.png: The vehicle at its strongest push.
+    ```
+
+runs the command when the site is built, and shows it with the pictures. A figure of a flight has its own caption.
+"""
+
+from __future__ import annotations
+
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from PIL import Image
+from sphinx.util.docutils import SphinxDirective
+
+from tandemlift.figures.registry import captions
+
+FOLDER = Path(__file__).resolve().parents[2] / "out" / "gallery"
+WIDTH = 1600  # px, at most
+
+
+class Drawn(SphinxDirective):
+    """Run a command of tandemlift and show pictures that it writes: lines of `PATH` or `PATH: caption`."""
+
+    required_arguments = 1
+    final_argument_whitespace = True
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        """The command as a block of code, and its figures.
+
+        Raises:
+            docutils.utils.DirectiveError: the command failed, or did not write a picture.
+        """
+        command = self.arguments[0]
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        words = shlex.split(command)[1:]
+        ended = subprocess.run([sys.executable, "-m", "tandemlift", *words], cwd=FOLDER, capture_output=True, text=True)
+        if ended.returncode:
+            raise self.error(f"drawn: {command}: exit code {ended.returncode}: {ended.stderr}")
+        block = nodes.literal_block(command, command, language="sh")
+        return [block, *(self._figure(*line.partition(": ")[::2]) for line in self.content if line)]
+
+    def _figure(self, name: str, caption: str) -> nodes.figure:
+        drawn = FOLDER / name
+        caption = caption or captions()[drawn.stem].text
+        if not drawn.is_file():
+            raise self.error(f"drawn: {self.arguments[0]} wrote no {name}")
+        uri = "/../" + _for_the_page(drawn).relative_to(FOLDER.parents[1]).as_posix()
+        image = nodes.image(uri=uri, alt=caption)
+        text, _ = self.parse_inline(caption)
+        return nodes.figure("", image, nodes.caption("", "", *text))
+
+
+def _for_the_page(picture: Path) -> Path:
+    """The picture as WebP of a page's width; an animation stays as it is."""
+    if picture.suffix != ".png":
+        return picture
+    small = picture.with_name("-".join(picture.relative_to(FOLDER).with_suffix(".webp").parts))
+    image = Image.open(picture).convert("RGB")
+    image.thumbnail((WIDTH, 4 * WIDTH))
+    image.save(small, quality=85, method=6)
+    return small
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Register the directive."""
+    app.add_directive("drawn", Drawn)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
