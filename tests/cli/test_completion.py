@@ -2,7 +2,6 @@
 
 import json
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +14,7 @@ import tandemlift as tl
 from tandemlift.cli.main import cli
 from tandemlift.cli.terminal import words
 from tandemlift.missions import built_in
+from tools import need
 
 SOURCES = Path(tl.__file__).resolve().parent.parent
 ALONE = ("numpy", "pydantic", "matplotlib", "llvmlite")  # each takes longer to import than a shell should wait
@@ -154,8 +154,7 @@ done
     ids=["bash", "fish", "zsh"],
 )
 def test_a_real_shell_completes_by_its_script_and_nothing_slow_is_imported(shell, script, said, folder, shipped):
-    if not shutil.which(shell[0]):
-        pytest.skip(f"no {shell[0]}")
+    need(shell[0])
     before = sorted(folder.iterdir())
     done = subprocess.run(
         [*shell, script], env=program(folder, shipped), capture_output=True, text=True, timeout=300, check=False

@@ -19,7 +19,7 @@ from tandemlift.common.extras import extra
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.export.coordinate_frames import fixed
 from tandemlift.export.messages import SECOND, MessageTypes, Transforms, event_maker, message_maker, modern
-from tandemlift.export.topics import ROOT, topics_from
+from tandemlift.export.topics import DIAGNOSTICS, MISSION, TF, TF_STATIC, topics_from
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.vehicle import Vehicle
@@ -52,14 +52,14 @@ def streams_from(flight: Flight, types: MessageTypes) -> list[TopicStream]:
     vehicle = Vehicle.from_mission(flight.mission)
     topics, stamps = topics_from(flight, vehicle), [stamp(t) for t in flight.time.tolist()]
     transforms, diagnose = Transforms(types), event_maker(types)
-    Text = types["std_msgs/String"]
+    Text = types[MISSION.kind]
     place = np.hstack([flight["position"], flight["attitude"]])
     happened = [(stamp(at), diagnose(stamp(at), what)) for at, what in events_from(flight)]
     return [
-        TopicStream(f"{ROOT}/mission", "std_msgs/String", [(START, Text(format_toml(flight.mission)))], latched=True),
-        TopicStream("/tf_static", "tf2_msgs/TFMessage", [(START, transforms.fixed(START, list(fixed(vehicle))))], True),
-        TopicStream("/tf", "tf2_msgs/TFMessage", _made(stamps, place, transforms.moving)),
-        *[TopicStream("/diagnostics", "diagnostic_msgs/DiagnosticArray", happened)] * bool(happened),
+        TopicStream(MISSION.name, MISSION.kind, [(START, Text(format_toml(flight.mission)))], latched=True),
+        TopicStream(TF_STATIC.name, TF_STATIC.kind, [(START, transforms.fixed(START, list(fixed(vehicle))))], True),
+        TopicStream(TF.name, TF.kind, _made(stamps, place, transforms.moving)),
+        *[TopicStream(DIAGNOSTICS.name, DIAGNOSTICS.kind, happened)] * bool(happened),
         *(TopicStream(t.name, t.kind, _made(stamps, t.rows, message_maker(types, t))) for t in topics),
     ]
 

@@ -74,6 +74,10 @@ class LinearModel:
     mission: str
     of: str
 
+    def __repr__(self) -> str:
+        sizes = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
+        return f"<LinearModel {self.mission} ({self.of}) at {self.time:g} s: {sizes}, sample time {self.step:g} s>"
+
     def connected(self) -> LinearModel:
         """The same model without the states that, at this point, no input moves or no output shows.
 

@@ -10,6 +10,7 @@ import click
 
 from tandemlift.cli.terminal.completion import names, settings
 from tandemlift.common.errors import InputError
+from tandemlift.figures.drawing.figure_style import STYLES
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
@@ -32,6 +33,12 @@ set_option = click.option(
     metavar="KEY=VALUE",
     shell_complete=settings,
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
+)
+style_option = click.option(
+    "--style",
+    type=click.Choice(list(STYLES)),
+    help="Size, type and colours of the figures: columns of a journal, or slides of 16:9 on white or dark paper."
+    "  [default: ieee]",
 )
 after_crash_option = click.option(
     "--after-crash",
