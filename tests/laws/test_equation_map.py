@@ -89,7 +89,7 @@ SPAN = re.compile(r"`([^`]+)`")
 
 def rows() -> list[list[str]]:
     """The cells of the map's rows."""
-    lines = (ROOT / "docs" / "explanation" / "equations.md").read_text("utf-8").splitlines()
+    lines = (ROOT / "docs" / "reference" / "equation-map.md").read_text("utf-8").splitlines()
     cells = [re.split(r"(?<!\\)\|", line)[1:-1] for line in lines if line.startswith("|")]
     return [[cell.strip() for cell in row] for row in cells[2:]]
 

@@ -31,7 +31,7 @@ from tandemlift.vehicle import Vehicle
 CAPTION = Caption(
     "Walls and clearance",
     "Top: view from above of the walls, the path of the centre of mass and the path that the person was to follow, "
-    "with the vehicle to scale at equal distances, black at the start and at the end: its beam, and the guards around "
+    "with the vehicle to scale at equal distances, bold at the start and at the end: its beam, and the guards around "
     "its quadrotors. Arrows show the horizontal push of the person at these instants; the largest has its "
     "size beside it. Bottom: distance of guards and "
     "beam from the nearest wall, over the distance flown, and its minimum; they touch a wall below zero.",

@@ -46,7 +46,7 @@ CAPTION = Caption(
     "Path",
     "The path of the centre of mass, with an arrow for each push of the person: it starts where the push acts at its "
     "peak, and its length is proportional to the force, which stands beside it. The vehicle is drawn to scale at a few "
-    "instants, black at the start and at the end. Dotted lines lead from the pushes straight down to the floor, where "
+    "instants, bold at the start and at the end. Dotted lines lead from the pushes straight down to the floor, where "
     "the path has its shadow; a floor that the vehicle can stand on is filled. Walls are transparent.",
     "Three-dimensional view of the flown path with an arrow for each push, the vehicle at a few instants, and the "
     "floor and walls if there are any.",

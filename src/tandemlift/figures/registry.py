@@ -81,14 +81,14 @@ def save_figures(
         The files written, in the order of `figures`, PNG before PDF.
     """
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
     written, drawn = [], figures_for(flight)
-    for done, (name, figure) in enumerate(drawn.items(), 1):
-        with figure_style(style):
+    with figure_style(style):
+        folder.mkdir(parents=True, exist_ok=True)
+        for done, (name, figure) in enumerate(drawn.items(), 1):
             page = figure.draw(flight)
-        written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
-        if progress:
-            progress(done, len(drawn))
+            written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
+            if progress:
+                progress(done, len(drawn))
     return written
 
 

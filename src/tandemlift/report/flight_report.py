@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.files import atomic_write
+from tandemlift.figures.drawing.figure_style import DARK, current_style
 from tandemlift.figures.registry import VIEWS, captions, figures_for
 from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
@@ -153,11 +154,15 @@ def _setup(flight: Flight) -> str:
 
 
 def html_figure(place: int, name: str, png: Path, caption: Caption) -> str:
-    """A picture in the page, with its number and caption."""
+    """A picture in the page, with its number and caption.
+
+    On a dark page, a drawing on white is inverted, and its hues turned back; a photograph is not.
+    """
     data = png.read_bytes()
     width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
     source = f"data:image/png;base64,{base64.b64encode(data).decode()}"
-    look = ' class="wide"' if width > WIDE else ""
+    looks = ["wide"] * (width > WIDE) + ["drawn"] * (name != VIEWS and current_style().palette != DARK)
+    look = f' class="{" ".join(looks)}"' if looks else ""
     image = f'<img{look} width="{width}" height="{height}" alt="{escape(caption.alt)}" src="{source}">'
     text = f"<b>Figure {place}. {escape(caption.title)}.</b> {escape(caption.text)}"
     return f'<figure id="{name}">\n<div class="sheet">{image}</div>\n<figcaption>{text}</figcaption>\n</figure>'

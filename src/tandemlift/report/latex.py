@@ -13,6 +13,11 @@ NUMBER = "r@{}l"  # the column of a number: what is before its point, and the re
 SPECIAL = {
     "\\": r"\textbackslash{}",
     "~": r"\textasciitilde{}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
+    "|": r"\textbar{}",
+    "[": "{[}",  # after the end of a row it would open an argument
+    "*": "{*}",
     "^": r"\textasciicircum{}",
     "·": r"$\cdot$",
     "−": "$-$",
@@ -21,7 +26,7 @@ SPECIAL = {
     **{character: f"\\{character}" for character in "{}$&#_%"},
 }
 MOST_DIGITS = 10**9  # of a whole number that is written out
-LAST = "\u017f"  # of the letters that every LaTeX sets
+LETTERS = frozenset("ÀÁÂÃÄÅÆÇÈÉÊËÌÍÎÏÑÒÓÔÕÖØÙÚÛÜÝßàáâãäåæçèéêëìíîïñòóôõöøùúûüýÿ")  # that every LaTeX sets
 
 
 def latex_text(text: str) -> str:
@@ -35,7 +40,7 @@ def _escaped(text: str) -> str:
 
 
 def _letter(character: str) -> str:
-    if character.isprintable() and character <= LAST:
+    if character in LETTERS or (character.isascii() and character.isprintable()):
         return character
     plain = unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode()
     return _escaped(plain) if plain.isprintable() and plain else "?" if character.isprintable() else " "

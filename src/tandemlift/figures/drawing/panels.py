@@ -80,6 +80,7 @@ def legend_above(figure: Figure, handles: Sequence[Any], names: Sequence[str], p
     """A legend over the panels, in as few rows as fit the figure's width."""
     for rows in range(1, len(names) + 1):
         legend = figure.legend(handles, names, loc=place, ncols=-(-len(names) // rows), columnspacing=1.2)
-        if legend.get_tightbbox().width <= figure.bbox.width or rows == len(names):
+        box = legend.get_tightbbox()
+        if box is None or box.width <= figure.bbox.width or rows == len(names):
             return
         legend.remove()

@@ -59,7 +59,7 @@ class Scene3D:
         inner = (high - low) * min(([style.page, style.height or TALLEST] - room) / (high - low))
         size = np.array([style.width_for(inner[0] + room[0]), style.height or inner[1] + room[1]])
         corner = (size - inner - room) / 2.0 + around[:2]
-        self.figure = StyledFigure(*size, layout=None)
+        self.figure = StyledFigure(size[0], size[1], layout=None)
         self.axes: Any = self.figure.add_axes((*(corner / size), *(inner / size)))
         self.axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         self.axes.set_axis_off()
