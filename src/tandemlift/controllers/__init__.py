@@ -1,4 +1,4 @@
-"""Controllers: what a controller is, and which there are; docs/reference/controllers.md says how to add one.
+"""Controllers: what a controller is, and which there are. docs/reference/controllers.md says how to add one.
 
 A controller is one file. It names its settings (the keys of `[controller]`), makes its gains and its first memory from
 them, and gives the law

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Array
 from tandemlift.linearization.kinks import Kink
@@ -101,10 +102,8 @@ class LinearModel:
         Raises:
             InputError: python-control is not installed.
         """
-        try:
+        with extra("control", "to_control"):
             import control
-        except ImportError:
-            raise InputError("to_control needs python-control: pip install 'tandemlift[control]'") from None
         names = {kind: [v.name for v in getattr(self, kind)] for kind in ("states", "inputs", "outputs")}
         return control.ss(self.A, self.B, self.C, self.D, self.step, name=f"{self.mission} {self.of}", **names)
 
