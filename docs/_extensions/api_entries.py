@@ -1,4 +1,4 @@
-"""Entries of the API: what autodoc would show of pydantic and of named tuples beyond their own documentation is left out."""
+"""Entries of the API, without what pydantic and named tuples give every class; docstrings as plain text."""
 
 from __future__ import annotations
 

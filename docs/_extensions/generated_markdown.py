@@ -3,8 +3,8 @@
     ```{generated} reference_tables.channels.channel_tables
     ```
 
-puts what `channel_tables()` returns into the page, headings included. Such a page is read anew in every build, as what it
-shows may have changed.
+puts what `channel_tables()` returns into the page, headings included. Such a page is read anew in every build, as
+what it shows may have changed.
 """
 
 from __future__ import annotations

@@ -215,12 +215,7 @@ MISSIONS = (ROOT / "docs" / "reference" / "missions.md").read_text("utf-8")
 
 
 def test_the_guide_to_missions_is_short():
-    assert len(MISSIONS.split()) <= 3000
-
-
-def test_the_guide_to_missions_lists_the_built_in_ones():
-    lines = MISSIONS.partition("\n## Built-in missions")[2].partition("\n## ")[0].splitlines()
-    assert {line.split("`")[1] for line in lines if line.startswith("- `")} == set(built_in())
+    assert len(MISSIONS.split()) <= 1600
 
 
 def test_the_keys_and_tables_that_the_guide_to_missions_names_are_there():

@@ -3,7 +3,6 @@
 import re
 import shlex
 from importlib.util import find_spec
-from pathlib import Path
 
 import pytest
 from repository import ROOT
@@ -81,12 +80,6 @@ def test_documents_that_the_code_names_are_there_with_their_anchors():
             if not (ROOT / name).exists() or (anchor and anchor not in anchors(ROOT / name)):
                 wrong.append(f"{file.name}: {name}#{anchor}")
     assert wrong == []
-
-
-def test_the_table_of_metrics_names_every_metric():
-    text = (ROOT / "docs" / "reference" / "flights.md").read_text("utf-8")
-    metrics = tl.fly(tl.load_mission("one-push")).metrics()
-    assert [name for name in metrics if f"`{name}`" not in text] == []
 
 
 def test_changelog_citation_and_ros_package_have_the_version_of_the_package_and_one_date():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from reference_tables.markdown import table
-
 from tandemlift.flight.channels import GROUPS, Channel, ChannelGroup
 
 PER = {"": "{}", "rotor": "{} per rotor", "quadrotor": "{} per quadrotor"}

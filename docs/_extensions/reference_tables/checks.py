@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from reference_tables.markdown import table
-
 from tandemlift.linearization.mission_check import LOOP_CHECKS
 from tandemlift.missions.flight_checks.table import CHECKS
 

@@ -8,8 +8,8 @@ import textwrap
 from collections.abc import Iterator
 
 import click
-from reference_tables.markdown import linked, table
 
+from reference_tables.markdown import linked, table
 from tandemlift.cli.main import cli
 
 CODE = re.compile(r"`([^`]+)`|(?<![\w`])(--?[a-z][\w-]*)")
@@ -49,7 +49,7 @@ def _section(name: str, verb: click.Command) -> str:
 
 
 def _paragraphs(text: str) -> Iterator[str]:
-    """The paragraphs of a help text; those whose lines click keeps (after a backspace) as code below their first line."""
+    """The paragraphs of a help text; one whose lines click keeps (after a backspace) is code below its first line."""
     for paragraph in text.split("\n\n"):
         kept, lines = paragraph.startswith("\b\n"), paragraph.removeprefix("\b\n").splitlines()
         if not kept:

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from reference_tables.markdown import codes, table
-
 from tandemlift.common.faults import CHECKS, FAULTS, REACTION_MEANINGS
 from tandemlift.common.phases import PHASES, REASONS
 

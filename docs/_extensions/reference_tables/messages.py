@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from reference_tables.markdown import codes, table
 from wire_types import HUGE, Entry, entries_of, parts_of, summary
 
+from reference_tables.markdown import codes, table
 from tandemlift.live.wire.frames import FRAME_FIELDS
 from tandemlift.live.wire.page_messages import PAGE_MESSAGES
 from tandemlift.live.wire.scene import FlightScene

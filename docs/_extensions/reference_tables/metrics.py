@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from reference_tables.markdown import table
-
 from tandemlift.flight.metric_descriptions import METRIC_GROUPS, Metric, MetricGroup
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from reference_tables.markdown import codes, linked, table
-
 from tandemlift.common.findings import KINDS
 from tandemlift.common.outcomes import ENDINGS, OUTCOMES
 

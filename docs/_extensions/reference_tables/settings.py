@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import get_origin
 
 from pydantic import BaseModel
-from reference_tables.markdown import table
 
+from reference_tables.markdown import table
 from tandemlift import settings
 from tandemlift.missions.bounds import allowed
 

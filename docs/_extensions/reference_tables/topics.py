@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from reference_tables.markdown import codes, table
-
 from tandemlift.export.coordinate_frames import FRAMES
 from tandemlift.export.recipes import Recipe
 from tandemlift.export.topics import NOT_SAMPLES, ROOT, OtherTopic, all_recipes
@@ -85,9 +84,7 @@ def requests() -> str:
 
 def parameters() -> str:
     """The parameters of a node."""
-    rows = [
-        (f"`{p.key}`", p.unit, f"{p.low:g} to {p.high:g}", p.label) for p in TUNABLE if p.key not in SPRING
-    ]
+    rows = [(f"`{p.key}`", p.unit, f"{p.low:g} to {p.high:g}", p.label) for p in TUNABLE if p.key not in SPRING]
     rows.append((f"`{RATIO}`", "1", "≥ 0", "D/(2 √(M K)) of axes with stiffness, else 0"))
     rows += [(f"`{key}`", "", "", "one of its choices") for key in CHOICES]
     return table(("parameter", "unit", "range", "what"), sorted(rows))

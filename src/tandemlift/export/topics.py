@@ -45,13 +45,11 @@ class OtherTopic(NamedTuple):
 
 
 TF = OtherTopic("/tf", "tf2_msgs/TFMessage", "`base_link` and `base_world` in `world`", (WORLD,))
-TF_STATIC = OtherTopic(
-    "/tf_static", "tf2_msgs/TFMessage", "`payload` and the joints in `base_link`; latched", (BASE,)
-)
+TF_STATIC = OtherTopic("/tf_static", "tf2_msgs/TFMessage", "`payload` and the joints in `base_link`; latched", (BASE,))
 DIAGNOSTICS = OtherTopic(
     "/diagnostics",
     "diagnostic_msgs/DiagnosticArray",
-    "events: phases (OK), failed checks (warning), alarms and divergence (error); without supervision, phases at samples",
+    "events: phases (OK), failed checks (warning), alarms and divergence (error)",
 )
 MISSION = OtherTopic(f"{ROOT}/mission", "std_msgs/String", "the resolved mission as TOML, which flies again; latched")
 NOT_SAMPLES = (TF, TF_STATIC, DIAGNOSTICS, MISSION)
@@ -60,9 +58,7 @@ ALWAYS = (
     odometry("odometry").described("state of the vehicle; both velocities in body axes, as the message defines them"),
     pose_of_reference("reference/pose").described("reference pose"),
     as_recorded("reference/velocity", VECTOR, WORLD, "reference_velocity").described("its velocity [m/s]"),
-    as_recorded("reference/acceleration", VECTOR, WORLD, "reference_acceleration").described(
-        "its acceleration [m/s²]"
-    ),
+    as_recorded("reference/acceleration", VECTOR, WORLD, "reference_acceleration").described("its acceleration [m/s²]"),
     as_recorded("admittance/position", POINT, WORLD, "admittance_position").described(
         "response of the admittance to the push"
     ),
