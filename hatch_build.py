@@ -19,7 +19,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 from hatchling.metadata.plugin.interface import MetadataHookInterface
 
 FLIGHTS = "build/flights"
-REPOSITORY_ONLY = r"<!-- begin: only in the repository -->.*?<!-- end: only in the repository -->\s*"
+REPOSITORY_ONLY = r"<!-- begin: only in the repository -->.*?<!-- end: only in the repository -->\n*"
 PICTURE, RELATIVE_LINK = r"!\[[^\]]*\]\([^)]*\)\s*", r"\[([^\]]*)\]\((?!https?:)[^)]*\)"
 
 
@@ -27,8 +27,9 @@ class Description(MetadataHookInterface):
     """Gives the distributions README.md as their description."""
 
     def update(self, metadata: dict[str, Any]) -> None:
-        """Leave out pictures and what is marked as only in the repository; relative links become plain text."""
+        """Leave out pictures and what is marked; relative links become plain text, and the folder the package."""
         text = (Path(self.root) / "README.md").read_text("utf-8")
+        text = text.replace("pip install -e '.[", "pip install 'tandemlift[")
         text = re.sub(PICTURE, "", re.sub(REPOSITORY_ONLY, "", text, flags=re.S))
         metadata["readme"] = {"content-type": "text/markdown", "text": re.sub(RELATIVE_LINK, r"\1", text)}
 

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
-from tandemlift.export.bags import rosbags
 from tandemlift.export.coordinate_frames import eulers
 from tandemlift.export.messages import NUMBERS, SECOND
 from tandemlift.export.recipes import MeasuredPose, Recipe
@@ -114,10 +114,13 @@ def _is_read(topic: str) -> bool:
 
 def _opened(path: Path) -> Iterator[tuple[str, int, Any]]:
     """Topic, time [ns] and message of everything that is read."""
-    bags, typesys = rosbags("highlevel"), rosbags("typesys")
+    with extra("export", "a bag"):
+        from rosbags import typesys
+        from rosbags.highlevel import AnyReader
+        from rosbags.rosbag2.storage_mcap import McapReader
     store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
     if path.suffix.lower() == ".mcap":
-        reader = rosbags("rosbag2.storage_mcap").McapReader(path)
+        reader = McapReader(path)
         reader.open()
         try:
             wanted = [c for c in reader.connections if _is_read(c.topic)]
@@ -126,7 +129,7 @@ def _opened(path: Path) -> Iterator[tuple[str, int, Any]]:
         finally:
             reader.close()
         return
-    with bags.AnyReader([path], default_typestore=store) as reader:
+    with AnyReader([path], default_typestore=store) as reader:
         for connection, at, data in reader.messages([c for c in reader.connections if _is_read(c.topic)]):
             yield connection.topic, at, reader.deserialize(data, connection.msgtype)
 
