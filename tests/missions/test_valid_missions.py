@@ -255,6 +255,16 @@ def test_a_vehicle_that_its_rotors_cannot_lift_is_warned_of():
         load_mission("paper", {"vehicle.payload.mass": 3.1})
 
 
+@pytest.mark.parametrize(("time", "warned"), [(60.0, True), (1e6, False)])
+def test_only_rotors_that_fail_within_the_flight_count_against_what_they_lift(time, warned):
+    """A flight that was flown by hand is saved with a fault of every rotor that never comes."""
+    faults = [{"quadrotor": q, "rotor": r, "time": time, "efficiency": 0.0} for q in (1, 2) for r in (1, 2, 3, 4)]
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        load_mission("iris", {"faults": faults})
+    assert any("its rotors lift" in str(warning.message) for warning in told) is warned
+
+
 def test_toml_keeps_every_bit_of_a_float_and_lists_of_numbers_on_one_line():
     numbers = [0.1, 1e-300, 1.7976931348623157e308, 5e-324, -0.0, 1 / 3, np.nextafter(1.0, 2.0).item(), 123456789.0]
     tables = {

@@ -3,7 +3,6 @@
 import re
 import shlex
 from importlib.util import find_spec
-from pathlib import Path
 
 import pytest
 from repository import ROOT
@@ -88,15 +87,14 @@ def test_documents_that_the_code_names_are_there_with_their_anchors():
     assert wrong == []
 
 
-def test_the_table_of_metrics_names_every_metric():
-    text = (ROOT / "docs" / "reference" / "flights.md").read_text("utf-8")
-    metrics = tl.fly(tl.load_mission("one-push")).metrics()
-    assert [name for name in metrics if f"`{name}`" not in text] == []
+def test_changelog_citation_and_ros_package_have_the_version_of_the_package_and_one_date():
+    def found(name, pattern):
+        return re.search(pattern, (ROOT / name).read_text("utf-8"), flags=re.M)[1]
 
-
-def test_the_package_and_the_changelog_and_the_citation_are_of_one_version():
-    for name in ("CHANGELOG.md", "CITATION.cff"):
-        assert tl.__version__ in (ROOT / name).read_text("utf-8")
+    assert found("src/tandemlift/data/ros/package.xml", r"<version>(.*)</version>") == tl.__version__
+    assert found("CITATION.cff", "^version: (.*)") == tl.__version__
+    date = found("CITATION.cff", "^date-released: (.*)")
+    assert found("CHANGELOG.md", r"^## (\[\d.*)") == f"[{tl.__version__}] - {date}"
 
 
 def test_the_modules_that_the_changelog_moves_imports_to_are_there():

@@ -12,7 +12,7 @@ def weight_of(m: Mission) -> float:
 
 
 def lift_of(m: Mission, *, faulty: bool = False) -> float:
-    """What all rotors together lift at most [N]; if `faulty`, once all faults are there."""
-    fleet = m.vehicle.quadrotors
-    lost = sum(fleet[f.quadrotor - 1].max_thrust * (1.0 - f.efficiency) for f in m.faults) if faulty else 0.0
+    """What all rotors together lift at most [N]; if `faulty`, once all faults of the flight are there."""
+    faults = [f for f in m.faults if f.time < m.mission.duration] if faulty else []
+    lost = sum(m.vehicle.quadrotors[f.quadrotor - 1].max_thrust * (1.0 - f.efficiency) for f in faults)
     return Vehicle.from_settings(m.vehicle).max_thrust - lost
