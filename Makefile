@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs test lint types imports tests test-pythons test-gazebo test-targets random-missions bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs test lint types imports tests examples test-pythons test-gazebo test-targets random-missions bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -45,6 +45,9 @@ imports: .venv/dev  ## imports go downward only
 
 tests: .venv/dev ## all tests
 	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto  # a process for each core: threads of linear algebra would only wait
+
+examples: .venv/dev  ## run the scripts of examples/, whose numbers are asserted; `make docs` runs the same code
+	$(BIN)/pytest -n auto -m examples tests/repository/test_tutorials.py
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons

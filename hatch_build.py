@@ -1,27 +1,52 @@
-"""The build of the wheel: it compiles the flights that the page carries, so that users need not."""
+"""The build of the distributions.
+
+A wheel has the flights that the page carries, compiled, so that users need not. The description is README.md without
+what leads nowhere outside the repository.
+"""
 
 from __future__ import annotations
 
+import re
+import shutil
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from itertools import repeat
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from hatchling.metadata.plugin.interface import MetadataHookInterface
 
 FLIGHTS = "build/flights"
+REPOSITORY_ONLY = r"<!-- begin: only in the repository -->.*?<!-- end: only in the repository -->\n*"
+PICTURE, RELATIVE_LINK = r"!\[[^\]]*\]\([^)]*\)\s*", r"\[([^\]]*)\]\((?!https?:)[^)]*\)"
+
+
+class Description(MetadataHookInterface):
+    """Gives the distributions README.md as their description."""
+
+    def update(self, metadata: dict[str, Any]) -> None:
+        """Leave out pictures and what is marked; relative links become plain text, and the folder the package."""
+        text = (Path(self.root) / "README.md").read_text("utf-8")
+        text = text.replace("pip install -e '.[", "pip install 'tandemlift[")
+        text = re.sub(PICTURE, "", re.sub(REPOSITORY_ONLY, "", text, flags=re.S))
+        metadata["readme"] = {"content-type": "text/markdown", "text": re.sub(RELATIVE_LINK, r"\1", text)}
 
 
 class CompiledFlights(BuildHookInterface):  # type: ignore[type-arg]
     """Adds compiled flights to a wheel; an editable install compiles them when they are asked for."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Compile them, a minute or two, into the folder that the package looks in."""
+        """Compile them, on all cores, into the folder that the package looks in."""
         if version == "editable":
             return
         root = Path(self.root)
         sys.path.insert(0, str(root / "src"))
-        from tandemlift.live.offline.page_modules import build_modules
+        from tandemlift.live.offline.page_modules import MISSIONS, build_modules
 
-        self.app.display_info("Compiling the flights of the page: a minute or two …")
-        build_modules(root / FLIGHTS)
+        self.app.display_info("Compiling the flights of the page: about a minute on one core …")
+        shutil.rmtree(root / FLIGHTS, ignore_errors=True)  # an older build may have had others
+        with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:  # LLVM compiles once at a time in a process
+            list(pool.map(build_modules, repeat(root / FLIGHTS), [[name] for name in MISSIONS]))
         build_data["force_include"][FLIGHTS] = "tandemlift/data/flights"

@@ -1,4 +1,4 @@
-"""The README's first picture: `python benchmarks/live_picture.py docs/pictures/live.gif`.
+"""The README's first picture: `python benchmarks/live_picture.py docs/pictures/live.webp`.
 
 The live page as it is, while a mouse leads the beam into the zigzag corridor; time passes slowly for the pictures to be
 drawn without a graphics card, and at its own pace in the animation.
@@ -21,7 +21,6 @@ from waiting import PATIENCE
 
 SIZE, SHOWN = {"width": 1200, "height": 750}, (720, 450)
 EVERY, SECONDS, SLOWLY = 0.125, 8.0, "0.1"  # s of flight; pace
-COMMON, RARE = 160, 96  # colours: most of a picture is grey, and what counts is not
 WAY = np.array([[0.0, 0.0], [5.0, 0.0], [10.0, 3.0], [15.0, 0.0]])  # m, of the corridor
 AHEAD, PULL, PIXELS = 1.4, 0.42, 55.0  # m ahead on the way, m that the hand is ahead, pixels a metre of correction
 
@@ -60,15 +59,6 @@ async def led(page: Page, looker: Looker) -> list[Image.Image]:
     return pictures
 
 
-def palette_of(picture: Image.Image) -> Image.Image:
-    """The colours that a picture has most of, and those that are far from each other."""
-    kinds = ((COMMON, Image.Quantize.MEDIANCUT), (RARE, Image.Quantize.MAXCOVERAGE))
-    colours = [picture.quantize(n, kind).getpalette()[: 3 * n] for n, kind in kinds]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette([number for part in colours for number in part])
-    return palette
-
-
 async def taken(address: str) -> list[Image.Image]:
     """Pictures of the page at an address."""
     async with async_playwright() as playwright:
@@ -79,7 +69,7 @@ async def taken(address: str) -> list[Image.Image]:
         await until(page, "#mode", "guided")
         await page.get_by_text("level", exact=True).first.click()
         await page.click("#show-panel")
-        await page.get_by_label("Pace of time").select_option(SLOWLY)
+        await page.get_by_label("Speed of the flight").select_option(SLOWLY)
         await asyncio.sleep(1.0)
         pictures = await led(page, looker)
         await browser.close()
@@ -90,11 +80,10 @@ def main(path: Path) -> None:
     """Make the animation."""
     with tempfile.TemporaryDirectory() as out, started(out) as (_, address):
         pictures = asyncio.run(taken(address))
-    palette = palette_of(pictures[len(pictures) // 2])
-    small = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
-    small[0].save(path, save_all=True, append_images=small[1:], duration=round(1e3 * EVERY), loop=0, optimize=True)
-    print(f"{path}: {len(small)} pictures, {path.stat().st_size / 1e6:.1f} MB")
+    rest, duration = pictures[1:], round(1e3 * EVERY)
+    pictures[0].save(path, save_all=True, append_images=rest, duration=duration, loop=0, quality=60)
+    print(f"{path}: {len(pictures)} pictures, {path.stat().st_size / 1e6:.1f} MB")
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "live.gif"))
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "live.webp"))

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import tandemlift
 
-sys.path.insert(0, str(Path(__file__).parent / "_extensions"))
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE / "_extensions"), str(HERE.parent / "tools")]
 
 project = "tandemlift"
 author = "The tandemlift contributors"
@@ -16,18 +17,20 @@ extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
-    "sphinx_click",
     "sphinx_copybutton",
     "sphinx_design",
+    "api_entries",
     "drawn",
     "generated_markdown",
     "live_page",
     "mathml",
+    "stacked_tables",
 ]
 exclude_patterns = ["_extensions"]
 pygments_style = "friendly"
 pygments_dark_style = "monokai"
 highlight_language = "none"
+smartquotes = False  # docstrings and tables quote values
 
 html_theme = "furo"
 html_title = f"tandemlift {release}"
@@ -57,6 +60,7 @@ nb_mime_priority_overrides = [("html", "text/html", 0)]
 default_role = "code"  # docstrings write names in single backticks
 autodoc_typehints = "signature"
 autodoc_member_order = "bysource"
+python_maximum_signature_line_length = 100
 napoleon_google_docstring = True
 napoleon_numpy_docstring = False
 napoleon_attr_annotations = True

@@ -28,13 +28,13 @@ from tandemlift.studies.units.files import UnitFiles
 from tandemlift.studies.units.running import run_units
 from tandemlift.studies.units.workers import ExecutorWorkers
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "explanation" / "validation.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "validation.md"
 MARK, END = "<!-- random missions -->", "<!-- end of random missions -->"
 OUTCOMES = ("landed", "flying", *BAD)
 
 
 def table(rows: list[Judged]) -> str:
-    """The table of docs/explanation/validation.md."""
+    """The table of docs/reference/validation.md."""
     counts = Counter((r.outcome, r.judged) for r in rows)
     lines = [
         "| outcome | " + " | ".join(f"judged {o}" for o in OUTCOMES) + " | warned of before | with findings | silent |"
@@ -67,7 +67,7 @@ def summary(rows: list[Judged]) -> str:
 
 
 def report(rows: list[Judged], command: str) -> str:
-    """The text between the markers of docs/explanation/validation.md."""
+    """The text between the markers of docs/reference/validation.md."""
     day = datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%d")
     head = f"{day} · {command} · tandemlift {tl.__version__}, mujoco {mujoco.__version__}"
     return f"{MARK}\n\n{head}\n\n{table(rows)}\n\n{summary(rows)}\n\n{END}"
@@ -91,7 +91,7 @@ def main() -> int:
     for name, value in {"families": 125, "members": 8, "seed": 16, "processes": 2, "first": 0}.items():
         parser.add_argument(f"--{name}", type=int, default=value)
     parser.add_argument("--out", type=Path, default=Path("out", "random-missions"), help="folder of the files")
-    parser.add_argument("--write", action="store_true", help="write the table into docs/explanation/validation.md")
+    parser.add_argument("--write", action="store_true", help="write the table into docs/reference/validation.md")
     a = parser.parse_args()
     a.out.mkdir(parents=True, exist_ok=True)
     families = Families(a.seed, range(a.first, a.first + a.families), a.members)

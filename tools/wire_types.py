@@ -1,11 +1,10 @@
-"""Write what follows from the wire's definitions: the page's TypeScript types and the tables of docs/how-to/live.md.
+"""Write the page's TypeScript types from the wire's definitions.
 
 Usage: python tools/wire_types.py (`make page` calls it). The definitions are in src/tandemlift/live/wire/.
 """
 
 from __future__ import annotations
 
-import re
 import types
 from collections.abc import Iterator
 from pathlib import Path
@@ -33,7 +32,6 @@ from tandemlift.live.wire.server_messages import SERVER_MESSAGES, SHOWN_PARAMETE
 
 ROOT = Path(__file__).resolve().parent.parent
 TYPESCRIPT = ROOT / "web" / "src" / "wire" / "messages.generated.ts"
-DOCUMENT = ROOT / "docs" / "how-to" / "live.md"
 HUGE = 1e6  # a bound that only keeps numbers finite
 WORDS = {float: "number", int: "number", str: "string", bool: "boolean", type(None): "null"}
 HEAD = """\
@@ -203,71 +201,9 @@ def limits() -> str:
     )
 
 
-# the document
-
-
-def tables() -> dict[str, str]:
-    """The tables of the document, by their names in it."""
-    fields = [(f"`{f.name}`", str(f.columns or "rotors"), f.meaning) for f in FRAME_FIELDS]
-    return {
-        "server": table(("type", "what", "other keys"), rows(SERVER_MESSAGES)),
-        "page": table(("type", "what", "other keys"), rows(PAGE_MESSAGES)),
-        "scene": table(("key", "what"), keys(FlightScene)),
-        "status": table(("key", "what"), keys(SERVER_MESSAGES["status"])),
-        "frame": table(("field", "columns", "what"), fields),
-    }
-
-
-def rows(messages: dict[str, type]) -> list[tuple[str, ...]]:
-    """A row for each message."""
-    found = []
-    for name, kind in messages.items():
-        long = name in ("scene", "status")
-        keys = "see below" if long else ", ".join(key_of(entry) for entry in entries_of(kind) if entry.name != "type")
-        found.append((f"`{name}`", summary(kind), keys))
-    return found
-
-
-def key_of(entry: Entry) -> str:
-    """A key in a table of messages: its name, and what it means or may be."""
-    allowed = entry.type.replace('"', "`").replace(" | ", ", ") if '"' in entry.type else ""
-    within = "{:g} to {:g}".format(*entry.bounds) if entry.bounds and entry.bounds[1] < HUGE else ""
-    note = "; ".join(part for part in (entry.meaning, allowed, within, "optional" if entry.optional else "") if part)
-    return f"`{entry.name}`" + (f" ({note})" if note else "")
-
-
-def keys(kind: type) -> list[tuple[str, ...]]:
-    """A row for each key of a long message, with the keys of its parts."""
-    found = []
-    for entry in entries_of(kind):
-        if entry.name != "type":
-            part = next((p for p in parts_of(kind) if p.__name__ in re.findall(r"\w+", entry.type)), None)
-            inner = f"`{'`, `'.join(e.name for e in entries_of(part))}`" if part else ""
-            found.append((f"`{entry.name}`", ": ".join(one for one in (entry.meaning, inner) if one)))
-    return found
-
-
-def table(head: tuple[str, ...], body: list[tuple[str, ...]]) -> str:
-    """A table in Markdown."""
-    lines = [head, tuple("---" for _ in head), *body]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
-
-
-def document(text: str) -> str:
-    """A document with its tables renewed."""
-    for name, lines in tables().items():
-        begin, end = f"<!-- {name}: written by tools/wire_types.py -->", f"<!-- end of {name} -->"
-        if text.count(begin) != 1 or text.count(end) != 1:
-            raise ValueError(f"{DOCUMENT.name} must have one {begin} and one {end}")
-        before, rest = text.split(begin)
-        text = f"{before}{begin}\n{lines}\n{end}{rest.split(end)[1]}"
-    return text
-
-
 def main() -> None:
-    """Write both."""
+    """Write the types."""
     TYPESCRIPT.write_text(page_types(), "utf-8")
-    DOCUMENT.write_text(document(DOCUMENT.read_text("utf-8")), "utf-8")
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
-"""The directive `generated`: Markdown that a function of the package writes.
+"""The directive `generated`: Markdown that a function writes.
 
-    ```{generated} tandemlift.flight.channel_tables.channel_tables
+    ```{generated} reference_tables.channels.channel_tables
     ```
 
-puts what `channel_tables()` returns into the page, headings included. So a table is written once, beside the code.
+puts what `channel_tables()` returns into the page, headings included. Such a page is read anew in every build, as
+what it shows may have changed.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ class Generated(SphinxDirective):
             function = getattr(importlib.import_module(module), name)
         except (AttributeError, ImportError, ValueError) as error:
             raise self.error(f"generated: no function {self.arguments[0]!r}: {error}") from error
+        self.env.note_reread()
         return self.parse_text_to_nodes(function(), allow_section_headings=True)
 
 

@@ -17,12 +17,14 @@ def call(*arguments):
 
 
 def test_modes_kinks_and_assumptions_are_printed_and_files_written(tmp_path):
-    code, text, _ = call("paper", "--out", tmp_path / "a" / "m.npz", "--figure", tmp_path / "m.png")
+    code, text, _ = call(
+        "paper", "--out", tmp_path / "a" / "m.npz", "--figure", tmp_path / "m.pdf", "--style", "slides"
+    )
     assert code == 0
     for piece in ("paper: the loop at 9.5 s", "modes, the slowest", "kinks:", "assumptions:", "position"):
         assert piece in text
     assert np.load(tmp_path / "a" / "m.npz")["A"].shape == (22, 22)
-    assert (tmp_path / "m.png").read_bytes()[:4] == b"\x89PNG"
+    assert b"/MediaBox [ 0 0 453.5433" in (tmp_path / "m.pdf").read_bytes(), "160 mm"
 
 
 def test_the_body_alone_has_the_rotors_as_inputs():

@@ -26,10 +26,13 @@ def test_the_report_of_a_study_is_written_into_its_folder(folder):
     assert "<title>gusts: study report</title>" in (folder / "report.html").read_text("utf-8")
 
 
-def test_metrics_and_the_file_can_be_chosen(folder, tmp_path):
-    run(folder, "--for", "human_work_j", "--for", "position_rmse_m.0", "--out", tmp_path / "chosen.html")
+def test_metrics_the_file_and_a_style_can_be_chosen(folder, tmp_path):
+    chosen = ("--for", "human_work_j", "--for", "position_rmse_m.0", "--out", tmp_path / "chosen.html")
+    run(folder, *chosen, "--style", "ieee")
     text = (tmp_path / "chosen.html").read_text("utf-8")
     assert text.index("<h3>Human work [J]</h3>") < text.index("<h3>Position RMSE, entry 0 [mm]</h3>")
+    assert {path.name for path in tmp_path.iterdir()} == {"chosen.html", "outcomes.csv", "outcomes.tex", "figures"}
+    assert {path.suffix for path in (tmp_path / "figures").iterdir()} == {".png", ".pdf"}
 
 
 @pytest.mark.parametrize(

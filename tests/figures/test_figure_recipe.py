@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.panels import fit, line, time_axis
-from tandemlift.figures.drawing.style import ACTUAL, COLUMN, journal
+from tandemlift.figures.drawing.style import ACTUAL, column_figure, journal
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption("Air", "Speed of the air.", "A panel over time of the air’s speed.")
@@ -19,7 +19,7 @@ IN_FLIGHTS = with_any_of("wind_velocity")
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw the speed [m/s]."""
-    figure = Figure(figsize=(COLUMN, 1.5), layout="constrained")
+    figure = column_figure(1.5)
     ax, speed = figure.subplots(), np.linalg.norm(flight["wind_velocity"], axis=1)
     line(ax, flight.time, speed, **ACTUAL)
     fit(ax, speed, least=0.1)

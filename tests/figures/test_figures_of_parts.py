@@ -9,6 +9,7 @@ from matplotlib.colors import to_hex
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
+from tandemlift.figures.drawing.figure_style import IEEE
 from tandemlift.figures.drawing.ground import clearance, floor_height
 from tandemlift.figures.drawing.scene import NEAR, on_paper
 from tandemlift.figures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
@@ -71,7 +72,7 @@ def assert_drawn(xy, time, values):
 
 def shaded(ax, color):
     """The intervals (K, 2) that a panel shades in a colour."""
-    (bars,) = (c for c in ax.collections if to_hex(c.get_facecolor()[0]) == color)
+    (bars,) = (c for c in ax.collections if to_hex(c.get_facecolor()[0]) == IEEE.palette[int(color[1:])])
     return np.array([(p.vertices[:, 0].min(), p.vertices[:, 0].max()) for p in bars.get_paths()])
 
 

@@ -16,7 +16,7 @@ import numpy as np
 import tandemlift as tl
 from tandemlift.export.reading import read_bag
 from tandemlift.export.write import export
-from tandemlift.flight.channel_tables import channel_tables
+from reference_tables.channels import channel_tables
 
 wind = {"wind.model": "air", "wind.velocity": [3.0, -4.0, 0.0], "wind.turbulence": 6.0}
 flight = tl.fly(tl.load_mission("iris", {"mission.duration": 0.05, **wind}))

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from reference_tables.channels import channel_tables
 
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
 from tandemlift.algebra.vector import Nothing
-from tandemlift.flight.channel_tables import channel_tables
 from tandemlift.flight.channels import CHANNELS, DERIVED
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.laws.guidance.hand_guidance import HandGuidanceChannels

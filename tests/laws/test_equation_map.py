@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 from repository import ROOT
 
+from tandemlift.report.paper.errata import errata
+
 SOURCE, TESTS = ROOT / "src" / "tandemlift", ROOT / "tests"
 PAPER = ROOT.parent / "shared" / "paper.tex"
 
@@ -87,7 +89,7 @@ SPAN = re.compile(r"`([^`]+)`")
 
 def rows() -> list[list[str]]:
     """The cells of the map's rows."""
-    lines = (ROOT / "docs" / "explanation" / "equations.md").read_text("utf-8").splitlines()
+    lines = (ROOT / "docs" / "reference" / "equation-map.md").read_text("utf-8").splitlines()
     cells = [re.split(r"(?<!\\)\|", line)[1:-1] for line in lines if line.startswith("|")]
     return [[cell.strip() for cell in row] for row in cells[2:]]
 
@@ -164,26 +166,15 @@ def test_every_label_in_the_source_is_in_the_map():
                 assert (file, label) in mapped, f"{file} carries {label}, which the map does not place there"
 
 
-def sections() -> dict[str, str]:
-    """The text of each erratum by what it is about."""
-    text = (ROOT / "docs" / "explanation" / "errata.md").read_text("utf-8")
-    parts = re.split(r"^### `([^`]+)`", text, flags=re.MULTILINE)[1:]
-    return dict(zip(parts[::2], parts[1::2], strict=True))
+def test_every_erratum_has_one_entry():
+    assert Counter(erratum.about for erratum in errata()) == Counter(ERRATA)
 
 
-def test_every_erratum_has_one_section():
-    text = (ROOT / "docs" / "explanation" / "errata.md").read_text("utf-8")
-    assert set(sections()) == ERRATA
-    assert text.count("\n### ") == len(ERRATA)
-
-
-@pytest.mark.parametrize("about", sorted(ERRATA))
-def test_an_erratum_says_what_is_printed_what_is_right_how_it_shows_and_where_it_is_tested(about):
-    section = sections()[about]
-    for part in ("- Printed: ", "- Right: ", "- Shows: ", "- Evidence: "):
-        assert part in section
-    assert re.search(r"\d", section.partition("- Shows: ")[2].partition("- Evidence: ")[0]), "no number"
-    evidence = named(section.partition("- Evidence: ")[2].partition("\n## ")[0], TESTS)
-    assert evidence
-    for file, name in evidence:
+@pytest.mark.parametrize("erratum", errata(), ids=lambda erratum: erratum.about)
+def test_an_erratum_says_what_is_printed_what_is_right_how_it_shows_and_where_it_is_tested(erratum):
+    assert erratum.printed
+    assert erratum.right
+    assert re.search(r"\d", erratum.shows), "no number"
+    assert erratum.evidence
+    for file, name in named(" ".join(f"`{test}`" for test in erratum.evidence), TESTS):
         assert name in definitions(file), f"{file} has no {name}"

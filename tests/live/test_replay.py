@@ -300,7 +300,7 @@ def test_bad_input_is_refused_in_words(flight, run, tmp_path, arguments, words):
 
 def test_without_websockets_it_says_what_to_install(flight, run, tmp_path, monkeypatch):
     flight.save(tmp_path / "flight.npz")
-    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "websockets", None)
     for arguments in (("live",), ("replay", "flight.npz")):
         assert "pip install 'tandemlift[live]'" in str(run(*arguments).exception)
     assert run("replay", "flight.npz", "--html", "one.html").exit_code == 0

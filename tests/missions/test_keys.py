@@ -109,10 +109,10 @@ def test_explain_knows_the_keys_of_a_controller_of_one_s_own(tmp_path):
     assert said.output.startswith("controller.damping")
 
 
-def test_every_row_of_the_page_has_six_cells():
+def test_every_row_of_the_page_has_five_cells():
     rows = [line for line in key_tables().splitlines() if line.startswith("|")]
     assert len(rows) > 300
-    assert {len(re.split(r"(?<!\\)\|", row)) for row in rows} == {8}
+    assert {len(re.split(r"(?<!\\)\|", row)) for row in rows} == {7}
 
 
 def statements():
@@ -215,12 +215,7 @@ MISSIONS = (ROOT / "docs" / "reference" / "missions.md").read_text("utf-8")
 
 
 def test_the_guide_to_missions_is_short():
-    assert len(MISSIONS.split()) <= 3000
-
-
-def test_the_guide_to_missions_lists_the_built_in_ones():
-    lines = MISSIONS.partition("\n## Built-in missions")[2].partition("\n## ")[0].splitlines()
-    assert {line.split("`")[1] for line in lines if line.startswith("- `")} == set(built_in())
+    assert len(MISSIONS.split()) <= 1600
 
 
 def test_the_keys_and_tables_that_the_guide_to_missions_names_are_there():

@@ -253,9 +253,12 @@ def test_the_command_draws_saved_flights_and_missions(flight, tmp_path, monkeypa
     ("args", "says"),
     [
         (["--out", "a.gif", "--time", "1"], "--time is for a picture, --out FILE.png"),
-        (["--out", "a.png", "--from", "1", "--fps", "5"], "--from, --fps are for an animation, --out FILE.gif"),
+        (
+            ["--out", "a.png", "--from", "1", "--fps", "5"],
+            "--from, --fps are for an animation, --out FILE.gif or FILE.mp4",
+        ),
         (["--size", "1280"], "--size 1280: must be WxH in pixels, such as 1280x720"),
-        (["--out", "a.bmp"], r"--out a.bmp: the name must end in .png \(picture\) or .gif \(animation\)"),
+        (["--out", "a.bmp"], r"--out a.bmp: the name must end in .png \(picture\), .gif or .mp4 \(animation\)"),
     ],
 )
 def test_options_that_mean_nothing_are_refused_before_anything_flies(args, says):

@@ -22,7 +22,8 @@ COMMANDS = {  # each with its arguments and options
     "controllers": set(),
     "engines": set(),
 }
-FILES = {"mission.toml", "flight.npz", "metrics.json", "findings.json", "report.html", "figures"}
+FILES = {"mission.toml", "flight.npz", "metrics.json", "metrics.csv", "metrics.tex", "findings.json"}
+FILES |= {"report.html", "figures"}
 FIGURES = {"reference", "path", "tracking", "inputs", "interaction"}  # each as PNG and as PDF
 SHORT = ("--set", "mission.duration=0.5", "--set", "mission.log_interval=0.1")
 
@@ -138,6 +139,14 @@ def test_a_flight_that_diverges_ends_with_3_and_writes_what_was_flown(here, monk
     wild = [f"--set=controller.gains.{gain}" for gain in ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")]
     assert exit_code(monkeypatch, "run", "paper", "--no-figures", *wild) == 3
     assert {path.name for path in (here / "out" / "paper").iterdir()} == FILES - {"figures"}
+
+
+@pytest.mark.parametrize("command", ["run", "report", "compare", "linearize", "feel"])
+def test_a_command_that_draws_figures_takes_a_style_and_refuses_one_that_is_none(command, here, monkeypatch):
+    (style,) = (p for p in cli.commands[command].params if "--style" in p.opts)
+    assert set(style.type.choices) >= {"ieee", "elsevier", "slides"}
+    assert exit_code(monkeypatch, command, "paper", "--style", "nature") == 2
+    assert list(here.iterdir()) == []
 
 
 # ---- Python

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from patience import completed
+from reference_tables import topics
 from repository import ROOT
 
 from tandemlift.cli.main import cli, main
@@ -21,6 +22,18 @@ from tandemlift.live.session.pacing import MOST_BEHIND
 from tandemlift.ros.dds_types import PACKAGES
 from tandemlift.ros.ros1 import folder
 from tandemlift.ros.sample_queue import Clock
+
+TABLES = "".join(
+    table()
+    for table in (
+        topics.topics_of_every_flight,
+        topics.topics_of_some_flights,
+        topics.other_topics,
+        topics.topics_of_nodes,
+        topics.requests,
+        topics.parameters,
+    )
+)
 
 
 @pytest.mark.parametrize(
@@ -58,16 +71,14 @@ def test_rviz_shows_topics_that_there_are(trial):
     assert shown <= set(trial.middleware.kinds)
 
 
-def test_the_document_names_every_topic_request_and_parameter(trial):
-    text = (ROOT / "docs" / "how-to" / "ros.md").read_text("utf-8")
-    bags = (ROOT / "docs" / "reference" / "export.md").read_text("utf-8")
+def test_the_reference_names_every_topic_request_and_parameter(trial):
     for topic in trial.middleware.kinds:
         name = re.sub(r"joint_\d", "joint_N", topic.removeprefix("/tandemlift/"))
-        assert f"`{topic}`" in text or f"`{name}`" in bags, topic
-    assert all(service in text for service in trial.middleware.services)
+        found = [f"| `{n}` | `{trial.middleware.kinds[topic]}` |" in TABLES for n in (topic, name)]
+        assert any(found), topic
+    assert all(f"`{service}`" in TABLES for service in trial.middleware.services)
     trial.front._parameters.exchange()
-    for key in trial.middleware.kept:
-        assert f"`{key}`" in text or f"`….{key.rpartition('.')[2]}`" in text, key
+    assert [key for key in trial.middleware.kept if f"| `{key}` |" not in TABLES] == []
 
 
 # rospy

@@ -1,23 +1,22 @@
-"""docs/explanation/safety.md is what happens: every row of its table of faults is flown, in one compiled loop."""
+"""docs/reference/faults.md is what happens: every row of its table of faults is flown, in one compiled loop."""
 
 import re
-import tomllib
 
 import numpy as np
 import pytest
+from reference_tables.faults import fault_rows
 from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.algebra.vector import ZERO, Nothing
 from tandemlift.assembly.assemble import assemble
-from tandemlift.common.faults import ALARM_TEXTS, CHECKS, FAULTS
-from tandemlift.common.phases import PHASE_NAMES, PHASES, REASONS
+from tandemlift.common.faults import ALARM_TEXTS
+from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.laws.estimation.disturbance_observer import NONE
 from tandemlift.laws.guidance.guidance import PilotInput, checked_input, guide
 from tandemlift.laws.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
-from tandemlift.settings.supervision import SupervisionTable
+from tandemlift.missions.key_reference.sections import sections
 
-TEXT = (ROOT / "docs" / "explanation" / "safety.md").read_text("utf-8")
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle
 QUIET = [{"sensor": "position", "kind": "bias", "time": 1000.0}]  # no fault, in the same compiled loop
 FLOWN = {
@@ -34,27 +33,74 @@ FLOWN = {
 }
 
 
-def rows(heading):
-    """The rows of the table under a heading, as lists of cells."""
-    lines = TEXT.partition(f"## {heading}\n")[2].partition("\n## ")[0].splitlines()
-    return [[c.strip() for c in line.strip("| ").split(" | ")] for line in lines if re.match(r"\| \d", line)]
+def failed(sensor, kind, **more):
+    """A sensor's fault from the set time on."""
+    return {"sensor": sensor, "kind": kind, "time": AT, **more}
 
 
-def tried_with(cell):
-    """The changes of a mission that a cell tells."""
-    changes = {}
-    for text in re.findall(r"`([^`]+)`", cell):
-        if text.startswith("sensor"):
-            fault = tomllib.loads(f"x = {{{text}}}")["x"]
-            changes.setdefault("sensor_faults", []).append({**fault, "time": AT})
-        else:
-            key, _, value = text.partition(" = ")
-            changes[key] = tomllib.loads(f"x = {value}")["x"]
-    return changes
+def sensors(*faults):
+    """The change of a mission in which these sensors fail."""
+    return {"sensor_faults": list(faults)}
 
 
-TABLE = rows("Faults and reactions")
-TRIED = [row for row in TABLE if row[5] != "no flight"]
+TRIED_WITH = {  # each fault by its text, and the changes of the mission that lead to it
+    "attitude and gyroscope lost": sensors(failed("attitude", "nan"), failed("gyroscope", "nan")),
+    "imu stale": sensors(failed("imu", "stale")),
+    "motion stale": sensors(failed("motion", "stale")),
+    "joints frozen": sensors(failed("joints", "frozen")),
+    "joints not a number": sensors(failed("joints", "nan")),
+    "joints out of range": sensors(failed("joints", "range", size=200.0)),
+    "accelerometer frozen": sensors(failed("accelerometer", "frozen")),
+    "accelerometer not a number": sensors(failed("accelerometer", "nan")),
+    "accelerometer out of range": sensors(failed("accelerometer", "range", size=100.0)),
+    "gyroscope frozen": sensors(failed("gyroscope", "frozen")),
+    "gyroscope not a number": sensors(failed("gyroscope", "nan")),
+    "gyroscope out of range": sensors(failed("gyroscope", "range", size=20.0)),
+    "position frozen": sensors(failed("position", "frozen")),
+    "position not a number": sensors(failed("position", "nan")),
+    "position out of range": sensors(failed("position", "range", size=200.0)),
+    "velocity frozen": sensors(failed("velocity", "frozen")),
+    "velocity not a number": sensors(failed("velocity", "nan")),
+    "velocity out of range": sensors(failed("velocity", "range", size=30.0)),
+    "attitude frozen": sensors(failed("attitude", "frozen")),
+    "attitude not a number": sensors(failed("attitude", "nan")),
+    "attitude out of range": sensors(failed("attitude", "range", size=1.0)),
+    "joints disagree": sensors(failed("joints", "bias", quadrotor=1, size=[5, 0, 0])),
+    "attitude disagrees with gyroscope": sensors(failed("gyroscope", "bias", size=[0.4, 0, 0])),
+    "velocity disagrees with position": sensors(failed("velocity", "bias", size=[0.25, 0, 0])),
+    "accelerometer disagrees with velocity": sensors(failed("accelerometer", "bias", size=[1.0, 0, 0])),
+    "tilted too far": {"supervision.limits.tilt": 0.02, "supervision.limits.tilt_time": 0.0},
+    "turning too fast": {"supervision.limits.rates": 0.05, "supervision.limits.rates_time": 0.0},
+    "outside the fence": {"supervision.fence.low": [-1000.0, -1000.0, 1.5], "crash.fence_margin": 10.0},
+    "too little thrust left": {"supervision.limits.thrust_fraction": 0.5},
+    "too far from the reference": {
+        "supervision.limits.tracking_error": 0.005,
+        "supervision.limits.tracking_error_time": 0.0,
+    },
+    "cannot follow: no thrust left": {
+        "compliance.thrust_fraction": 0.62,
+        "admittance.threshold": 3.0,
+        "pushes": [{"force": [0, 0, -1.5], "time": 7, "sigma": 0.8}],
+        "supervision.hold_timeout": 0.2,
+    },
+    "cannot follow: pushed aside too hard": {
+        "compliance.max_tilt": 0.05,
+        "compliance.following.time": 0.1,
+        "supervision.hold_timeout": 0.2,
+    },
+    "cannot follow: heading lost": {
+        "compliance.yaw.max_lead_angle": 0.004,
+        "compliance.following.time": 0.02,
+        "supervision.hold_timeout": 0.2,
+    },
+    "cannot follow: too far from the reference": {
+        "controller.human_force_feedforward": False,
+        "compliance.following.max_error": 0.05,
+        "supervision.hold_timeout": 0.2,
+    },
+}
+IN_PLAIN_PYTHON = {"state not a number", "rotor failed"}  # flown below
+ROWS = tuple(fault_rows())
 
 
 @pytest.fixture(scope="module")
@@ -63,15 +109,19 @@ def fly():
     return lambda changes: tl.fly(tl.load_mission("iris", {**FLOWN, **changes}))
 
 
-@pytest.mark.parametrize("row", TRIED, ids=lambda row: row[1])
+def test_every_fault_of_the_table_is_flown():
+    assert {row.text for row in ROWS} == TRIED_WITH.keys() | IN_PLAIN_PYTHON
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS if row.text in TRIED_WITH], ids=lambda row: row.text)
 def test_every_fault_has_the_reaction_of_the_table_and_ends_safely(row, fly):
-    number, fault, _, _, reaction, tried = row
-    flight = fly(tried_with(tried))
+    fault, reaction = row.text, row.reaction
+    flight = fly(TRIED_WITH[fault])
     events = [what for _, what in flight.metrics()["events"]]
     held = "limited" if fault.startswith("cannot follow") else "hold"
     entered = {"hold": held, "land": "land", "stop": "stopped"}[reaction]
     assert f"{fault} -> {entered}" in events, events
-    assert {int(a) // 10 for a in flight["alarm"]} - {0} == {int(number)}
+    assert {int(a) // 10 for a in flight["alarm"]} - {0} == {row.number}
     assert flight.ending is None
     assert PHASE_NAMES[int(flight["phase"][-1])] == ("stopped" if reaction == "stop" else "idle"), events
     assert not flight["contact_part"].any()
@@ -196,39 +246,10 @@ def test_a_state_without_numbers_is_bridged_for_a_moment_and_then_stops(last, na
     assert np.isfinite([*memory.compliance.position, *memory.compliance.filtered.value]).all()
 
 
-def fault_rows():
-    """The rows of the table of faults, without what each was tried with."""
-    for fault in FAULTS:
-        cells = [f"`{fault.key}`", fault.reaction]
-        if not fault.symptoms:
-            yield [str(fault.number), fault.text, fault.detection, *cells]
-        for symptom in fault.symptoms:
-            detection = symptom.detection.format(range=fault.detection)
-            yield [str(fault.number), f"{fault.text} {symptom.text}", detection, *cells]
-
-
-def test_the_table_of_faults_is_that_of_the_code():
-    assert [row[:5] for row in TABLE] == list(fault_rows())
-    assert [row[1] for row in TABLE if row not in TRIED] == ["state not a number", "rotor failed"]  # in plain Python
-
-
-def test_the_tables_of_checks_and_phases_are_those_of_the_code():
-    checks = [[str(c.number), c.passes, c.before, ", ".join(f"`{key}`" for key in c.keys)] for c in CHECKS]
-    assert [[*row, ""][:4] for row in rows("Checks")] == checks
-    told = re.findall(
-        r"^\| (\w+) \| (\d) \| (.*) \|$", TEXT.partition("## Phases")[2].partition("\n## ")[0], flags=re.M
-    )
-    reasons = [[reason.text, str(i), reason.detection] for i, reason in enumerate(REASONS, start=1)]
-    lines = TEXT.partition("## When the vehicle cannot follow")[2].partition("\n## ")[0].splitlines()
-    assert [line.strip("| ").split(" | ") for line in lines if re.match(r"\| .* \| \d", line)] == reasons
-    assert told == [(p.name, str(i), f"{p.rotors} | {p.pushes} | {p.reference}") for i, p in enumerate(PHASES)]
-
-
 def test_every_key_that_the_document_names_is_one():
-    keys = set(re.findall(r"`(supervision\.[a-z_.]+?)`", TEXT))
-    for key in keys:
-        place = SupervisionTable().model_dump()
-        for part in key.split(".")[1:]:
-            if part == "model":
-                break
-            place = place[part]
+    text = (ROOT / "docs" / "explanation" / "safety.md").read_text("utf-8")
+    known = {key.name for section in sections() for key in section.keys}
+    tables = {section.name for section in sections()}
+    named = re.findall(r"`((?:supervision|compliance|contact|estimator|crash)\.[a-z_.]+)`", text)
+    assert len(named) > 10
+    assert [key for key in named if key not in known | tables] == []

@@ -49,7 +49,7 @@ def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_p
     code, out, _ = run("compare", "hover", *TWO, *SHORT)
     folder = tmp_path / "out" / "hover"
     assert code == 0
-    assert {path.name for path in folder.iterdir()} == {"compare.html", "compare.json"}
+    assert {path.name for path in folder.iterdir()} == {f"compare.{kind}" for kind in ("html", "json", "csv", "tex")}
     assert [line.split()[0] for line in out.splitlines()[2:4]] == ["nftsmc", "pid"]
     found = json.loads((folder / "compare.json").read_text("utf-8"), parse_constant=pytest.fail)
     assert [row["controller"] for row in found["controllers"]] == ["nftsmc", "pid"]
@@ -62,7 +62,13 @@ def test_a_comparison_writes_a_page_and_numbers_and_prints_a_row_each(run, tmp_p
 
 
 def test_the_page_needs_nothing_but_itself_and_has_a_row_and_the_settings_of_each(run, tmp_path):
-    assert run("compare", "hover", *TWO, "--set", "mission.duration=2.0", "--out", "here")[0] == 0
+    assert (
+        run("compare", "hover", *TWO, "--set", "mission.duration=2.0", "--out", "here", "--style", "elsevier")[0] == 0
+    )
+    figures = sorted(path.name for path in (tmp_path / "here" / "figures").iterdir())
+    assert figures == ["errors.pdf", "errors.png", "thrusts.pdf", "thrusts.png"]
+    (width,) = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+)", (tmp_path / "here" / "figures" / "errors.pdf").read_bytes())
+    assert float(width) == pytest.approx(190.0 / 25.4 * 72.0, abs=0.01)
     page = check_page(tmp_path / "here" / "compare.html")
     assert not [a for _, a in page.elements if "href" in a or not a.get("src", "data:").startswith("data:")]
     assert len([tag for tag, _ in page.elements if tag == "img"]) == 2

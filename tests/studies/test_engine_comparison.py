@@ -71,7 +71,9 @@ def test_a_flight_that_ended_early_is_compared_as_far_as_it_came():
 def test_a_mission_is_flown_in_each_engine_and_the_page_and_numbers_say_so(run, tmp_path):
     code, printed, _ = run("paper", "--engines", "compiled,mujoco", "--set", "mission.duration=2.0", "--out", "o")
     assert code == 0
-    assert sorted(p.name for p in (tmp_path / "o").iterdir()) == ["engines.html", "engines.json"]
+    assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [
+        *("engines.csv", "engines.html", "engines.json", "engines.tex")
+    ]
     found = json.loads((tmp_path / "o/engines.json").read_text("utf-8"))
     assert [row["engine"] for row in found["engines"]] == ["compiled", "mujoco"]
     a, b = (tl.fly(tl.load_mission("paper", SHORT), engine) for engine in ("compiled", "mujoco"))

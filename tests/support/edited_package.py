@@ -5,8 +5,11 @@ import shutil
 import sys
 
 from patience import completed
+from repository import ROOT
 
 import tandemlift
+
+TABLES = (ROOT / "docs" / "_extensions", ROOT / "tools")  # what makes the tables of the reference
 
 
 class EditedPackage:
@@ -31,7 +34,7 @@ class EditedPackage:
     def run(self, program):
         """What a Python program prints that imports the copy."""
         options = {"cwd": self.folder, "capture_output": True, "text": True}
-        environment = os.environ | {"PYTHONPATH": str(self.folder)}
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(self.folder), *map(str, TABLES)])}
         ended = completed([sys.executable, "-c", program], env=environment, **options)
         assert ended.returncode == 0, ended.stderr
         return ended.stdout

@@ -12,9 +12,10 @@ import click
 
 from tandemlift.cli.terminal.check_table import print_checks
 from tandemlift.cli.terminal.console import echo
-from tandemlift.cli.terminal.mission_options import FAILED, chosen_controller, load, set_option
+from tandemlift.cli.terminal.mission_options import FAILED, chosen_controller, load, set_option, style_option
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.files import atomic_write
+from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.linearization.analysis import Mode, Modes
@@ -36,6 +37,7 @@ DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "posi
 @click.option("--modes", "count", type=click.IntRange(0), default=15, show_default=True, help="Modes that are printed.")
 @click.option("--out", metavar="FILE", help="Write the model to FILE.npz or FILE.json.")
 @click.option("--figure", metavar="FILE", help="Draw modes and frequency response into FILE.png, .pdf or .svg.")
+@style_option
 @set_option
 @click.option("--controller", metavar="NAME|FILE", help="Controller to fly: a registered one, or your own .py file.")
 def linearize(
@@ -47,6 +49,7 @@ def linearize(
     count: int,
     out: str | None,
     figure: str | None,
+    style: str | None,
     settings: tuple[str, ...],
     controller: str | None,
 ) -> None:
@@ -80,7 +83,8 @@ def linearize(
         model.save(out)
         echo(f"model: {out}")
     if figure:
-        _draw(connected, Path(figure))
+        with figure_style(style):
+            _draw(connected, Path(figure))
         echo(f"figure: {figure}")
 
 

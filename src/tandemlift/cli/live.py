@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import importlib.util
 import os
 import sys
 import threading
@@ -15,7 +14,7 @@ import click
 
 from tandemlift.cli.terminal.console import echo, exit_now
 from tandemlift.cli.terminal.mission_options import engine_option, load, set_option
-from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 
 if TYPE_CHECKING:
     from tandemlift.live.server import PageServer
@@ -87,8 +86,8 @@ def check_live_installed() -> None:
     Raises:
         InputError: websockets is not installed.
     """
-    if importlib.util.find_spec("websockets") is None:
-        raise InputError("the live page needs websockets: pip install 'tandemlift[live]'")
+    with extra("live", "the live page"):
+        import websockets  # noqa: F401
 
 
 def serve_until_interrupt(server: PageServer, what: str, *, browser: bool) -> None:

@@ -17,6 +17,7 @@ from tandemlift.cli.keys import explain, schema, template
 from tandemlift.cli.linearize import check, linearize
 from tandemlift.cli.live import live
 from tandemlift.cli.pages import page, replay
+from tandemlift.cli.paper import paper
 from tandemlift.cli.render import render
 from tandemlift.cli.report import report
 from tandemlift.cli.ros import ros
@@ -82,6 +83,7 @@ cli.add_command(feel)
 cli.add_command(export)
 cli.add_command(compile)
 cli.add_command(report)
+cli.add_command(paper)
 
 
 def _print_table(rows: Mapping[str, str]) -> None:

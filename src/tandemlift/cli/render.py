@@ -24,7 +24,7 @@ PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "-
 
 @click.command()
 @click.argument("flight_or_mission")
-@click.option("--out", metavar="FILE", help="FILE.png or FILE.gif.  [default: picture.png beside the flight]")
+@click.option("--out", metavar="FILE", help="FILE.png, FILE.gif or FILE.mp4.  [default: picture.png beside the flight]")
 @click.option("--time", type=float, help="Time of the picture [s].  [default: when the push is strongest]")
 @click.option("--from", "start", type=float, help="Start of the animation [s].")
 @click.option("--to", "end", type=float, help="End of the animation [s].")
@@ -34,7 +34,7 @@ PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "-
     type=float,
     help="Playback speed.  [default: 1, or faster so that it lasts 20 s]",
 )
-@click.option("--size", metavar="WxH", help="Size in pixels.  [default: 1280x720, an animation 640x360]")
+@click.option("--size", metavar="WxH", help="Size in pixels.  [default: 1280x720, a GIF 640x360]")
 @click.option("--camera", default="follow", show_default=True, metavar="VIEW", help=f"Camera: {CAMERAS}.")
 @engine_option
 @set_option
@@ -51,7 +51,7 @@ def render(
     engine: str,
     settings: tuple[str, ...],
 ) -> None:
-    """Draw a flight: a picture (PNG) or an animation (GIF).
+    """Draw a flight: a picture (PNG) or an animation (GIF, or MP4 by ffmpeg).
 
     FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder), or a mission, which is flown first. --engine and
     --set are for a mission only.
@@ -61,6 +61,7 @@ def render(
       tandemlift render out/paper
       tandemlift render out/paper --out push.png --time 34 --camera overview
       tandemlift render out/paper --out pushes.gif --from 20 --to 40 --speed 2
+      tandemlift render out/paper --out pushes.mp4 --from 20 --to 40 --fps 30
       tandemlift render hover --set mission.duration=5 --out hover.gif
     """
     from tandemlift import rendering
@@ -76,18 +77,22 @@ def render(
 
 
 def _check_options(path: Path, given: list[str]) -> None:
-    """Refuse options that do not fit the kind of file.
+    """Refuse options that do not fit the kind of file, and an MP4 without ffmpeg, before anything is flown.
 
     Raises:
-        InputError: an option does not fit the kind of file, or the kind is unknown.
+        InputError: an option does not fit the kind of file, the kind is unknown, or ffmpeg is missing for an MP4.
     """
+    from tandemlift.rendering.video import ffmpeg
+
     kind = path.suffix.lower()
-    if kind not in (".png", ".gif"):
-        raise InputError(f"--out {path}: the name must end in .png (picture) or .gif (animation)")
+    if kind not in (".png", ".gif", ".mp4"):
+        raise InputError(f"--out {path}: the name must end in .png (picture), .gif or .mp4 (animation)")
     wrong = [name for name in given if name in (ANIMATION_OPTIONS if kind == ".png" else PICTURE_OPTIONS)]
     if wrong:
-        other = "an animation, --out FILE.gif" if kind == ".png" else "a picture, --out FILE.png"
+        other = "an animation, --out FILE.gif or FILE.mp4" if kind == ".png" else "a picture, --out FILE.png"
         raise InputError(f"{', '.join(wrong)} {'are' if len(wrong) > 1 else 'is'} for {other}")
+    if kind == ".mp4":
+        ffmpeg()
 
 
 def _size(text: str | None) -> tuple[int, int] | None:
@@ -122,7 +127,7 @@ def _draw(flight: Flight, path: Path, shot: Shot) -> None:
     if path.suffix.lower() == ".png":
         rendering.render(flight, path, shot)
     else:
-        count = len(rendering.Animation(flight, shot))
+        count = len(rendering.Animation(flight, shot, path.suffix.lower()))
         with progress_bar("Drawing", count, shown=sys.stderr.isatty()) as progress:
             rendering.render(flight, path, shot, progress)
     echo(f"{flight.name}: {path}")

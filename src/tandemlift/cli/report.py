@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.terminal.console import echo
-from tandemlift.cli.terminal.results import flight_file, html_path, results_folder, write_flight
+from tandemlift.cli.terminal.mission_options import style_option
+from tandemlift.cli.terminal.results import FIGURES, flight_file, html_path, results_folder, write_flight
 from tandemlift.common.errors import InputError
+from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
@@ -26,6 +28,7 @@ BAGS = (".bag", ".mcap")
     "study report.html in its folder]",
 )
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
+@style_option
 @click.option(
     "--for",
     "metrics",
@@ -33,7 +36,7 @@ BAGS = (".bag", ".mcap")
     metavar="METRIC",
     help="Show this metric of a study, such as position_rmse_m. Can be repeated.  [default: what suits its missions]",
 )
-def report(flight: str, out: str | None, no_figures: bool, metrics: tuple[str, ...]) -> None:
+def report(flight: str, out: str | None, no_figures: bool, style: str | None, metrics: tuple[str, ...]) -> None:
     """Draw the figures and write the report of a saved flight, of a bag or of a study.
 
     FLIGHT is flight.npz or its folder, or a bag of ROS 1 (.bag) or ROS 2 (.mcap, or its folder) with the topics of
@@ -45,10 +48,12 @@ def report(flight: str, out: str | None, no_figures: bool, metrics: tuple[str, .
       tandemlift report flight.bag
       tandemlift report out/zigzag --out out/again
       tandemlift report out/gusts --for human_work_j
+      tandemlift report out/iris --style slides
 
     \b
     Files in the results folder: those of `tandemlift run`. Other files there are left alone. The metrics of a bag are
-    computed from its samples.
+    computed from its samples. Beside the report of a study: outcomes.csv and outcomes.tex; with --style also its
+    figures (PNG and PDF) in figures/.
 
     \b
     Exit code:
@@ -56,12 +61,13 @@ def report(flight: str, out: str | None, no_figures: bool, metrics: tuple[str, .
       2   bad input: one message, nothing is written
     """
     if _is_study(Path(flight)):
-        _report_study(Path(flight), out, metrics, no_figures)
+        with figure_style(style):
+            _report_study(Path(flight), out, metrics, no_figures=no_figures, keep=style is not None)
         return
     if metrics:
         raise InputError(f"--for {metrics[0]}: {flight} is no study; the report of a flight shows all metrics")
     loaded, default = _load(flight)
-    with results_folder(out, default) as folder:
+    with results_folder(out, default) as folder, figure_style(style):
         echo(repr(loaded).strip("<>"))
         write_flight(loaded, folder, figures=not no_figures)
         echo(f"  report: {folder / 'report.html'}")
@@ -74,7 +80,7 @@ def _is_study(path: Path) -> bool:
     return (path / PLAN).is_file() or (path / STUDY).is_file()
 
 
-def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], no_figures: bool) -> None:
+def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no_figures: bool, keep: bool) -> None:
     """Write the report of a study.
 
     Raises:
@@ -88,7 +94,7 @@ def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], no_fi
 
     loaded = load_study(folder)
     echo(repr(loaded).strip("<>"))
-    echo(f"  report: {write_study_report(loaded, path, metrics)}")
+    echo(f"  report: {write_study_report(loaded, path, metrics, path.parent / FIGURES if keep else None)}")
 
 
 def _load(given: str) -> tuple[Flight, Path]:

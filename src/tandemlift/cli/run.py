@@ -18,10 +18,12 @@ from tandemlift.cli.terminal.mission_options import (
     load,
     parse_setting,
     set_option,
+    style_option,
     with_after_crash,
 )
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
+from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
@@ -48,6 +50,7 @@ NOT_KNOWN = "   not known"
 )
 @after_crash_option
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
+@style_option
 @strict_option
 def run(
     mission: str | None,
@@ -59,6 +62,7 @@ def run(
     controller: str | None,
     after_crash: float | None,
     no_figures: bool,
+    style: str | None,
     strict: bool,
 ) -> None:
     """Fly MISSION, print a summary and write the results.
@@ -73,12 +77,13 @@ def run(
       tandemlift run one-push --set 'pushes.0.force=[0, 2, 0]' --out out/sideways
       tandemlift run hover --controller my_pd.py --set controller.stiffness=4
       tandemlift run --from out/gusts --row 17
+      tandemlift run iris --style elsevier
 
     \b
     Files in the results folder (other files there are left alone):
       mission.toml   the mission with every key; `tandemlift run` flies it again
       flight.npz     all channels; read it with tl.Flight.load or NumPy
-      metrics.json   the metrics in SI units, computed from every step
+      metrics.json   the metrics in SI units, computed from every step; as tables metrics.csv and metrics.tex (LaTeX)
       findings.json  what went badly, with time, place and number, and what to do
       figures/       reference, path, tracking, inputs, interaction, joints; and push, disturbance, rotors,
                      surroundings, corridor where the mission has such parts (PNG and PDF)
@@ -93,7 +98,7 @@ def run(
     began = time.perf_counter()
     chosen = None if controller is None else chosen_controller(controller)
     loaded, engine, name = _selected(mission, (study, row), with_after_crash(settings, after_crash), chosen, engine)
-    with results_folder(out, Path("out") / name) as folder:
+    with results_folder(out, Path("out") / name) as folder, figure_style(style):
         flight = _fly(loaded, engine, chosen)
         print_summary(flight)
         copy_recording(loaded, folder)

@@ -23,4 +23,9 @@ def extra(name: str, user: str) -> Iterator[None]:
         yield
     except ModuleNotFoundError as error:
         package = (error.name or "").partition(".")[0]
-        raise InputError(f"{user} needs {package}: pip install 'tandemlift[{name}]'") from None
+        raise InputError(f"{user} needs {package}: {install_command(name)}") from None
+
+
+def install_command(name: str) -> str:
+    """The command that installs an extra."""
+    return f"pip install 'tandemlift[{name}]'"

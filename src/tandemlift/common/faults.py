@@ -1,7 +1,7 @@
 """What can go wrong in a supervised flight: every fault, every check, and the reactions, each in one record.
 
 The keys of `[supervision.reactions]`, the alarms and their texts, the order in which `laws.guidance.fault_detection`
-looks at faults, and the tables in docs/explanation/safety.md come from here. What detects a fault is a law:
+looks at faults, and the tables in docs/reference/faults.md come from here. What detects a fault is a law:
 `laws.guidance.fault_detection`.
 """
 

@@ -1,7 +1,7 @@
 """What a flight's record is searched for, beside its outcome: every kind of finding in one record.
 
 A finding says what went badly in a flight that may have ended well: with time, place and number. The choices of the
-key `findings.ignore` and the table in docs/reference/outcomes.md come from here. `loop.detectors` has the laws that
+key `findings.ignore` and the table of docs/reference/outcomes.md come from here. `loop.detectors` has the laws that
 watch every step, `simulation.findings` forms findings from what they hold.
 """
 
@@ -88,7 +88,7 @@ KINDS = (
     FindingKind(
         "cannot-follow",
         'the pilot ignored pushes because the vehicle could not follow them, phase "limited"; '
-        "docs/explanation/safety.md has the reasons",
+        "docs/reference/faults.md has the reasons",
         "remove the cause that it names: use stronger rotors or a lighter payload, or fly in less wind",
         ("compliance.following.time", "compliance.following.max_error", "compliance.following.recovery_time"),
     ),
@@ -105,7 +105,7 @@ KINDS = (
     FindingKind(
         "lift-refused",
         "a lift was requested, and a check before the flight refused it",
-        "see the failed check in docs/explanation/safety.md, and its keys in `supervision.checks`",
+        "see the failed check in docs/reference/faults.md, and its keys in `supervision.checks`",
     ),
 )
 KIND_OF = {kind.name: kind for kind in KINDS}
@@ -154,14 +154,3 @@ def finding_from(table: dict[str, Any]) -> Finding:
     place = table["place"]
     fields = {name: table[name] for name in Finding._fields}
     return Finding(**{**fields, "place": place and tuple(place)})
-
-
-def finding_kinds_markdown() -> str:
-    """The kinds as a table for docs/reference/outcomes.md."""
-    lines = ["| kind | what it means | what to do | keys |", "|---|---|---|---|"]
-    lines += [f"| {k.name} | {k.meaning} | {k.remedy} | {', '.join(f'`{key}`' for key in k.keys)} |" for k in KINDS]
-    return "\n".join(lines)
-
-
-if __name__ == "__main__":
-    print(finding_kinds_markdown())

@@ -1,4 +1,4 @@
-"""Controllers: what a controller is, and which there are; docs/reference/controllers.md says how to add one.
+"""Controllers: what a controller is, and which there are. docs/reference/controllers.md says how to add one.
 
 A controller is one file. It names its settings (the keys of `[controller]`), makes its gains and its first memory from
 them, and gives the law
@@ -7,12 +7,27 @@ them, and gives the law
 
 for its own type of gains. Written as a law it compiles into the loop; registered with `compiled=False` any Python
 function will do, at a few microseconds a step.
+
+A controller of one's own imports what it needs from here, from `tandemlift.algebra` and from `tandemlift.settings`.
 """
 
+from tandemlift.controllers.cascade import (
+    LEVEL,
+    CascadeTable,
+    ControllerModel,
+    command_from,
+    controller_model,
+    tracked_attitude,
+    wanted_force,
+)
 from tandemlift.controllers.interface import NO_DISTURBANCE, Command, Disturbance, Measured, NoMemory, control
 from tandemlift.controllers.registry import CONTROLLERS, Controller, controller, file_of, register
 from tandemlift.controllers.trial_run import error_text
 from tandemlift.controllers.user_controller import load_controller
+from tandemlift.laws.mechanics.inertia import apply_inertia, gyroscopic, inertia_value
+from tandemlift.laws.mechanics.rigid_body import UP, State, Wrench
+from tandemlift.laws.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, wrap_angle
+from tandemlift.laws.mechanics.tilt import TiltZXY, desired_orientation, limit_tilt, total_thrust
 from tandemlift.laws.signals.trajectories import Reference
 
 # isort: split
@@ -20,18 +35,34 @@ from tandemlift.controllers import geometric, lqr, nftsmc, pid, smc, super_twist
 
 __all__ = [
     "CONTROLLERS",
+    "LEVEL",
     "NO_DISTURBANCE",
+    "UP",
+    "CascadeTable",
     "Command",
     "Controller",
+    "ControllerModel",
     "Disturbance",
     "Measured",
     "NoMemory",
     "Reference",
+    "State",
+    "TiltZXY",
+    "Wrench",
+    "apply_inertia",
+    "command_from",
     "control",
     "controller",
+    "controller_model",
+    "desired_orientation",
     "error_text",
+    "euler_from_quaternion",
+    "euler_rates_from_rates",
     "file_of",
     "geometric",
+    "gyroscopic",
+    "inertia_value",
+    "limit_tilt",
     "load_controller",
     "lqr",
     "nftsmc",
@@ -39,4 +70,8 @@ __all__ = [
     "register",
     "smc",
     "super_twisting",
+    "total_thrust",
+    "tracked_attitude",
+    "wanted_force",
+    "wrap_angle",
 ]

@@ -1,1 +1,1 @@
-"""Engines, where the body of a flight lives; `registry` lists them."""
+"""Engines, which simulate the vehicle: compiled, MuJoCo, Gazebo; `registry` lists them."""

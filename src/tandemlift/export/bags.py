@@ -7,26 +7,22 @@ that there is none, and a ROS 1 bag's player leaves such messages out.
 from __future__ import annotations
 
 import heapq
-import importlib
 import itertools
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.phases import PHASE_NAMES
 from tandemlift.export.coordinate_frames import fixed
 from tandemlift.export.messages import SECOND, MessageTypes, Transforms, event_maker, message_maker, modern
-from tandemlift.export.topics import ROOT, topics_from
+from tandemlift.export.topics import DIAGNOSTICS, MISSION, TF, TF_STATIC, topics_from
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.vehicle import Vehicle
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 START = SECOND  # ns, stamp of the flight's time 0
 CALLER, NAME = "/tandemlift", "flight"  # the publisher in a ROS 1 bag, and the name of a ROS 2 bag
@@ -56,14 +52,14 @@ def streams_from(flight: Flight, types: MessageTypes) -> list[TopicStream]:
     vehicle = Vehicle.from_mission(flight.mission)
     topics, stamps = topics_from(flight, vehicle), [stamp(t) for t in flight.time.tolist()]
     transforms, diagnose = Transforms(types), event_maker(types)
-    Text = types["std_msgs/String"]
+    Text = types[MISSION.kind]
     place = np.hstack([flight["position"], flight["attitude"]])
     happened = [(stamp(at), diagnose(stamp(at), what)) for at, what in events_from(flight)]
     return [
-        TopicStream(f"{ROOT}/mission", "std_msgs/String", [(START, Text(format_toml(flight.mission)))], latched=True),
-        TopicStream("/tf_static", "tf2_msgs/TFMessage", [(START, transforms.fixed(START, list(fixed(vehicle))))], True),
-        TopicStream("/tf", "tf2_msgs/TFMessage", _made(stamps, place, transforms.moving)),
-        *[TopicStream("/diagnostics", "diagnostic_msgs/DiagnosticArray", happened)] * bool(happened),
+        TopicStream(MISSION.name, MISSION.kind, [(START, Text(format_toml(flight.mission)))], latched=True),
+        TopicStream(TF_STATIC.name, TF_STATIC.kind, [(START, transforms.fixed(START, list(fixed(vehicle))))], True),
+        TopicStream(TF.name, TF.kind, _made(stamps, place, transforms.moving)),
+        *[TopicStream(DIAGNOSTICS.name, DIAGNOSTICS.kind, happened)] * bool(happened),
         *(TopicStream(t.name, t.kind, _made(stamps, t.rows, message_maker(types, t))) for t in topics),
     ]
 
@@ -88,21 +84,6 @@ def events_from(flight: Flight) -> list[tuple[float, str]]:
     return sorted(events)
 
 
-def rosbags(part: str) -> ModuleType:
-    """A part of the package that knows the formats of bags.
-
-    Raises:
-        InputError: it is not installed.
-    """
-    try:
-        return importlib.import_module(f"rosbags.{part}")
-    except ModuleNotFoundError as error:
-        raise InputError(
-            f"a bag needs the package rosbags, and {error.name} is missing: pip install 'tandemlift[export]'; "
-            "a .csv does not"
-        ) from error
-
-
 def _types_of(store: Any, *, numbered: bool) -> MessageTypes:
     """The classes that `rosbags` has of the messages of one ROS."""
     return MessageTypes(lambda name: store.types[modern(name)], numbered=numbered, numbers=np.array)
@@ -110,10 +91,10 @@ def _types_of(store: Any, *, numbered: bool) -> MessageTypes:
 
 def write_mcap(flight: Flight, path: Path) -> None:
     """Write the flight as a ROS 2 bag in one MCAP file (chunks in Zstandard)."""
-    ros = rosbags("typesys")
-    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
-
-    store = ros.get_typestore(ros.Stores.ROS2_HUMBLE)
+    with extra("export", "a bag (a .csv does not)"):
+        from rosbags import typesys
+        from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+    store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
     streams = streams_from(flight, _types_of(store, numbered=False))
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=f"{path.name}.") as folder:
         bag = Writer(Path(folder) / NAME, version=8, storage_plugin=StoragePlugin.MCAP)
@@ -139,11 +120,12 @@ def _qos(latched: bool) -> list[Any]:
 
 def write_bag(flight: Flight, path: Path) -> None:
     """Write the flight as a ROS 1 bag (chunks in LZ4)."""
-    ros = rosbags("typesys")
-    from rosbags.rosbag1 import Writer
-
-    store = ros.get_typestore(ros.Stores.ROS1_NOETIC)
-    store.register(ros.get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage"))
+    with extra("export", "a bag (a .csv does not)"):
+        from rosbags import typesys
+        from rosbags.rosbag1 import Writer
+    store = typesys.get_typestore(typesys.Stores.ROS1_NOETIC)
+    transforms = typesys.get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage")
+    store.register(transforms)
     streams = streams_from(flight, _types_of(store, numbered=True))
     bag = Writer(path)
     bag.set_compression(Writer.CompressionFormat.LZ4)

@@ -1,17 +1,9 @@
-"""Where things are in an exported flight: names of frames, and vectors from one to another, for all samples at once.
-
-| frame | origin | axes |
-|---|---|---|
-| `world` | the mission's | z up |
-| `base_link` | centre of mass of the vehicle | body: x forward, y left along the beam, z up (ROS REP 103) |
-| `base_world` | as `base_link` | as `world`: for forces in world axes |
-| `payload` | centre of mass of the payload | body |
-| `joint_1` … | where a quadrotor is fixed to the payload | body |
-"""
+"""Where things are in an exported flight: names of frames, and vectors from one to another, for all samples at once."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,6 +13,24 @@ from tandemlift.laws.mechanics.rotation import euler_from_quaternion, quaternion
 from tandemlift.vehicle import Vehicle
 
 WORLD, BASE, ALIGNED, PAYLOAD = "world", "base_link", "base_world", "payload"
+
+
+class Frame(NamedTuple):
+    """A frame: its name, its parent, where its origin is, and its axes."""
+
+    name: str
+    parent: str
+    origin: str
+    axes: str
+
+
+FRAMES = (
+    Frame(WORLD, "", "the mission's", "inertial, z up"),
+    Frame(BASE, WORLD, "centre of mass of the vehicle", "body: x forward, y left along the beam, z up (ROS REP 103)"),
+    Frame(ALIGNED, WORLD, "centre of mass of the vehicle", "as `world`: for forces in world axes"),
+    Frame(PAYLOAD, BASE, "centre of mass of the payload", "body"),
+    Frame("joint_1", BASE, "where that quadrotor is fixed to the payload; `joint_2` and so on likewise", "body"),
+)
 
 
 def fixed(vehicle: Vehicle) -> Iterator[tuple[str, Array]]:

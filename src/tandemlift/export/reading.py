@@ -16,18 +16,28 @@ from typing import Any
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
-from tandemlift.export.bags import rosbags
 from tandemlift.export.coordinate_frames import eulers
 from tandemlift.export.messages import NUMBERS, SECOND
 from tandemlift.export.recipes import MeasuredPose, Recipe
-from tandemlift.export.topics import ALWAYS, JOINTS, PILOT, ROOT, SOMETIMES, all_recipes, topics_from
+from tandemlift.export.topics import (
+    ALWAYS,
+    DIAGNOSTICS,
+    JOINTS,
+    MISSION,
+    PILOT,
+    ROOT,
+    SOMETIMES,
+    all_recipes,
+    topics_from,
+)
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.old_names import renamed_channel, renamed_tables, renamed_topic, warn_of_old_names
 from tandemlift.flight.record import LATE, Flight
 from tandemlift.vehicle import Vehicle
 
-BASE, MISSION, EVENTS = f"{ROOT}/odometry", f"{ROOT}/mission", "/diagnostics"
+BASE = f"{ROOT}/odometry"
 VALUES = f"{ROOT}/pilot"
 PILOT_SAYS = "tandemlift: pilot"  # the name in diagnostics of what happens
 Stamped = dict[int, Any]  # messages by their stamps [ns]
@@ -59,7 +69,7 @@ def read_bag(path: str | os.PathLike[str]) -> Flight:
 
 def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
     stamps = np.array(sorted(said[BASE]))
-    mission = _mission(path, said[MISSION])
+    mission = _mission(path, said[MISSION.name])
     time = (stamps - stamps[0]) / SECOND
     vehicle = Vehicle.from_mission(mission)
     channels = _channels(said, stamps, vehicle)
@@ -68,17 +78,17 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
         raise InputError(f"{path}: lacks the topics of {', '.join(missing)}, which every flight has")
     flight = Flight(time, {name: channels[name] for name in CHANNELS if name in channels}, mission, {})
     topics_from(flight, vehicle)  # complains of what is not whole
-    return Flight(time, flight.channels, mission, _metrics(flight, _events(said[EVENTS], int(stamps[0]))))
+    return Flight(time, flight.channels, mission, _metrics(flight, _events(said[DIAGNOSTICS.name], int(stamps[0]))))
 
 
 def _mission(path: Path, said: Stamped) -> dict[str, Any]:
     """The mission as it was in the end, by the names that its keys have now."""
     if not said:
-        raise InputError(f"{path}: has no {MISSION}, the mission that was flown")
+        raise InputError(f"{path}: has no {MISSION.name}, the mission that was flown")
     try:
         tables, notices = renamed_tables(tomllib.loads(said[max(said)].data))
     except ValueError as error:
-        raise InputError(f"{path}: {MISSION} is no mission: {error}") from error
+        raise InputError(f"{path}: {MISSION.name} is no mission: {error}") from error
     warn_of_old_names(str(path), notices)
     return tables
 
@@ -90,7 +100,7 @@ def _messages(path: Path) -> dict[str, Stamped]:
         topic = renamed_topic(topic)
         header = getattr(message, "header", None)
         stamp = header.stamp.sec * SECOND + header.stamp.nanosec if header else at
-        if topic == EVENTS:
+        if topic == DIAGNOSTICS.name:
             found[topic].setdefault(stamp, []).append(message)
         else:
             found[topic][stamp] = message
@@ -99,15 +109,18 @@ def _messages(path: Path) -> dict[str, Stamped]:
 
 def _is_read(topic: str) -> bool:
     ours = topic.startswith(f"{ROOT}/") and "/markers/" not in topic and not topic.endswith("path")
-    return ours or topic == EVENTS
+    return ours or topic == DIAGNOSTICS.name
 
 
 def _opened(path: Path) -> Iterator[tuple[str, int, Any]]:
     """Topic, time [ns] and message of everything that is read."""
-    bags, typesys = rosbags("highlevel"), rosbags("typesys")
+    with extra("export", "a bag"):
+        from rosbags import typesys
+        from rosbags.highlevel import AnyReader
+        from rosbags.rosbag2.storage_mcap import McapReader
     store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
     if path.suffix.lower() == ".mcap":
-        reader = rosbags("rosbag2.storage_mcap").McapReader(path)
+        reader = McapReader(path)
         reader.open()
         try:
             wanted = [c for c in reader.connections if _is_read(c.topic)]
@@ -116,7 +129,7 @@ def _opened(path: Path) -> Iterator[tuple[str, int, Any]]:
         finally:
             reader.close()
         return
-    with bags.AnyReader([path], default_typestore=store) as reader:
+    with AnyReader([path], default_typestore=store) as reader:
         for connection, at, data in reader.messages([c for c in reader.connections if _is_read(c.topic)]):
             yield connection.topic, at, reader.deserialize(data, connection.msgtype)
 
@@ -124,7 +137,7 @@ def _opened(path: Path) -> Iterator[tuple[str, int, Any]]:
 def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict[str, Array]:
     """The channels of all topics that there are."""
     there = {name for r in (*ALWAYS, *SOMETIMES) if said[f"{ROOT}/{r.name}"] for name in r.needs}
-    there |= set(JOINTS[1][1:]) if said[f"{ROOT}/joint_1/measured"] else set()
+    there |= set(JOINTS[1][1:3]) if said[f"{ROOT}/joint_1/measured"] else set()
     there |= {name.partition(".")[0] for m in list(said[VALUES].values())[:1] for name in _names(m)} & {*PILOT}
     parts: dict[str, list[Array]] = defaultdict(list)
     seen = MeasuredPose(np.zeros((0, 4)), vehicle)

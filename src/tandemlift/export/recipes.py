@@ -99,6 +99,7 @@ class Recipe(NamedTuple):
         rows: the numbers of each message (T, n) from the channels.
         back: the channels by name from these numbers; of a joint, its part of them.
         labels: of these numbers, where the message names them.
+        meaning: in a few words, for docs/reference/topics.md.
     """
 
     name: str
@@ -108,6 +109,11 @@ class Recipe(NamedTuple):
     rows: Callable[[Source], Array]
     back: Back
     labels: tuple[str, ...] = ()
+    meaning: str = ""
+
+    def described(self, meaning: str) -> Recipe:
+        """The same recipe with a meaning."""
+        return self._replace(meaning=meaning)
 
 
 def as_recorded(name: str, kind: str, frame: str, *channels: str) -> Recipe:

@@ -18,10 +18,11 @@ from matplotlib.patches import FancyArrowPatch
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.clearances import clearances, grips
 from tandemlift.figures.drawing.figure import Caption, with_walls
-from tandemlift.figures.drawing.panels import extent, line, value_ticks
+from tandemlift.figures.drawing.figure_style import current_style
+from tandemlift.figures.drawing.panels import extent, legend_above, line, value_ticks
 from tandemlift.figures.drawing.series import decimate, drawable
 from tandemlift.figures.drawing.skeleton import skeleton
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, VERMILLION, journal
+from tandemlift.figures.drawing.style import BEHIND_TEXT, BLUE, GREY, INK, VERMILLION, journal, page_figure, points
 from tandemlift.figures.path import pushes
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
@@ -30,8 +31,9 @@ from tandemlift.vehicle import Vehicle
 CAPTION = Caption(
     "Walls and clearance",
     "Top: view from above of the walls, the path of the centre of mass and the path that the person was to follow, "
-    "with the vehicle to scale at equal distances, black at the start and at the end: its beam, and the guards around "
-    "its quadrotors. Arrows show the horizontal push of the person at these instants. Bottom: distance of guards and "
+    "with the vehicle to scale at equal distances, bold at the start and at the end: its beam, and the guards around "
+    "its quadrotors. Arrows show the horizontal push of the person at these instants; the largest has its "
+    "size beside it. Bottom: distance of guards and "
     "beam from the nearest wall, over the distance flown, and its minimum; they touch a wall below zero.",
     "Two panels: view from above of walls, path, vehicle and pushes; clearance of guards and beam over the distance "
     "flown.",
@@ -44,7 +46,6 @@ MOST, TALLEST, LEAST = 14, 5.0, 1.5  # vehicles; in, of the view from above
 BELOW, AROUND = 1.25, 0.75  # in: height of the lower panel, and of what is around them
 NEWTON = 0.75  # m of the view, for a newton
 WEAK = 0.05  # N: a weaker push is not drawn
-FAINT = "#9aa0a6"
 BEAM: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (5, 1.5))}
 
 
@@ -94,6 +95,13 @@ def _pushes(ax: Any, found: list[tuple[Array, Array]]) -> None:
     for point, force in found:
         ends = (tuple(point), tuple(point + NEWTON * force))
         ax.add_patch(FancyArrowPatch(*ends, color=VERMILLION, lw=1.2, zorder=6, gid="push", **look))
+    if found:
+        point, force = max(found, key=lambda push: float(np.linalg.norm(push[1])))
+        sides: Any = {"ha": "left" if force[0] >= 0.0 else "right", "va": "bottom" if force[1] >= 0.0 else "top"}
+        text = f"{np.linalg.norm(force):.3g} N"
+        ax.annotate(
+            text, point + NEWTON * force, color=VERMILLION, fontsize=points(7.5), zorder=7, bbox=BEHIND_TEXT, **sides
+        )
 
 
 def _desired(flight: Flight) -> Array:
@@ -113,10 +121,10 @@ def _bounds(flight: Flight, shown: list[int]) -> Array:
 
 def _from_above(ax: Any, flight: Flight, shown: list[int], found: list[tuple[Array, Array]]) -> None:
     for w in wall_tables(flight.mission):
-        ax.plot(*np.array([w["start"], w["end"]]).T, color=BLACK, lw=1.6, solid_capstyle="round", zorder=3, gid="wall")
+        ax.plot(*np.array([w["start"], w["end"]]).T, color=INK, lw=1.6, solid_capstyle="round", zorder=3, gid="wall")
     ax.plot(*_desired(flight).T, color=GREY, lw=0.7, ls=(0, (4, 3)), zorder=1, gid="desired")
     for k in shown:
-        _vehicle(ax, flight, k, BLACK if k in (shown[0], shown[-1]) else FAINT)
+        _vehicle(ax, flight, k, INK if k in (shown[0], shown[-1]) else GREY)
     path = flight["position"]
     thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path[:, :2].T]))]
     ax.plot(*thin[:, :2].T, color=BLUE, lw=1.2, zorder=5, gid="path")
@@ -134,15 +142,15 @@ def _clearance(ax: Any, flight: Flight) -> None:
     for values, look in known:
         line(ax, way, values, zorder=3, **look)
     least, k = min((float(np.nanmin(v)), int(np.nanargmin(v))) for v, _ in known)
-    ax.plot(way[k], least, marker="o", ms=3.5, color=BLACK, zorder=4, gid="least")
+    ax.plot(way[k], least, marker="o", ms=3.5, color=INK, zorder=4, gid="least")
     text = f"{least:.2f} m"
     right = way[k] < 0.85 * way[-1]
     offset, side = ((5, -3), "left") if right else ((-5, -3), "right")
-    ax.annotate(text, (way[k], least), offset, textcoords="offset points", ha=side, va="top", fontsize=7.5)
+    ax.annotate(text, (way[k], least), offset, textcoords="offset points", ha=side, va="top", fontsize=points(7.5))
     high = 1.08 * min(extent(*[v for v, _ in known])[1], 4.0 * max(least, 0.3))
     ax.set_ylim(min(0.0, least) - 0.12 * high, high)
     ax.yaxis.set_major_locator(value_ticks())
-    ax.axhline(0.0, color=BLACK, lw=1.2, zorder=2)
+    ax.axhline(0.0, color=INK, lw=1.2, zorder=2)
     ax.set_xlim(-0.012 * max(way[-1], 0.1), max(way[-1], 0.1))
     ax.set_xlabel("distance flown (m)")
     ax.set_ylabel("clearance (m)")
@@ -158,20 +166,20 @@ def draw(flight: Flight) -> Figure:
     shown = instants(flight)
     found, (low, high) = arrows(flight, shown), _bounds(flight, shown)
     size = high - low
-    tall = float(np.clip((PAGE - 0.5) * size[1] / size[0], LEAST, TALLEST))
-    figure = Figure(figsize=(PAGE, tall + BELOW + AROUND), layout="constrained")
+    tall = float(np.clip((current_style().page - 0.5) * size[1] / size[0], LEAST, TALLEST))
+    figure = page_figure(tall + BELOW + AROUND)
     above, below = figure.subplots(2, 1, height_ratios=[tall, BELOW])
     _from_above(above, flight, shown, found)
     above.set_xlim(low[0], high[0])
     above.set_ylim(low[1], high[1])
     _clearance(below, flight)
     handles: list[Any] = [
-        Line2D([], [], color=BLACK, lw=1.6),
+        Line2D([], [], color=INK, lw=1.6),
         Line2D([], [], color=BLUE, lw=1.2),
         Line2D([], [], color=GREY, lw=0.7, ls=(0, (4, 3))),
         Line2D([], [], color=VERMILLION, lw=1.2, marker=">", ms=3.5),
         Line2D([], [], **BEAM),
     ]
     names = ["wall", "centre of mass; guards", "desired path", f"push (1 N: {NEWTON:g} m)", "beam"]
-    figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.4)
+    legend_above(figure, handles, names)
     return figure

@@ -14,7 +14,7 @@ from tandemlift.common.phases import GUIDED
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
-from tandemlift.figures.drawing.style import BLACK, COLUMN, COMPONENTS, GREY, journal
+from tandemlift.figures.drawing.style import COMPONENTS, GREY, INK, column_figure, journal
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption(
@@ -41,7 +41,7 @@ def _condition(ax: Any, flight: Flight, error: Array) -> None:
     """Fill the panel of the condition: the largest error over the axes of position, and of attitude."""
     for part, look, name in ((slice(0, 3), COMPONENTS[0], "position"), (slice(3, 6), COMPONENTS[1], "attitude")):
         line(ax, flight.time, error[:, part].max(axis=1), label=name, **look)
-    ax.axhline(1.0, color=BLACK, lw=0.7, ls=(0, (5, 3)))
+    ax.axhline(1.0, color=INK, lw=0.7, ls=(0, (5, 3)))
     fit(ax, np.zeros(1), np.ones(1), error, least=1.0)
     ax.set_ylabel("$|\\delta-\\hat{\\delta}|/\\lambda_2$")
     ax.legend(loc="upper right", ncols=2, columnspacing=1.2)
@@ -52,7 +52,7 @@ def draw(flight: Flight) -> Figure:
     """Draw the disturbance's force [N] and moment [N·m], and its error over λ₂; grey while a person guides."""
     error = error_over_lambda(flight)
     rows = 2 if error is None else 3
-    figure = Figure(figsize=(COLUMN, 1.35 * rows + 0.3), layout="constrained")
+    figure = column_figure(1.35 * rows + 0.3)
     axes = figure.subplots(rows, 1, squeeze=False)[:, 0]
     panels = (("disturbance_force", "$\\hat{d}$ (N)", 0.2), ("disturbance_moment", "$\\hat{\\tau}$ (N m)", 0.02))
     handles: list[Any] = []

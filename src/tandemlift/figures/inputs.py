@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import fit, line, time_axis
 from tandemlift.figures.drawing.start import START, is_disturbed
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, PAGE, journal
+from tandemlift.figures.drawing.style import BLUE, GREY, INK, journal, page_figure
 from tandemlift.figures.drawing.vehicle import true_weight
 from tandemlift.flight.record import Flight
 
@@ -47,7 +47,7 @@ def draw(flight: Flight) -> Figure:
     time = flight.time
     disturbed = is_disturbed(time, np.column_stack([flight["thrust"], flight["moment"]]), LEAST)
     every, early = np.ones(len(time), dtype=bool), time <= START
-    figure = Figure(figsize=(PAGE, 4.4), layout="constrained")
+    figure = page_figure(4.4)
     widths = (1.0, 2.6) if disturbed else (1.0,)
     axes = figure.subplots(4, len(widths), squeeze=False, gridspec_kw={"width_ratios": widths})
     weight = true_weight(flight)
@@ -59,7 +59,7 @@ def draw(flight: Flight) -> Figure:
             time_axis(row[0], flight, label=i == 3)
             row[0].set_xlim(-0.02 * START, START)
         row[0].set_ylabel(LABELS[i])
-    hover = [ax.axhline(weight, color=BLACK, lw=0.7, ls=(0, (5, 3)), zorder=0) for ax in axes[0]]
+    hover = [ax.axhline(weight, color=INK, lw=0.7, ls=(0, (5, 3)), zorder=0) for ax in axes[0]]
     axes[0, -1].legend(hover[-1:], [f"weight, {weight:.4g} N"], loc="lower right", bbox_to_anchor=(1.0, 1.0))
     if disturbed:
         axes[0, 0].set_title("first second")

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 
 from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import extent, line, shade, time_axis, value_ticks
-from tandemlift.figures.drawing.style import BLACK, BLUE, COLUMN, PALE, VERMILLION, journal
+from tandemlift.figures.drawing.style import BLUE, INK, PALE, VERMILLION, column_figure, journal
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption(
@@ -49,7 +49,7 @@ def _panel(ax: Any, other: Any, flight: Flight, axis: int) -> list[Any]:
     threshold = float(flight.mission["admittance"]["threshold"][axis])
     shade(ax, flight.time, flight["admittance_force"][:, axis] != 0.0)
     force = line(ax, flight.time, push, color=BLUE, lw=1.2)
-    limits = [ax.axhline(s * threshold, color=BLACK, lw=0.7, ls=(0, (5, 3))) for s in (1.0, -1.0)]
+    limits = [ax.axhline(s * threshold, color=INK, lw=0.7, ls=(0, (5, 3))) for s in (1.0, -1.0)]
     other.spines["right"].set(visible=True, color=VERMILLION)
     other.tick_params(axis="y", colors=VERMILLION)
     other.set_ylabel(f"$T_{{r,{'xyz'[axis]}}}$ (m)", color=VERMILLION)
@@ -64,7 +64,7 @@ def _panel(ax: Any, other: Any, flight: Flight, axis: int) -> list[Any]:
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw push [N], thresholds [N] and T_r [m] on x, y and z, shaded grey where the gate is open."""
-    figure = Figure(figsize=(COLUMN, 4.2), layout="constrained")
+    figure = column_figure(4.2)
     axes = figure.subplots(3, 1, squeeze=False)[:, 0]
     others = [ax.twinx() for ax in axes]
     handles: list[Any] = []

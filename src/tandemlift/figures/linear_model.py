@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from tandemlift.figures.drawing.style import BLUE, COMPONENTS, GREY, PAGE, PALE, VERMILLION, styled
+from tandemlift.figures.drawing.style import BLUE, COMPONENTS, GREY, PALE, VERMILLION, page_figure, points, styled
 from tandemlift.linearization.analysis import Modes, frequency_response
 from tandemlift.linearization.linear_model import LinearModel
 
@@ -29,13 +29,14 @@ def draw(model: LinearModel, modes: Modes, input: str, output: str) -> Figure:
         input: beginning of the names of inputs, such as "push_force".
         output: that of outputs, such as "position"; input i is drawn to output i.
     """
-    figure: Any = Figure(figsize=(PAGE, 3.1), layout="constrained")
+    figure: Any = page_figure(3.1)
     grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.15))
     _poles(figure.add_subplot(grid[:, 0]), modes)
     size, phase = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
     _response(size, phase, model, input, output)
     figure.suptitle(
-        f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms", fontsize=9.5
+        f"{model.mission}: the {model.of} at {model.time:g} s, sample time {model.step * 1e3:g} ms",
+        fontsize=points(9.5),
     )
     return figure
 
@@ -51,7 +52,7 @@ def _poles(axes: Any, modes: Modes) -> None:
         axes.plot(x, y, color=PALE, lw=0.7)
         axes.plot(x, -y, color=PALE, lw=0.7)
         end = int(np.searchsorted(y, far / 1.5))
-        axes.text(x[end - 1], y[end - 1], f"{ratio:g}", color=GREY, fontsize=7, ha="left", va="center")
+        axes.text(x[end - 1], y[end - 1], f"{ratio:g}", color=GREY, fontsize=points(7), ha="left", va="center")
     axes.axvline(0.0, color=GREY, lw=0.7)
     for stable, colour in ((True, BLUE), (False, VERMILLION)):
         chosen = s[(s.real < 0.0) == stable]

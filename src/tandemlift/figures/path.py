@@ -20,11 +20,24 @@ from tandemlift.common.types import Array
 from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.ground import floor_height
+from tandemlift.figures.drawing.panels import legend_above
 from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.figures.drawing.series import decimate, drawable
 from tandemlift.figures.drawing.skeleton import Skeleton, skeleton
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, VERMILLION, journal
-from tandemlift.figures.drawing.walls import EDGE, GLASS, WallOutline, draw_walls, walls_near
+from tandemlift.figures.drawing.style import (
+    BEHIND_TEXT,
+    BLUE,
+    DIM,
+    EDGE,
+    GLASS,
+    GREY,
+    INK,
+    PAPER,
+    VERMILLION,
+    journal,
+    points,
+)
+from tandemlift.figures.drawing.walls import WallOutline, draw_walls, walls_near
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
 from tandemlift.vehicle import Vehicle
@@ -32,9 +45,9 @@ from tandemlift.vehicle import Vehicle
 CAPTION = Caption(
     "Path",
     "The path of the centre of mass, with an arrow for each push of the person: it starts where the push acts at its "
-    "peak, and its length is proportional to the force. The vehicle is drawn to scale at a few instants, black at the "
-    "start and at the end. Dotted lines lead from the pushes straight down to the floor, where the path has its "
-    "shadow; a floor that the vehicle can stand on is filled. Walls are transparent.",
+    "peak, and its length is proportional to the force, which stands beside it. The vehicle is drawn to scale at a few "
+    "instants, bold at the start and at the end. Dotted lines lead from the pushes straight down to the floor, where "
+    "the path has its shadow; a floor that the vehicle can stand on is filled. Walls are transparent.",
     "Three-dimensional view of the flown path with an arrow for each push, the vehicle at a few instants, and the "
     "floor and walls if there are any.",
 )
@@ -43,9 +56,9 @@ IN_FLIGHTS = all_flights
 MOST = 6  # vehicles drawn
 SPACING = 1.2  # vehicle spans of path from one vehicle drawn to the next, at least
 VISIBLE = 0.02  # of the longest side of the scene: a smaller vehicle would be a blot
+MOST_NUMBERED = 12  # pushes: of more, only the longest has its size beside it
 LONGEST = 0.13  # of the longest side of the scene: the longest arrow
 DEEP = 0.5  # of the longest side of the scene: a floor farther below is not drawn
-FAINT = "#6e6e6e"
 
 
 class PushArrow(NamedTuple):
@@ -80,9 +93,7 @@ def instants(path: Array, span: float) -> list[int]:
 def _draw_vehicle(scene: Scene3D, body: Skeleton, color: str, order: float) -> None:
     """Draw one vehicle: rotor discs, arms, struts and payload."""
     common: dict[str, Any] = {"zorder": order, "clip_on": False}
-    discs = PolyCollection(
-        list(on_paper(body.rotors)), facecolor="white", edgecolor=color, lw=0.5, alpha=0.85, **common
-    )
+    discs = PolyCollection(list(on_paper(body.rotors)), facecolor=PAPER, edgecolor=color, lw=0.5, alpha=0.85, **common)
     bars = LineCollection(list(on_paper([*body.arms, *body.struts])), colors=color, lw=0.7, **common)
     scene.axes.add_collection(discs)
     scene.axes.add_collection(bars)
@@ -94,30 +105,50 @@ def _draw_pushes(scene: Scene3D, found: list[PushArrow], tips: Array) -> None:
     """Draw the arrows, each with a thin line down to the floor that shows where above it the push acted."""
     floor = scene.box[2, 0]
     look: Any = {"arrowstyle": "-|>,head_length=4,head_width=2", "mutation_scale": 1.0, "shrinkA": 0, "shrinkB": 0}
-    for push, tip in zip(found, tips, strict=True):
+    sizes = [float(np.linalg.norm(push.force)) for push in found]
+    numbered = sizes if len(sizes) <= MOST_NUMBERED else [max(sizes)]
+    for push, tip, size in zip(found, tips, sizes, strict=True):
         scene.line(np.array([push.point, [*push.point[:2], floor]]), color=GREY, lw=0.5, ls=(0, (1, 2)), zorder=1)
         ends = on_paper([push.point, tip])
         arrow = FancyArrowPatch(*ends, color=VERMILLION, lw=1.6, zorder=40, clip_on=False, gid="push", **look)
         scene.axes.add_patch(arrow)
+        if size in numbered:
+            _number(scene, ends, size)
+
+
+def _number(scene: Scene3D, ends: Array, newtons: float) -> None:
+    """Write the size of a push beside the middle of its arrow (2, 2) [m on paper], above it, or left of an upright."""
+    way = np.diff(ends, axis=0)[0]
+    aside = np.array([-way[1], way[0]]) / max(float(np.hypot(*way)), 1e-12)
+    aside *= 1.0 if aside[1] > 0.2 or (aside[1] > -0.2 and aside[0] < 0.0) else -1.0
+    sides: Any = {"ha": "right" if aside[0] < -0.3 else "left" if aside[0] > 0.5 else "center"}
+    sides["va"] = "bottom" if aside[1] > 0.4 else "center"
+    look: Any = {
+        "textcoords": "offset points",
+        "annotation_clip": False,
+        "fontsize": points(7.5),
+        "zorder": 43,
+        "bbox": BEHIND_TEXT,
+    }
+    scene.axes.annotate(f"{newtons:.3g} N", ends.mean(axis=0), tuple(3.5 * aside), color=VERMILLION, **sides, **look)
 
 
 def _legend(scene: Scene3D, found: list[PushArrow], walls: list[WallOutline], handles: list[Any]) -> None:
     labels = ["path", "its shadow on the floor", "start", "end"]
     if found:
-        strongest = max(float(np.linalg.norm(p.force)) for p in found)
         handles = [*handles, Line2D([], [], color=VERMILLION, lw=1.6, marker=">", ms=4)]
-        labels.append(f"push (longest arrow: {strongest:.3g} N)")
+        labels.append("push")
     if walls:
         handles = [*handles, Patch(facecolor=GLASS, edgecolor=EDGE, lw=0.6)]
         labels.append("wall")
-    scene.figure.legend(handles, labels, loc="upper left", ncols=len(labels), columnspacing=1.2)
+    legend_above(scene.figure, handles, labels, "upper left")
 
 
 def _draw_path(scene: Scene3D, path: Array) -> list[Any]:
     """Draw the path (T, 3) [m], its shadow, start and end; returns the handles for the legend."""
     thin = path[np.unique(np.concatenate([decimate(coordinate) for coordinate in path.T]))]
     shadow = np.column_stack([thin[:, :2], np.full(len(thin), scene.box[2, 0])])
-    ends: Any = {"color": BLUE, "mfc": "white", "ms": 4, "ls": "none", "zorder": 41}
+    ends: Any = {"color": BLUE, "mfc": PAPER, "ms": 4, "ls": "none", "zorder": 41}
     return [
         scene.line(thin, color=BLUE, lw=1.3, zorder=3, gid="path"),
         scene.line(shadow, color=GREY, lw=0.8, zorder=1),
@@ -154,7 +185,7 @@ def draw(flight: Flight) -> Figure:
     scene = Scene3D(reach, _floor(flight, around))
     handles = _draw_path(scene, path)
     for order, k in enumerate(sorted(range(len(shown)), key=lambda k: float(path[shown[k]] @ NEAR))):
-        _draw_vehicle(scene, vehicles[k], BLACK if shown[k] in (0, len(path) - 1) else FAINT, 4.0 + order)
+        _draw_vehicle(scene, vehicles[k], INK if shown[k] in (0, len(path) - 1) else DIM, 4.0 + order)
     _draw_pushes(scene, found, tips)
     walls = draw_walls(scene, tables, path if len(path) else around)
     _legend(scene, found, walls, handles)

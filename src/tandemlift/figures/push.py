@@ -15,8 +15,8 @@ from matplotlib.patches import Patch
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.attitude import body_to_world
 from tandemlift.figures.drawing.figure import Caption, with_any_of
-from tandemlift.figures.drawing.panels import fit, line, shade, time_axis
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, LIGHT_BLUE, PAGE, PALE, TAN, VERMILLION, journal
+from tandemlift.figures.drawing.panels import fit, legend_above, line, shade, time_axis
+from tandemlift.figures.drawing.style import BLUE, GREY, INK, LIGHT_BLUE, PALE, TAN, VERMILLION, journal, page_figure
 from tandemlift.figures.drawing.vehicle import true_payload_mass
 from tandemlift.flight.record import Flight
 from tandemlift.settings.pilot import EstimatorTable
@@ -37,7 +37,7 @@ IN_FLIGHTS = with_any_of("push_estimate")
 TRUE: dict[str, Any] = {"color": BLUE, "lw": 1.2}
 ESTIMATE: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (4, 1.6))}
 MEASURED: dict[str, Any] = {"color": TAN, "lw": 0.6}
-LIMIT: dict[str, Any] = {"color": BLACK, "lw": 0.7, "ls": (0, (5, 3))}
+LIMIT: dict[str, Any] = {"color": INK, "lw": 0.7, "ls": (0, (5, 3))}
 ROWS = (1.0, 1.0, 1.0, 1.0, 0.85)  # heights: three forces, the place, mass and disagreement
 LEAST_FORCE, LEAST_PLACE, LEAST_MASS = 0.2, 0.1, 0.02  # N, m, kg: least spans of the axes
 BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to each side
@@ -108,14 +108,14 @@ def _disagreement(ax: Any, flight: Flight, limit: float) -> None:
     line(ax, flight.time, values, zorder=4, **ESTIMATE | {"ls": "-"})
     ax.axhline(limit, zorder=1, **LIMIT)
     fit(ax, values, np.array([0.0, limit]), least=LEAST_FORCE)
-    ax.set_ylabel("disagreement (N)")
+    ax.set_ylabel("sensors\ndisagree (N)")
 
 
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw the push [N, world axes] true, measured and estimated, where it acts [m], mass [kg] and disagreement [N]."""
     estimator = EstimatorTable.model_validate(flight.mission.get("estimator", {}))
-    figure = Figure(figsize=(PAGE, 6.6), layout="constrained")
+    figure = page_figure(6.6)
     grid = figure.add_gridspec(5, 2, height_ratios=ROWS)
     axes = [figure.add_subplot(grid[row, :]) for row in range(4)]
     below = [figure.add_subplot(grid[4, column]) for column in range(2)]
@@ -133,5 +133,5 @@ def draw(flight: Flight) -> Figure:
     handles.append(Patch(facecolor=PALE))
     if estimator.tare_start is not None:
         handles, names = [*handles, Patch(facecolor=LIGHT_BLUE)], [*names, "tare"]
-    figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.2)
+    legend_above(figure, handles, names)
     return figure

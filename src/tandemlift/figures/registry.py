@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.types import Progress
+from tandemlift.figures.drawing.figure_style import figure_style
 from tandemlift.flight.record import Flight
 
 if TYPE_CHECKING:
@@ -62,25 +63,32 @@ def save_figure(figure: Any, path: Path) -> Path:
     return save(figure, path)
 
 
-def save_figures(flight: Flight, folder: str | os.PathLike[str], progress: Progress | None = None) -> list[Path]:
+def save_figures(
+    flight: Flight, folder: str | os.PathLike[str], progress: Progress | None = None, *, style: str | None = None
+) -> list[Path]:
     """Draw every figure that a flight has and write it as NAME.png and NAME.pdf; a file appears whole or not at all.
 
     Args:
         flight: a flight, also one that diverged or has few samples.
         folder: where to; made if it does not exist.
         progress: called after each figure with (figures written, figures in all).
+        style: `ieee`, `elsevier`, `slides` or `dark`; by default that of `figure_style`, which is IEEE's.
+
+    Raises:
+        InputError: there is no such style.
 
     Returns:
         The files written, in the order of `figures`, PNG before PDF.
     """
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
     written, drawn = [], figures_for(flight)
-    for done, (name, figure) in enumerate(drawn.items(), 1):
-        page = figure.draw(flight)
-        written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
-        if progress:
-            progress(done, len(drawn))
+    with figure_style(style):
+        folder.mkdir(parents=True, exist_ok=True)
+        for done, (name, figure) in enumerate(drawn.items(), 1):
+            page = figure.draw(flight)
+            written += [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
+            if progress:
+                progress(done, len(drawn))
     return written
 
 

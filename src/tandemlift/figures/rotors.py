@@ -17,7 +17,7 @@ from matplotlib.ticker import MaxNLocator
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.fleet import fleet_figure
 from tandemlift.figures.drawing.panels import extent, line, time_axis, value_ticks
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREY, TAN, VERMILLION, journal
+from tandemlift.figures.drawing.style import BLUE, GREY, INK, TAN, VERMILLION, journal, points
 from tandemlift.flight.record import Flight
 from tandemlift.vehicle import Vehicle
 
@@ -37,7 +37,7 @@ MARGIN = 0.12  # of the largest thrust, beyond the limits
 ROOMY = 0.7  # fraction of the thrust: if no more is left, words fit in above it
 THRUST: dict[str, Any] = {"color": BLUE, "lw": 0.9}
 COMMAND: dict[str, Any] = {"color": TAN, "lw": 0.7}
-LIMIT: dict[str, Any] = {"color": BLACK, "lw": 0.7, "ls": (0, (5, 3))}
+LIMIT: dict[str, Any] = {"color": INK, "lw": 0.7, "ls": (0, (5, 3))}
 FAILED: dict[str, Any] = {"color": VERMILLION, "lw": 1.0}
 
 
@@ -61,7 +61,13 @@ def _limits(ax: Any, flight: Flight, most: float, fault: dict[str, Any] | None) 
     ax.axvline(at, zorder=4, gid="fault", **FAILED)
     place = most * (1.0 + left) / 2.0 if left < ROOMY else 0.25 * most
     late = at > end / 2.0
-    look: Any = {"fontsize": 7, "color": VERMILLION, "va": "center", "ha": "right" if late else "left", "zorder": 5}
+    look: Any = {
+        "fontsize": points(7),
+        "color": VERMILLION,
+        "va": "center",
+        "ha": "right" if late else "left",
+        "zorder": 5,
+    }
     ax.annotate(
         f"{100.0 * left:.3g} % left", (at, place), (-3.0 if late else 3.0, 0.0), textcoords="offset points", **look
     )

@@ -15,8 +15,8 @@ from matplotlib.patches import Patch
 
 from tandemlift.figures.drawing.figure import Caption, with_any_of
 from tandemlift.figures.drawing.ground import clearance, floor_height
-from tandemlift.figures.drawing.panels import components, fit, line, shade, time_axis
-from tandemlift.figures.drawing.style import BLACK, BLUE, COMPONENTS, GREY, PAGE, PALE, journal
+from tandemlift.figures.drawing.panels import components, fit, legend_above, line, shade, time_axis
+from tandemlift.figures.drawing.style import BLUE, COMPONENTS, GREY, INK, PALE, journal, page_figure
 from tandemlift.figures.drawing.vehicle import true_weight
 from tandemlift.flight.record import Flight
 
@@ -45,7 +45,7 @@ def _vector(ax: Any, flight: Flight, name: str, least: float) -> None:
     fit(ax, flight[name], least=least)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
     if name == "contact_force":
-        ax.axhline(true_weight(flight), color=BLACK, lw=0.7, ls=(0, (5, 3)), zorder=2)
+        ax.axhline(true_weight(flight), color=INK, lw=0.7, ls=(0, (5, 3)), zorder=2)
 
 
 def _height(ax: Any, flight: Flight, floor: float) -> None:
@@ -59,9 +59,9 @@ def _legend(figure: Figure, touching: bool) -> None:
     handles: list[Any] = [Line2D([], [], **look) for look in COMPONENTS]
     names = ["$x$", "$y$", "$z$"]
     if touching:
-        handles += [Line2D([], [], color=BLACK, lw=0.7, ls=(0, (5, 3))), Patch(facecolor=PALE)]
+        handles += [Line2D([], [], color=INK, lw=0.7, ls=(0, (5, 3))), Patch(facecolor=PALE)]
         names += ["weight", "in contact"]
-    figure.legend(handles, names, loc="outside upper center", ncols=len(names), columnspacing=1.6)
+    legend_above(figure, handles, names)
 
 
 @journal
@@ -74,7 +74,7 @@ def draw(flight: Flight) -> Figure:
     ]
     if (floor := floor_height(flight)) is not None:
         panels.append((HEIGHT, lambda ax: _height(ax, flight, floor)))
-    figure = Figure(figsize=(PAGE, AROUND + ROW * len(panels)), layout="constrained")
+    figure = page_figure(AROUND + ROW * len(panels))
     axes = figure.subplots(len(panels), 1, squeeze=False)[:, 0]
     for row, (ax, (label, fill)) in enumerate(zip(axes, panels, strict=True), 1):
         fill(ax)

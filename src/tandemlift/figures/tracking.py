@@ -16,7 +16,7 @@ from matplotlib.ticker import EngFormatter
 from tandemlift.figures.drawing.figure import Caption, all_flights
 from tandemlift.figures.drawing.panels import fit, line, time_axis
 from tandemlift.figures.drawing.series import drawable, normalised
-from tandemlift.figures.drawing.style import ACTUAL, COMPONENTS, DESIRED, GREY, PAGE, VERMILLION, journal
+from tandemlift.figures.drawing.style import ACTUAL, COMPONENTS, DESIRED, GREY, VERMILLION, journal, page_figure, points
 from tandemlift.flight.record import Flight
 
 CAPTION = Caption(
@@ -105,7 +105,7 @@ def _errors(ax: Any, flight: Flight, column: FigureColumn) -> None:
     ax.set_yticks([-1, 0, 1])
     ax.set_ylabel("error / max|error|", labelpad=1)
     above = {"loc": "lower center", "bbox_to_anchor": (0.46, 1.0), "borderaxespad": 0.0}
-    ax.legend(ncols=3, fontsize=7, handlelength=1.5, handletextpad=0.4, columnspacing=0.7, **above)
+    ax.legend(ncols=3, fontsize=points(7), handlelength=1.5, handletextpad=0.4, columnspacing=0.7, **above)
     _mark_findings(ax, flight)
     time_axis(ax, flight)
 
@@ -113,7 +113,7 @@ def _errors(ax: Any, flight: Flight, column: FigureColumn) -> None:
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw orientation [°], position [m] and velocity [m/s], desired and actual, and the normalised errors."""
-    figure = Figure(figsize=(PAGE, 5.8), layout="constrained")
+    figure = page_figure(5.8)
     axes = figure.subplots(4, 3, squeeze=False, gridspec_kw={"height_ratios": (1, 1, 1, 1.25)})
     handles: list[Any] = []
     for ax, column in zip(axes.T, COLUMNS, strict=True):

@@ -10,7 +10,8 @@ import matplotlib.image
 from matplotlib.figure import Figure
 
 from tandemlift.figures.drawing.figure import Caption
-from tandemlift.figures.drawing.style import PAGE, styled
+from tandemlift.figures.drawing.figure_style import current_style
+from tandemlift.figures.drawing.style import page_figure, points, styled
 
 CAPTION = Caption(
     "Photographs",
@@ -31,11 +32,11 @@ def draw(pictures: Sequence[tuple[str, bytes]]) -> Figure:
     shown = [matplotlib.image.imread(io.BytesIO(jpeg), format="jpeg") for _, jpeg in pictures]
     rows = -(-len(shown) // ACROSS)
     height, width = shown[0].shape[:2]
-    figure = Figure(figsize=(PAGE, rows * (HEAD + PAGE / ACROSS * height / width)), layout="constrained")
+    figure = page_figure(rows * (HEAD + current_style().page / ACROSS * height / width))
     axes = figure.subplots(rows, ACROSS, squeeze=False)
     for letter, ax, image, (title, _) in zip("abcdefgh", axes.flat, shown, pictures, strict=False):
         ax.imshow(image, interpolation="lanczos")
-        ax.set_title(f"({letter}) {title}", fontsize=8.5, pad=3)
+        ax.set_title(f"({letter}) {title}", fontsize=points(8.5), pad=3)
     for ax in axes.flat:
         ax.set_axis_off()
     return figure

@@ -170,10 +170,8 @@ GROUPS: tuple[ChannelGroup, ...] = (
     ChannelGroup(
         'Guided by hand under supervision (`supervision.model = "watch"`)',
         {
-            "alarm": Channel("1", "", "number of the fault reacted to, 0 for none; see docs/explanation/safety.md", 1),
-            "failed_check": Channel(
-                "1", "", "number of the failed check, 0 for none; see docs/explanation/safety.md", 1
-            ),
+            "alarm": Channel("1", "", "number of the fault reacted to, 0 for none; see docs/reference/faults.md", 1),
+            "failed_check": Channel("1", "", "number of the failed check, 0 for none; see docs/reference/faults.md", 1),
         },
     ),
     ChannelGroup(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
-import importlib.util
 import itertools
 import json
 from collections.abc import Iterator
@@ -11,7 +9,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.types import Array
 from tandemlift.flight.channels import Channel
 
@@ -112,7 +110,8 @@ def _part(dimension: str, label: Any) -> str:
 
 def to_pandas(flight: LoggedFlight) -> Any:
     """See `Flight.to_pandas`."""
-    pandas = _package("pandas", "to_pandas")
+    with extra("pandas", "to_pandas"):
+        import pandas
     found = list(columns(flight))
     frame = pandas.DataFrame(
         {name: values for name, _, values in found}, index=pandas.Index(flight.time.copy(), name="time")
@@ -128,7 +127,8 @@ def to_pandas(flight: LoggedFlight) -> Any:
 
 def to_xarray(flight: LoggedFlight) -> Any:
     """See `Flight.to_xarray`."""
-    xarray = _package("xarray", "to_xarray")
+    with extra("xarray", "to_xarray"):
+        import xarray
     variables = dict[str, Any]()
     coordinates: dict[str, Any] = {"time": ("time", flight.time.copy(), _attributes(flight.info("time")))}
     for name, values in flight.channels.items():
@@ -151,9 +151,3 @@ def _record(flight: LoggedFlight) -> dict[str, str]:
     tables = {"mission": flight.mission, "metrics": flight.metrics(), "version": flight.version}
     texts = {name: json.dumps(table, allow_nan=False) for name, table in tables.items()}
     return {"name": flight.name, **texts} | ({"ending": str(flight.ending)} if flight.ending else {})
-
-
-def _package(name: str, method: str) -> Any:
-    if importlib.util.find_spec(name) is None:
-        raise InputError(f"{method} needs {name}: pip install 'tandemlift[{name}]'")
-    return importlib.import_module(name)

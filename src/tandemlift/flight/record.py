@@ -104,6 +104,12 @@ class Flight(Mapping[str, Array]):
         last = f"{self.time[-1]:g} s" if len(self.time) else "nothing logged"
         return f"<Flight {self.name}: {len(self.time)} samples to {last}, {len(self.channels)} channels>"
 
+    def _repr_html_(self) -> str:
+        """What a notebook shows: mission, outcome, findings, main metrics, and a small picture."""
+        from tandemlift.flight.notebook_view import flight_html
+
+        return flight_html(self, self.outcome, self.failure, self.findings)
+
     def __eq__(self, other: object) -> bool:
         """Whether two flights are the same to the last bit, records and all."""
         return isinstance(other, Flight) and self._parts() == other._parts()

@@ -1,1 +1,1 @@
-"""Flights that a caller steps: a simulation, the pilot as an object, a flight that records its commands."""
+"""Flights that a caller steps: a simulation, and a flight that records its commands."""

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.common.files import atomic_write
 from tandemlift.common.types import Array
 from tandemlift.linearization.kinks import Kink
@@ -73,6 +74,10 @@ class LinearModel:
     mission: str
     of: str
 
+    def __repr__(self) -> str:
+        sizes = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
+        return f"<LinearModel {self.mission} ({self.of}) at {self.time:g} s: {sizes}, sample time {self.step:g} s>"
+
     def connected(self) -> LinearModel:
         """The same model without the states that, at this point, no input moves or no output shows.
 
@@ -97,10 +102,8 @@ class LinearModel:
         Raises:
             InputError: python-control is not installed.
         """
-        try:
+        with extra("control", "to_control"):
             import control
-        except ImportError:
-            raise InputError("to_control needs python-control: pip install 'tandemlift[control]'") from None
         names = {kind: [v.name for v in getattr(self, kind)] for kind in ("states", "inputs", "outputs")}
         return control.ss(self.A, self.B, self.C, self.D, self.step, name=f"{self.mission} {self.of}", **names)
 

@@ -1,10 +1,18 @@
-"""Events of compilations for those who display them, and the exception that stops work."""
+"""Events of compilations for those who display them, and the exception that stops work.
+
+In a notebook, a line says that this machine compiles, as long as it does.
+"""
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
+
+from tandemlift.common.progress import NotebookOutput, in_notebook
+
+NOTICE = "Compiling for this machine; the machine code is kept for next time …"
 
 
 class Stopped(Exception):
@@ -33,7 +41,29 @@ class Compiled(NamedTuple):
 
 
 Watcher = Callable[[Compiled | None], None]
-_watchers: list[Watcher] = []
+
+
+class NotebookNotice:
+    """Shows a line below the cell of a notebook while anything is compiled."""
+
+    def __init__(self) -> None:
+        self._lock, self._running = threading.Lock(), 0
+        self._output = NotebookOutput()
+
+    def __call__(self, what: Compiled | None) -> None:
+        """Handle an event: a compilation begins (None) or has ended."""
+        if not in_notebook():
+            return
+        with self._lock:
+            self._running += 1 if what is None else -1
+            if what is None and self._running == 1:
+                self._output = NotebookOutput()
+                self._output.show(f"<div>{NOTICE}</div>", NOTICE)
+            elif not self._running:
+                self._output.show("", "")
+
+
+_watchers: list[Watcher] = [NotebookNotice()]
 
 
 def publish(what: Compiled | None) -> None:

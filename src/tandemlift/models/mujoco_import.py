@@ -6,17 +6,14 @@ Raises, when imported: InputError: it is not installed, or too old.
 from __future__ import annotations
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra, install_command
 
-try:
+with extra("mujoco", "engine 'mujoco'"):
     import mujoco
-except ModuleNotFoundError as error:
-    if error.name != "mujoco":
-        raise
-    raise InputError("engine 'mujoco' needs the package mujoco: pip install 'tandemlift[mujoco]'") from None
 if int(mujoco.__version__.split(".")[0]) < 4:
     raise InputError(
         f"engine 'mujoco' needs mujoco 4.0 or newer, whose Runge-Kutta step is of order four for attitudes too; "
-        f"{mujoco.__version__} is installed: pip install --upgrade 'tandemlift[mujoco]'"
+        f"{mujoco.__version__} is installed: {install_command('mujoco')} --upgrade"
     )
 
 __all__ = ["mujoco"]

@@ -1,8 +1,7 @@
-"""Pictures (PNG) and animations (GIF) of a flight."""
+"""Pictures (PNG) and animations (GIF, MP4) of a flight."""
 
 from __future__ import annotations
 
-import itertools
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,9 +20,10 @@ from tandemlift.flight.record import Flight
 from tandemlift.rendering.camera import CAMERAS, Camera, View, look_at
 from tandemlift.rendering.stage import FlightStage
 from tandemlift.rendering.studio import render_scene
+from tandemlift.rendering.video import check_size, ffmpeg, write_mp4
 
-PICTURE, FILM = (1280, 720), (640, 360)  # pixels
-SAMPLES = {".png": 3, ".gif": 2}  # each way, of a pixel
+SIZES = {".png": (1280, 720), ".gif": (640, 360), ".mp4": (1280, 720)}  # pixels
+SAMPLES = {".png": 3, ".gif": 2, ".mp4": 2}  # each way, of a pixel
 LONGEST = 20.0  # s, length of an animation: a longer flight is shown faster, unless a speed is given
 PALETTE = ((Image.Quantize.MEDIANCUT, 160), (Image.Quantize.MAXCOVERAGE, 90))  # for fine shades, and for rare colours
 CLOSE, LOWER = 3.7, 0.07  # distance / vehicle's reach; offset of the target below the vehicle / distance
@@ -41,9 +41,9 @@ class Shot:
         time: of a picture [s]; by default the time of the strongest push, or the end of a flight without push.
         start: of an animation [s]; by default the start of the flight.
         end: of an animation [s]; by default the end of the flight.
-        fps: pictures per second of an animation, rounded to the hundredths of a second of a GIF.
+        fps: pictures per second of an animation; those of a GIF are whole hundredths of a second apart.
         speed: playback speed; by default such that the animation lasts at most 20 s.
-        size: width and height in pixels; by default 1280 × 720 for a picture, 640 × 360 for an animation.
+        size: width and height in pixels; by default 1280 × 720, of a GIF 640 × 360.
         camera: the point of view.
     """
 
@@ -132,7 +132,7 @@ def picture(flight: Flight, shot: Shot = SHOT) -> Image.Image:
     Raises:
         InputError: the flight has no sample that can be drawn, or not at that time.
     """
-    film = Film(flight, shot.camera, shot.size or PICTURE, SAMPLES[".png"])
+    film = Film(flight, shot.camera, shot.size or SIZES[".png"], SAMPLES[".png"])
     return film.picture(
         film.stage.strongest_push_time if shot.time is None else film.stage.checked_time("time", shot.time)
     )
@@ -144,13 +144,19 @@ class Animation:
     Args:
         flight: to draw; it may have diverged.
         shot: times, size and camera.
+        kind: `.gif` or `.mp4`.
 
     Raises:
-        InputError: the flight has no sample that can be drawn, or not within these times.
+        InputError: the flight has no sample that can be drawn, or not within these times; the size or the rate do not
+            suit the kind, or an MP4 cannot be written here.
     """
 
-    def __init__(self, flight: Flight, shot: Shot = SHOT) -> None:
-        self.film = Film(flight, shot.camera, shot.size or FILM, SAMPLES[".gif"])
+    def __init__(self, flight: Flight, shot: Shot = SHOT, kind: str = ".gif") -> None:
+        self.kind, self.size = kind, shot.size or SIZES[kind]
+        if kind == ".mp4":
+            check_size(self.size)
+            ffmpeg()
+        self.film = Film(flight, shot.camera, self.size, SAMPLES[kind])
         stage = self.film.stage
         start = float(stage.time[0]) if shot.start is None else stage.checked_time("from", shot.start)
         end = float(stage.time[-1]) if shot.end is None else stage.checked_time("to", shot.end)
@@ -159,8 +165,8 @@ class Animation:
         speed = max(1.0, float(np.ceil((end - start) / LONGEST))) if shot.speed is None else shot.speed
         if not (1.0 <= shot.fps <= 50.0 and 0.001 <= speed <= 1000.0):
             raise InputError(f"fps {shot.fps:g} must be from 1 to 50, and speed {speed:g} from 0.001 to 1000")
-        self.milliseconds = round(100.0 / shot.fps) * 10  # a GIF counts in hundredths of a second
-        step = speed * self.milliseconds / 1000.0
+        self.interval = 1.0 / shot.fps if kind == ".mp4" else round(100.0 / shot.fps) / 100.0  # as a GIF counts
+        step = speed * self.interval
         count = 1 + int((end - start) / step + 1e-9)
         if count > MOST:
             raise InputError(f"{count} pictures are more than the {MOST} of one animation: raise speed, or lower fps")
@@ -186,22 +192,29 @@ class Animation:
         return palette
 
     def save(self, path: Path, progress: Progress | None) -> None:
-        """Write the animation as a GIF."""
-        palette, done = self.palette(), itertools.count(1)
+        """Write the animation.
 
-        def reduced() -> Iterator[Image.Image]:
-            for image in self:
-                yield image.quantize(palette=palette, dither=Image.Dither.NONE)
+        Raises:
+            InputError: ffmpeg fails.
+        """
+
+        def drawn() -> Iterator[Image.Image]:
+            for count, image in enumerate(self, 1):
+                yield image
                 if progress:
-                    progress(next(done), len(self))
+                    progress(count, len(self))
 
-        pictures = reduced()
-        look: dict[str, Any] = {"duration": self.milliseconds, "loop": 0}
+        if self.kind == ".mp4":
+            write_mp4(drawn(), self.size, self.interval, path)
+            return
+        palette = self.palette()
+        pictures = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in drawn())
+        look: dict[str, Any] = {"duration": round(1000.0 * self.interval), "loop": 0}
         next(pictures).save(path, format="GIF", save_all=True, append_images=pictures, **look)
 
 
 def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progress: Progress | None = None) -> Path:
-    """Write a picture (.png) or an animation (.gif) of a flight; the file is written atomically.
+    """Write a picture (.png) or an animation (.gif, .mp4) of a flight; the file appears whole or not at all.
 
     Args:
         flight: to draw; it may have diverged.
@@ -213,13 +226,14 @@ def render(flight: Flight, out: str | os.PathLike[str], shot: Shot = SHOT, progr
         The path.
 
     Raises:
-        InputError: the file name has another ending, or the flight has no sample that can be drawn.
+        InputError: the file name has another ending, the flight has no sample that can be drawn, or ffmpeg is missing
+            for an MP4.
     """
     path = Path(out)
     kind = path.suffix.lower()
     if kind not in SAMPLES:
-        raise InputError(f"{path}: the name must end in .png (picture) or .gif (animation)")
-    drawn = picture(flight, shot) if kind == ".png" else Animation(flight, shot)
+        raise InputError(f"{path}: the name must end in .png (picture), .gif or .mp4 (animation)")
+    drawn = picture(flight, shot) if kind == ".png" else Animation(flight, shot, kind)
     with atomic_write(path) as partial:
         if isinstance(drawn, Animation):
             drawn.save(partial, progress)

@@ -118,15 +118,20 @@ def _heads(columns: Sequence[TableColumn]) -> str:
     return "".join(f'<th scope="col">{c.heading}<br><small>{c.unit}</small></th>' for c in columns)
 
 
-def html_figures(drawn: Mapping[str, Figure], captions: Mapping[str, Caption]) -> str:
-    """The section of a page with figures, by name, each with the caption of that name."""
+def html_figures(drawn: Mapping[str, Figure], captions: Mapping[str, Caption], folder: Path | None = None) -> str:
+    """The section of a page with figures, by name, each with the caption of that name.
+
+    They are also written as NAME.png and NAME.pdf into a folder, if one is given; it is made.
+    """
     from tandemlift.figures.drawing.style import save
 
     shown = []
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as aside:
         for place, (name, figure) in enumerate(drawn.items(), 1):
-            png = save(figure, Path(folder) / f"{name}.png")
+            png = save(figure, (folder or Path(aside)) / f"{name}.png")
             shown.append(html_figure(place, name, png, captions[name]))
+            if folder:
+                save(figure, folder / f"{name}.pdf")
     return f"<section>\n<h2>Figures</h2>\n{chr(10).join(shown)}\n</section>"
 
 
@@ -157,12 +162,13 @@ def _settings(flights: Mapping[str, Flight]) -> str:
     return f"<section>\n<h2>Settings</h2>\n{chr(10).join(shown)}\n</section>"
 
 
-def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> Path:
+def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str], figures: Path | None = None) -> Path:
     """Write a comparison of controllers as one HTML file without references; it appears whole or not at all.
 
     Args:
         entries: from `compare`; at least one has flown.
         path: of the HTML file; its folder is there.
+        figures: folder into which the figures are written as well.
 
     Returns:
         The path.
@@ -181,7 +187,7 @@ def write_comparison(entries: Sequence[Entry], path: str | os.PathLike[str]) -> 
         where=f"engine <b>{escape(first.version.get('engine', ''))}</b>",
         note=NOTE.format(when=counts.words),
         table="\n".join(tables),
-        figures=html_figures(controller_figures.drawn_figures(flights), controller_figures.CAPTIONS),
+        figures=html_figures(controller_figures.drawn_figures(flights), controller_figures.CAPTIONS, figures),
         setup=html_setup(first, without=["Pilot"]),
         settings=_settings(flights),
         versions=html_versions(first),

@@ -19,7 +19,20 @@ from tandemlift.figures.drawing.figure import Caption
 from tandemlift.figures.drawing.panels import extent, fit, line, time_axis
 from tandemlift.figures.drawing.series import drawable
 from tandemlift.figures.drawing.start import LONG, START
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, GREY, LIGHT_BLUE, PAGE, VERMILLION, styled
+from tandemlift.figures.drawing.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    LIGHT_BLUE,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    page_figure,
+    points,
+    styled,
+)
 from tandemlift.flight.record import Flight
 from tandemlift.studies.controller_comparison import LEAST, ScoredPart, airborne, moving_axes, parts_of, scored
 
@@ -39,7 +52,7 @@ CAPTIONS = {
     ),
 }
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
-COLOURS = (BLUE, VERMILLION, GREEN, BLACK, "#E69F00", "#CC79A7", "#56B4E9", GREY)  # Okabe and Ito
+COLOURS = (BLUE, VERMILLION, GREEN, INK, ORANGE, PURPLE, SKY, GREY)
 LEAST_SPAN = 2e3 * LEAST["position_max_error_m"]  # mm, of an axis of errors
 LEAST_THRUST = 0.02  # N, of an axis of thrusts
 NARROW = 0.38  # of the flight, the least width of a column
@@ -78,7 +91,7 @@ def _panel(ax: Any, flights: Mapping[str, Flight], part: ScoredPart, axis: int) 
 
 def _still(ax: Any, what: str) -> None:
     """Say in a panel that nothing moves there, in place of its values."""
-    ax.text(0.5, 0.5, what, transform=ax.transAxes, ha="center", va="center", fontsize=8, color=GREY)
+    ax.text(0.5, 0.5, what, transform=ax.transAxes, ha="center", va="center", fontsize=points(8), color=GREY)
     ax.set_yticks([])
 
 
@@ -99,7 +112,7 @@ def draw_errors(flights: Mapping[str, Flight]) -> Figure:
     moving = {part: axes for part, axes in moving.items() if any(axes)}
     rows = [i for i in range(3) if any(axes[i] for axes in moving.values())]
     last = max(float(f.time[airborne(f)].max(initial=0.0)) for f in flights.values()) or 1.0
-    figure = Figure(figsize=(PAGE, 0.6 + 1.4 * len(rows)), layout="constrained")
+    figure = page_figure(0.6 + 1.4 * len(rows))
     widths = [max(min(part.last, last) - part.first, NARROW * last) for part in moving]
     grid = figure.subplots(len(rows), len(moving), squeeze=False, width_ratios=widths)
     for axes, part in zip(grid.T, moving, strict=True):
@@ -156,7 +169,7 @@ def draw_thrusts(flights: Mapping[str, Flight]) -> Figure:
     that diverged.
     """
     rows = -(-len(flights) // 2)
-    figure = Figure(figsize=(PAGE, 0.55 + 1.25 * rows), layout="constrained")
+    figure = page_figure(0.55 + 1.25 * rows)
     axes = figure.subplots(rows, 2, squeeze=False, sharex=True)
     longest = max(flights.values(), key=lambda f: len(f.time))
     for place, (ax, (name, flight)) in enumerate(zip(axes.flat, flights.items(), strict=False)):
@@ -164,7 +177,7 @@ def draw_thrusts(flights: Mapping[str, Flight]) -> Figure:
             _rotors(ax, flight)
         settled = _settled(flights) if flight.ending else [flight]
         fit(ax, *[_beyond_the_start(f) for f in settled], least=LEAST_THRUST)
-        ax.set_title(f"{name}: {_range(flight)}", fontsize=8.5, pad=2)
+        ax.set_title(f"{name}: {_range(flight)}", fontsize=points(8.5), pad=2)
         time_axis(ax, longest, label=place >= len(flights) - 2)
         ax.tick_params(labelbottom=place >= len(flights) - 2)
         if place % 2 == 0:

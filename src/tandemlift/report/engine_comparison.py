@@ -43,12 +43,13 @@ def _engines(flights: Mapping[str, Flight]) -> str:
     return f"<section>\n<h2>Engines</h2>\n{html_table('', rows, 'setup')}\n</section>"
 
 
-def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str]) -> Path:
+def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str], figures: Path | None = None) -> Path:
     """Write one mission in several engines as one HTML file without references; it appears whole or not at all.
 
     Args:
         flights: by engine, from `engine_comparison.fly_in`.
         path: of the HTML file; its folder is there.
+        figures: folder into which the figures are written as well.
 
     Returns:
         The path.
@@ -64,7 +65,7 @@ def write_engines(flights: Mapping[str, Flight], path: str | os.PathLike[str]) -
         where=f"engines <b>{escape(', '.join(flights))}</b>",
         note=NOTE,
         table=_table(flights),
-        figures=html_figures(engine_figures.drawn_figures(flights), engine_figures.CAPTIONS),
+        figures=html_figures(engine_figures.drawn_figures(flights), engine_figures.CAPTIONS, figures),
         setup=html_setup(first),
         settings=_engines(flights),
         versions=html_versions(first),

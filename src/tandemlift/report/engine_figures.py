@@ -14,9 +14,10 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from tandemlift.figures.drawing.figure import Caption, with_walls
+from tandemlift.figures.drawing.figure_style import current_style
 from tandemlift.figures.drawing.panels import fit, line, time_axis, value_ticks
 from tandemlift.figures.drawing.series import decimate
-from tandemlift.figures.drawing.style import BLACK, BLUE, GREEN, LIGHT_BLUE, PAGE, VERMILLION, styled
+from tandemlift.figures.drawing.style import BLUE, GREEN, INK, LIGHT_BLUE, VERMILLION, page_figure, points, styled
 from tandemlift.flight.record import Flight
 from tandemlift.settings import wall_tables
 from tandemlift.studies.engine_comparison import QUANTITIES, differences
@@ -58,7 +59,7 @@ def _legend(figure: Figure, names: list[str], first: int = 0) -> None:
 def _from_above(ax: Any, flights: Mapping[str, Flight]) -> None:
     first = next(iter(flights.values()))
     for wall in wall_tables(first.mission):
-        ax.plot(*np.array([wall["start"], wall["end"]]).T, color=BLACK, lw=1.4, solid_capstyle="round", gid="wall")
+        ax.plot(*np.array([wall["start"], wall["end"]]).T, color=INK, lw=1.4, solid_capstyle="round", gid="wall")
     for place, flight in enumerate(flights.values()):
         path = flight["position"][:, :2]
         shown = np.unique(np.concatenate([decimate(coordinate) for coordinate in path.T]))
@@ -74,9 +75,9 @@ def draw_over_each_other(flights: Mapping[str, Flight]) -> Figure:
     first = next(iter(flights.values()))
     walls = with_walls(first)
     span = np.ptp(first["position"][:, :2], axis=0) + 4.0
-    tall = float(np.clip(PAGE * span[1] / span[0], *TALL))
+    tall = float(np.clip(current_style().page * span[1] / span[0], *TALL))
     heights = [tall, ROW, ROW, ROW] if walls else [ROW, ROW, ROW]
-    figure = Figure(figsize=(PAGE, 0.5 + sum(heights)), layout="constrained")
+    figure = page_figure(0.5 + sum(heights))
     axes = figure.subplots(len(heights), 1, height_ratios=heights)
     if walls:
         _from_above(axes[0], flights)
@@ -98,7 +99,7 @@ def draw_differences(flights: Mapping[str, Flight]) -> Figure:
     first, *others = flights.values()
     apart_by = [differences(flight, first) for flight in others]
     shown = [name for name in QUANTITIES if all(name in found for found in apart_by)]
-    figure = Figure(figsize=(PAGE, 0.5 + ROW * len(shown)), layout="constrained")
+    figure = page_figure(0.5 + ROW * len(shown))
     axes = figure.subplots(len(shown), 1, squeeze=False)[:, 0]
     for ax, name in zip(axes, shown, strict=True):
         for place, found in enumerate(apart_by, 1):
@@ -106,7 +107,7 @@ def draw_differences(flights: Mapping[str, Flight]) -> Figure:
             ax.plot(first.time[: len(values)], values, **(_look(place) | {"lw": 0.7}))
         ax.set_yscale("log")
         ax.yaxis.set_major_locator(LogLocator(numticks=5))
-        ax.set_ylabel(f"{NAMES[name]} ({QUANTITIES[name]})", fontsize=7.5)
+        ax.set_ylabel(f"{NAMES[name]} ({QUANTITIES[name]})", fontsize=points(7.5))
         time_axis(ax, first, label=name == shown[-1])
     figure.align_ylabels(axes)
     _legend(figure, [f"{name} from {next(iter(flights))}" for name in list(flights)[1:]], first=1)

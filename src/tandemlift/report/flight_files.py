@@ -12,6 +12,7 @@ from tandemlift.figures.registry import captions, save_figures, save_photographs
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.report.flight_report import write_report
+from tandemlift.report.metric_tables import write_metric_tables
 
 
 def write_flight_files(
@@ -36,6 +37,9 @@ def write_flight_files(
     flight.save(folder / "flight.npz")
     with atomic_write(folder / "metrics.json") as partial:
         partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
+    write_metric_tables(
+        {"value": flight.metrics()}, folder, "metrics", f"Metrics of a flight of the mission {flight.name}"
+    )
     with atomic_write(folder / "findings.json") as partial:
         found = [finding.as_table() for finding in flight.findings]
         partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")

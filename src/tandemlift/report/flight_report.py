@@ -13,7 +13,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tandemlift.common.files import atomic_write
+from tandemlift.figures.drawing.figure_style import DARK, current_style
 from tandemlift.figures.registry import VIEWS, captions, figures_for
+from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.report.findings_section import html_findings, html_place
@@ -23,17 +25,6 @@ from tandemlift.report.setup_section import setup_rows
 if TYPE_CHECKING:
     from tandemlift.figures.drawing.figure import Caption
 
-UNITS = {  # by the end of a metric's name; longer ends first
-    "j_m": "J/m",
-    "n_m": "N m",
-    "m_s": "m/s",
-    "n_s": "N s",
-    "rad": "rad",
-    "n": "N",
-    "m": "m",
-    "j": "J",
-    "s": "s",
-}
 DASH = "–"  # what could not be formed
 NO_BREAK = "\u00a0"
 SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
@@ -59,16 +50,13 @@ def number(value: Any) -> str:
 
 
 def split_unit(name: str) -> tuple[str, str]:
-    """A metric's name in words, and its unit ('' if the name ends in none)."""
-    end = next((end for end in UNITS if name.endswith(f"_{end}")), "")
-    words = (
-        (name.removesuffix(f"_{end}") if end else name)
-        .replace("_", " ")
-        .replace("rmse", "RMSE")
-        .replace("wall", "wall time")
-    )
-    words = re.sub(r"(\d)s\b", r"\1 s", words)
-    return words[:1].upper() + words[1:], UNITS.get(end, "")
+    """A metric's name in words, and its unit ('' if it has none, or several)."""
+    metric = metric_of(name)
+    unit = "" if metric.units else metric.unit_of(0)
+    stem = name.removesuffix("_" + re.sub("[ /]", "_", unit.lower())) if unit else name
+    words = re.sub(r"(\d)s\b", r"\1 s", stem.replace("_", " ").replace("rmse", "RMSE"))
+    words = "wall time" if words == "wall" else words
+    return words[:1].upper() + words[1:], unit
 
 
 def _cells(name: str, value: Any, unit: str) -> str:
@@ -166,11 +154,15 @@ def _setup(flight: Flight) -> str:
 
 
 def html_figure(place: int, name: str, png: Path, caption: Caption) -> str:
-    """A picture in the page, with its number and caption."""
+    """A picture in the page, with its number and caption.
+
+    On a dark page, a drawing on white is inverted, and its hues turned back; a photograph is not.
+    """
     data = png.read_bytes()
     width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
     source = f"data:image/png;base64,{base64.b64encode(data).decode()}"
-    look = ' class="wide"' if width > WIDE else ""
+    looks = ["wide"] * (width > WIDE) + ["drawn"] * (name != VIEWS and current_style().palette != DARK)
+    look = f' class="{" ".join(looks)}"' if looks else ""
     image = f'<img{look} width="{width}" height="{height}" alt="{escape(caption.alt)}" src="{source}">'
     text = f"<b>Figure {place}. {escape(caption.title)}.</b> {escape(caption.text)}"
     return f'<figure id="{name}">\n<div class="sheet">{image}</div>\n<figcaption>{text}</figcaption>\n</figure>'

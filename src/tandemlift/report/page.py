@@ -4,9 +4,10 @@ from __future__ import annotations
 
 STYLE = """
 :root { color-scheme: light dark; --ink: #1b1f24; --soft: #5b6470; --line: #d7dce1; --page: #fff; --card: #f5f7f9;
-  --good: #00664b; --bad: #a83e00; }
+  --good: #00664b; --bad: #a83e00; --sheet: #fff; --drawn: none; --laid: normal; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e4e7eb; --soft: #9aa4af; --line: #3a424b; --page: #15191e;
-  --card: #1e242b; --good: #4fd3ab; --bad: #ff9d5c; } }
+  --card: #1e242b; --good: #4fd3ab; --bad: #ff9d5c;
+  --sheet: #1e242b; --drawn: invert(1) hue-rotate(180deg); --laid: screen; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--page); color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; }
 main { max-width: 64rem; margin: 0 auto; padding: 1.5rem 1rem 3rem; }
@@ -21,7 +22,9 @@ h2 { margin: 2.5rem 0 1rem; font-size: 1.3rem; }
 figure { margin: 0 0 2rem; }
 figcaption { max-width: 44rem; margin-top: .5rem; font-size: .9rem; }
 figcaption b { color: var(--ink); }
-.sheet { overflow-x: auto; padding: .75rem; border: 1px solid var(--line); border-radius: .4rem; background: #fff; }
+.sheet { overflow-x: auto; padding: .75rem; border: 1px solid var(--line); border-radius: .4rem;
+  background: var(--sheet); }
+.sheet img.drawn { filter: var(--drawn); mix-blend-mode: var(--laid); }
 .sheet img { display: block; max-width: 100%; height: auto; margin: 0 auto; }
 .sheet img.wide { min-width: 38rem; }
 .table { overflow-x: auto; }
@@ -47,7 +50,7 @@ footer { margin-top: 2.5rem; padding-top: .75rem; border-top: 1px solid var(--li
 @media (max-width: 40rem) { table { font-size: .78rem; }
   th code { display: none; } th, td { padding: .35rem .25rem; } }
 @media print { :root { color-scheme: light; --ink: #000; --soft: #444; --line: #bbb; --page: #fff; --card: #f4f4f4;
-  --good: #00664b; --bad: #a83e00; }
+  --good: #00664b; --bad: #a83e00; --sheet: #fff; --drawn: none; --laid: normal; }
   main { max-width: none; padding: 0; } figure, tr { break-inside: avoid; } .sheet { border: 0; padding: 0; }
   .sheet, .table { overflow: visible; } .sheet img.wide { min-width: 0; } h2 { break-after: avoid; } }
 """

@@ -10,7 +10,7 @@ import importlib.util
 from collections.abc import Callable
 from typing import Any
 
-from tandemlift.common.errors import InputError
+from tandemlift.common.extras import extra
 from tandemlift.export.messages import modern
 
 PACKAGES = ("cyclonedds", "rosbags")
@@ -31,8 +31,9 @@ def check_installed() -> None:
     Raises:
         InputError: a package is missing.
     """
-    for name in missing_packages():
-        raise InputError(f"ROS 2 needs the package {name}: pip install 'tandemlift[ros2]'")
+    with extra("ros2", "ROS 2"):
+        import cyclonedds  # noqa: F401
+        import rosbags  # noqa: F401
 
 
 class DdsTypes:

@@ -10,6 +10,7 @@ import numpy as np
 
 from tandemlift.common.phases import CONTACT
 from tandemlift.export.messages import event_maker, status_maker
+from tandemlift.export.topics import DIAGNOSTICS
 from tandemlift.flight.record import Flight
 from tandemlift.ros.middleware import Middleware
 from tandemlift.simulation.contact_texts import contact_codes
@@ -17,7 +18,6 @@ from tandemlift.simulation.results import describe_event
 
 AGAIN = 1.0  # s, before the same words are said again
 MOST = 100  # events that wait
-KIND, TOPIC = "diagnostic_msgs/DiagnosticArray", "/diagnostics"
 Notify = Callable[[str], None]
 
 
@@ -29,7 +29,10 @@ class FlightDiagnostics:
     """
 
     def __init__(self, middleware: Middleware) -> None:
-        self._middleware, self._channel = middleware, middleware.advertise(TOPIC, KIND, depth=MOST)
+        self._middleware, self._channel = (
+            middleware,
+            middleware.advertise(DIAGNOSTICS.name, DIAGNOSTICS.kind, depth=MOST),
+        )
         self._event, self._status = event_maker(middleware.types), status_maker(middleware.types)
         self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
         self._said: dict[str, float] = {}

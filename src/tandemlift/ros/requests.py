@@ -19,7 +19,13 @@ POSSIBLE = {  # from which
     "land": ("lift", "guided", "hold", "contact", "limited"),
     "stop": PHASE_NAMES,
 }
-REQUESTS = (*COMES_TO, "tare")
+REQUESTS = {
+    "lift": "takes off from the ground",
+    "land": "lands",
+    "stop": "stops all rotors at once, until the node is restarted",
+    "tare": "tares the force sensors: their mean over `estimator.tare_duration`, from a second later on, becomes their "
+    "bias; in the air, with nobody pushing; only for a mission with `estimator.tare_start` whose pilot reads sensors",
+}
 PATIENCE, NAP = 1.0, 0.02  # s, for the pilot to do it, and between looks
 
 What = Literal["lift", "land", "stop"]

@@ -17,12 +17,15 @@ from typing import Any
 
 from tandemlift.common.errors import InputError, unknown
 from tandemlift.export.messages import MessageTypes
-from tandemlift.export.topics import ROOT
+from tandemlift.export.topics import ROOT, OtherTopic
 from tandemlift.ros.dds_types import DdsTypes, check_installed
 from tandemlift.ros.middleware import Answer, TopicPublisher
 
-REQUEST, ANSWER, TEXT = f"{ROOT}/request", f"{ROOT}/answer", "std_msgs/String"
-PARAMETER, PAIR = f"{ROOT}/parameter", "diagnostic_msgs/KeyValue"
+TEXT = "std_msgs/String"
+REQUEST = OtherTopic(f"{ROOT}/request", TEXT, "name of a request")
+PARAMETER = OtherTopic(f"{ROOT}/parameter", "diagnostic_msgs/KeyValue", "key and value of a parameter")
+ANSWER = OtherTopic(f"{ROOT}/answer", TEXT, "result of a request; published by the node")
+ONLY_ROS2 = (REQUEST, PARAMETER, ANSWER)
 ROSOUT, LOG, TIME, NAME = "/rosout", "rcl_interfaces/Log", "builtin_interfaces/Time", "tandemlift"
 INFO, WARN = 20, 30  # levels of the log
 DEPTH = 10  # length of the message queue, the default of ROS 2
@@ -54,10 +57,10 @@ class Ros2:
         self._services: dict[str, Callable[[], Answer]] = {}
         self._set: dict[str, Any] = {}
         self._some, self._worker = WaitSet(self._participant), ThreadPoolExecutor(1, "requests")
-        self._answer = self.advertise(ANSWER, TEXT, depth=DEPTH)
+        self._answer = self.advertise(ANSWER.name, TEXT, depth=DEPTH)
         self._rosout = self.advertise(ROSOUT, LOG, latched=True)  # as ROS 2 does
-        self.subscribe(REQUEST, TEXT, lambda message: self._worker.submit(self._serve, message.data.strip()))
-        self.subscribe(PARAMETER, PAIR, lambda message: self._set.update({message.key: _value(message.value)}))
+        self.subscribe(REQUEST.name, TEXT, lambda message: self._worker.submit(self._serve, message.data.strip()))
+        self.subscribe(PARAMETER.name, PARAMETER.kind, self._take)
         self._listener = threading.Thread(target=self._listen, name="dds", daemon=True)
         self._listener.start()
 
@@ -85,6 +88,10 @@ class Ros2:
         """What came on the topic of parameters since the last time."""
         found, self._set = self._set, {}
         return found
+
+    def _take(self, message: Any) -> None:
+        """Keep a parameter until it is asked for."""
+        self._set[message.key] = _value(message.value)
 
     def keep(self, values: Mapping[str, Any]) -> None:
         """Nothing: the latched mission has the settings."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.extras import install_command
 from tandemlift.engines.rospy import has_rospy
 from tandemlift.ros.dds_types import missing_packages
 from tandemlift.ros.middleware import Middleware
@@ -28,7 +29,7 @@ def version_for(asked: str | None) -> str:
     if not missing_packages():
         return "2"
     raise InputError(
-        "no ROS is found. For ROS 2, which needs no installed ROS: pip install 'tandemlift[ros2]'; "
+        f"no ROS is found. For ROS 2, which needs no installed ROS: {install_command('ros2')}; "
         "for ROS 1, on Debian: apt-get install python3-rospy"
     )
 

@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.export.coordinate_frames import WORLD, fixed, quaternions
+from tandemlift.export.coordinate_frames import ALIGNED, BASE, WORLD, fixed, quaternions
 from tandemlift.export.messages import Maker, MessageTypes, Transforms, message_maker
 from tandemlift.export.recipes import POSE, Recipe, Source, Topic
-from tandemlift.export.topics import ROOT, recipes_for
+from tandemlift.export.topics import MISSION, ROOT, TF, TF_STATIC, OtherTopic, recipes_for
 from tandemlift.flight.record import Flight
 from tandemlift.missions import format_toml
 from tandemlift.ros import scenery
@@ -19,10 +19,17 @@ from tandemlift.ros.markers import MARKERS
 from tandemlift.ros.middleware import Middleware, TopicPublisher
 from tandemlift.vehicle import Vehicle
 
-TF, TF_STATIC, TRANSFORMS = "/tf", "/tf_static", "tf2_msgs/TFMessage"
-MISSION, TEXT = f"{ROOT}/mission", "std_msgs/String"
-STILL, MOVING = f"{ROOT}/markers/still", f"{ROOT}/markers/moving"
-FLOWN, ASKED, PATH = f"{ROOT}/path", f"{ROOT}/reference/path", "nav_msgs/Path"
+PATH = "nav_msgs/Path"
+FLOWN = OtherTopic(f"{ROOT}/path", PATH, "path flown in the last minute, 5 times a second", (WORLD,))
+ASKED = OtherTopic(f"{ROOT}/reference/path", PATH, "path of the reference, likewise", (WORLD,))
+STILL = OtherTopic(f"{ROOT}/markers/still", MARKERS, "vehicle, floor, walls; latched", (BASE, WORLD))
+MOVING = OtherTopic(
+    f"{ROOT}/markers/moving",
+    MARKERS,
+    "push as an arrow of 0.22 m/N; reference, where it is more than 2 cm off; 20 times a second",
+    (ALIGNED, WORLD),
+)
+ONLY_LIVE = (FLOWN, ASKED, STILL, MOVING)
 SHOWN, APART = 60.0, 0.2  # s of a path that is shown, and between its points
 
 
@@ -49,7 +56,7 @@ class SampleTopics:
             SampleTopic(r, message_maker(types, r), middleware.advertise(r.name, r.kind))
             for r in recipes_for(flight, vehicle)
         ]
-        self._transform, self._tf = Transforms(types).moving, middleware.advertise(TF, TRANSFORMS, depth=100)
+        self._transform, self._tf = Transforms(types).moving, middleware.advertise(TF.name, TF.kind, depth=100)
 
     def publish(self, flight: Flight, stamps: list[int]) -> None:
         """Publish samples on the topics that have subscribers."""
@@ -72,13 +79,13 @@ class LatchedTopics:
 
     def __init__(self, middleware: Middleware) -> None:
         self._types, self._drawn = middleware.types, None
-        self._mission = middleware.advertise(MISSION, TEXT, latched=True)
-        self._static = middleware.advertise(TF_STATIC, TRANSFORMS, latched=True)
-        self._still = middleware.advertise(STILL, MARKERS, latched=True)
+        self._mission = middleware.advertise(MISSION.name, MISSION.kind, latched=True)
+        self._static = middleware.advertise(TF_STATIC.name, TF_STATIC.kind, latched=True)
+        self._still = middleware.advertise(STILL.name, STILL.kind, latched=True)
 
     def publish_mission(self, tables: Mapping[str, Any]) -> None:
         """Publish the mission as it is now."""
-        self._mission.publish(self._types[TEXT](format_toml(tables)))
+        self._mission.publish(self._types[MISSION.kind](format_toml(tables)))
 
     def publish_vehicle(self, scene: Mapping[str, Any], vehicle: Vehicle, stamp: int) -> None:
         """Publish where the vehicle's parts are, and what it and its surroundings look like."""
@@ -101,8 +108,11 @@ class MarkerTopics:
 
     def __init__(self, middleware: Middleware, vehicle: Vehicle) -> None:
         types = middleware.types
-        self._markers, self._moving = middleware.advertise(MOVING, MARKERS), scenery.PushMarkers(types, vehicle)
-        self._paths = [PathTopic(types, middleware.advertise(topic, PATH)) for topic in (FLOWN, ASKED)]
+        self._markers, self._moving = (
+            middleware.advertise(MOVING.name, MOVING.kind),
+            scenery.PushMarkers(types, vehicle),
+        )
+        self._paths = [PathTopic(types, middleware.advertise(topic.name, PATH)) for topic in (FLOWN, ASKED)]
 
     def move(self, flight: Flight, stamp: int) -> None:
         """Show the last sample."""

@@ -72,7 +72,7 @@ class TankTable(Table):
 class FollowingTable(Table):
     """`[compliance.following]`: from when on the vehicle counts as unable to follow, phase "limited".
 
-    It then holds and ignores pushes, until it can follow again. docs/explanation/safety.md lists all reasons.
+    It then holds and ignores pushes, until it can follow again. docs/reference/faults.md lists all reasons.
     """
 
     max_error: Positive = key(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from html import escape
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, SerializeAsAny, model_validator
@@ -147,3 +148,20 @@ class Mission(Table):
     def all_walls(self) -> tuple[WallTable, ...]:
         """Every wall that there is: those of `walls`, then the corridor's."""
         return (*self.walls, *self.corridor.walls)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the choices that make the mission what it is."""
+        payload, quadrotors = self.vehicle.payload, self.vehicle.quadrotors
+        mass = payload.mass + sum(q.mass for q in quadrotors)
+        rows = {
+            "mission": f"{self.mission.name}, {self.mission.duration:g} s in steps of {1e3 * self.mission.step:g} ms",
+            "vehicle": f"{len(quadrotors)} quadrotors on a payload of {payload.mass:g} kg; {mass:g} kg in all",
+            "controller": self.controller.name,
+            "guidance": self.pilot.guidance,
+            "rotors": f"{self.actuators.model}, {self.allocation.method}",
+            "sensors": self.sensors.model,
+            "pushes": f"{len(self.pushes)}; simulated person: {self.person.model}",
+            "around": f"wind: {self.wind.model}; ground: {self.ground.model}; walls: {len(self.all_walls)}",
+        }
+        cells = (f"<tr><th style='text-align:left'>{k}</th><td>{escape(v)}</td></tr>" for k, v in rows.items())
+        return f"<table>{''.join(cells)}</table>"

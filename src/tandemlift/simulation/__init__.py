@@ -1,1 +1,1 @@
-"""Simulation of missions: assembly, whole flights, flights step by step, and changes in flight."""
+"""From a mission to its flight: whole, many at once, changed in flight; outcome and findings; the pilot as an object."""

@@ -13,6 +13,7 @@ from weakref import WeakKeyDictionary
 
 from tandemlift.algebra.layout import leaves, unflat
 from tandemlift.common.errors import InputError
+from tandemlift.common.progress import progress_or_own
 from tandemlift.common.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.kernels import LANES, FlightMemory
@@ -117,7 +118,7 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
     Args:
         mission: from `load_mission`.
         engine: name of the engine; if None, that of the mission's recording, or "compiled".
-        progress: called from time to time with (steps flown, steps in all).
+        progress: called from time to time with (steps flown, steps in all); by default, a notebook shows a bar.
 
     Returns:
         The flight. If it diverged, it holds the samples until then, and `ending` says why.
@@ -128,9 +129,10 @@ def fly(mission: Mission, engine: str | None = None, *, progress: Progress | Non
     engine = engine_of(mission) if engine is None else engine
     p = FlightPlan(mission, engine)
     rows, body = p.steps // p.every + 1, body_of(p)
-    if body is not None:
-        return flight_of(p, fly_stepwise(p, rows, p.every, progress, body), engine)
-    (flown,) = _fly_together([p], rows, p.every, progress)
+    with progress_or_own(mission.mission.name, progress, "steps") as shown:
+        if body is not None:
+            return flight_of(p, fly_stepwise(p, rows, p.every, shown, body), engine)
+        (flown,) = _fly_together([p], rows, p.every, shown)
     return flight_of(p, flown)
 
 
@@ -150,7 +152,8 @@ def fly_many(
             the number of steps.
         threads: number of threads; by default one for each processor.
         refusals: whether a mission that cannot be built gives its `InputError`, and the others are flown.
-        progress: called with (flights flown, flights in all; of an iterator, those read so far).
+        progress: called with (flights flown, flights in all; of an iterator, those read so far); by default, a
+            notebook shows a bar.
 
     Returns:
         One entry for each mission, in the order given, equal to the last bit to that of a flight alone.
@@ -163,9 +166,14 @@ def fly_many(
         raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
     if threads is not None and (not isinstance(threads, int) or threads < 1):
         raise InputError(f"threads = {threads!r}: must be a whole number of at least 1")
-    groups, results = _FlightGroups(missions, refusals), dict[int, Any]()
-    finished = _Counter(groups, missions, progress)
-    going = threading.Event()
+    groups = _FlightGroups(missions, refusals)
+    with progress_or_own("Flown", progress, "flights") as shown:
+        return _flown_by_threads(groups, keep, threads or os.cpu_count() or 1, _Counter(groups, missions, shown))
+
+
+def _flown_by_threads(groups: _FlightGroups, keep: str, count: int, finished: _Counter) -> list[Any]:
+    """What becomes of all missions, in the order given, by some threads."""
+    results, going = dict[int, Any](), threading.Event()
     going.set()
 
     def work() -> None:
@@ -173,7 +181,6 @@ def fly_many(
             results.update(zip(group.places, groups.results_of(group, keep, going.is_set), strict=True))
             finished.add(len(group.places))
 
-    count = threads or os.cpu_count() or 1
     pool = ThreadPoolExecutor(count)
     try:
         for future in as_completed([pool.submit(work) for _ in range(count)]):

@@ -1,1 +1,1 @@
-"""Studies: several controllers or engines compared, and the validation of the pilot."""
+"""Many flights: studies from a file, tuning, feel, comparisons, validation of the pilot, missions at random."""

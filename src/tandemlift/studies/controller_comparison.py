@@ -1,4 +1,4 @@
-"""Comparison of controllers on one mission; docs/reference/controllers.md describes the scores."""
+"""Comparison of controllers on one mission. docs/reference/controllers.md describes the scores."""
 
 from __future__ import annotations
 

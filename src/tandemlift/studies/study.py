@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.common.errors import InputError
+from tandemlift.common.progress import progress_or_own
 from tandemlift.common.types import Progress
 from tandemlift.settings import Mission
 from tandemlift.studies.design.study_files import load_plan
 from tandemlift.studies.reading.table import Study, load_study
 from tandemlift.studies.units.anywhere import fly_study
-from tandemlift.studies.units.progress import progress_or_own
 from tandemlift.studies.units.running import part_from
 from tandemlift.studies.units.store import StudyFolder, open_folder
 
@@ -40,7 +40,7 @@ def study(
         scheduler: address of a Dask scheduler, whose workers fly the units; see docs/how-to/scaling.md.
         cluster: "local:N" for N processes of this machine, under Dask.
         part: "K/N" to fly part K of N only; the parts may run at the same time, on machines that share the folder.
-        progress: called with (rows flown, rows in all); by default, a notebook shows a line.
+        progress: called with (rows flown, rows in all); by default, a notebook shows a bar.
 
     Returns:
         The study: its table, and the mission of each row.

@@ -1,12 +1,12 @@
 """The wire is defined once: what is written from the definitions is up to date, and what is sent keeps to them."""
 
-import importlib.util
 import json
 import types
 from typing import Annotated, Literal, NotRequired, Union, get_args, get_origin, get_type_hints, is_typeddict
 
 import pytest
-from repository import ROOT
+import wire_types
+from reference_tables.messages import frame, page_messages, scene, server_messages, status
 
 import tandemlift as tl
 from tandemlift.live.replay import scene_and_frames
@@ -17,15 +17,6 @@ from tandemlift.live.wire.quantities import OneOf
 from tandemlift.live.wire.scene import FlightScene
 from tandemlift.live.wire.server_messages import SERVER_MESSAGES, SHOWN_PARAMETERS, FlightStatus
 from tandemlift.missions import built_in
-
-
-@pytest.fixture(scope="module")
-def tool():
-    """tools/wire_types.py as a module."""
-    spec = importlib.util.spec_from_file_location("wire_types", ROOT / "tools" / "wire_types.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def breaks(value, hint, at="message"):
@@ -70,17 +61,13 @@ def as_sent(message):
     return json.loads(json.dumps(message, allow_nan=False))
 
 
-def test_the_types_of_the_page_are_those_of_the_definitions(tool):
-    assert tool.TYPESCRIPT.read_text("utf-8") == tool.page_types(), "run: python tools/wire_types.py"
+def test_the_types_of_the_page_are_those_of_the_definitions():
+    assert wire_types.TYPESCRIPT.read_text("utf-8") == wire_types.page_types(), "run: python tools/wire_types.py"
 
 
-def test_the_tables_of_the_documentation_are_those_of_the_definitions(tool):
-    text = tool.DOCUMENT.read_text("utf-8")
-    assert text == tool.document(text), "run: python tools/wire_types.py"
-
-
-def test_every_message_key_and_field_is_in_the_types_and_in_the_tables(tool):
-    types_, tables = tool.page_types(), "\n".join(tool.tables().values())
+def test_every_message_key_and_field_is_in_the_types_and_in_the_tables():
+    types_ = wire_types.page_types()
+    tables = "".join(table() for table in (page_messages, server_messages, scene, status, frame))
     for name, kind in {**PAGE_MESSAGES, **SERVER_MESSAGES}.items():
         assert f'type: "{name}";' in types_
         for key in get_type_hints(kind).keys() - {"type", "seq", "model_config"}:

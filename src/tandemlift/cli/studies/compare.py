@@ -19,18 +19,20 @@ from tandemlift.cli.terminal.mission_options import (
     load,
     parse_setting,
     set_option,
+    style_option,
 )
-from tandemlift.cli.terminal.results import results_folder
+from tandemlift.cli.terminal.results import FIGURES, results_folder
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
+from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
     from tandemlift.flight.record import Flight
     from tandemlift.studies.controller_comparison import Entrant, Entry, ScoredPart
 
-FILES = ("compare.html", "compare.json")
-ENGINE_FILES = ("engines.html", "engines.json")
+FILES = ("compare.html", "compare.json", "compare.csv", "compare.tex")
+ENGINE_FILES = ("engines.html", "engines.json", "engines.csv", "engines.tex")
 
 
 @click.command()
@@ -40,6 +42,7 @@ ENGINE_FILES = ("engines.html", "engines.json")
 @click.option("--engines", metavar="A,B,…", help="Compare engines instead: fly the mission once in each.")
 @set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
+@style_option
 @strict_option
 def compare(
     mission: str,
@@ -48,6 +51,7 @@ def compare(
     engines: str | None,
     settings: tuple[str, ...],
     out: str | None,
+    style: str | None,
     strict: bool,
 ) -> None:
     """Fly MISSION with several controllers, or in several engines, print a table and write a page.
@@ -61,6 +65,7 @@ def compare(
       tandemlift compare iris --controllers nftsmc,pid,lqr --set 'disturbance.force=[3, 3, 0]'
       tandemlift compare hover --controllers nftsmc,my_pd.py --out out/mine
       tandemlift compare zigzag --engines compiled,mujoco,gazebo
+      tandemlift compare iris --style ieee
 
     \b
     Files in the results folder (other files there are left alone):
@@ -68,6 +73,8 @@ def compare(
       compare.json   the same as numbers in SI units, with all metrics and settings
       engines.html   with --engines: the flights, and their differences from the first
       engines.json   with --engines: the same as numbers in SI units
+      *.csv, *.tex   all metrics, a column for each controller or engine, for a spreadsheet and for LaTeX
+      figures/       with --style: the figures of the page (PNG and PDF)
 
     \b
     Exit code:
@@ -79,7 +86,9 @@ def compare(
     if engines is not None:
         if controllers is not None:
             raise InputError("--engines, --controllers: give only one of them")
-        _compare_engines(mission, _names("--engines", engines, "compiled,mujoco"), settings, out, strict=strict)
+        with figure_style(style):
+            names = _names("--engines", engines, "compiled,mujoco")
+            _compare_engines(mission, names, settings, out, strict=strict, keep=style is not None)
         return
     from tandemlift.engines.registry import engine_named
     from tandemlift.studies.controller_comparison import entrants
@@ -88,10 +97,10 @@ def compare(
     changes = dict(map(parse_setting, settings))
     entered = entrants(mission, changes, _chosen(controllers))
     name = next(e.mission.mission.name for e in entered if e.mission)
-    with results_folder(out, Path("out") / name, FILES) as folder:
+    with results_folder(out, Path("out") / name, FILES) as folder, figure_style(style):
         entries = _fly(entered, engine)
         _print_tables(name, entries)
-        _write(entries, folder, name, engine)
+        _write(entries, folder, name, engine, keep=style is not None)
         echo(f"  page: {folder / 'compare.html'}")
     count = print_findings((e.name, e.flight) for e in entries if e.flight)
     failed = {e.name: e.flight.failure for e in entries if e.flight and e.flight.failure}
@@ -196,13 +205,16 @@ def _print_tables(name: str, entries: Sequence[Entry]) -> None:
             echo(f"  {part.words.capitalize()} every position error is below 1 µm.")
 
 
-def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str) -> None:
+def _write(entries: Sequence[Entry], folder: Path, name: str, engine: str, *, keep: bool) -> None:
     from tandemlift.report.controller_comparison import write_comparison
+    from tandemlift.report.metric_tables import write_metric_tables
     from tandemlift.studies.controller_comparison import summary_of
 
     found: dict[str, Any] = {"mission": name, "engine": engine, "controllers": summary_of(entries)}
     _write_json(found, folder / "compare.json")
-    write_comparison(entries, folder / "compare.html")
+    flown = {e.name: e.flight.metrics() for e in entries if e.flight}
+    write_metric_tables(flown, folder, "compare", f"Metrics of the mission {name} with several controllers")
+    write_comparison(entries, folder / "compare.html", folder / FIGURES if keep else None)
 
 
 def _write_json(found: Any, path: Path) -> None:
@@ -211,10 +223,11 @@ def _write_json(found: Any, path: Path) -> None:
 
 
 def _compare_engines(
-    mission: str, names: list[str], settings: tuple[str, ...], out: str | None, *, strict: bool
+    mission: str, names: list[str], settings: tuple[str, ...], out: str | None, *, strict: bool, keep: bool
 ) -> None:
     """Fly a mission in several engines, print their differences and write the page."""
     from tandemlift.report.engine_comparison import write_engines
+    from tandemlift.report.metric_tables import write_metric_tables
     from tandemlift.studies.engine_comparison import fly_in, summary_of
 
     loaded = load(mission, settings)
@@ -224,7 +237,12 @@ def _compare_engines(
         found = summary_of(flights)
         _print_differences(loaded.mission.name, found)
         _write_json({"mission": loaded.mission.name, "engines": found}, folder / "engines.json")
-        echo(f"  page: {write_engines(flights, folder / 'engines.html')}")
+        flown = {engine: flight.metrics() for engine, flight in flights.items()}
+        write_metric_tables(
+            flown, folder, "engines", f"Metrics of the mission {loaded.mission.name} in several engines"
+        )
+        page = write_engines(flights, folder / "engines.html", folder / FIGURES if keep else None)
+        echo(f"  page: {page}")
     count = print_findings(flights.items())
     failed = [row for row in found if row["failure"]]
     for row in failed:

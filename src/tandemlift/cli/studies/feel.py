@@ -11,9 +11,10 @@ import click
 
 from tandemlift.cli.terminal.check_table import print_checks
 from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
-from tandemlift.cli.terminal.mission_options import FAILED, load, set_option
+from tandemlift.cli.terminal.mission_options import FAILED, load, set_option, style_option
 from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import FlightWarning, InputError
+from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.report.tuning.feel_report import FeelReport
@@ -36,6 +37,7 @@ NOT_BETTER = 1
 )
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of a search and its persons.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
+@style_option
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
 def feel(
     mission: str,
@@ -47,6 +49,7 @@ def feel(
     fresh: int,
     seed: int,
     out: str | None,
+    style: str | None,
     strict: bool,
 ) -> None:
     """Show what a push does with the keys of MISSION, and check whether the vehicle can answer so.
@@ -87,7 +90,8 @@ def feel(
     with results_folder(out, Path("out") / loaded.mission.name, FILES) as folder:
         found = _searched(loaded, (generations, persons, fresh), seed) if search else None
         report = _studied(found.mission if found else loaded, found)
-        report.save(folder)
+        with figure_style(style):
+            report.save(folder)
         echo(f"  page: {folder / 'feel.html'}")
     if strict and report.study.fails:
         sys.exit(FAILED)

@@ -98,8 +98,8 @@ def study(
 
 
 def _fly(plan: StudyPlan, out: str | None, part: str, **where: Any) -> StudyFolder:
+    from tandemlift.common.progress import shown_progress
     from tandemlift.studies.units.anywhere import fly_study
-    from tandemlift.studies.units.progress import shown_progress
     from tandemlift.studies.units.running import part_from
     from tandemlift.studies.units.store import open_folder
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tandemlift.common.errors import InputError
+from tandemlift.figures.drawing.figure_style import STYLES
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
@@ -29,6 +30,12 @@ set_option = click.option(
     multiple=True,
     metavar="KEY=VALUE",
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
+)
+style_option = click.option(
+    "--style",
+    type=click.Choice(list(STYLES)),
+    help="Size, type and colours of the figures: columns of a journal, or slides of 16:9 on white or dark paper."
+    "  [default: ieee]",
 )
 after_crash_option = click.option(
     "--after-crash",

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
 
-FILES = ("mission.toml", "flight.npz", "metrics.json", "findings.json", "report.html")
+FILES = ("mission.toml", "flight.npz", "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
+FIGURES = "figures"  # folder of the figures
 
 
 @contextmanager
@@ -62,9 +63,9 @@ def _make(folder: Path, made: list[Path]) -> None:
 def _check_writable(folder: Path, files: Sequence[str]) -> None:
     if not os.access(folder, os.W_OK | os.X_OK):
         raise InputError(f"--out {folder}: the folder cannot be written to")
-    figures = folder / "figures"
+    figures = folder / FIGURES
     in_the_way = [path for path in (folder / name for name in files) if path.is_dir()]
-    if files is FILES and figures.exists() and not figures.is_dir():
+    if figures.exists() and not figures.is_dir():
         in_the_way.append(figures)
     if in_the_way:
         raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
@@ -14,6 +16,7 @@ from tandemlift.figures.drawing.series import decimate, drawable, intervals
 from tandemlift.figures.drawing.style import COMPONENTS, PALE
 from tandemlift.flight.record import Flight
 
+LEGEND = "outside upper center"
 RELATIVE = 2e-3  # of the largest value: the least span of its axis, so that tick labels stay short
 
 
@@ -71,3 +74,13 @@ def shade(ax: Axes, time: Array, active: NDArray[np.bool_], color: str = PALE) -
         bars = [(start, end - start) for start, end in spans]
         ax.broken_barh(bars, (0.0, 1.0), transform=ax.get_xaxis_transform(), facecolor=color, lw=0.0, zorder=0)
     return spans
+
+
+def legend_above(figure: Figure, handles: Sequence[Any], names: Sequence[str], place: str = LEGEND) -> None:
+    """A legend over the panels, in as few rows as fit the figure's width."""
+    for rows in range(1, len(names) + 1):
+        legend = figure.legend(handles, names, loc=place, ncols=-(-len(names) // rows), columnspacing=1.2)
+        box = legend.get_tightbbox()
+        if box is None or box.width <= figure.bbox.width or rows == len(names):
+            return
+        legend.remove()

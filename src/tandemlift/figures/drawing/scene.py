@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from tandemlift.common.types import Array
-from tandemlift.figures.drawing.style import BLACK, COLUMN, PAGE
+from tandemlift.figures.drawing.figure_style import current_style
+from tandemlift.figures.drawing.style import GRID, GROUND, INK, PALE, TEXT, StyledFigure, points
 
 ELEVATION, AZIMUTH = np.radians(27.0), np.radians(-64.0)  # of the reader's eye
 RIGHT = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
@@ -24,9 +24,7 @@ NEAR = np.cross(RIGHT, UP)
 CELLS = 14  # at most, along the longest side
 TOUCHING = np.array([0.05, 0.3, 0.3])  # of a cell: what stands out of the box by less does not lengthen it
 TALLEST = 5.2  # in
-ROOM = np.array([0.4, 0.3, 0.5, 0.36])  # in, for labels: left, bottom, right, top
-LIGHT, LIGHTER = "#d0d0d0", "#e8e8e8"
-GROUND = "#f1eee7"  # of a floor that is there, under its grid
+ROOM = np.array([0.4, 0.3, 0.5, 0.36])  # in, for labels around text of `TEXT`: left, bottom, right, top
 
 
 def on_paper(points: Any) -> Array:
@@ -42,7 +40,7 @@ class Scene3D:
         floor: height of a floor that is there [m], on which the box stands; else its floor is but a place for shadows.
 
     Attributes:
-        figure: as wide as a page unless the box is tall.
+        figure: as wide as a page; of a tall box, of the style's narrowest width that suffices.
         axes: plain axes, in metres on paper.
         box: (3, 2) lower and upper ends of the box [m, world axes], multiples of `cell` but for a floor that is there.
         cell: of the grid [m].
@@ -55,11 +53,13 @@ class Scene3D:
         corners = on_paper(np.stack(np.meshgrid(*self.box), axis=-1).reshape(-1, 3))
         seen = np.concatenate([corners, on_paper(points)])
         low, high = seen.min(axis=0), seen.max(axis=0)
-        room = ROOM[:2] + ROOM[2:]
-        inner = (high - low) * min(([PAGE, TALLEST] - room) / (high - low))
-        size = np.maximum(inner + room, [COLUMN, 0.0])
-        corner = (size - inner - room) / 2.0 + ROOM[:2]
-        self.figure = Figure(figsize=tuple(size))
+        style = current_style()
+        around = ROOM * style.type / TEXT
+        room = around[:2] + around[2:]
+        inner = (high - low) * min(([style.page, style.height or TALLEST] - room) / (high - low))
+        size = np.array([style.width_for(inner[0] + room[0]), style.height or inner[1] + room[1]])
+        corner = (size - inner - room) / 2.0 + around[:2]
+        self.figure = StyledFigure(size[0], size[1], layout=None)
         self.axes: Any = self.figure.add_axes((*(corner / size), *(inner / size)))
         self.axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         self.axes.set_axis_off()
@@ -86,7 +86,7 @@ class Scene3D:
         walls = [[(x, y1, z0), (x, y1, z1)] for x in xs] + [[(x0, y, z0), (x0, y, z1)] for y in ys]
         walls += [[(x0, y1, z), (x1, y1, z)] for z in zs] + [[(x0, y0, z), (x0, y1, z)] for z in zs]
         edges = [[(x0, y0, z0), (x1, y0, z0)], [(x1, y0, z0), (x1, y1, z0)], [(x0, y0, z0), (x0, y0, z1)]]
-        for lines, color, width in ((walls, LIGHTER, 0.5), (floor, LIGHT, 0.5), (edges, BLACK, 0.6)):
+        for lines, color, width in ((walls, GRID, 0.5), (floor, PALE, 0.5), (edges, INK, 0.6)):
             self.axes.add_collection(
                 LineCollection(list(on_paper(lines)), colors=color, lw=width, clip_on=False, zorder=0)
             )
@@ -101,7 +101,7 @@ class Scene3D:
         spots = on_paper(places)
         look: Any = {"textcoords": "offset points", "annotation_clip": False}
         for text, spot in list(zip(texts, spots, strict=True))[:: -(-len(texts) // (CELLS + 1))]:
-            self.axes.annotate(text, spot, offset, fontsize=7.5, ha=across, va=along, **look)
+            self.axes.annotate(text, spot, offset, fontsize=points(7.5), ha=across, va=along, **look)
         beside = spots[-1] if axis == "z" else spots.mean(axis=0)
         self.axes.annotate(f"${axis}$ (m)", beside, name, ha="left" if axis == "y" else "center", va="center", **look)
 

@@ -11,12 +11,12 @@ from matplotlib.collections import LineCollection
 
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.scene import NEAR, Scene3D, on_paper
+from tandemlift.figures.drawing.style import EDGE, GLASS
 from tandemlift.settings import WallTable
 
 BEYOND = 0.15  # of the longest side of what is shown: how far around it walls are drawn
 TOUCHING = 1e-6  # m: a wall on the box's edge is in it
 PARTS = 4  # of a wall in a cell of the grid: each stands before the path or behind it
-GLASS, EDGE = "#c3ccd6", "#56616d"
 OPACITY = 0.4
 BEHIND, BEFORE = 2.0, 42.0  # in the order of drawing, in which the path and all on it come between
 

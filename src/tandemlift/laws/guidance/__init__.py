@@ -1,1 +1,1 @@
-"""Guidance: admittance and compliance, phases of a flight, requests, supervision and its reactions to faults."""
+"""Guidance by the clock or by hand: phases, heading, contact, requests, supervision and its reactions to faults."""

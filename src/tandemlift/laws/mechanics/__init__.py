@@ -1,1 +1,1 @@
-"""Mechanics: the rigid body and its parts, rotations, pushes, contact with floor and walls, and wind."""
+"""Mechanics: the rigid body and its parts, rotations, tilt, pushes, and wind."""

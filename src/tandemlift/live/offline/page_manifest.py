@@ -37,7 +37,7 @@ from tandemlift.live.session.tunable_parameters import (
 from tandemlift.live.wire.frames import ECHO, FRESH, RATE
 from tandemlift.live.wire.page_messages import SILENT
 from tandemlift.live.wire.scene import SceneParameter
-from tandemlift.missions import Mission, changed, tables_of
+from tandemlift.missions import changed, tables_of
 from tandemlift.simulation.outcome import NOT_FINITE, limit_of
 from tandemlift.simulation.parameter_changes import LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
@@ -60,8 +60,8 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
     return {
         "scene": scene,
         "tables": tables,
-        "parameters": [_tunable(mission, shown) for shown in parameters_of(mission, mission) if "choices" not in shown],
-        "absent": _absent(mission),
+        "parameters": [_tunable(plan, shown) for shown in parameters_of(mission, mission) if "choices" not in shown],
+        "absent": _absent(plan),
         "rotors": [
             {"rotor": 4 * (f.quadrotor - 1) + f.rotor - 1, "key": f"faults.{i}.time"}
             for i, f in enumerate(mission.faults)
@@ -88,15 +88,15 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
     }
 
 
-def _tunable(mission: Mission, shown: SceneParameter) -> dict[str, Any]:
+def _tunable(plan: FlightPlan, shown: SceneParameter) -> dict[str, Any]:
     """A parameter as the page has it, with the refusals of values out of bounds and of lists of another length."""
-    keys = keys_of(mission, shown["key"])
-    return {"shown": shown, "keys": keys, **_bounds(shown["min"], shown["max"]), **_shape(mission, keys[0])}
+    keys = keys_of(plan.mission, shown["key"])
+    return {"shown": shown, "keys": keys, **_bounds(shown["min"], shown["max"]), **_shape(plan, keys[0])}
 
 
-def _shape(mission: Mission, key: str) -> dict[str, Any]:
+def _shape(plan: FlightPlan, key: str) -> dict[str, Any]:
     """How many numbers a list for a key has, 0 if it takes no list; and the refusal of any other list."""
-    rule = _refusal(mission, key, [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
+    rule = _refusal(plan, key, [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
     found = re.search(r"list of (\d+) numbers", rule)
     return {"count": int(found[1]) if found else 0, "wrong_shape": f"mission: {key} = {{value}}: {rule}"}
 
@@ -107,25 +107,25 @@ def _bounds(low: float, high: float) -> dict[str, Any]:
     return {"min": low, "max": high, "out_of_bounds": text}
 
 
-def _absent(mission: Mission) -> dict[str, dict[str, Any]]:
+def _absent(plan: FlightPlan) -> dict[str, dict[str, Any]]:
     """The parameters that a mission does not have, with the refusal of a value within their bounds."""
-    present = {shown["key"] for shown in parameters_of(mission, mission)}
-    return {key: _absence(mission, key) for key in [*BY_KEY, *CHOICES] if key not in present or key in CHOICES}
+    present = {shown["key"] for shown in parameters_of(plan.mission, plan.mission)}
+    return {key: _absence(plan, key) for key in [*BY_KEY, *CHOICES] if key not in present or key in CHOICES}
 
 
-def _absence(mission: Mission, key: str) -> dict[str, Any]:
+def _absence(plan: FlightPlan, key: str) -> dict[str, Any]:
     if key in CHOICES:
         unbounded = {"min": 0.0, "max": 0.0, "out_of_bounds": "", "count": 0, "wrong_shape": ""}
         return {**unbounded, "refusal": ONLY_SERVER.format(what=key)}
-    low, high = bounds_of(BY_KEY[key], mission)
-    first = keys_of(mission, key)[0]
-    return {**_bounds(low, high), **_shape(mission, first), "refusal": _refusal(mission, first, high)}
+    low, high = bounds_of(BY_KEY[key], plan.mission)
+    first = keys_of(plan.mission, key)[0]
+    return {**_bounds(low, high), **_shape(plan, first), "refusal": _refusal(plan, first, high)}
 
 
-def _refusal(mission: Mission, key: str, value: Any) -> str:
+def _refusal(plan: FlightPlan, key: str, value: Any) -> str:
     """Why a value of a key is refused in flight."""
     try:
-        scheduled_change(FlightPlan(mission), changed(mission, key, value), key, 0, RAMP)
+        scheduled_change(plan, changed(plan.mission, key, value), key, 0, RAMP)
     except InputError as error:
         return str(error)
     raise AssertionError(f"{key} = {value} is not refused")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tandemlift.missions.key_reference.sections import EXTENDS, Key, Section, default_words, is_of_the_package, sections
 from tandemlift.missions.values import shown
 
-COLUMNS = "| key | unit | default | allowed | meaning | source of the default |\n|---|---|---|---|---|---|"
+COLUMNS = "| key | unit | default, and its source | allowed | meaning |\n|---|---|---|---|---|"
 
 
 def key_tables() -> str:
@@ -27,14 +27,14 @@ def _section(section: Section) -> str:
 def _row(key: Key) -> str:
     facts = key.facts
     cells = [f"`{key.name}`", "" if facts.unit in (None, "1") else facts.unit or "", _default(key), _allowed(key)]
-    return "| " + " | ".join([*cells, ". ".join(_meaning(key)), facts.source]) + " |"
+    return "| " + " | ".join([*cells, ". ".join(_meaning(key))]) + " |"
 
 
 def _default(key: Key) -> str:
     words = default_words(key)
-    if key.field.is_required():
-        return words
-    return f"if left out, {words}" if key.default is None else f"`{words}`"
+    if not key.field.is_required():
+        words = f"if left out, {words}" if key.default is None else f"`{words}`"
+    return f"{words}; {key.facts.source}" if key.facts.source else words
 
 
 def _allowed(key: Key) -> str:

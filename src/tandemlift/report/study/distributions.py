@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.figure import Caption
-from tandemlift.figures.drawing.style import PAGE, styled
+from tandemlift.figures.drawing.style import page_figure, styled
 from tandemlift.report.controller_figures import look
 from tandemlift.report.study.curves import compared
 from tandemlift.report.study.words import is_far, shown_quantity
@@ -55,7 +55,7 @@ def draw_distributions(rows: StudyRows) -> Figure:
     """Draw the cumulative distribution of each quantity, a panel each."""
     count = len(rows.quantities)
     columns = min(count, 2)
-    figure = Figure(figsize=(PAGE, 0.45 + 1.9 * -(-count // columns)), layout="constrained")
+    figure = page_figure(0.45 + 1.9 * -(-count // columns))
     axes = figure.subplots(-(-count // columns), columns, squeeze=False)
     for place, (ax, quantity) in enumerate(zip(axes.flat, rows.quantities, strict=False)):
         _panel(ax, rows, quantity)

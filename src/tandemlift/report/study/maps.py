@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.figure import Caption
-from tandemlift.figures.drawing.style import BLUE, GREY, LIGHT_BLUE, PAGE, VERMILLION, styled
+from tandemlift.figures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, page_figure, points, styled
 from tandemlift.report.study.curves import compared
 from tandemlift.report.study.words import Shown, is_far, shown_column, shown_quantity
 from tandemlift.studies.reading.statistics import share
@@ -160,7 +160,7 @@ def draw_maps(rows: StudyRows, columns: Sequence[str]) -> Figure:
     groups, layers = compared(rows, MOST_GROUPS), _layers(rows)
     x, y = (axis_of(rows, column, 2) for column in columns)
     cell = np.where((x.cell >= 0) & (y.cell >= 0), y.cell * x.size + x.cell, -1)
-    figure = Figure(figsize=(PAGE, 0.4 + 1.9 * len(groups)), layout="constrained")
+    figure = page_figure(0.4 + 1.9 * len(groups))
     grid = figure.subplots(len(groups), len(layers), squeeze=False)
     for axes, layer in zip(grid.T, layers, strict=True):
         formed = [_formed(layer, group, cell, x.size * y.size).reshape(y.size, x.size) for group in groups]
@@ -169,7 +169,7 @@ def draw_maps(rows: StudyRows, columns: Sequence[str]) -> Figure:
             image = _map(ax, x, y, values, colours)
             ax.tick_params(labelbottom=ax is axes[-1], labelleft=ax in grid[:, 0])
             if ax in grid[:, 0] and len(groups) > 1:
-                ax.set_title(group.name, loc="left", fontsize=8.5)
+                ax.set_title(group.name, loc="left", fontsize=points(8.5))
         figure.colorbar(image, ax=list(axes), label=layer.label, location="top", shrink=0.9, aspect=30, pad=0.02)
         axes[-1].set_xlabel(x.shown.label)
     for ax in grid[:, 0]:
@@ -207,7 +207,7 @@ def _curve(ax: Any, layer: _Layer, group: RowGroup, axis: MapAxis) -> None:
 def draw_curves(rows: StudyRows, column: str) -> Figure:
     """Draw curves over the only column that varies: a row of panels for each group, a column for each quantity."""
     groups, layers, axis = compared(rows, MOST_GROUPS), _layers(rows), axis_of(rows, column, 1)
-    figure = Figure(figsize=(PAGE, 0.3 + 1.7 * len(groups)), layout="constrained")
+    figure = page_figure(0.3 + 1.7 * len(groups))
     grid = figure.subplots(len(groups), len(layers), squeeze=False, sharex=True, sharey="col")
     for axes, group in zip(grid, groups, strict=True):
         for ax, layer in zip(axes, layers, strict=True):
@@ -217,7 +217,7 @@ def draw_curves(rows: StudyRows, column: str) -> Figure:
                 ax.set_yscale("log")
             ax.set_ylabel(layer.label)
         if len(groups) > 1:
-            axes[0].set_title(group.name, loc="left", fontsize=8.5)
+            axes[0].set_title(group.name, loc="left", fontsize=points(8.5))
     for ax in grid[-1]:
         ax.set_xlabel(axis.shown.label)
         if column in rows.texts:

@@ -11,19 +11,19 @@ from typing import Any
 import numpy as np
 
 from tandemlift.common.findings import KIND_OF
-from tandemlift.common.outcomes import FAILURES, OUTCOMES
+from tandemlift.common.outcomes import FAILURES
 from tandemlift.missions.values import shown
 from tandemlift.report.findings_section import with_keys
 from tandemlift.report.flight_report import DASH, html_table, number
 from tandemlift.report.study.commands import html_row_command
+from tandemlift.report.study.outcome_tables import MOST_GROUPS, outcome_counts, tabled_groups
 from tandemlift.report.study.words import Shown, shown_column, shown_quantity
 from tandemlift.studies.design.keys import changes_in
 from tandemlift.studies.design.settings import REFUSED
 from tandemlift.studies.reading.statistics import IntervalEstimate, Share, finite, quantile, share, upper_bound
-from tandemlift.studies.reading.study_rows import RowGroup, StudyRows
+from tandemlift.studies.reading.study_rows import StudyRows
 from tandemlift.studies.reading.table import Study
 
-MOST_GROUPS = 24  # rows of a table
 MOST_COLUMNS = 6  # of groups beside each other
 MOST_REASONS = 5
 MOST_REFUSED = 1_000  # rows of which the reasons are read
@@ -126,32 +126,22 @@ def _changes(tables: dict[str, Any]) -> str:
     )
 
 
-def _tabled(rows: StudyRows) -> tuple[list[RowGroup], str]:
-    """The groups that a table shows, all of them or those with most bad outcomes, and a note of the others."""
-    groups = rows.groups
-    if len(groups) <= MOST_GROUPS:
-        return groups, ""
-    worst = sorted(groups, key=lambda group: -float(rows.bad[group.places].mean()))[:MOST_GROUPS]
-    return worst, f'<p class="soft">The {MOST_GROUPS} with most bad outcomes of {len(groups)}.</p>'
+def _left_out(rows: StudyRows) -> str:
+    """A note of the groups that a table leaves out."""
+    count = len(rows.groups)
+    return f'<p class="soft">The {MOST_GROUPS} with most bad outcomes of {count}.</p>' if count > MOST_GROUPS else ""
 
 
 def outcomes(rows: StudyRows) -> str:
     """How often each outcome came, by group, and the share of the bad ones with its interval."""
-    codes, names = rows.labels["outcome"]
-    order = [kind.name for kind in OUTCOMES] + [REFUSED]
-    known = sorted(range(len(names)), key=lambda i: order.index(names[i]) if names[i] in order else len(order))
-    groups, note = _tabled(rows)
-    everything = RowGroup("all rows", np.arange(len(rows)))
-    lines = []
-    for group in groups if len(rows.groups) == 1 else [*groups, everything]:
-        numbers = np.bincount(codes[group.places], minlength=len(names))
-        bad = share(int(rows.bad[group.places].sum()), len(group.places))
-        cells = [count(len(group.places)), html_share(bad), *[count(int(numbers[i])) for i in known]]
-        lines.append(_row(escape(group.name), cells))
+    lines, names = [], list[str]()
+    for group, bad, numbers in outcome_counts(rows, tabled_groups(rows)):
+        cells, names = [count(bad.total), html_share(bad), *map(count, numbers.values())], list(numbers)
+        lines.append(_row(escape(group), cells))
     bad_names = ", ".join([*FAILURES, *([REFUSED] if rows.refused.any() else [])])
-    head = _head("", "rows", "bad<br><small>95 % interval</small>", *[escape(names[i]) for i in known])
+    head = _head("", "rows", "bad<br><small>95 % interval</small>", *map(escape, names))
     said = f'<p class="soft">Bad: {bad_names}. Intervals are those of Clopper and Pearson.</p>'
-    return f"{said}\n{html_table(head, lines, 'counts')}{note}{_refusals(rows)}"
+    return f"{said}\n{html_table(head, lines, 'counts')}{_left_out(rows)}{_refusals(rows)}"
 
 
 def _refusals(rows: StudyRows) -> str:
@@ -195,14 +185,14 @@ def measured(rows: StudyRows) -> str:
     for quantity in rows.quantities:
         values = rows.values[quantity.name]
         look = shown_quantity(quantity, values)
-        groups, note = _tabled(rows)
-        lines = [_row(escape(g.name), _quantiles(values[g.places], look, quantity.low_is_bad)) for g in groups]
+        of_group = ((g.name, _quantiles(values[g.places], look, quantity.low_is_bad)) for g in tabled_groups(rows))
+        lines = [_row(escape(name), quantiles) for name, quantiles in of_group]
         worst = "lowest" if quantity.low_is_bad else "highest"
         head = _head("", "rows", "median<br><small>95 % interval</small>", "5 %", "95 %", worst)
         unit = f" [{look.unit}]" if look.unit else ""
         name = f"<code>{escape(quantity.name)}</code>" + (f", {quantity.combined}" if quantity.combined else "")
         title = f'<h3>{escape(look.words)}{unit}</h3>\n<p class="soft">{name}</p>'
-        parts.append(f"{title}\n{html_table(head, lines, 'counts')}{note}")
+        parts.append(f"{title}\n{html_table(head, lines, 'counts')}{_left_out(rows)}")
     if not parts:
         return ""
     left_out = int(rows.bad.sum())

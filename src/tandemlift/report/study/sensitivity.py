@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from tandemlift.common.errors import InputError
 from tandemlift.figures.drawing.figure import Caption
-from tandemlift.figures.drawing.style import BLACK, BLUE, LIGHT_BLUE, PAGE, styled
+from tandemlift.figures.drawing.style import BLUE, INK, LIGHT_BLUE, page_figure, points, styled
 from tandemlift.report.flight_report import DASH, html_table, number
 from tandemlift.report.study.curves import compared
 from tandemlift.report.study.words import shown_quantity
@@ -75,7 +75,7 @@ def _bars(ax: Any, found: Sensitivity, names: Sequence[str]) -> None:
             )
             shift = 0.0 if kind is found.first else 0.3
             ax.barh(places, values.clip(0.0), height=width, color=colour, lw=0.0)
-            ax.errorbar(values.clip(0.0), places + shift, xerr=errors, fmt="none", ecolor=BLACK, lw=0.6, capsize=1.5)
+            ax.errorbar(values.clip(0.0), places + shift, xerr=errors, fmt="none", ecolor=INK, lw=0.6, capsize=1.5)
     highest = max(estimate.high for estimate in (*found.first.values(), *found.total.values()))
     ax.set_xlim(0.0, min(max(highest, 1.0), MOST_SHOWN))
     ax.set_ylim(len(names) - 0.4, -0.6)
@@ -88,7 +88,7 @@ def draw_sensitivity(found: Sequence[Analysed]) -> Figure:
     panels = {(one.quantity, one.group): one.found for one in found if one.found is not None}
     quantities, groups = (list(dict.fromkeys(names)) for names in zip(*panels, strict=True))
     inputs = min(MOST_INPUTS, max(len(one.first) for one in panels.values()))
-    figure = Figure(figsize=(PAGE, 0.3 + len(quantities) * (0.6 + 0.17 * inputs)), layout="constrained")
+    figure = page_figure(0.3 + len(quantities) * (0.6 + 0.17 * inputs))
     grid = figure.subplots(len(quantities), len(groups), squeeze=False, sharex="col")
     for axes, quantity in zip(grid, quantities, strict=True):
         names = next(panels[quantity, group] for group in groups if (quantity, group) in panels).strongest[:MOST_INPUTS]
@@ -98,7 +98,7 @@ def draw_sensitivity(found: Sequence[Analysed]) -> Figure:
             else:
                 ax.set_visible(False)
             ax.tick_params(labelleft=ax is axes[0])
-            ax.set_title(f"{quantity}\n{group}" if len(groups) > 1 else quantity, loc="left", fontsize=8.5)
+            ax.set_title(f"{quantity}\n{group}" if len(groups) > 1 else quantity, loc="left", fontsize=points(8.5))
     for ax in grid[-1]:
         ax.set_xlabel("share of variance")
     return figure

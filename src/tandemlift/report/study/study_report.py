@@ -16,6 +16,7 @@ from tandemlift.report.page import STYLE
 from tandemlift.report.study import distributions, maps, sections, sensitivity
 from tandemlift.report.study.commands import html_command
 from tandemlift.report.study.frame import SCRIPT, STUDY, STYLE_OF_STUDIES
+from tandemlift.report.study.outcome_tables import write_outcomes
 from tandemlift.report.study.worst_table import html_worst
 from tandemlift.studies.reading.study_rows import StudyRows
 from tandemlift.studies.reading.table import Study
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from tandemlift.figures.drawing.figure import Caption
 
 
-def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed]) -> str:
+def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed], folder: Path | None) -> str:
     """The section of the figures, as far as there is something to draw, and the numbers of the last one."""
     drawn, captions = dict[str, "Figure"](), dict[str, "Caption"]()
     if rows.quantities:
@@ -39,18 +40,23 @@ def _figures(rows: StudyRows, found: Sequence[sensitivity.Analysed]) -> str:
         captions["maps"] = maps.CAPTION if both else maps.CURVE_CAPTION
     if any(one.found for one in found):
         drawn["sensitivity"], captions["sensitivity"] = sensitivity.draw_sensitivity(found), sensitivity.CAPTION
-    shown = html_figures(drawn, captions) if drawn else ""
+    shown = html_figures(drawn, captions, folder) if drawn else ""
     return f"{shown}\n{sensitivity.html_sensitivity(found)}"
 
 
-def write_study_report(study: Study, path: str | os.PathLike[str], metrics: Sequence[str] = ()) -> Path:
+def write_study_report(
+    study: Study, path: str | os.PathLike[str], metrics: Sequence[str] = (), figures: Path | None = None
+) -> Path:
     """Write the report of a study as one HTML file without references; it appears whole or not at all.
+
+    Beside it outcomes.csv and outcomes.tex have the outcomes as a table, a row for each group.
 
     Args:
         study: loaded; of one that is not finished, the page says how much is missing.
         path: of the HTML file; its folder is made if it does not exist.
         metrics: names of the quantities to show, such as `position_rmse_m` or `position_rmse_m.0`; by default what
             suits the missions: tracking errors, least clearance, effort of a person.
+        figures: folder into which the figures are written as well.
 
     Returns:
         The path.
@@ -72,13 +78,14 @@ def write_study_report(study: Study, path: str | os.PathLike[str], metrics: Sequ
         outcomes=sections.outcomes(rows),
         findings=sections.findings(rows),
         measured=sections.measured(rows),
-        figures=_figures(rows, found),
+        figures=_figures(rows, found, figures),
         worst=html_worst(rows),
         settings=escape(format_toml(study.settings.model_dump(mode="json", exclude_none=True))),
         again=html_command("study", study.folder / "study.toml", "--out", study.folder),
         versions=escape(", ".join(f"{name} {value}" for name, value in study.versions.items())),
         script=SCRIPT,
     )
+    write_outcomes(rows, path.parent)
     with atomic_write(path) as partial:
         partial.write_text(text, "utf-8")
     return path

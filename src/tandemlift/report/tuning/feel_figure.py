@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from tandemlift.figures.drawing.figure import Caption
 from tandemlift.figures.drawing.panels import fit, line
-from tandemlift.figures.drawing.style import ACTUAL, DESIRED, GREY, PAGE, PALE, styled
+from tandemlift.figures.drawing.style import ACTUAL, DESIRED, GREY, INK, PALE, PAPER, page_figure, styled
 from tandemlift.studies.feel.closed_form import YAW
 from tandemlift.studies.feel.feel_study import FeelStudy
 from tandemlift.studies.feel.standard_push import PushedAxis
@@ -30,7 +30,7 @@ LEAST_SPEED = 0.05  # m/s, span of an axis
 def draw(study: FeelStudy) -> Figure:
     """Draw every axis of a study."""
     rows = math.ceil(len(study.pushed) / COLUMNS)
-    figure: Any = Figure(figsize=(PAGE, 0.35 + HEIGHT * rows), layout="constrained")
+    figure: Any = page_figure(0.35 + HEIGHT * rows)
     grid = figure.add_gridspec(rows, COLUMNS)
     handles: list[Any] = []
     for i, pushed in enumerate(study.pushed):
@@ -50,11 +50,11 @@ def _panel(axes: Any, p: PushedAxis) -> list[Any]:
     closed = line(axes, p.time, p.closed, zorder=4, **DESIRED)
     flown = line(axes, p.time, p.flown, zorder=3, **ACTUAL)
     axes.axhline(0.0, color=GREY, lw=0.4, zorder=1)
-    (mark,) = axes.plot([], [], "o", color="black", ms=3.5, mfc="white", mew=0.8)
+    (mark,) = axes.plot([], [], "o", color=INK, ms=3.5, mfc=PAPER, mew=0.8)
     for answer, look in ((p.ideal, DESIRED), (p.real, ACTUAL)):
         if answer.time is not None and answer.final_speed is not None:
             at = (answer.time, 0.95 * answer.final_speed)
-            axes.plot(*at, "o", color=look["color"], ms=3.5, mfc="white", mew=0.9, zorder=5)
+            axes.plot(*at, "o", color=look["color"], ms=3.5, mfc=PAPER, mew=0.9, zorder=5)
     fit(axes, p.closed, p.flown, np.zeros(1), least=LEAST_SPEED)
     axes.set_xlim(p.time[0], p.time[-1])
     axes.set_ylabel("yaw rate (rad/s)" if turning else f"$v_{p.feel.axis}$ (m/s)")

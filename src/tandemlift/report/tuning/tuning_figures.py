@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from tandemlift.common.types import Array
 from tandemlift.figures.drawing.figure import Caption
-from tandemlift.figures.drawing.style import BLUE, COLUMN, GREY, LIGHT_BLUE, PAGE, VERMILLION, styled
+from tandemlift.figures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, column_figure, page_figure, styled
 from tandemlift.report.flight_report import split_unit
 from tandemlift.studies.tuning.result import Tuning
 
@@ -54,7 +54,7 @@ def drawn_figures(found: Tuning) -> dict[str, Figure]:
 @styled
 def draw_search(found: Tuning) -> Figure:
     """Cost over candidates."""
-    figure = Figure(figsize=(PAGE, 2.5), layout="constrained")
+    figure = page_figure(2.5)
     ax = figure.add_subplot()
     least_bad = min(cost.bad for cost in found.history)
     ratios = np.array([cost.ratio if cost.bad == least_bad else np.nan for cost in found.history])
@@ -92,8 +92,7 @@ def draw_evidence(found: Tuning) -> Figure:
     ][:MOST_PANELS]
     across = min(3, len(columns))
     down = -(-len(columns) // across)
-    width = PAGE if across > 1 else COLUMN
-    figure = Figure(figsize=(width, 0.4 + ROW * down), layout="constrained")
+    figure = (page_figure if across > 1 else column_figure)(0.4 + ROW * down)
     panels = np.atleast_1d(figure.subplots(down, across, squeeze=False)).ravel()
     for ax, (label, before, after) in zip(panels, columns, strict=False):
         _distribution(ax, label, before, after)
@@ -139,7 +138,7 @@ def _distribution(ax: Axes, label: str, before: Array, after: Array) -> None:
 @styled
 def draw_front(found: Tuning) -> Figure:
     """Costs of two goals, with the front."""
-    figure = Figure(figsize=(COLUMN, 2.9), layout="constrained")
+    figure = column_figure(2.9)
     ax = figure.add_subplot()
     front = np.array([[cost.ratio for cost in point.costs[:2]] for point in found.front])
     tried = np.array([[c.ratio for c in costs[:2]] for costs in found.apart if not any(c.bad for c in costs)])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+from tandemlift.common.progress import progress_or_own
 from tandemlift.common.types import Progress
 from tandemlift.missions import Mission
 from tandemlift.missions.flight_checks.result import FAILS, CheckResult
@@ -54,17 +55,18 @@ def study_feel(mission: Mission, progress: Progress | None = None) -> FeelStudy:
 
     Args:
         mission: from `load_mission`.
-        progress: called with (parts done, parts in all).
+        progress: called with (parts done, parts in all); by default, a notebook shows a bar.
 
     Raises:
         InputError: the mission cannot be flown without its surroundings, or `zigzag` not with its admittance.
     """
-    pushed = pushed_axes(mission)
-    if progress:
-        progress(1, STEPS)
-    effort = effort_in_corridor(mission)
-    if progress:
-        progress(STEPS, STEPS)
+    with progress_or_own("Feel", progress, "parts") as shown:
+        pushed = pushed_axes(mission)
+        if shown:
+            shown(1, STEPS)
+        effort = effort_in_corridor(mission)
+        if shown:
+            shown(STEPS, STEPS)
     checks = (*feel_checks(mission, [p.feel for p in pushed]), *flown_checks(pushed, effort))
     return FeelStudy(mission, pushed, effort, checks)
 

@@ -56,7 +56,7 @@ class Study:
 
     def __repr__(self) -> str:
         missing = f", {self.missing} missing" if self.missing else ""
-        return f"<Study {self.name}: {len(self)} rows{missing}, {len(self.varied)} varied columns>"
+        return f"<Study {self.name}: {len(self)} rows{missing}, varied columns: {len(self.varied)}>"
 
     def _repr_html_(self) -> str:
         return study_html(self.name, len(self), self.plan.count, self.varied, self.read(["outcome"], coded=True))

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from tandemlift.common.errors import InputError, unknown
+from tandemlift.common.progress import progress_or_own
 from tandemlift.settings import Mission
 from tandemlift.studies.tuning.candidates import Aim
 from tandemlift.studies.tuning.draws import CHOICE_SEED, FRESH_SEED, Draw, DrawSource, Study, default_study
@@ -61,7 +62,7 @@ def tune(
             "position_rmse_m.2"; or a table of such names with their targets.
         changes: changes of the mission by dotted key, before the search.
         controller: name of another controller than the mission's.
-        progress: called after each population.
+        progress: called after each population; by default, a notebook shows a bar.
         how: any of
 
             over: dotted keys, tables or patterns of what to search, with a range [low, high] or a list of words for
@@ -104,7 +105,10 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
     if budget != 0 and budget < search.size:
         raise InputError(f"--budget {budget}: must be at least {search.size}, which are tried at a time, or 0")
     hunt = Hunt(task, compared, budget, (present_values(task), trial), progress)
-    hunt.run(search, is_front=kind == "optuna")
+    with progress_or_own("Tuning", None, "candidates") as shown:
+        if shown and not progress:
+            hunt.progress = lambda tried, most, cost: shown(tried, most)
+        hunt.run(search, is_front=kind == "optuna")
     new, costs = hunt.best.values, (hunt.tried[0].cost, hunt.best.cost)
     if budget and hunt.ended != INTERRUPTED:
         try:

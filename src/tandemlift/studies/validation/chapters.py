@@ -1,6 +1,6 @@
 """Validation of the pilot: every row of the table is a measurement on flights, beside its target.
 
-`tandemlift validate` prints it; docs/explanation/validation.md holds it with the machine and the versions.
+`tandemlift validate` prints it; docs/reference/validation.md holds it with the machine and the versions.
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""The tables of the reference, made from the package; the directive `generated` puts them into the pages."""

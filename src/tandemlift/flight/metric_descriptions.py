@@ -1,0 +1,117 @@
+"""The metrics of a flight: unit, components and meaning of each, and the missions that have it.
+
+This is the only list of metrics. Tables, reports and the reference of metrics are made from it. Numbers are SI, with
+the unit at the end of a name. They are formed from every step, not from the log; those of a bag from its samples.
+"After 10 s" leaves a disturbed start out. Errors are desired minus actual. A metric that cannot be formed is null.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+AXES = ("x", "y", "z")
+ANGLES = ("roll", "pitch", "yaw")
+INPUTS = ("U1", "U2", "U3", "U4")
+
+
+class Metric(NamedTuple):
+    """What a metric is.
+
+    Attributes:
+        unit: of its number or numbers, "1" for none; "" if it is no number.
+        meaning: in a few words.
+        components: what its numbers belong to; none of a single number.
+        units: of the components, if they differ.
+    """
+
+    unit: str
+    meaning: str
+    components: tuple[str, ...] = ()
+    units: tuple[str, ...] = ()
+
+    def unit_of(self, component: int) -> str:
+        """The unit of a component, "" for none."""
+        unit = self.units[component] if self.units else self.unit
+        return "" if unit == "1" else unit
+
+
+class MetricGroup(NamedTuple):
+    """Metrics that are there together: `when` the mission has them, in Markdown, and the metrics."""
+
+    when: str
+    metrics: dict[str, Metric]
+
+
+METRIC_GROUPS: tuple[MetricGroup, ...] = (
+    MetricGroup(
+        "In every flight",
+        {
+            "position_rmse_m": Metric("m", "root mean square of the position error", AXES),
+            "position_rmse_after_10s_m": Metric("m", "root mean square of the position error after 10 s", AXES),
+            "position_max_error_m": Metric("m", "largest absolute position error", AXES),
+            "position_max_error_after_10s_m": Metric("m", "largest absolute position error after 10 s", AXES),
+            "attitude_rmse_rad": Metric(
+                "rad", "root mean square of the attitude error, against what the attitude law tracks", ANGLES
+            ),
+            "velocity_max_error_after_10s_m_s": Metric("m/s", "largest absolute velocity error after 10 s", AXES),
+            "max_tilt_after_10s_rad": Metric("rad", "largest absolute Euler angle after 10 s", ANGLES),
+            "thrust_min_after_10s_n": Metric("N", "smallest commanded thrust U1 after 10 s"),
+            "thrust_max_after_10s_n": Metric("N", "largest commanded thrust U1 after 10 s"),
+            "moment_max_abs_after_10s_n_m": Metric("N m", "largest absolute commanded moment after 10 s", INPUTS[1:]),
+            "human_impulse_n_s": Metric("N s", "integral over time of the person's push, unfiltered", AXES),
+            "human_work_j": Metric("J", "work of the person's push: integral of F·v, v of the point pushed"),
+            "push_triggers_after_10s": Metric(
+                "1", "how often a pilot guided by hand began to follow a push; one that it follows at 10 s counts"
+            ),
+            "rotor_saturated_share": Metric("1", "fraction of steps with any rotor at a limit; 0 with ideal actuators"),
+            "final_position_m": Metric("m", "position at the end", AXES),
+            "final_reference_m": Metric("m", "reference of the position at the end", AXES),
+            "command_at_start": Metric(
+                "N, N m", "commanded thrust U1 and moments U2, U3, U4 at t = 0", INPUTS, ("N", "N m", "N m", "N m")
+            ),
+            "outcome": Metric("", "how it ended: `landed`, `flying`, `not-lifted`, `crashed`, `diverged`"),
+            "findings": Metric(
+                "", "what went badly: a list of [time in s, kind, text]; `flight.findings` has place, number and remedy"
+            ),
+            "failure": Metric(
+                "", "why it crashed, diverged or did not lift, in one sentence; empty if it did not fail"
+            ),
+            "steps": Metric("1", "number of steps"),
+            "wall_s": Metric("s", "computing time"),
+            "events": Metric("", "first 16 phases and alarms of a supervised flight: a list of [time in s, text]"),
+        },
+    ),
+    MetricGroup(
+        "With walls (`[[walls]]` or `[corridor]`)",
+        {
+            "clearance_min_m": Metric(
+                "m", "smallest distance of guards and beam from any wall, exact at every step; below zero in contact"
+            ),
+            "wall_contact": Metric("", "whether any wall was touched"),
+        },
+    ),
+    MetricGroup(
+        "With a person who guides the vehicle (`[person]`), over the steps in which the person holds it",
+        {
+            "human_time_s": Metric("s", "how long the person held it"),
+            "human_force_mean_n": Metric("N", "mean magnitude of the person's force"),
+            "human_path_m": Metric("m", "distance flown by the centre of mass"),
+            "human_work_per_path_j_m": Metric("J/m", "`human_work_j` per distance flown"),
+        },
+    ),
+    MetricGroup(
+        "With detection of a lost rotor (`detection.model`)",
+        {
+            "rotors_taken_for_lost": Metric("1", "how often `[detection]` took a rotor for failed"),
+            "rotor_loss_found_after_s": Metric("s", "detection delay of the rotor that is taken for failed at the end"),
+        },
+    ),
+    MetricGroup("Of a bag", {"samples": Metric("1", "number of samples, from which the metrics are formed")}),
+)
+METRICS: dict[str, Metric] = {name: metric for group in METRIC_GROUPS for name, metric in group.metrics.items()}
+"""All metrics by name, in the order of metrics.json within a group."""
+
+
+def metric_of(name: str) -> Metric:
+    """Unit, components and meaning of a metric; of one that this version does not have, nothing."""
+    return METRICS.get(name, Metric("", ""))

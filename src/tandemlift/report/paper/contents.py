@@ -1,0 +1,52 @@
+"""What the report says of the paper's figures and open settings, from `data/paper/figures.toml`."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from typing import Any, NamedTuple
+
+from tandemlift.report.paper.errata import DATA
+
+
+class PaperFigure(NamedTuple):
+    """A figure of the paper and what stands in its place.
+
+    Attributes:
+        number: of the figure in the paper.
+        title: of ours.
+        shows: what the paper's figure shows, in our words.
+        differs: what differs in ours, and why.
+        command: that draws ours.
+        parts: the name of each drawing, and what it draws: `paper`, `paper flight` or `zigzag flight`.
+    """
+
+    number: int
+    title: str
+    shows: str
+    differs: str
+    command: str
+    parts: list[tuple[str, str]]
+
+
+class OpenSetting(NamedTuple):
+    """A choice that the paper leaves open: its key, why it is open, and changes that show what it does."""
+
+    key: str
+    why: str
+    changes: dict[str, Any]
+
+
+@cache
+def _contents() -> dict[str, Any]:
+    return tomllib.loads((DATA / "figures.toml").read_text("utf-8"))
+
+
+def paper_figures() -> list[PaperFigure]:
+    """The paper's figures, in its order."""
+    return [PaperFigure(**table) for table in _contents()["figures"]]
+
+
+def open_settings() -> list[OpenSetting]:
+    """What the paper leaves open."""
+    return [OpenSetting(**table) for table in _contents()["open"]]

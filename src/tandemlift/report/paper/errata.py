@@ -1,0 +1,68 @@
+"""The errata of the paper, from `data/paper/errata.toml`, as records and as Markdown."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from importlib.resources import files
+from itertools import groupby
+from typing import NamedTuple
+
+DATA = files("tandemlift") / "data" / "paper"
+
+
+class Erratum(NamedTuple):
+    """What the paper prints, what is right, and how the difference shows.
+
+    Attributes:
+        about: the label of the equation, or the name of the claim or table.
+        group: Formulas, Claims or Tables.
+        title: what is wrong.
+        printed: what the paper prints.
+        right: the correction.
+        shows: a number that shows the difference.
+        figures: those of the paper that it bears on.
+        evidence: the tests that hold the numbers, below `tests/`.
+        tables: those of the paper that it bears on.
+        setting: the key that selects the printed form, if that can fly.
+    """
+
+    about: str
+    group: str
+    title: str
+    printed: str
+    right: str
+    shows: str
+    figures: list[int]
+    evidence: list[str]
+    tables: list[str] = []  # noqa: RUF012
+    setting: str = ""
+
+
+@cache
+def errata() -> tuple[Erratum, ...]:
+    """All errata: those of formulas in the paper's order, then of claims and of tables."""
+    tables = tomllib.loads((DATA / "errata.toml").read_text("utf-8"))["errata"]
+    return tuple(Erratum(**table) for table in tables)
+
+
+def errata_markdown() -> str:
+    """A section for each group of errata, and one for each erratum."""
+    parts: list[str] = []
+    for group, members in groupby(errata(), key=lambda erratum: erratum.group):
+        parts += [f"## {group}", *(_section(erratum) for erratum in members)]
+    return "\n\n".join(parts) + "\n"
+
+
+def _section(erratum: Erratum) -> str:
+    setting = f" Setting: `{erratum.setting}`." if erratum.setting else ""
+    return "\n".join(
+        (
+            f"### `{erratum.about}`: {erratum.title}",
+            "",
+            f"- Printed: {erratum.printed}",
+            f"- Right: {erratum.right}",
+            f"- Shows: {erratum.shows}{setting}",
+            f"- Evidence: {', '.join(f'`{test}`' for test in erratum.evidence)}",
+        )
+    )

@@ -1,0 +1,99 @@
+"""What the distributions say of the package, and which extra has which package."""
+
+import re
+import tomllib
+
+from hatchling.metadata.core import ProjectMetadata
+from hatchling.plugin.manager import PluginManager
+from house import PACKAGE
+from repository import ROOT
+
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+EXTRAS = PROJECT["optional-dependencies"]
+WITHOUT_IMPORT = {"bokeh", "casadi", "jax"}  # Dask's dashboard; laws take arrays of these as they are given
+COMES_WITH = {  # an import's package, where it has another name
+    **{"dask": "distributed", "lz4": "rosbags", "pydantic_core": "pydantic", "mpl_toolkits": "matplotlib"},
+    "PIL": "pillow",
+}
+OF_ROS_1 = {"rosgraph", "rospy"}  # from Debian
+
+
+def names(requirements):
+    return {re.match(r"[\w.-]+", text)[0].lower().replace("_", "-") for text in requirements}
+
+
+def packages_of(extra):
+    """The packages of an extra, with those of the extras that it names."""
+    found = set[str]()
+    for requirement in EXTRAS[extra]:
+        if inner := re.fullmatch(r"tandemlift\[(.*)\]", requirement):
+            found = found.union(*map(packages_of, inner[1].split(",")))
+        else:
+            found |= names([requirement])
+    return found
+
+
+def imports(node, extra=None, types=False):
+    """Imports below a node: name, the extra that is named if it is missing, whether for types alone."""
+    if isinstance(node, ast.Import):
+        yield from ((alias.name, extra, types) for alias in node.names)
+    elif isinstance(node, ast.ImportFrom):
+        yield node.module, extra, types
+    types = types or (isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test))
+    for item in node.items if isinstance(node, ast.With) else ():
+        if isinstance(item.context_expr, ast.Call) and ast.unparse(item.context_expr.func) == "extra":
+            extra = ast.literal_eval(item.context_expr.args[0])
+    for child in ast.iter_child_nodes(node):
+        yield from imports(child, extra, types)
+
+
+def optional_imports():
+    """Each optional package of a package file, with the extra that is named where it is missing, or None."""
+    needed = names(PROJECT["dependencies"])
+    elsewhere = {*sys.stdlib_module_names, "tandemlift", *OF_ROS_1}
+
+    def package_of(module):
+        root = module.partition(".")[0]
+        (package,) = names([COMES_WITH.get(root, root)])
+        return package if root not in elsewhere and package not in needed else None
+
+    for file in PACKAGE.rglob("*.py"):
+        text = file.read_text("utf-8")
+        if any(map(package_of, re.findall(r"^ *(?:import|from) (\w+)", text, flags=re.M))):
+            found = [(package_of(module), extra) for module, extra, types in imports(ast.parse(text)) if not types]
+            yield from ((package, extra) for package, extra in found if package)
+
+
+def test_the_description_has_no_picture_no_relative_link_and_no_target_of_the_makefile():
+    text = ProjectMetadata(str(ROOT), PluginManager()).core.readme
+    assert len(text) > 1000
+    assert re.findall(r"!\[|<img|<picture", text) == []
+    assert [link for link in re.findall(r"\]\(([^)]*)\)", text) if not link.startswith("https://")] == []
+    assert re.findall(r"^make .*", text, flags=re.M) == []
+
+
+def test_what_is_imported_is_a_dependency_or_in_the_extra_that_is_named_where_it_is_missing():
+    found = set(optional_imports())
+    assert len(found) > 15
+    assert {(package, extra) for package, extra in found if extra and package not in packages_of(extra)} == set()
+    named = {package for package, extra in found if extra}
+    assert {package for package, _ in found} - named == set(), "imported, but nothing says how to install it"
+    assert packages_of("all") - named <= WITHOUT_IMPORT | {"imageio-ffmpeg", "typst"}
+
+
+def test_all_has_every_extra():
+    assert packages_of("all") == set().union(*map(packages_of, EXTRAS))
+
+
+@pytest.mark.parametrize("file", ["src", "docs", "README.md", "CONTRIBUTING.md"])
+def test_extras_that_a_command_names_exist(file):
+    path = ROOT / file
+    for one in [p for p in path.rglob("*") if p.suffix in (".py", ".md")] if path.is_dir() else [path]:
+        for given in re.findall(r"(?:tandemlift|\.)\[([a-z0-9,]+)\]'", one.read_text("utf-8")):
+            assert set(given.split(",")) <= EXTRAS.keys(), one
+
+
+def test_the_page_of_the_installation_has_a_row_for_each_extra():
+    text = (ROOT / "docs" / "start" / "install.md").read_text("utf-8")
+    cells = re.findall(r"^\| (`.*?) \|", text, flags=re.M)
+    assert {name for cell in cells for name in re.findall(r"`(\w+)`", cell)} == EXTRAS.keys() - {"all"}
