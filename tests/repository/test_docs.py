@@ -3,6 +3,7 @@
 import re
 import shlex
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 from repository import ROOT
