@@ -41,7 +41,9 @@ class Box(NamedTuple):
 
     def svg(self) -> str:
         """The box, its title in the middle, or at its top if it is a `frame`."""
-        rect = f'<rect class="{self.kind}" x="{self.x}" y="{self.y}" width="{self.width}" height="{self.height}" rx="6"/>'
+        rect = (
+            f'<rect class="{self.kind}" x="{self.x}" y="{self.y}" width="{self.width}" height="{self.height}" rx="6"/>'
+        )
         if self.kind == "frame":
             return rect + words(self.x + 10, self.y + 18, self.title, "title", "start")
         lines = self.text.split("\n") if self.text else []

@@ -10,7 +10,12 @@ def data_flow() -> str:
     mission = Box(10, 20, 110, 56, "mission", "a TOML file")
     start = Box(10, 130, 110, 56, "assembly", "a flight at t = 0")
     step = Box(150, 10, 440, 300, "one step, every millisecond", kind="frame")
-    names = [("perceive", "estimators"), ("guide", "admittance"), ("control", "sliding mode"), ("allocate", "to rotors")]
+    names = [
+        ("perceive", "estimators"),
+        ("guide", "admittance"),
+        ("control", "sliding mode"),
+        ("allocate", "to rotors"),
+    ]
     pilot = [Box(166 + 106 * i, 76, 92, 56, title, text, "pilot") for i, (title, text) in enumerate(names)]
     sensors, body, rotors = (
         Box(x, 222, width, 56, title, text, "body")

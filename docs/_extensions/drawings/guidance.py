@@ -31,4 +31,6 @@ def guidance() -> str:
         words(326, 200, "acceleration that is left", "text", "end"),
     ]
     _ = gate, controller, allocation
-    return drawing(760, 284, "A measured push moves the reference and is countered; the observer counters the rest.", parts)
+    return drawing(
+        760, 284, "A measured push moves the reference and is countered; the observer counters the rest.", parts
+    )
