@@ -12,7 +12,7 @@ COLON = "\ue000"  # stands for a colon where napoleon must not see one
 
 
 def shortened(app: Any, what: str, name: str, thing: Any, options: Any, signature: str | None, returns: Any) -> Any:
-    """A table of a mission is made by `load_mission`: its keys are no arguments. An alias in a container is its name."""
+    """A table of a mission is made by `load_mission`: its keys are no arguments. An alias in a list is its name."""
     if inspect.isclass(thing) and issubclass(thing, BaseModel):
         return "", ""
     return signature and re.sub(r"TypeAliasForwardRef\('(\w+)'\)|~[\w.]+\.(\w+)", r"\1\2", signature), returns
