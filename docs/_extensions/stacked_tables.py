@@ -1,4 +1,4 @@
-"""Tables of four columns and more: on a phone each row is a card, each cell with the name of its column before it."""
+"""Tables of three columns and more: on a phone each row is a card, each cell with the name of its column before it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 from docutils import nodes
 from sphinx.transforms.post_transforms import SphinxPostTransform
 
-COLUMNS = 4
+COLUMNS = 3
 
 
 class StackedTables(SphinxPostTransform):
@@ -26,7 +26,7 @@ class StackedTables(SphinxPostTransform):
                 names = [entry.astext() for entry in head.findall(nodes.entry)]
                 for row in group.next_node(nodes.tbody).findall(nodes.row):
                     for name, entry in zip(names, row.findall(nodes.entry), strict=True):
-                        if entry.astext():
+                        if name and entry.astext():
                             first = entry[0]
                             first.insert(0, nodes.inline("", f"{name} ", classes=["column"]))
 

@@ -41,7 +41,15 @@ def test_the_window_opens_and_closes_with_the_flight(tmp_path, program):
     screen = Screen(program("Xvfb"), tmp_path / "screen")
     try:
         dark = screen.picture()
-        command = [*TANDEMLIFT, "zigzag", "--set", "mission.duration=20.0", "--no-figures", "--out", str(tmp_path / "out")]
+        command = [
+            *TANDEMLIFT,
+            "zigzag",
+            "--set",
+            "mission.duration=20.0",
+            "--no-figures",
+            "--out",
+            str(tmp_path / "out"),
+        ]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, env=os.environ | {"DISPLAY": screen.name})
         until(lambda: np.mean((dark != screen.picture()).any(axis=2)) > 0.2, "a window")
         assert ended(process, None, COMPILING) == 0

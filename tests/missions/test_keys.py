@@ -9,12 +9,13 @@ from typing import Literal, get_args, get_origin
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from listings import LISTINGS
 from mission_schema import BEYOND, EVERYTHING, SCHEMA
 from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.cli.main import cli
-from tandemlift.missions import built_in, check, load_mission, merge, tables_of
+from tandemlift.missions import check, load_mission, merge, tables_of
 from tandemlift.missions.bounds import plain
 from tandemlift.missions.key_reference.explaining import explained, index, plain_name
 from tandemlift.missions.key_reference.markdown import key_tables
@@ -100,11 +101,8 @@ def test_explain_of_an_unknown_key_names_the_three_nearest(given, near):
     assert names[0] == near
 
 
-def test_explain_knows_the_keys_of_a_controller_of_one_s_own(tmp_path):
-    guide = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
-    block = guide.partition("<!-- my_pd.py -->\n```python\n")[2].partition("```")[0]
-    (tmp_path / "my_pd.py").write_text(block, "utf-8")
-    said = CliRunner().invoke(cli, ["explain", "controller.damping", "--controller", str(tmp_path / "my_pd.py")])
+def test_explain_knows_the_keys_of_a_controller_of_one_s_own():
+    said = CliRunner().invoke(cli, ["explain", "controller.damping", "--controller", str(LISTINGS / "my_pd.py")])
     assert said.exit_code == 0
     assert said.output.startswith("controller.damping")
 

@@ -6,12 +6,12 @@ The other recipes name the tests that follow them.
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import sys
 from collections.abc import Callable
 
 import pytest
+from listings import LAW as LISTED_CONTROLLER
 from patience import completed
 from repository import ROOT
 
@@ -120,10 +120,9 @@ def test_a_variant_of_a_law_touches_its_law_its_key_and_where_it_is_chosen(with_
     with_edits(LAW, LAW_FLIES)
 
 
-GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
 LIST = "from tandemlift.controllers import geometric"
 CONTROLLER: Edits = {
-    "controllers/my_pd.py": [("", re.findall(r"<!-- my_pd.py -->\n```python\n(.*?)```", GUIDE, re.DOTALL)[0])],
+    "controllers/my_pd.py": [("", LISTED_CONTROLLER)],
     "controllers/__init__.py": [(LIST, LIST.replace("geometric", "my_pd, geometric"))],
 }
 CONTROLLER_FLIES = """

@@ -86,7 +86,11 @@ class Tutorial:
         """Run the page's next commands to their end; what they print."""
         command = self._next(name)
         done = completed(
-            ["bash", "-e", "-c", command.code], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **self._options
+            ["bash", "-e", "-c", command.code],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            **self._options,
         )
         assert done.returncode in (0, 124), done.stdout  # 124: of a `timeout`
         check_shown(command.shown, done.stdout)
