@@ -50,7 +50,7 @@ def test_the_tutorial_is_flown_in_ros(surroundings, tmp_path, program):
         page.run("push")
         page.run("heavier")
         page.run("land")
-        node.says(": idle$(?s:.*): idle$")  # before the lift, and on the ground again
+        node.says(r"(?s): idle\n.*: idle\n")  # before the lift, and on the ground again
         assert recorder.interrupt() == 0, recorder.printed()
         assert node.interrupt() == 0, node.printed()
         page.run("read")
