@@ -1,14 +1,15 @@
-"""What site.css needs to know: the column of each cell, as a row is a card on a phone; and which code is short."""
+"""What tables need on narrow screens: the column of each cell, as a row is a card on a phone; and where code breaks."""
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from docutils import nodes
 from sphinx.transforms.post_transforms import SphinxPostTransform
 
 COLUMNS = 3  # of a table whose rows are cards on a phone
-SHORT = 24  # characters of code that stay on one line
+SHORT = 24  # characters of code that stay on one line; longer code in a table may break after a dot or a slash
 
 
 class PageLayout(SphinxPostTransform):
@@ -23,11 +24,22 @@ class PageLayout(SphinxPostTransform):
             if len(literal.astext()) <= SHORT:
                 literal["classes"].append("short")
         for table in self.document.findall(nodes.table):
+            for literal in table.findall(nodes.literal):
+                if len(literal.astext()) > SHORT:
+                    literal.children = _breakable(literal.astext())
             group = table.next_node(nodes.tgroup)
             head = group and group.next_node(nodes.thead)
             if head and group["cols"] >= COLUMNS:
                 table["classes"].append("stacked")
                 _name_cells(group.next_node(nodes.tbody), [entry.astext() for entry in head.findall(nodes.entry)])
+
+
+def _breakable(code: str) -> list[nodes.Node]:
+    first, *rest = re.split(r"(?<=[./])", code)
+    found: list[nodes.Node] = [nodes.Text(first)]
+    for part in rest:
+        found += [nodes.raw("", "<wbr>", format="html"), nodes.Text(part)]
+    return found
 
 
 def _name_cells(body: nodes.tbody, names: list[str]) -> None:
