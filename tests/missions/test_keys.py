@@ -15,7 +15,7 @@ from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.cli.main import cli
-from tandemlift.missions import built_in, check, load_mission, merge, tables_of
+from tandemlift.missions import check, load_mission, merge, tables_of
 from tandemlift.missions.bounds import plain
 from tandemlift.missions.key_reference.explaining import explained, index, plain_name
 from tandemlift.missions.key_reference.markdown import key_tables
