@@ -1,11 +1,12 @@
 """The build of the distributions.
 
-A wheel has the flights that the page carries, compiled, so that users need not. The description is README.md without
-what leads nowhere outside the repository.
+A wheel has what takes long to form: the compiled flights that the page carries, and the words that shells complete.
+The description is README.md without what leads nowhere outside the repository.
 """
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import sys
@@ -18,7 +19,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 from hatchling.metadata.plugin.interface import MetadataHookInterface
 
-FLIGHTS = "build/flights"
+FLIGHTS, WORDS = "build/flights", "build/words.json"
 REPOSITORY_ONLY = r"<!-- begin: only in the repository -->.*?<!-- end: only in the repository -->\n*"
 PICTURE, RELATIVE_LINK = r"!\[[^\]]*\]\([^)]*\)\s*", r"\[([^\]]*)\]\((?!https?:)[^)]*\)"
 
@@ -34,19 +35,21 @@ class Description(MetadataHookInterface):
         metadata["readme"] = {"content-type": "text/markdown", "text": re.sub(RELATIVE_LINK, r"\1", text)}
 
 
-class CompiledFlights(BuildHookInterface):  # type: ignore[type-arg]
-    """Adds compiled flights to a wheel; an editable install compiles them when they are asked for."""
+class ShippedData(BuildHookInterface):  # type: ignore[type-arg]
+    """Adds flights and words to a wheel; an editable install forms them when they are asked for."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Compile them, on all cores, into the folder that the package looks in."""
+        """Compile the flights, on all cores, and form the words, where the package looks for them."""
         if version == "editable":
             return
         root = Path(self.root)
         sys.path.insert(0, str(root / "src"))
+        from tandemlift.cli.terminal.words import formed_words
         from tandemlift.live.offline.page_modules import MISSIONS, build_modules
 
         self.app.display_info("Compiling the flights of the page: about a minute on one core …")
         shutil.rmtree(root / FLIGHTS, ignore_errors=True)  # an older build may have had others
         with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:  # LLVM compiles once at a time in a process
             list(pool.map(build_modules, repeat(root / FLIGHTS), [[name] for name in MISSIONS]))
-        build_data["force_include"][FLIGHTS] = "tandemlift/data/flights"
+        (root / WORDS).write_text(json.dumps(formed_words(), ensure_ascii=False), "utf-8")
+        build_data["force_include"] |= {FLIGHTS: "tandemlift/data/flights", WORDS: "tandemlift/data/words.json"}

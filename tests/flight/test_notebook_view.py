@@ -20,8 +20,8 @@ def flight():
 
 def shown(flight):
     page = Page(flight._repr_html_())
-    assert page.amiss == []
-    assert page.open == []
+    if page.amiss or page.open:
+        raise ValueError(f"tags not closed: {page.amiss}, {page.open}")
     return dict(page.rows)
 
 
@@ -100,7 +100,9 @@ ODD = {
     "infinite push": lambda f: with_channels(f, push_force=f["push_force"] * np.inf),
     "huge": lambda f: with_channels(f, position=f["position"] * 1e300, reference_position=f["position"] * 1e305),
     "at rest": lambda f: with_channels(f, position=f["position"] * 0.0, reference_position=f["position"] * 0.0),
-    "metrics that could not be formed": lambda f: replace(f, results={**dict.fromkeys(f.results), "outcome": f.outcome}),
+    "metrics that could not be formed": lambda f: replace(
+        f, results={**dict.fromkeys(f.results), "outcome": f.outcome}
+    ),
     "a mission that says nothing": lambda f: replace(f, mission={"mission": {"name": "bare"}}),
 }
 

@@ -1,8 +1,11 @@
 """What the distributions say of the package, and which extra has which package."""
 
+import ast
 import re
+import sys
 import tomllib
 
+import pytest
 from hatchling.metadata.core import ProjectMetadata
 from hatchling.plugin.manager import PluginManager
 from house import PACKAGE

@@ -6,13 +6,20 @@ from pathlib import Path
 
 import click
 
+from tandemlift.cli.terminal.completion import MISSIONS, names
 from tandemlift.cli.terminal.console import echo
 from tandemlift.cli.terminal.mission_options import load, set_option
 
 
 @click.command()
-@click.argument("mission")
-@click.option("--target", required=True, metavar="TARGET", help="wasm32, c, aarch64 or cortex-m7.")
+@click.argument("mission", shell_complete=MISSIONS)
+@click.option(
+    "--target",
+    required=True,
+    metavar="TARGET",
+    shell_complete=names("target"),
+    help="wasm32, c, aarch64 or cortex-m7.",
+)
 @click.option("--out", metavar="DIR", help="Folder for the files; by default out/NAME-TARGET.")
 @click.option("--single", is_flag=True, help="For C: compute in single precision.")
 @set_option

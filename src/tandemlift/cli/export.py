@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.terminal.completion import FLIGHTS_AND_MISSIONS
 from tandemlift.cli.terminal.console import echo
 from tandemlift.cli.terminal.mission_options import load, set_option
 from tandemlift.cli.terminal.results import flight_file
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("flight_or_mission")
+@click.argument("flight_or_mission", shell_complete=FLIGHTS_AND_MISSIONS)
 @click.option("--out", metavar="FILE", required=True, help="FILE.mcap, FILE.bag, FILE.csv, FILE.sdf or FILE.xml.")
 @set_option
 @click.option(

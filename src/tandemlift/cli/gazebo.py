@@ -14,6 +14,7 @@ import click
 
 from tandemlift.cli.live import DEFAULT
 from tandemlift.cli.run import print_report_path, print_summary
+from tandemlift.cli.terminal.completion import MISSIONS
 from tandemlift.cli.terminal.console import echo, progress_bar
 from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.mission_options import FAILED, after_crash_option, load, set_option, with_after_crash
@@ -29,7 +30,7 @@ Photographs = list[tuple[str, bytes]]
 
 
 @click.command()
-@click.argument("mission", default=DEFAULT)
+@click.argument("mission", default=DEFAULT, shell_complete=MISSIONS)
 @click.option("--by-hand", is_flag=True, help="Leave out the mission's pushes and person: you push, by a Gazebo topic.")
 @click.option("--fast", is_flag=True, help="Fly as fast as possible instead of in real time.")
 @click.option("--no-window", is_flag=True, help="Do not open Gazebo's window. Without a display, no window opens.")

@@ -6,6 +6,7 @@ import json
 
 import click
 
+from tandemlift.cli.terminal.completion import keys
 from tandemlift.cli.terminal.console import echo
 from tandemlift.cli.terminal.mission_options import chosen_controller
 
@@ -29,7 +30,7 @@ def template() -> None:
 
 
 @click.command()
-@click.argument("key", required=False)
+@click.argument("key", required=False, shell_complete=keys)
 @controller_option
 @click.option("--markdown", is_flag=True, help="Print the reference of all keys in Markdown instead.")
 def explain(key: str | None, controller: str | None, markdown: bool) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.terminal.check_table import print_checks
+from tandemlift.cli.terminal.completion import CONTROLLERS, MISSIONS
 from tandemlift.cli.terminal.console import echo
 from tandemlift.cli.terminal.mission_options import FAILED, chosen_controller, load, set_option, style_option
 from tandemlift.common.errors import FlightWarning, InputError
@@ -27,7 +27,7 @@ DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "posi
 
 
 @click.command()
-@click.argument("mission")
+@click.argument("mission", shell_complete=MISSIONS)
 @click.option("--at", type=float, metavar="S", help="Time of the point.  [default: the first calm after the lift]")
 @click.option(
     "--of", type=click.Choice(["loop", "body"]), default="loop", show_default=True, help="Pilot and body, or the body."
@@ -39,7 +39,12 @@ DRAWN = {"loop": ("push_force", "position"), "body": ("disturbance_force", "posi
 @click.option("--figure", metavar="FILE", help="Draw modes and frequency response into FILE.png, .pdf or .svg.")
 @style_option
 @set_option
-@click.option("--controller", metavar="NAME|FILE", help="Controller to fly: a registered one, or your own .py file.")
+@click.option(
+    "--controller",
+    metavar="NAME|FILE",
+    shell_complete=CONTROLLERS,
+    help="Controller to fly: a registered one, or your own .py file.",
+)
 def linearize(
     mission: str,
     at: float | None,
@@ -149,9 +154,14 @@ def _draw(connected: LinearModel, path: Path) -> None:
 
 
 @click.command()
-@click.argument("mission")
+@click.argument("mission", shell_complete=MISSIONS)
 @set_option
-@click.option("--controller", metavar="NAME|FILE", help="Controller to check: a registered one, or your own .py file.")
+@click.option(
+    "--controller",
+    metavar="NAME|FILE",
+    shell_complete=CONTROLLERS,
+    help="Controller to check: a registered one, or your own .py file.",
+)
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a check fails.")
 @click.option("--json", "file", metavar="FILE", help="Write the results to FILE as well.")
 def check(mission: str, settings: tuple[str, ...], controller: str | None, strict: bool, file: str | None) -> None:
@@ -172,6 +182,7 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
       2   bad input: one message, nothing is written
       3   with --strict: a check fails
     """
+    from tandemlift.cli.terminal.check_table import print_checks
     from tandemlift.linearization.mission_check import check as checked
 
     chosen = None if controller is None else chosen_controller(controller)

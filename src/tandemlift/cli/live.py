@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.terminal.completion import MISSIONS
 from tandemlift.cli.terminal.console import echo, exit_now
 from tandemlift.cli.terminal.mission_options import engine_option, load, set_option
 from tandemlift.common.extras import extra
@@ -29,7 +30,7 @@ port_option = click.option(
 
 
 @click.command()
-@click.argument("mission", default=DEFAULT)
+@click.argument("mission", default=DEFAULT, shell_complete=MISSIONS)
 @engine_option
 @port_option
 @click.option(

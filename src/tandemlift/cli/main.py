@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from tandemlift.cli.compile import compile
+from tandemlift.cli.completion import completion
 from tandemlift.cli.export import export
 from tandemlift.cli.gazebo import gazebo
 from tandemlift.cli.keys import explain, schema, template
@@ -45,7 +46,7 @@ class Commands(click.Group):
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
         """As click does; a misspelt verb is answered with the list of verbs and the nearest one."""
         verb = args[0] if args else ""
-        if verb and not verb.startswith("-") and self.get_command(ctx, verb) is None:
+        if verb and not ctx.resilient_parsing and not verb.startswith("-") and self.get_command(ctx, verb) is None:
             verbs = self.list_commands(ctx)
             ctx.fail(f"No such command {verb!r}; there are {', '.join(verbs)}.{suggestion(verb, verbs)}")
         return super().resolve_command(ctx, args)
@@ -103,6 +104,7 @@ def missions() -> None:
 cli.add_command(template)
 cli.add_command(explain)
 cli.add_command(schema)
+cli.add_command(completion)
 
 
 @cli.command()

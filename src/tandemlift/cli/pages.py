@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import HOST, check_live_installed, port_option, serve_until_interrupt
+from tandemlift.cli.terminal.completion import FLIGHTS, MISSIONS
 from tandemlift.cli.terminal.console import echo
 from tandemlift.cli.terminal.results import flight_file, html_path
 from tandemlift.common.errors import InputError, unknown
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("flight")
+@click.argument("flight", shell_complete=FLIGHTS)
 @click.option("--html", metavar="FILE", help="Write the page to a file that needs no network, instead of serving it.")
 @port_option
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
@@ -73,7 +74,7 @@ def _serve(flight: Flight, port: int, *, browser: bool) -> None:
 
 
 @click.command()
-@click.argument("missions", nargs=-1)
+@click.argument("missions", nargs=-1, shell_complete=MISSIONS)
 @click.option("--out", metavar="DIR", help="Write the page as files for a web server.")
 @click.option("--html", metavar="FILE", help="Write the page as one file, which works from disk.")
 def page(missions: tuple[str, ...], out: str | None, html: str | None) -> None:

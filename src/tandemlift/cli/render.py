@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.terminal.completion import FLIGHTS_AND_MISSIONS
 from tandemlift.cli.terminal.console import echo, progress_bar
 from tandemlift.cli.terminal.mission_options import engine_option, load, set_option
 from tandemlift.cli.terminal.results import flight_file
@@ -23,7 +24,7 @@ PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "-
 
 
 @click.command()
-@click.argument("flight_or_mission")
+@click.argument("flight_or_mission", shell_complete=FLIGHTS_AND_MISSIONS)
 @click.option("--out", metavar="FILE", help="FILE.png, FILE.gif or FILE.mp4.  [default: picture.png beside the flight]")
 @click.option("--time", type=float, help="Time of the picture [s].  [default: when the push is strongest]")
 @click.option("--from", "start", type=float, help="Start of the animation [s].")

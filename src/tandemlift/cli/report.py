@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.terminal.completion import FLIGHTS
 from tandemlift.cli.terminal.console import echo
 from tandemlift.cli.terminal.mission_options import style_option
 from tandemlift.cli.terminal.results import FIGURES, flight_file, html_path, results_folder, write_flight
@@ -20,7 +21,7 @@ BAGS = (".bag", ".mcap")
 
 
 @click.command()
-@click.argument("flight")
+@click.argument("flight", shell_complete=FLIGHTS)
 @click.option(
     "--out",
     metavar="PATH",

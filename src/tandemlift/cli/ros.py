@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.cli.live import DEFAULT, session_of
+from tandemlift.cli.terminal.completion import MISSIONS
 from tandemlift.cli.terminal.console import echo
 from tandemlift.cli.terminal.mission_options import FAILED, engine_option, load, set_option
 from tandemlift.common.errors import InputError
-from tandemlift.ros.sample_queue import steps_between_samples
 
 if TYPE_CHECKING:
     from tandemlift.live.session.session import Session
@@ -24,7 +24,7 @@ BAD_ENDS = ("crashed", "diverged", "failed")
 
 
 @click.command()
-@click.argument("words", nargs=-1, metavar="[MISSION] [NAME:=VALUE]...")
+@click.argument("words", nargs=-1, metavar="[MISSION] [NAME:=VALUE]...", shell_complete=MISSIONS)
 @engine_option
 @click.option(
     "--version", type=click.Choice(["1", "2"]), help="ROS version.  [default: 1 if rospy is installed, else 2]"
@@ -66,6 +66,7 @@ def ros(
     """
     from tandemlift.engines.registry import engine_named
     from tandemlift.ros.ros1 import folder as package
+    from tandemlift.ros.sample_queue import steps_between_samples
     from tandemlift.ros.selection import middleware_for, version_for
 
     if folder:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tandemlift.cli.terminal.completion import CONTROLLERS, MISSIONS, names
 from tandemlift.cli.terminal.console import echo, progress_bar
 from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.mission_options import (
@@ -34,11 +35,12 @@ NOT_KNOWN = "   not known"
 
 
 @click.command()
-@click.argument("mission", required=False)
+@click.argument("mission", required=False, shell_complete=MISSIONS)
 @click.option("--from", "study", metavar="STUDY", help="Fly a row of a study instead: its folder, with --row.")
 @click.option("--row", type=click.IntRange(min=0), help="The row of the study, as its table and its report number it.")
 @click.option(
     "--engine",
+    shell_complete=names("engine"),
     help="Engine that simulates the vehicle; see `tandemlift engines`.  [default: that of the recording, or compiled]",
 )
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
@@ -46,6 +48,7 @@ NOT_KNOWN = "   not known"
 @click.option(
     "--controller",
     metavar="NAME|FILE",
+    shell_complete=CONTROLLERS,
     help="Controller to fly: a registered one, or your own .py file.",
 )
 @after_crash_option

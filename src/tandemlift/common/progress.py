@@ -13,9 +13,10 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from html import escape
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
-from tandemlift.common.types import Progress
+if TYPE_CHECKING:
+    from tandemlift.common.types import Progress  # which imports NumPy; a shell that completes words cannot wait
 
 WINDOW = 60.0  # s, over which the rate is a mean
 REWRITTEN, ADDED = 0.2, 10.0  # s between two states of a line that is written anew, and between two lines of a file

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.cli.terminal.completion import CONTROLLERS, MISSIONS, names, separated
 from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
 from tandemlift.cli.terminal.findings import exit_if_found, print_findings, strict_option
 from tandemlift.cli.terminal.mission_options import (
@@ -36,10 +37,20 @@ ENGINE_FILES = ("engines.html", "engines.json", "engines.csv", "engines.tex")
 
 
 @click.command()
-@click.argument("mission")
-@click.option("--controllers", metavar="A,B,…", help="Controllers: names, or your .py files.  [default: all]")
+@click.argument("mission", shell_complete=MISSIONS)
+@click.option(
+    "--controllers",
+    metavar="A,B,…",
+    shell_complete=separated(CONTROLLERS),
+    help="Controllers: names, or your .py files.  [default: all]",
+)
 @engine_option
-@click.option("--engines", metavar="A,B,…", help="Compare engines instead: fly the mission once in each.")
+@click.option(
+    "--engines",
+    metavar="A,B,…",
+    shell_complete=separated(names("engine")),
+    help="Compare engines instead: fly the mission once in each.",
+)
 @set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
 @style_option

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.cli.terminal.check_table import print_checks
+from tandemlift.cli.terminal.completion import MISSIONS
 from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
 from tandemlift.cli.terminal.mission_options import FAILED, load, set_option, style_option
 from tandemlift.cli.terminal.results import results_folder
@@ -26,7 +26,7 @@ NOT_BETTER = 1
 
 
 @click.command()
-@click.argument("mission")
+@click.argument("mission", shell_complete=MISSIONS)
 @set_option
 @click.option("--wish", metavar="TEXT", help='Propose keys for a wish, such as "1 N gives 0.6 m/s in 1.5 s along x".')
 @click.option("--search", is_flag=True, help="Search the numbers of least effort and jerk for random persons.")
@@ -121,6 +121,7 @@ def _searched(mission: Mission, size: tuple[int, int, int], seed: int) -> FeelSe
 
 def _studied(mission: Mission, found: FeelSearch | None) -> FeelReport:
     """Study a mission's keys, which a search may have found, and print what they feel like."""
+    from tandemlift.cli.terminal.check_table import print_checks
     from tandemlift.report.tuning.feel_report import FeelReport
     from tandemlift.studies.feel.feel_study import study_feel
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.cli.terminal.completion import names
 from tandemlift.cli.terminal.console import compile_notices, echo
 from tandemlift.cli.terminal.mission_options import parse_setting
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("file", required=False)
+@click.argument("file", required=False, shell_complete=names(files=[".toml"]))
 @click.option("--out", metavar="DIR", help="Folder of the study.  [default: out/NAME]")
 @click.option(
     "--set",
@@ -34,7 +35,12 @@ if TYPE_CHECKING:
 @click.option("--cluster", metavar="local:N", help="Fly in N processes of this machine, with Dask's dashboard.")
 @click.option("--part", default="1/1", metavar="K/N", help="Fly part K of N only, as in a job array.")
 @click.option(
-    "--for", "metrics", metavar="METRIC", multiple=True, help="Metric that the report shows. Can be repeated."
+    "--for",
+    "metrics",
+    metavar="METRIC",
+    multiple=True,
+    shell_complete=names("metric"),
+    help="Metric that the report shows. Can be repeated.",
 )
 @click.option("--no-report", is_flag=True, help="Write no report.")
 @click.option("--dry-run", is_flag=True, help="Fly a few rows only, and say what all would take.")
@@ -74,9 +80,9 @@ def study(
 
     \b
     Exit code:
-      0   the study, or its part, is flown
-      2   bad input: one message; what is flown stays
-      130 stopped by Ctrl-C; what is flown stays
+      0    the study, or its part, is flown
+      2    bad input: one message; what is flown stays
+      130  stopped by Ctrl-C; what is flown stays
     """
     if template:
         from tandemlift.studies.design.template import TEMPLATE

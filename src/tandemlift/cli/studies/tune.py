@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.cli.terminal.completion import CONTROLLERS, MISSIONS, keys, names
 from tandemlift.cli.terminal.console import compile_notices, echo
 from tandemlift.cli.terminal.mission_options import chosen_controller, parse_setting, set_option
 from tandemlift.cli.terminal.results import results_folder
@@ -27,19 +28,21 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
 
 
 @click.command()
-@click.argument("mission")
+@click.argument("mission", shell_complete=MISSIONS)
 @click.option(
     "--for",
     "goals",
     multiple=True,
     required=True,
     metavar="METRIC[=TARGET]",
+    shell_complete=names("metric"),
     help="Metric to make small, by its name in metrics.json, or one component: position_rmse_m.2. Can be repeated.",
 )
 @click.option(
     "--over",
     multiple=True,
     metavar="KEY[=RANGE]",
+    shell_complete=keys,
     help="What to search: a dotted key, a table or a pattern, and [low, high] or a list of words. Can be repeated."
     "  [default: the controller's gains]",
 )
@@ -50,7 +53,12 @@ FILES = ("tuned.toml", "evidence.json", "tune.html")
 @click.option("--aim", default="mean", show_default=True, metavar="mean|worst", help="What of all draws counts.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of search and draws.")
 @click.option("--threads", type=click.IntRange(min=1), help="Threads that fly.  [default: one for each processor]")
-@click.option("--controller", metavar="NAME|FILE", help="Tune this controller: a registered one, or your own .py file.")
+@click.option(
+    "--controller",
+    metavar="NAME|FILE",
+    shell_complete=CONTROLLERS,
+    help="Tune this controller: a registered one, or your own .py file.",
+)
 @click.option("--strict", is_flag=True, help="A flight with findings counts as a bad outcome, too.")
 @set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-tuned]")

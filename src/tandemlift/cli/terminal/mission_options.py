@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tandemlift.cli.terminal.completion import names, settings
 from tandemlift.common.errors import InputError
 from tandemlift.figures.drawing.figure_style import STYLES
 
@@ -21,6 +22,7 @@ WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quo
 engine_option = click.option(
     "--engine",
     default="compiled",
+    shell_complete=names("engine"),
     show_default=True,
     help="Engine that simulates the vehicle; see `tandemlift engines`.",
 )
@@ -29,6 +31,7 @@ set_option = click.option(
     "settings",
     multiple=True,
     metavar="KEY=VALUE",
+    shell_complete=settings,
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
 )
 style_option = click.option(

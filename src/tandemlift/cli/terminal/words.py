@@ -1,0 +1,40 @@
+"""The words that shells complete: names of missions, controllers, engines, targets and metrics, and mission keys.
+
+Forming them imports half of the package. A shell cannot wait for that, so a wheel ships them (`hatch_build.py`).
+"""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+
+SHIPPED = Path(__file__).resolve().parents[2] / "data" / "words.json"  # in an installed package
+Words = dict[str, dict[str, str]]
+
+
+@cache
+def known_words() -> Words:
+    """By kind, the words and what each is: as they were shipped, or else formed."""
+    return json.loads(SHIPPED.read_text("utf-8")) if SHIPPED.is_file() else formed_words()
+
+
+def formed_words() -> Words:
+    """The words as the package defines them; a key of a list of tables has its entry 0."""
+    from tandemlift.controllers import CONTROLLERS
+    from tandemlift.engines.registry import ENGINES
+    from tandemlift.flight.metric_descriptions import METRIC_GROUPS
+    from tandemlift.missions import built_in
+    from tandemlift.missions.key_reference.sections import sections
+    from tandemlift.targets.compiling import TARGETS
+
+    tables = list(sections())
+    return {
+        "mission": dict(built_in()),
+        "controller": {name: controller.summary for name, controller in sorted(CONTROLLERS.items())},
+        "engine": {name: engine.summary for name, engine in ENGINES.items()},
+        "target": dict(TARGETS),
+        "metric": {name: metric.meaning for group in METRIC_GROUPS for name, metric in group.metrics.items()},
+        "table": {table.name: table.text[0] for table in tables if table.name},
+        "key": {key.name: key.facts.meaning or "" for table in tables for key in table.keys},
+    }
