@@ -24,13 +24,13 @@ extensions = [
     "generated_markdown",
     "live_page",
     "mathml",
-    "stacked_tables",
+    "page_layout",
 ]
 exclude_patterns = ["_extensions"]
 pygments_style = "friendly"
 pygments_dark_style = "monokai"
 highlight_language = "none"
-smartquotes = False  # docstrings and tables quote values
+smartquotes_action = "D"  # dashes only: docstrings and tables quote values
 
 html_theme = "furo"
 html_title = f"tandemlift {release}"
@@ -64,3 +64,5 @@ python_maximum_signature_line_length = 100
 napoleon_google_docstring = True
 napoleon_numpy_docstring = False
 napoleon_attr_annotations = True
+napoleon_use_ivar = True
+autodoc_type_aliases = {name: name for name in ("Array", "Number", "PerQuadrotor", "PerRotor")}

@@ -29,7 +29,7 @@ from tandemlift.studies.units.running import run_units
 from tandemlift.studies.units.workers import ExecutorWorkers
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "validation.md"
-MARK, END = "<!-- random missions -->", "<!-- end of random missions -->"
+MARK, END = (f"<!-- {edge} of what `make random-missions` prints -->" for edge in ("begin", "end"))
 OUTCOMES = ("landed", "flying", *BAD)
 
 

@@ -101,12 +101,12 @@ class Vehicle:
 
     @property
     def rotor_count(self) -> int:
-        """4 N."""
+        """Number of rotors, 4 N."""
         return 4 * self.count
 
     @property
     def mass(self) -> float:
-        """m_t [kg]."""
+        """Mass of the whole, m_t [kg]."""
         return self.payload.mass + sum(q.mass for q in self.quadrotors)
 
     @cached_property

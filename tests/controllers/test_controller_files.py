@@ -7,15 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from listings import GUIDE, LAW, PLAIN
 from patience import completed
-from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.controllers import CONTROLLERS, controller, load_controller, register
 from tandemlift.settings import ControllerTable
 
-GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
-LAW, PLAIN = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
 REGISTERED = sorted(CONTROLLERS)
 AWAY = {"mission.duration": 1.0, "initial.position": [0.1, 0.0, 0.0]}
 
@@ -208,14 +206,10 @@ def test_a_wrong_law_is_refused_before_it_is_compiled(wrong, own):
 
 def test_the_errors_of_the_guide_are_real(own):
     written = re.findall(r"^error: (?!/)(.*)$", GUIDE, re.MULTILINE)  # the one with a path is in test_refused.py
-    ways = [
-        WRONG_FILES["a failing import"],
-        WRONG_FILES["no controller"],
-        WRONG_FILES["a helper that is no law"],
-        *(WRONG_LAWS[name] for name in ("a typo in the law", "no memory", "another memory", "a start without gains")),
-    ]
-    changed = [((), {"controller.stifness": 9}), ((), {"controller.stiffness": -1})]
-    for line, (changes, given) in zip(written, [*((changes, {}) for changes, _ in ways), *changed], strict=True):
+    files = [WRONG_FILES[name][0] for name in ("a failing import", "a helper that is no law")]
+    laws = [WRONG_LAWS[name][0] for name in ("a typo in the law", "another memory")]
+    ways = [*((changes, {}) for changes in files + laws), ((), {"controller.stifness": 9})]
+    for line, (changes, given) in zip(written, ways, strict=True):
         with pytest.raises(tl.InputError) as refused:
             tl.fly(tl.load_mission("hover", given, controller=load_controller(own(edited(LAW, *changes)))))
         assert str(refused.value).startswith(line)

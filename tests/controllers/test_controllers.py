@@ -1,10 +1,11 @@
 """Every registered controller, and the guide to one's own: docs/reference/controllers.md is run, not only read."""
 
 import re
+import shutil
 
 import numpy as np
 import pytest
-from repository import ROOT
+from listings import GUIDE, LISTINGS
 
 import tandemlift as tl
 from tandemlift.algebra.layout import flat
@@ -12,8 +13,6 @@ from tandemlift.controllers import CONTROLLERS, controller, load_controller
 from tandemlift.controllers import control as control_law
 from tandemlift.missions.key_reference.markdown import key_tables
 
-GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
-FILES = dict(re.findall(r"<!-- (\S+) -->\n```python\n(.*?)```", GUIDE, re.DOTALL))
 REGISTERED = sorted(CONTROLLERS)
 
 
@@ -21,8 +20,8 @@ REGISTERED = sorted(CONTROLLERS)
 def folder(tmp_path_factory):
     """A folder with the files of the guide."""
     path = tmp_path_factory.mktemp("controllers")
-    for name, text in FILES.items():
-        (path / name).write_text(text, "utf-8")
+    for file in LISTINGS.glob("*.py"):
+        shutil.copy(file, path)
     return path
 
 

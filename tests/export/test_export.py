@@ -306,7 +306,7 @@ def test_the_reference_has_every_topic_with_its_type_and_frame():
     tables = topics_of_every_flight() + topics_of_some_flights() + other_topics()
     for name, (kind, frame, *_) in {**COPIED, **OTHERS}.items():
         if "joint_2" not in name:
-            row = f"| `{name}` | `{kind}` | {frame and f'`{frame}`'} |".replace("joint_1", "joint_N")
+            row = f"| `{name}` | `{kind}`{frame and f', `{frame}`'} |".replace("joint_1", "joint_N")
             assert row in tables, name
     for name, kind in {**ONCE, **MOVING}.items():
-        assert f"| `{name}` | `{kind}` |" in tables, name
+        assert f"| `{name}` | `{kind}`" in tables, name

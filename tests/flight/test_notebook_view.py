@@ -20,8 +20,8 @@ def flight():
 
 def shown(flight):
     page = Page(flight._repr_html_())
-    assert page.amiss == []
-    assert page.open == []
+    if page.amiss or page.open:
+        raise ValueError(f"tags not closed: {page.amiss}, {page.open}")
     return dict(page.rows)
 
 

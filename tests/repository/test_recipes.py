@@ -6,12 +6,12 @@ The other recipes name the tests that follow them.
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import sys
 from collections.abc import Callable
 
 import pytest
+from listings import LAW as LISTED_CONTROLLER
 from patience import completed
 from repository import ROOT
 
@@ -55,7 +55,7 @@ assert explained(name).split() == (
 said = mission_schema()["properties"]["compliance"]["properties"]["idle_time"]
 assert (said["minimum"], said["default"]) == (0, 0.2) and meaning in said["description"]
 assert any("idle_time = 0.2" in line and meaning in line for line in template_text().splitlines())
-assert f"| `{name}` | s | `0.2`; chosen: short | a number ≥ 0 | {meaning} |" in key_tables()
+assert f"| `{name}` | s | `0.2`; chosen: short | {meaning}. Allowed: a number ≥ 0 |" in key_tables()
 changes = [{"time": 1.0, "key": name, "value": 0.3}]
 mission = tl.load_mission("iris", {name: 0.1, "changes": changes, "pilot.guidance": "hand"})
 assert mission.compliance.idle_time == 0.1
@@ -120,10 +120,9 @@ def test_a_variant_of_a_law_touches_its_law_its_key_and_where_it_is_chosen(with_
     with_edits(LAW, LAW_FLIES)
 
 
-GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
 LIST = "from tandemlift.controllers import geometric"
 CONTROLLER: Edits = {
-    "controllers/my_pd.py": [("", re.findall(r"<!-- my_pd.py -->\n```python\n(.*?)```", GUIDE, re.DOTALL)[0])],
+    "controllers/my_pd.py": [("", LISTED_CONTROLLER)],
     "controllers/__init__.py": [(LIST, LIST.replace("geometric", "my_pd, geometric"))],
 }
 CONTROLLER_FLIES = """

@@ -7,7 +7,7 @@ import subprocess
 import numpy as np
 import pytest
 from c_flights import STRICT, same, unfused
-from repository import ROOT
+from listings import LAW
 
 import tandemlift as tl
 from tandemlift.algebra.layout import leaves
@@ -16,8 +16,6 @@ from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.targets.c.write import code_texts, write_c, written
 from tools import need
 
-GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
-LAW, _ = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
 SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g")
 
 

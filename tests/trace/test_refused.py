@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from listings import GUIDE, LAW
 from patience import completed
-from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.algebra.law import LAWS, law
@@ -16,8 +16,6 @@ from tandemlift.controllers import load_controller
 from tandemlift.machine_code.functions import compiled, written
 from tandemlift.trace import TraceError, graph
 
-GUIDE = (ROOT / "docs" / "reference" / "controllers.md").read_text("utf-8")
-LAW, _ = re.findall(r"<!-- \S+ -->\n```python\n(.*?)```", GUIDE, re.DOTALL)
 HERE = "    attitude = euler_from_quaternion(state.attitude)\n"
 LINE = LAW[: LAW.index(HERE)].count("\n") + 1
 TWO_WAYS = "choose by where(condition, a, b), minimum, maximum, clip of tandemlift.algebra"

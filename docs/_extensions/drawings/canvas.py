@@ -73,5 +73,6 @@ def drawing(width: float, height: float, title: str, parts: list[str]) -> str:
         '<defs><marker id="head" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="8" markerHeight="8" orient="auto">'
         '<path class="head" d="M0,0 L8,4 L0,8 z"/></marker></defs>'
     )
-    svg = f'<svg viewBox="0 0 {width} {height}" style="min-width:{0.8 * width:.0f}px" role="img" aria-label="{escape(title)}">'
-    return f'<div class="drawing">{svg}{head}{"".join(parts)}</svg></div>\n'
+    size = f'viewBox="0 0 {width} {height}" style="min-width:{0.8 * width:.0f}px"'
+    svg = f'<svg {size} role="img" aria-label="{escape(title)}">{head}{"".join(parts)}</svg>'
+    return f'<div class="drawing">{svg}</div>\n'

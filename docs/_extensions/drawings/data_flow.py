@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from drawings.canvas import Box, arrow, drawing, words
 
 
@@ -9,7 +11,7 @@ def data_flow() -> str:
     """A mission, one step of its flight, and the record."""
     mission = Box(10, 20, 110, 56, "mission", "a TOML file")
     start = Box(10, 130, 110, 56, "assembly", "a flight at t = 0")
-    step = Box(150, 10, 440, 300, "one step, every millisecond", kind="frame")
+    step = Box(150, 10, 440, 300, "one step of the flight", kind="frame")
     names = [
         ("perceive", "estimators"),
         ("guide", "admittance"),
@@ -28,14 +30,14 @@ def data_flow() -> str:
     person = Box(290, 340, 164, 44, "person", "simulated, mouse, caller", "box")
     flight = Box(630, 130, 120, 56, "flight", "channels, events", "pilot")
     readers = Box(630, 250, 120, 96, "", "metrics, findings\nfigures, report\nstudies\nbags, tables", "box")
-    perceive, guide, control, allocate = pilot
+    perceive, *_, allocate = pilot
     parts = [b.svg() for b in (step, mission, start, *pilot, sensors, body, rotors, person, flight, readers)]
     parts += [
         words(166, 66, "pilot", "note", "start"),
         words(166, 212, "vehicle", "note", "start"),
         arrow(mission.bottom, start.top),
         arrow(start.right, (step.x, start.right[1])),
-        *(arrow(a.right, b.left) for a, b in zip(pilot, pilot[1:], strict=False)),
+        *(arrow(a.right, b.left) for a, b in pairwise(pilot)),
         arrow(allocate.bottom, rotors.top),
         words(rotors.top[0] - 6, 182, "thrusts", "text", "end"),
         arrow(rotors.left, body.right),

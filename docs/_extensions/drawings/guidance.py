@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from drawings.canvas import Box, arrow, drawing, words
 
 
@@ -15,11 +17,11 @@ def guidance() -> str:
         Box(546, 90, 92, 56, "controller"),
         Box(670, 90, 80, 56, "allocation"),
     ]
-    push, gate, admittance, reference, controller, allocation = chain
+    push, _, admittance, reference, *_ = chain
     observer = Box(422, 196, 216, 50, "disturbance observer", "wind, model error")
     phases = Box(278, 10, 236, 40, "phases, supervision")
     parts = [b.svg() for b in (*chain, observer, phases)]
-    parts += [arrow(a.right, b.left) for a, b in zip(chain, chain[1:], strict=False)]
+    parts += [arrow(a.right, b.left) for a, b in pairwise(chain)]
     parts += [
         arrow((334, 50), admittance.top),
         arrow((468, 50), reference.top),
@@ -30,7 +32,6 @@ def guidance() -> str:
         arrow(observer.left, (334, observer.left[1]), admittance.bottom),
         words(326, 200, "acceleration that is left", "text", "end"),
     ]
-    _ = gate, controller, allocation
     return drawing(
         760, 284, "A measured push moves the reference and is countered; the observer counters the rest.", parts
     )

@@ -17,7 +17,7 @@ from tandemlift.ros.ros2 import ONLY_ROS2
 from tandemlift.ros.topics import ONLY_LIVE
 from tandemlift.vehicle import Vehicle
 
-HEAD = ("topic", "type", "frame", "what", "channels")
+HEAD = ("topic", "type, and frame", "what")
 SEVERAL = 4  # channels that a cell names
 
 
@@ -53,7 +53,7 @@ def _samples(names: set[str]) -> str:
 
 def _sample(recipe: Recipe) -> tuple[str, ...]:
     channels = codes(recipe.needs[:SEVERAL]) + (", …" if len(recipe.needs) > SEVERAL else "")
-    cells = [f"`{recipe.name}`", f"`{recipe.kind}`", codes(filter(None, [recipe.frame])), recipe.meaning, channels]
+    cells = [f"`{recipe.name}`", codes(filter(None, [recipe.kind, recipe.frame])), f"{recipe.meaning}: {channels}"]
     return tuple(cell.replace("joint_1", "joint_N") for cell in cells)
 
 
@@ -73,8 +73,7 @@ def topics_of_ros_2() -> str:
 
 
 def _others(topics: Iterable[OtherTopic]) -> str:
-    rows = [(f"`{t.name}`", f"`{t.kind}`", codes(t.frames), t.meaning) for t in topics]
-    return table(HEAD[:4], rows)
+    return table(HEAD, [(f"`{t.name}`", codes([t.kind, *t.frames]), t.meaning) for t in topics])
 
 
 def requests() -> str:

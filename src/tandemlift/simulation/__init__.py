@@ -1,1 +1,1 @@
-"""From a mission to its flight: whole, many at once, changed in flight; outcome and findings; the pilot as an object."""
+"""From a mission to its flight: whole, many at once, changed in flight; outcome and findings; the pilot alone."""

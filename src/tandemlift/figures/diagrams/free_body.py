@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from tandemlift.common.types import Array
 from tandemlift.figures.diagrams.canvas import WIDTH, Canvas
-from tandemlift.figures.diagrams.solids import View, draw_axes, draw_beam, draw_quadrotor
+from tandemlift.figures.diagrams.solids import VehicleView, draw_axes, draw_beam, draw_quadrotor
 from tandemlift.figures.drawing.figure import Caption
 from tandemlift.figures.drawing.style import BLUE, DIM, GREEN, GREY, INK, VERMILLION, styled
 from tandemlift.vehicle import Vehicle
@@ -35,7 +35,9 @@ def joint_force(side: float) -> Array:
     return 0.36 * UP - 0.2 * side * OUT
 
 
-def _force(canvas: Canvas, view: View, at: Any, along: Any, name: str, color: str, offset: Any = (0.0, 0.1)) -> None:
+def _force(
+    canvas: Canvas, view: VehicleView, at: Any, along: Any, name: str, color: str, offset: Any = (0.0, 0.1)
+) -> None:
     """An arrow that acts at a point, and its name beside its tip."""
     start = view.on_paper(at)
     tip = start + view.along(along)
@@ -43,7 +45,7 @@ def _force(canvas: Canvas, view: View, at: Any, along: Any, name: str, color: st
     canvas.text(tip + np.asarray(offset), name, color=color)
 
 
-def _quadrotor(canvas: Canvas, view: View, vehicle: Vehicle, number: int) -> None:
+def _quadrotor(canvas: Canvas, view: VehicleView, vehicle: Vehicle, number: int) -> None:
     """A quadrotor above its place, with its loads."""
     i = number + 1
     centre = np.array(vehicle.quadrotors[number].position) + APART * UP
@@ -59,7 +61,7 @@ def _quadrotor(canvas: Canvas, view: View, vehicle: Vehicle, number: int) -> Non
     canvas.text(np.add(view.on_paper(centre), (0.0, 1.12)), f"quadrotor {i}", fontsize=8, color=DIM)
 
 
-def _joint(canvas: Canvas, view: View, place: Array, i: int) -> None:
+def _joint(canvas: Canvas, view: VehicleView, place: Array, i: int) -> None:
     """The loads of joint i on the payload, and the lever arm to it."""
     side = np.sign(place[1]) or 1.0
     foot = np.array([0.0, place[1], 0.0])
@@ -77,7 +79,7 @@ def draw(mission: Mapping[str, Any]) -> Figure:
     """Draw the free bodies of a mission's vehicle."""
     vehicle = Vehicle.from_mission(mission)
     canvas = Canvas(HEIGHT)
-    view = View(np.radians(20.0), np.radians(21.0), 2.25, (WIDTH / 2, 1.2))
+    view = VehicleView(np.radians(20.0), np.radians(21.0), 2.25, (WIDTH / 2, 1.2))
     draw_beam(canvas, view, vehicle)
     for number, quadrotor in enumerate(vehicle.quadrotors):
         _joint(canvas, view, np.array(quadrotor.position), number + 1)

@@ -47,7 +47,7 @@ def response(mass: float, damping: float, stiffness: float) -> tuple[Array, Arra
     E = np.eye(3)
     for k in range(12, 0, -1):  # the exponential of A STEP by Horner's scheme
         E = np.eye(3) + A @ E * (STEP / k)
-    time: Array = np.arange(round(SHOWN / STEP) + 1) * STEP
+    time = np.linspace(0.0, SHOWN, round(SHOWN / STEP) + 1)
     states = np.zeros((len(time), 3))
     for k, t in enumerate(time[:-1]):
         states[k, 2] = 1.0 if t < PUSHED - STEP / 2.0 else 0.0

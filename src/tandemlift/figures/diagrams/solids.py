@@ -23,7 +23,7 @@ BODY = 0.075  # m, radius of a quadrotor's body
 SPIN_COLORS = {1: BLUE, -1: VERMILLION}
 
 
-class View(NamedTuple):
+class VehicleView(NamedTuple):
     """A parallel projection: the eye's azimuth and elevation [rad], inches for a metre, the origin's place [in]."""
 
     azimuth: float
@@ -79,11 +79,13 @@ def _fill(canvas: Canvas, points: Array, color: Any, order: float, **look: Any) 
     canvas.axes.add_patch(Polygon(points, closed=True, facecolor=color, zorder=order, **{**OUTLINE, **look}))
 
 
-def _bar(canvas: Canvas, view: View, start: Any, end: Any, order: float) -> None:
+def _bar(canvas: Canvas, view: VehicleView, start: Any, end: Any, order: float) -> None:
     canvas.line(view.on_paper([start, end]), color=DIM, lw=2.6, zorder=order)
 
 
-def draw_beam(canvas: Canvas, view: View, vehicle: Vehicle, centre: Any = (0.0, 0.0, 0.0), order: float = 2.0) -> None:
+def draw_beam(
+    canvas: Canvas, view: VehicleView, vehicle: Vehicle, centre: Any = (0.0, 0.0, 0.0), order: float = 2.0
+) -> None:
     """Draw the beam about a centre (3) [m]; a payload without a length is a ball."""
     length, radius = vehicle.beam or (0.0, 0.1)
     half = np.array([0.0, length / 2.0, 0.0])
@@ -93,7 +95,9 @@ def draw_beam(canvas: Canvas, view: View, vehicle: Vehicle, centre: Any = (0.0, 
     _fill(canvas, nearer, GROUND, order + 0.1)
 
 
-def draw_quadrotor(canvas: Canvas, view: View, vehicle: Vehicle, number: int, centre: Any, order: float = 3.0) -> None:
+def draw_quadrotor(
+    canvas: Canvas, view: VehicleView, vehicle: Vehicle, number: int, centre: Any, order: float = 3.0
+) -> None:
     """Draw quadrotor `number` (from 0) about its centre of mass (3) [m]: body, arms, rotors with their sense."""
     quadrotor = vehicle.quadrotors[number]
     middle = np.asarray(centre, dtype=float)
@@ -113,14 +117,16 @@ def draw_quadrotor(canvas: Canvas, view: View, vehicle: Vehicle, number: int, ce
         _fill(canvas, _hull(post), EDGE, order + 0.205 + 0.01 * k)
 
 
-def draw_strut(canvas: Canvas, view: View, vehicle: Vehicle, number: int, order: float = 2.5) -> None:
+def draw_strut(canvas: Canvas, view: VehicleView, vehicle: Vehicle, number: int, order: float = 2.5) -> None:
     """Draw the strut between the beam (its centre is the origin) and quadrotor `number`."""
     place = np.array(vehicle.quadrotors[number].position)
     foot = np.array([0.0, place[1], 0.0])
     _bar(canvas, view, foot, place, order)
 
 
-def draw_axes(canvas: Canvas, view: View, origin: Any, size: float, names: tuple[str, str, str], **look: Any) -> None:
+def draw_axes(
+    canvas: Canvas, view: VehicleView, origin: Any, size: float, names: tuple[str, str, str], **look: Any
+) -> None:
     """Draw three axes of a length [m] from a point (3) [m], with their names."""
     start = view.on_paper(origin)
     for axis, name in zip(np.eye(3), names, strict=True):

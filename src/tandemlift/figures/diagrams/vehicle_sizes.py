@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tandemlift.figures.diagrams.canvas import WIDTH, Canvas, Point
-from tandemlift.figures.diagrams.solids import View, draw_axes, draw_beam, draw_quadrotor, draw_strut
+from tandemlift.figures.diagrams.solids import VehicleView, draw_axes, draw_beam, draw_quadrotor, draw_strut
 from tandemlift.figures.drawing.figure import Caption
 from tandemlift.figures.drawing.style import DIM, VERMILLION, styled
 from tandemlift.vehicle import Vehicle
@@ -38,7 +38,7 @@ def _dimension(canvas: Canvas, ends: tuple[Point, Point], offset: Point, words: 
     canvas.text(middle + beside, words, fontsize=8)
 
 
-def _masses(canvas: Canvas, view: View, vehicle: Vehicle) -> None:
+def _masses(canvas: Canvas, view: VehicleView, vehicle: Vehicle) -> None:
     for i, quadrotor in enumerate(vehicle.quadrotors, 1):
         place = np.add(view.on_paper(quadrotor.position), (0.0, 0.68))
         above = f"{1e3 * quadrotor.position[2]:g} mm above the beam's axis"
@@ -50,7 +50,7 @@ def draw(mission: Mapping[str, Any]) -> Figure:
     """Draw a mission's vehicle with its sizes."""
     vehicle = Vehicle.from_mission(mission)
     canvas = Canvas(HEIGHT)
-    view = View(np.radians(24.0), np.radians(24.0), 2.5, (WIDTH / 2.0, 1.5))
+    view = VehicleView(np.radians(24.0), np.radians(24.0), 2.5, (WIDTH / 2.0, 1.5))
     draw_beam(canvas, view, vehicle)
     for number, quadrotor in enumerate(vehicle.quadrotors):
         draw_strut(canvas, view, vehicle, number)
@@ -71,7 +71,7 @@ def draw(mission: Mapping[str, Any]) -> Figure:
     return canvas.figure
 
 
-def _arm(canvas: Canvas, view: View, vehicle: Vehicle) -> None:
+def _arm(canvas: Canvas, view: VehicleView, vehicle: Vehicle) -> None:
     """The arm of the first quadrotor that points most to the right."""
     place, hubs = np.array(vehicle.quadrotors[0].position), np.array(vehicle.rotor_hubs[0])
     across = int(np.argmax(hubs @ view.directions[0]))

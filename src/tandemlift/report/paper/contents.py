@@ -18,7 +18,8 @@ class PaperFigure(NamedTuple):
         shows: what the paper's figure shows, in our words.
         differs: what differs in ours, and why.
         command: that draws ours.
-        parts: the name of each drawing, and what it draws: `paper`, `paper flight` or `zigzag flight`.
+        parts: the name of each drawing, what it draws (`paper`, `paper flight` or `zigzag flight`), and what stands
+            behind the number.
     """
 
     number: int
@@ -26,7 +27,7 @@ class PaperFigure(NamedTuple):
     shows: str
     differs: str
     command: str
-    parts: list[tuple[str, str]]
+    parts: list[tuple[str, str, str]]
 
 
 class OpenSetting(NamedTuple):

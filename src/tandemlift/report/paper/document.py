@@ -56,9 +56,10 @@ def document(flights: PaperFlights, command: str, gazebo: str) -> dict[str, Any]
 
 def _figure(figure: PaperFigure, gazebo: str) -> dict[str, Any]:
     parts = []
-    for name, _ in figure.parts:
+    for name, _, behind in figure.parts:
         caption = drawing_for(name).CAPTION
-        parts.append({"file": file_of(figure, name), "caption": f"{caption.title}. {caption.text}", "alt": caption.alt})
+        text = f"{caption.title}. {caption.text}"
+        parts.append({"file": file_of(figure, name), "behind": behind, "caption": text, "alt": caption.alt})
     about = [{"about": e.about, "title": e.title} for e in errata() if figure.number in e.figures]
     return {**figure._asdict(), "parts": parts, "errata": about, "gazebo": gazebo if figure.number == 9 else ""}
 
@@ -73,7 +74,7 @@ def _open(flights: PaperFlights) -> dict[str, Any]:
                 "key": setting.key,
                 "why": setting.why,
                 "chosen": _shown(value_at(mission, setting.key)),
-                "other": ", ".join(_shown(value) for value in setting.changes.values()),
+                "other": _shown(setting.changes[setting.key]),
                 **_effect(metrics),
             }
         )
@@ -99,4 +100,4 @@ def _shown(value: Any) -> str:
     flat = np.ravel(value)
     if np.all(flat == flat[0]):
         return f"{flat[0]:g}"
-    return ", ".join(f"{number:g}" for number in flat)
+    return ", ".join(f"{number:g}" for number in flat).replace("-", "−")

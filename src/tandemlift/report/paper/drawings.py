@@ -16,6 +16,6 @@ def drawing_for(name: str) -> Any:
 
 def file_of(figure: PaperFigure, name: str) -> str:
     """The name of the file of a part of a figure, such as `figure-5a-vehicle_sizes.pdf`."""
-    names = [part for part, _ in figure.parts]
+    names = [part for part, _, _ in figure.parts]
     letter = "abcd"[names.index(name)] if len(names) > 1 else ""
     return f"figures/figure-{figure.number}{letter}-{name.replace('_', '-')}.pdf"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from functools import cache
 from importlib.resources import files
@@ -9,6 +10,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 DATA = files("tandemlift") / "data" / "paper"
+INDEXED = re.compile(r"(?<!\w)(\w[\u0300-\u036f]*)_(\w+)")  # a letter, be it with dots, and its index
 
 
 class Erratum(NamedTuple):
@@ -60,9 +62,16 @@ def _section(erratum: Erratum) -> str:
         (
             f"### `{erratum.about}`: {erratum.title}",
             "",
-            f"- Printed: {erratum.printed}",
-            f"- Right: {erratum.right}",
-            f"- Shows: {erratum.shows}{setting}",
+            f"- Printed: {_with_indices(erratum.printed)}",
+            f"- Right: {_with_indices(erratum.right)}",
+            f"- Shows: {_with_indices(erratum.shows)}{setting}",
             f"- Evidence: {', '.join(f'`{test}`' for test in erratum.evidence)}",
         )
     )
+
+
+def _with_indices(text: str) -> str:
+    """A text with x_y as x and a lowered y, code apart."""
+    parts = text.split("`")
+    parts[::2] = [INDEXED.sub(r"\1<sub>\2</sub>", part) for part in parts[::2]]
+    return "`".join(parts)

@@ -39,7 +39,7 @@ def write_paper_files(
         "paper flight": flights.paper,
         "zigzag flight": flights.corridor,
     }
-    parts = [(figure, name, of) for figure in paper_figures() for name, of in figure.parts]
+    parts = [(figure, name, of) for figure in paper_figures() for name, of, _ in figure.parts]
     for done, (figure, name, of) in enumerate(parts, 1):
         save_figure(drawing_for(name).draw(given[of]), folder / file_of(figure, name))
         if progress:
