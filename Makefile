@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs test lint types imports tests examples test-pythons test-gazebo test-targets random-missions bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs test lint types imports tests examples test-pythons test-distributions test-gazebo test-targets random-missions bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -51,6 +51,9 @@ examples: .venv/dev  ## run the scripts of examples/, whose numbers are asserted
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons
+
+test-distributions: .venv/dev  ## build the wheel and the source distribution; try them, and each extra, in fresh environments
+	tools/test-distributions
 
 test-gazebo: .venv/dev  ## flights in a real Gazebo 11, ROS 1, ROS 2's DDS and RViz; installs them, as root
 	tools/gazebo-root $(GAZEBO_ROOT)
