@@ -14,7 +14,7 @@ from tandemlift.cli.main import cli
 DOCUMENTS = sorted(ROOT.glob("*.md"))  # the links of docs/ are checked when the site is built
 PAGES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
 PAGES += [ROOT / "docs" / "reference" / f"{name}.md" for name in ("checks", "flights", "linearize", "studies")]
-ELSEWHERE = ("gazebo", "live", "page", "ros", "scaling")  # these need another program, and have tests of their own
+ELSEWHERE = ("own-pilot-in-ros", "scaling")  # these need other programs, and have tests of their own
 CODE = [page for page in PAGES if page.stem not in ELSEWHERE and "\n```python\n" in page.read_text("utf-8")]
 CODE.append(
     ROOT / "README.md"
