@@ -61,7 +61,7 @@ test-targets: .venv/dev  ## every target on every mission: cross compilers, QEMU
 	tools/test-packages --targets
 	TANDEMLIFT_REQUIRE_ALL=1 $(BIN)/pytest -n 2 -m targets
 
-random-missions: .venv/dev  ## a thousand missions at random, each outcome confirmed by a judge; into docs/explanation/validation.md
+random-missions: .venv/dev  ## a thousand missions at random, each outcome confirmed by a judge; into docs/reference/validation.md
 	$(BIN)/python tools/random_missions.py --write
 
 bench: .venv/dev ## speed of everything, printed

@@ -24,7 +24,7 @@ extensions = [
     "generated_markdown",
     "live_page",
     "mathml",
-    "stacked_tables",
+    "page_layout",
 ]
 exclude_patterns = ["_extensions"]
 pygments_style = "friendly"

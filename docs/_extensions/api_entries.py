@@ -15,7 +15,7 @@ def shortened(app: Any, what: str, name: str, thing: Any, options: Any, signatur
     """A table of a mission is made by `load_mission`: its keys are no arguments. An alias in a list is its name."""
     if inspect.isclass(thing) and issubclass(thing, BaseModel):
         return "", ""
-    return signature and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", signature), returns
+    return signature and re.sub(r"TypeAliasForwardRef\('(\w+)'\)|~[\w.]+\.(\w+)", r"\1\2", signature), returns
 
 
 def is_left_out(app: Any, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:

@@ -20,7 +20,7 @@ def run(*words):
 def test_the_report_of_a_study_is_written_into_its_folder(folder):
     done = run(folder)
     assert done.output.splitlines() == [
-        "Study gusts: 144 rows, 5 varied columns",
+        "Study gusts: 144 rows, varied columns: 5",
         f"  report: {folder / 'report.html'}",
     ]
     assert "<title>gusts: study report</title>" in (folder / "report.html").read_text("utf-8")

@@ -215,7 +215,7 @@ def test_a_flight_that_diverged_is_drawn_as_far_as_it_went(flight):
         (Shot(fps=float("nan")), "a.gif", "fps nan must be from 1 to 50"),
         (Shot(speed=0.0), "a.gif", "speed 0 from 0.001 to 1000"),
         (Shot(size=(3, 3)), "a.png", "size 3x3 must be at least 16x16"),
-        (Shot(), "a.jpg", r"the name must end in \.png \(picture\) or \.gif \(animation\)"),
+        (Shot(), "a.jpg", r"the name must end in \.png \(picture\), \.gif or \.mp4 \(animation\)"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_with_the_reason_and_no_file(flight, tmp_path, shot, name, says):

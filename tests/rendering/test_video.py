@@ -86,6 +86,7 @@ def test_a_decoder_finds_every_picture_at_its_rate_with_its_colours(flight, writ
 
 
 @needs_ffmpeg
+@pytest.mark.targets
 @pytest.mark.skipif(not shutil.which("ffprobe"), reason="ffprobe is not installed")
 def test_another_reader_agrees(written):
     fields = "codec_name,profile,width,height,pix_fmt,color_space,nb_frames,avg_frame_rate"

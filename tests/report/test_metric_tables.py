@@ -114,6 +114,7 @@ def test_a_number_is_cut_at_its_point(value, cells):
     assert latex_number(value) == cells
 
 
+@pytest.mark.targets
 @pytest.mark.skipif(not shutil.which("pdflatex"), reason="LaTeX is not installed")
 def test_latex_sets_the_tables_without_an_error_or_a_missing_letter(metrics, tmp_path):
     write_metric_tables({"value": metrics}, tmp_path, "one", HOSTILE)

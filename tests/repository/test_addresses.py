@@ -20,6 +20,7 @@ ALLOWED = {  # kinds of addresses: their hosts, with the path where that is part
     "names of XML namespaces and of JSON Schema": r"www\.w3\.org/.*|json-schema\.org/.*",
     "citations": r"doi\.org/.*",
     "conventions that a document follows": r"(?:keepachangelog|semver)\.com/.*|semver\.org/.*",
+    "projects that a page compares with": r"github\.com/(?:spencerfolk/rotorpy|learnsyslab/safe-control-gym)",
     "where packages ask for support, in web/package-lock.json": (
         r"github\.com/sponsors/.*|opencollective\.com/.*|eslint\.org/donate"
     ),

@@ -16,8 +16,10 @@ EXTRAS = PROJECT["optional-dependencies"]
 WITHOUT_IMPORT = {"bokeh", "casadi", "jax"}  # Dask's dashboard; laws take arrays of these as they are given
 COMES_WITH = {  # an import's package, where it has another name
     **{"dask": "distributed", "lz4": "rosbags", "pydantic_core": "pydantic", "mpl_toolkits": "matplotlib"},
-    "PIL": "pillow",
+    **{"PIL": "pillow", "cycler": "matplotlib"},
 }
+WITH_A_PROGRAM = {"imageio-ffmpeg"}  # the message also names the program that serves as well
+OF_NOTEBOOKS = {"IPython"}  # imported only where it runs
 OF_ROS_1 = {"rosgraph", "rospy"}  # from Debian
 
 
@@ -53,7 +55,7 @@ def imports(node, extra=None, types=False):
 def optional_imports():
     """Each optional package of a package file, with the extra that is named where it is missing, or None."""
     needed = names(PROJECT["dependencies"])
-    elsewhere = {*sys.stdlib_module_names, "tandemlift", *OF_ROS_1}
+    elsewhere = {*sys.stdlib_module_names, "tandemlift", *OF_ROS_1, *OF_NOTEBOOKS}
 
     def package_of(module):
         root = module.partition(".")[0]
@@ -80,8 +82,8 @@ def test_what_is_imported_is_a_dependency_or_in_the_extra_that_is_named_where_it
     assert len(found) > 15
     assert {(package, extra) for package, extra in found if extra and package not in packages_of(extra)} == set()
     named = {package for package, extra in found if extra}
-    assert {package for package, _ in found} - named == set(), "imported, but nothing says how to install it"
-    assert packages_of("all") - named <= WITHOUT_IMPORT | {"imageio-ffmpeg", "typst"}
+    assert {package for package, _ in found} - named == WITH_A_PROGRAM, "imported, but nothing says how to install it"
+    assert packages_of("all") - named <= WITHOUT_IMPORT | WITH_A_PROGRAM
 
 
 def test_all_has_every_extra():

@@ -7,11 +7,12 @@ from repository import ROOT
 
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 MEASURED = re.compile(r"<!-- begin of what .*?<!-- end of what .*?-->", re.S)  # written by a command
+CODE = re.compile(r"^```.*?^```", re.S | re.M)
 
 
 def words(path):
-    """The number of words that are written by hand."""
-    return len(MEASURED.sub("", path.read_text("utf-8")).split())
+    """The number of words that are written by hand, outside of code."""
+    return len(CODE.sub("", MEASURED.sub("", path.read_text("utf-8"))).split())
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda p: p.relative_to(ROOT / "docs").as_posix())
@@ -19,9 +20,9 @@ def test_a_page_is_read_in_ten_minutes(page):
     assert page.is_relative_to(ROOT / "docs" / "reference") or words(page) <= 2500
 
 
-def test_all_pages_together_have_fewer_words_than_the_documents_before_them():
-    assert sum(map(words, PAGES)) + words(ROOT / "README.md") <= 35_000
+def test_all_pages_together_are_read_in_an_afternoon():
+    assert sum(map(words, PAGES)) + words(ROOT / "README.md") <= 31_000
 
 
 def test_the_readme_fills_two_screens():
-    assert len((ROOT / "README.md").read_text("utf-8").splitlines()) <= 75
+    assert len((ROOT / "README.md").read_text("utf-8").splitlines()) <= 80

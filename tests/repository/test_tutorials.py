@@ -9,8 +9,8 @@ from patience import completed
 from repository import ROOT
 
 EXAMPLES, PAGES = ROOT / "examples", ROOT / "docs" / "tutorials"
-COMMANDS = ("gazebo", "ros")  # tutorials without cells, which tests/gazebo and tests/ros run
-NAMES = sorted(path.stem for path in PAGES.glob("*.md") if path.stem not in ("index", *COMMANDS))
+ELSEWHERE = {"gazebo", "ros"}  # of a shell, executed by `make test-gazebo`
+NAMES = sorted({path.stem for path in PAGES.glob("*.md")} - {"index"} - ELSEWHERE)
 OWN = "my_controller.py"  # which a tutorial has its reader write
 CELL = re.compile(r"^```\{code-cell\} ipython3\n((?::[^\n]*\n)*)(.*?)^```", flags=re.M | re.S)
 MOST = 40  # lines of an example

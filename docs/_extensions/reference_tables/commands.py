@@ -12,6 +12,7 @@ import click
 from reference_tables.markdown import linked, table
 from tandemlift.cli.main import cli
 
+LISTED = re.compile(r"(?!tandemlift )(\S+(?: \S+)*) {2,}(\S.*)")
 CODE = re.compile(r"`([^`]+)`|(?<![\w`])(--?[a-z][\w-]*)")
 
 
@@ -58,7 +59,22 @@ def _paragraphs(text: str) -> Iterator[str]:
         if lines[0].endswith(":") and len(lines) > 1:
             yield f"**{lines.pop(0)}**"
         code = textwrap.dedent("\n".join(lines))
-        yield f"```{'sh' if code.startswith('tandemlift ') else 'text'}\n{code}\n```"
+        if LISTED.match(code):
+            yield _listed(code)
+        else:
+            yield f"```sh\n{code}\n```" if code.startswith("tandemlift ") else _marked(" ".join(code.split()))
+
+
+def _listed(text: str) -> str:
+    """Names with what they are, such as files and exit codes, as a table; a meaning may take several lines."""
+    rows: list[list[str]] = []
+    for line in text.splitlines():
+        named = LISTED.match(line)
+        if named:
+            rows.append([f"`{named[1]}`", named[2]])
+        else:
+            rows[-1][1] += f" {line.strip()}"
+    return table(("", ""), [(name, _marked(meaning)) for name, meaning in rows])
 
 
 def _marked(text: str) -> str:

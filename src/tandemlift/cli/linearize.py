@@ -15,7 +15,6 @@ from tandemlift.cli.terminal.console import echo
 from tandemlift.cli.terminal.mission_options import FAILED, chosen_controller, load, set_option, style_option
 from tandemlift.common.errors import FlightWarning, InputError
 from tandemlift.common.files import atomic_write
-from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.linearization.analysis import Mode, Modes
@@ -54,7 +53,6 @@ def linearize(
     count: int,
     out: str | None,
     figure: str | None,
-    style: str | None,
     settings: tuple[str, ...],
     controller: str | None,
 ) -> None:
@@ -88,8 +86,7 @@ def linearize(
         model.save(out)
         echo(f"model: {out}")
     if figure:
-        with figure_style(style):
-            _draw(connected, Path(figure))
+        _draw(connected, Path(figure))
         echo(f"figure: {figure}")
 
 

@@ -9,10 +9,9 @@ import click
 
 from tandemlift.cli.terminal.completion import FLIGHTS
 from tandemlift.cli.terminal.console import echo
-from tandemlift.cli.terminal.mission_options import style_option
+from tandemlift.cli.terminal.mission_options import kept_style_option
 from tandemlift.cli.terminal.results import FIGURES, flight_file, html_path, results_folder, write_flight
 from tandemlift.common.errors import InputError
-from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
@@ -29,7 +28,7 @@ BAGS = (".bag", ".mcap")
     "study report.html in its folder]",
 )
 @click.option("--no-figures", is_flag=True, help="Draw no figures.")
-@style_option
+@kept_style_option
 @click.option(
     "--for",
     "metrics",
@@ -62,13 +61,12 @@ def report(flight: str, out: str | None, no_figures: bool, style: str | None, me
       2   bad input: one message, nothing is written
     """
     if _is_study(Path(flight)):
-        with figure_style(style):
-            _report_study(Path(flight), out, metrics, no_figures=no_figures, keep=style is not None)
+        _report_study(Path(flight), out, metrics, no_figures=no_figures, keep=style is not None)
         return
     if metrics:
         raise InputError(f"--for {metrics[0]}: {flight} is no study; the report of a flight shows all metrics")
     loaded, default = _load(flight)
-    with results_folder(out, default) as folder, figure_style(style):
+    with results_folder(out, default) as folder:
         echo(repr(loaded).strip("<>"))
         write_flight(loaded, folder, figures=not no_figures)
         echo(f"  report: {folder / 'report.html'}")

@@ -24,7 +24,6 @@ from tandemlift.cli.terminal.mission_options import (
 )
 from tandemlift.cli.terminal.results import copy_recording, results_folder, write_flight
 from tandemlift.common.errors import InputError
-from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
@@ -65,7 +64,6 @@ def run(
     controller: str | None,
     after_crash: float | None,
     no_figures: bool,
-    style: str | None,
     strict: bool,
 ) -> None:
     """Fly MISSION, print a summary and write the results.
@@ -101,7 +99,7 @@ def run(
     began = time.perf_counter()
     chosen = None if controller is None else chosen_controller(controller)
     loaded, engine, name = _selected(mission, (study, row), with_after_crash(settings, after_crash), chosen, engine)
-    with results_folder(out, Path("out") / name) as folder, figure_style(style):
+    with results_folder(out, Path("out") / name) as folder:
         flight = _fly(loaded, engine, chosen)
         print_summary(flight)
         copy_recording(loaded, folder)

@@ -43,7 +43,7 @@ def study(
         progress: called with (rows flown, rows in all); by default, a notebook shows a bar.
 
     Returns:
-        The study: its table, and the mission of each row.
+        The study, with its table and the mission of each row.
 
     Raises:
         InputError: the study cannot be flown, the folder is that of another study, or it cannot be written to.

@@ -27,7 +27,7 @@ def compile_mission(mission: Mission, target: str, folder: Path | str, *, single
         single: whether C computes in single precision.
 
     Returns:
-        The files: a module or object and its manifest, or the sources of a C project.
+        The files, which are a module or object and its manifest, or the sources of a C project.
 
     Raises:
         InputError: the target is unknown, this LLVM lacks it, or no other machine can fly the mission.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,15 +17,14 @@ from tandemlift.cli.terminal.mission_options import (
     FAILED,
     chosen_controller,
     engine_option,
+    kept_style_option,
     load,
     parse_setting,
     set_option,
-    style_option,
 )
 from tandemlift.cli.terminal.results import FIGURES, results_folder
 from tandemlift.common.errors import InputError
 from tandemlift.common.files import atomic_write
-from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
@@ -53,7 +52,7 @@ ENGINE_FILES = ("engines.html", "engines.json", "engines.csv", "engines.tex")
 )
 @set_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME]")
-@style_option
+@kept_style_option
 @strict_option
 def compare(
     mission: str,
@@ -97,9 +96,8 @@ def compare(
     if engines is not None:
         if controllers is not None:
             raise InputError("--engines, --controllers: give only one of them")
-        with figure_style(style):
-            names = _names("--engines", engines, "compiled,mujoco")
-            _compare_engines(mission, names, settings, out, strict=strict, keep=style is not None)
+        names = _names("--engines", engines, "compiled,mujoco")
+        _compare_engines(mission, names, settings, out, strict=strict, keep=style is not None)
         return
     from tandemlift.engines.registry import engine_named
     from tandemlift.studies.controller_comparison import entrants
@@ -108,15 +106,20 @@ def compare(
     changes = dict(map(parse_setting, settings))
     entered = entrants(mission, changes, _chosen(controllers))
     name = next(e.mission.mission.name for e in entered if e.mission)
-    with results_folder(out, Path("out") / name, FILES) as folder, figure_style(style):
+    with results_folder(out, Path("out") / name, FILES) as folder:
         entries = _fly(entered, engine)
         _print_tables(name, entries)
         _write(entries, folder, name, engine, keep=style is not None)
         echo(f"  page: {folder / 'compare.html'}")
-    count = print_findings((e.name, e.flight) for e in entries if e.flight)
-    failed = {e.name: e.flight.failure for e in entries if e.flight and e.flight.failure}
-    for controller, failure in failed.items():
-        click.echo(f"{controller}: {failure}", err=True)
+    _exit_if_amiss({e.name: e.flight for e in entries if e.flight}, strict=strict)
+
+
+def _exit_if_amiss(flights: Mapping[str, Flight], *, strict: bool) -> None:
+    """Print findings and failures, and end the process if there is a failure, or, if strict, a finding."""
+    count = print_findings(flights.items())
+    failed = {name: flight.failure for name, flight in flights.items() if flight.failure}
+    for name, failure in failed.items():
+        click.echo(f"{name}: {failure}", err=True)
     if failed:
         sys.exit(FAILED)
     exit_if_found(count, strict=strict)
@@ -254,13 +257,7 @@ def _compare_engines(
         )
         page = write_engines(flights, folder / "engines.html", folder / FIGURES if keep else None)
         echo(f"  page: {page}")
-    count = print_findings(flights.items())
-    failed = [row for row in found if row["failure"]]
-    for row in failed:
-        click.echo(f"{row['engine']}: {row['failure']}", err=True)
-    if failed:
-        sys.exit(FAILED)
-    exit_if_found(count, strict=strict)
+    _exit_if_amiss(flights, strict=strict)
 
 
 def _print_differences(name: str, found: Sequence[dict[str, Any]]) -> None:

@@ -14,7 +14,6 @@ from tandemlift.cli.terminal.console import compile_notices, echo, progress_bar
 from tandemlift.cli.terminal.mission_options import FAILED, load, set_option, style_option
 from tandemlift.cli.terminal.results import results_folder
 from tandemlift.common.errors import FlightWarning, InputError
-from tandemlift.figures.drawing.figure_style import figure_style
 
 if TYPE_CHECKING:
     from tandemlift.report.tuning.feel_report import FeelReport
@@ -49,7 +48,6 @@ def feel(
     fresh: int,
     seed: int,
     out: str | None,
-    style: str | None,
     strict: bool,
 ) -> None:
     """Show what a push does with the keys of MISSION, and check whether the vehicle can answer so.
@@ -90,8 +88,7 @@ def feel(
     with results_folder(out, Path("out") / loaded.mission.name, FILES) as folder:
         found = _searched(loaded, (generations, persons, fresh), seed) if search else None
         report = _studied(found.mission if found else loaded, found)
-        with figure_style(style):
-            report.save(folder)
+        report.save(folder)
         echo(f"  page: {folder / 'feel.html'}")
     if strict and report.study.fails:
         sys.exit(FAILED)

@@ -80,9 +80,9 @@ def study(
 
     \b
     Exit code:
-      0   the study, or its part, is flown
-      2   bad input: one message; what is flown stays
-      130 stopped by Ctrl-C; what is flown stays
+      0    the study, or its part, is flown
+      2    bad input: one message; what is flown stays
+      130  stopped by Ctrl-C; what is flown stays
     """
     if template:
         from tandemlift.studies.design.template import TEMPLATE

@@ -10,7 +10,7 @@ import click
 
 from tandemlift.cli.terminal.completion import names, settings
 from tandemlift.common.errors import InputError
-from tandemlift.figures.drawing.figure_style import STYLES
+from tandemlift.figures.drawing.figure_style import STYLES, figure_style
 
 if TYPE_CHECKING:
     from tandemlift.controllers import Controller
@@ -34,18 +34,32 @@ set_option = click.option(
     shell_complete=settings,
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
 )
-style_option = click.option(
-    "--style",
-    type=click.Choice(list(STYLES)),
-    help="Size, type and colours of the figures: columns of a journal, or slides of 16:9 on white or dark paper."
-    "  [default: ieee]",
-)
 after_crash_option = click.option(
     "--after-crash",
     type=click.FloatRange(min=0.0),
     metavar="SECONDS",
     help="Fly on after a crash, rotors stopped, at most until the vehicle lies still: the key crash.fly_on.",
 )
+
+
+def _draw_in(context: click.Context, option: click.Parameter, style: str | None) -> str | None:
+    """Draw all figures of the command in a style, if one is given."""
+    context.with_resource(figure_style(style))
+    return style
+
+
+style_option, kept_style_option = (
+    click.option(
+        "--style",
+        type=click.Choice(list(STYLES)),
+        callback=_draw_in,
+        expose_value=kept,
+        help="Size, type and colours of the figures: columns of a journal, or slides of 16:9 on white or dark paper."
+        "  [default: ieee]",
+    )
+    for kept in (False, True)
+)
+"""The figures of a command are drawn in this style; the second one passes the name of the style to the command, too."""
 
 
 def with_after_crash(settings: tuple[str, ...], seconds: float | None) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tandemlift.missions.key_reference.sections import EXTENDS, Key, Section, default_words, is_of_the_package, sections
 from tandemlift.missions.values import shown
 
-COLUMNS = "| key | unit | default, and its source | allowed | meaning |\n|---|---|---|---|---|"
+COLUMNS = "| key | unit | default | meaning |\n|---|---|---|---|"
 
 
 def key_tables() -> str:
@@ -26,8 +26,8 @@ def _section(section: Section) -> str:
 
 def _row(key: Key) -> str:
     facts = key.facts
-    cells = [f"`{key.name}`", "" if facts.unit in (None, "1") else facts.unit or "", _default(key), _allowed(key)]
-    return "| " + " | ".join([*cells, ". ".join(_meaning(key))]) + " |"
+    unit = "" if facts.unit in (None, "1") else facts.unit or ""
+    return f"| `{key.name}` | {unit} | {_default(key)} | {'. '.join(_meaning(key))} |"
 
 
 def _default(key: Key) -> str:
@@ -37,14 +37,9 @@ def _default(key: Key) -> str:
     return f"{words}; {key.facts.source}" if key.facts.source else words
 
 
-def _allowed(key: Key) -> str:
-    if not key.facts.choices:
-        return key.allowed
-    choices = ", ".join(f"`{shown(choice)}`" for choice in key.facts.choices)
-    return f"{choices}; {key.facts.rule}" if key.facts.rule else choices
-
-
 def _meaning(key: Key) -> Iterator[str]:
     yield key.facts.meaning
     if key.facts.choices:
         yield "; ".join(f"`{shown(choice)}`: {text}" for choice, text in key.facts.choices.items())
+    if allowed := key.facts.rule if key.facts.choices else key.allowed:
+        yield f"Allowed: {allowed}"
