@@ -36,20 +36,23 @@ class Description(MetadataHookInterface):
 
 
 class ShippedData(BuildHookInterface):  # type: ignore[type-arg]
-    """Adds flights and words to a wheel; an editable install forms them when they are asked for."""
+    """Adds words and flights to a wheel; an editable install compiles flights when they are asked for."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Compile the flights, on all cores, and form the words, where the package looks for them."""
-        if version == "editable":
-            return
+        """Form the words, and compile the flights on all cores, where the package looks for them."""
         root = Path(self.root)
         sys.path.insert(0, str(root / "src"))
         from tandemlift.cli.terminal.words import formed_words
+
+        (root / WORDS).parent.mkdir(exist_ok=True)
+        (root / WORDS).write_text(json.dumps(formed_words(), ensure_ascii=False), "utf-8")
+        build_data["extra_metadata"][WORDS] = "words.json"
+        if version == "editable":
+            return
         from tandemlift.live.offline.page_modules import MISSIONS, build_modules
 
         self.app.display_info("Compiling the flights of the page: about a minute on one core …")
         shutil.rmtree(root / FLIGHTS, ignore_errors=True)  # an older build may have had others
         with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:  # LLVM compiles once at a time in a process
             list(pool.map(build_modules, repeat(root / FLIGHTS), [[name] for name in MISSIONS]))
-        (root / WORDS).write_text(json.dumps(formed_words(), ensure_ascii=False), "utf-8")
-        build_data["force_include"] |= {FLIGHTS: "tandemlift/data/flights", WORDS: "tandemlift/data/words.json"}
+        build_data["force_include"][FLIGHTS] = "tandemlift/data/flights"

@@ -22,11 +22,11 @@ ALONE = ("numpy", "pydantic", "matplotlib", "llvmlite")  # each takes longer to 
 
 @pytest.fixture(scope="module", autouse=True)
 def shipped(tmp_path_factory):
-    """The words as a wheel ships them."""
+    """The words as an install has them."""
     file = tmp_path_factory.mktemp("words") / "words.json"
     file.write_text(json.dumps(words.formed_words()), "utf-8")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(words, "SHIPPED", file)
+        patch.setattr(words, "shipped_text", lambda: file.read_text("utf-8"))
         words.known_words.cache_clear()
         yield file
     words.known_words.cache_clear()
@@ -104,11 +104,11 @@ def test_the_words_are_those_that_the_package_lists():
 
 
 def program(folder, shipped):
-    """A program `tandemlift` on the path, with the words as a wheel ships them; an import of what is slow fails."""
+    """A program `tandemlift` on the path, with the words as an install has them; an import of what is slow fails."""
     slow = dict.fromkeys(ALONE)
     code = f"import sys; sys.modules |= {slow!r}; sys.path.insert(0, {str(SOURCES)!r})\n"
     code += "from pathlib import Path\nfrom tandemlift.cli.terminal import words\n"
-    code += f"words.SHIPPED = Path({str(shipped)!r})\nfrom tandemlift.cli.main import main\nmain()\n"
+    code += f"words.shipped_text = Path({str(shipped)!r}).read_text\nfrom tandemlift.cli.main import main\nmain()\n"
     path = folder / "bin" / "tandemlift"
     path.parent.mkdir()
     path.write_text(f"#!{sys.executable}\n{code}", "utf-8")

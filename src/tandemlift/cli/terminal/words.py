@@ -1,22 +1,32 @@
 """The words that shells complete: names of missions, controllers, engines, targets and metrics, and mission keys.
 
-Forming them imports half of the package. A shell cannot wait for that, so a wheel ships them (`hatch_build.py`).
+Forming them imports half of the package. A shell cannot wait for that, so every install, of a checkout too, keeps them
+as they were when it was made (`hatch_build.py`).
 """
 
 from __future__ import annotations
 
 import json
 from functools import cache
-from pathlib import Path
+from importlib.metadata import PackageNotFoundError, distribution
 
-SHIPPED = Path(__file__).resolve().parents[2] / "data" / "words.json"  # in an installed package
+SHIPPED = "extra_metadata/words.json"  # among the metadata of the installed package
 Words = dict[str, dict[str, str]]
 
 
 @cache
 def known_words() -> Words:
-    """By kind, the words and what each is: as they were shipped, or else formed."""
-    return json.loads(SHIPPED.read_text("utf-8")) if SHIPPED.is_file() else formed_words()
+    """By kind, the words and what each is: as the install has them, or else formed."""
+    shipped = shipped_text()
+    return json.loads(shipped) if shipped else formed_words()
+
+
+def shipped_text() -> str | None:
+    """The words as the install has them, in JSON; None without an install, or of one that has none."""
+    try:
+        return distribution("tandemlift").read_text(SHIPPED)
+    except PackageNotFoundError:
+        return None
 
 
 def formed_words() -> Words:
