@@ -30,6 +30,7 @@ from tandemlift.cli.studies.tune import tune
 from tandemlift.cli.studies.validate import validate
 from tandemlift.cli.terminal.console import compile_notices, echo, exit_now, handle_interrupts
 from tandemlift.common.errors import FlightWarning, InputError, suggestion
+from tandemlift.common.version import __version__
 from tandemlift.machine_code.compile_events import watching
 
 BAD_INPUT = 2
@@ -53,7 +54,7 @@ class Commands(click.Group):
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(package_name="tandemlift", prog_name="tandemlift")
+@click.version_option(__version__, prog_name="tandemlift")
 def cli() -> None:
     """Simulate quadrotors that carry a load together, steered by a person who pushes it.
 
